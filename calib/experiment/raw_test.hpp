@@ -1,0 +1,25 @@
+// A tensile test as the machine recorded it, in SI units. Filled by io, reduced by reduce_test.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace havers::calib {
+
+/// Channels of equal length; an empty one was not recorded.
+struct RawTest {
+  std::string specimen_id;                 ///< As the file names it; may be empty.
+  std::vector<double> time;                ///< [s]
+  std::vector<double> force;               ///< Tension positive. [N]
+  std::vector<double> extension;           ///< Of the crosshead. [m]
+  std::vector<double> strain;              ///< Gauge or extensometer. [-]
+  std::vector<double> stress;              ///< As the machine computed it; used only without a force. [Pa]
+  std::optional<double> width, thickness;  ///< Of the specimen. [m]
+  std::optional<double> gauge_length;      ///< [m]
+  std::vector<std::string> warnings;       ///< What the reader noticed, a sentence each.
+
+  [[nodiscard]] std::size_t rows() const { return force.empty() ? stress.size() : force.size(); }
+};
+
+}  // namespace havers::calib

@@ -1,0 +1,42 @@
+// From porosity to the scattering parameter. Equations (K1)... of calib/README.md.
+#pragma once
+
+#include <vector>
+
+#include "calib/porosity/section_porosity.hpp"
+
+namespace havers::calib {
+
+/// How porosity becomes scatter, and how it acts on the modulus.
+enum class ToScatter { window, linear, none };
+enum class ToModulus { none, power };
+
+struct PorosityOptions {
+  ToScatter to_scatter = ToScatter::window;
+  ToModulus to_modulus = ToModulus::none;
+  double strength_exponent = 1.0;  ///< n of local strength ∝ (1−p)^n. [-]
+  double linear_offset = 0.0;      ///< d₀ of d = d₀ + k p. [-]
+  double linear_slope = 1.0;       ///< k. [-]
+  double modulus_exponent = 2.7;   ///< m of E = E₀ (1−p)^m. [-]
+};
+
+/// Porosity and scatter of one specimen, from all of its sections.
+struct SpecimenPorosity {
+  double porosity = 0.0;                 ///< Mean over sections. [-]
+  double porosity_standard_error = 0.0;  ///< [-]
+  double window_sd = 0.0;                ///< Pooled over sections. [-]
+};
+
+/// Mean and pooled spread over a specimen's sections. Precondition: at least one.
+SpecimenPorosity pool_sections(const std::vector<SectionPorosity>& sections);
+
+/// d = √12 n SD/(1−p) (K3) with `window`, d₀ + k p with `linear`; held inside [0, 1.99]. [-]
+double scatter_of(const SpecimenPorosity& porosity, const PorosityOptions& options);
+
+/// SD of local porosity in a window of area A, for pores of mean area E[a] and E[a²] (K2). [-]
+double window_sd_closed_form(double porosity, double window_area, double pore_area_ratio);
+
+/// Factor (1−p)^m on the modulus (K4); 1 with `none`. [-]
+double modulus_factor(const SpecimenPorosity& porosity, const PorosityOptions& options);
+
+}  // namespace havers::calib

@@ -1,0 +1,25 @@
+// Scene files (TOML) to sim::Scene.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/scene.hpp"
+
+namespace havers::io {
+
+/// `--set key=value` of the command line: dotted key as in the file, value as TOML; a bare word is a string.
+using Overrides = std::vector<std::string>;
+
+struct SceneFile {
+  sim::Scene scene;
+  int snapshots = 0;  ///< .vtu files to write.
+};
+
+/// Reads a scene. Paths in it are relative to its folder.
+/// @throws InputError with every problem: unknown keys (with the nearest known one), wrong types, impossible
+/// values, missing files.
+SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrides = {});
+
+}  // namespace havers::io

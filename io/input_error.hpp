@@ -1,0 +1,31 @@
+// The one exception of havers: what is wrong with the user's input.
+#pragma once
+
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace havers::io {
+
+/// One complaint. `where` is a file, a file and line, or a file and key; `hint` says what to do, may be empty.
+struct Problem {
+  std::string where, what, hint;
+};
+
+/// "where: what (hint)".
+std::string to_string(const Problem& problem);
+
+/// All problems of an input together; caught once, in main, exit code 2.
+class InputError : public std::exception {
+ public:
+  explicit InputError(std::vector<Problem> problems);
+  InputError(std::string where, std::string what, std::string hint = {});
+  [[nodiscard]] const char* what() const noexcept override { return text_.c_str(); }
+  [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  std::vector<Problem> problems_;
+  std::string text_;
+};
+
+}  // namespace havers::io

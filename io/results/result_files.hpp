@@ -1,0 +1,59 @@
+// What a run leaves in its folder. Names, columns and keys are fixed.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "calib/fit/calibration.hpp"
+#include "io/images/measure_section.hpp"
+#include "io/machine/read_test.hpp"
+#include "sim/simulation.hpp"
+
+namespace havers::io {
+
+/// Where a result comes from.
+struct Provenance {
+  std::string command;                         ///< As typed.
+  std::map<std::string, std::string> inputs;   ///< File name to SHA-256.
+  double wall_seconds = 0.0;
+  double cpu_seconds = 0.0;
+};
+
+/// SHA-256 of a file, hexadecimal. @throws InputError when it cannot be read.
+std::string sha256(const std::filesystem::path& file);
+
+/// The objects of result.json and of --json.
+nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& simulation,
+                               const Provenance& provenance);
+nlohmann::json calibration_json(const calib::Study& study, const calib::CalibrationResult& result,
+                                const Provenance& provenance);
+nlohmann::json import_json(const TestFile& file, const calib::Reduction& reduction);
+nlohmann::json porosity_json(const calib::SectionPorosity& section, double scatter);
+nlohmann::json scene_json(const sim::Scene& scene);
+
+/// curve.csv and joints.csv of a simulation.
+void write_curve(const std::filesystem::path& file, const sim::Simulation& simulation);
+void write_joints(const std::filesystem::path& file, const sim::Scene& scene, const sim::Assembly& assembly,
+                  const sim::Simulation& simulation);
+
+/// f_N and f_T per joint from columns joint,f_N,f_T of a CSV file. @throws InputError.
+std::vector<sim::Threshold> read_thresholds(const std::filesystem::path& file);
+
+/// curves/ID.csv of a fit: strain, measured, simulated median and band, residual.
+void write_band(const std::filesystem::path& file, const calib::CurveBand& band);
+
+/// Writes whole or not at all: a temporary beside the file, then a rename.
+void write_file(const std::filesystem::path& file, const std::string& content);
+
+/// What the report of a finished fit needs, read back from its folder. @throws InputError.
+struct FitFolder {
+  calib::Study study;  ///< Name, options and porosity; specimens as far as the report shows them.
+  calib::CalibrationResult result;
+  Provenance provenance;
+};
+FitFolder read_fit_folder(const std::filesystem::path& folder);
+
+}  // namespace havers::io

@@ -1,0 +1,62 @@
+// Self-contained HTML pages and SVG figures. Computes nothing but the scaling of a plot.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calib/fit/calibration.hpp"
+#include "sim/simulation.hpp"
+
+namespace havers::reports {
+
+/// Whether this build can make pages.
+bool available();
+
+/// Facts for the foot of every page: key and value, in order.
+using Provenance = std::vector<std::pair<std::string, std::string>>;
+
+struct SimulationReport {
+  const sim::Scene& scene;
+  const sim::Assembly& assembly;
+  const sim::Simulation& simulation;
+  Provenance provenance;
+};
+
+struct FitReport {
+  const calib::Study& study;
+  const calib::CalibrationResult& result;
+  std::map<std::string, std::vector<std::vector<std::uint8_t>>> overlays;  ///< Specimen id to PNGs.
+  Provenance provenance;
+};
+
+struct ImportReport {
+  std::string file;
+  const calib::RawTest& raw;
+  const calib::MeasuredTest& test;
+};
+
+struct PorosityReport {
+  std::vector<calib::SectionPorosity> sections;
+  std::vector<std::vector<std::uint8_t>> overlays;  ///< PNG, one per section.
+  std::vector<double> scatter;                      ///< d, one per section. [-]
+  Provenance provenance;
+};
+
+/// The broken assembly: fibres displaced, broken joints by kind. SVG.
+std::string fracture_svg(const sim::Assembly& assembly, const sim::Simulation& simulation);
+
+/// One measured test as read and as used. SVG.
+std::string test_svg(const ImportReport& report);
+
+std::string simulation_page(const SimulationReport& report);
+std::string fit_page(const FitReport& report);
+std::string import_page(const std::vector<ImportReport>& reports, const Provenance& provenance);
+std::string porosity_page(const PorosityReport& report);
+
+/// Several fits side by side.
+std::string comparison_page(const std::vector<FitReport>& reports);
+
+}  // namespace havers::reports

@@ -1,0 +1,45 @@
+#include "sim/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace havers::sim {
+
+std::string to_string(SimulationStatus status) {
+  switch (status) {
+    case SimulationStatus::broken:
+      return "broken";
+    case SimulationStatus::strain_limit:
+      return "strain_limit";
+    case SimulationStatus::not_converged:
+      return "not_converged";
+    case SimulationStatus::not_finite:
+      return "not_finite";
+    case SimulationStatus::cancelled:
+      return "cancelled";
+  }
+  return "unknown";
+}
+
+std::string explain(SimulationStatus status) {
+  switch (status) {
+    case SimulationStatus::broken:
+      return "both sides dropped below the end fraction of the strength after a break";
+    case SimulationStatus::strain_limit:
+      return "the strain limit was reached before the specimen broke; the strength is a lower bound";
+    case SimulationStatus::not_converged:
+      return "a step's residual stayed above the tolerance";
+    case SimulationStatus::not_finite:
+      return "a number left the range of doubles";
+    case SimulationStatus::cancelled:
+      return "stopped by the user";
+  }
+  return "unknown";
+}
+
+bool Simulation::trusted() const {
+  const bool ended = status == SimulationStatus::broken || status == SimulationStatus::strain_limit;
+  return ended && energy_defect <= 1e-10 && std::isfinite(strength);
+}
+
+}  // namespace havers::sim

@@ -1,0 +1,95 @@
+// What a simulation answers.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/assembly/assembly.hpp"
+#include "sim/scene.hpp"
+
+namespace havers::sim {
+
+/// Why a simulation ended.
+enum class SimulationStatus {
+  broken,           ///< Both sides dropped below the end fraction after a break.
+  strain_limit,     ///< The strain limit came first. The strength is a lower bound.
+  not_converged,    ///< A step's residual stayed above the tolerance.
+  not_finite,       ///< A number left the range of doubles.
+  cancelled,        ///< The observer asked to stop.
+};
+
+/// The status as one word, as written to result.json, and as a sentence.
+std::string to_string(SimulationStatus status);
+std::string explain(SimulationStatus status);
+
+/// One row of the response. Energies are per unit thickness.
+struct CurvePoint {
+  double time = 0.0;          ///< [s]
+  double strain = 0.0;        ///< ε. [-]
+  double stress_right = 0.0;  ///< [Pa]
+  double stress_left = 0.0;   ///< [Pa]
+  int broken_joints = 0;
+  double kinetic = 0.0;     ///< [J/m]
+  double elastic = 0.0;     ///< [J/m]
+  double dissipated = 0.0;  ///< By joints and viscosity, since the start. [J/m]
+};
+
+/// A joint at the end of a run.
+struct JointOutcome {
+  Threshold threshold;            ///< [N/m]
+  bool broken = false;
+  double broken_at_strain = 0.0;  ///< NaN while bonded. [-]
+  double reaction_normal = 0.0;   ///< R_N, compression positive. [N/m]
+  double reaction_tangent = 0.0;  ///< R_T. [N/m]
+  double gap = 0.0;               ///< g ≥ 0. [m]
+};
+
+/// Something the run did without, and on what ground. Section 7.
+struct LeftOut {
+  std::string what, why;
+};
+
+/// A finished simulation. Whatever the status, the curve holds what was computed.
+struct Simulation {
+  SimulationStatus status = SimulationStatus::not_converged;
+  Regime regime = Regime::dynamic;  ///< The one used; never automatic.
+  double step = 0.0;                ///< h used; 0 in the quasi-static limit. [s]
+  std::string regime_ground;        ///< Why this regime and this step, in words.
+
+  std::vector<CurvePoint> curve;
+  std::vector<JointOutcome> joints;  ///< In the order of Assembly::joints.
+  Eigen::VectorXd displacements;     ///< Of the last row, x and y of every node of the assembly. [m]
+
+  double strength = 0.0;            ///< Largest stress at the right side. [Pa]
+  double failure_strain = 0.0;      ///< Strain there. [-]
+  double modulus = 0.0;             ///< Secant at half the first break's strain. [Pa]
+  double first_break_strain = 0.0;  ///< NaN when nothing broke. [-]
+  int broken_joints = 0;
+
+  int steps = 0;                  ///< Time steps, or events of the quasi-static sequence.
+  long iterations = 0;            ///< Of the contact solver, all steps together.
+  double energy_defect = 0.0;     ///< Largest relative defect of (M4) over the steps. [-]
+  double worst_residual = 0.0;    ///< Largest (M11) over the steps. [-]
+  double worst_penetration = 0.0; ///< Largest −g. [m]
+  std::vector<LeftOut> left_out;
+
+  /// Whether the numbers may be used: the run ended as it should and the checks hold.
+  [[nodiscard]] bool trusted() const;
+};
+
+/// What a caller may watch while a simulation runs.
+struct Progress {
+  const CurvePoint& point;
+  const Eigen::VectorXd& displacements;  ///< x and y of every node. [m]
+  const std::vector<JointOutcome>& joints;
+};
+
+/// Called after each recorded row; returning false stops the run (status `cancelled`).
+using Observer = std::function<bool(const Progress&)>;
+
+/// Runs a scene. Precondition: scene.problems() is empty.
+Simulation simulate(const Scene& scene, const Observer& observer = {});
+
+}  // namespace havers::sim
