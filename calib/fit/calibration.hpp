@@ -9,6 +9,7 @@
 
 #include "calib/fit/evaluation_store.hpp"
 #include "calib/study/study.hpp"
+#include "sim/simulation.hpp"
 
 namespace havers::calib {
 
