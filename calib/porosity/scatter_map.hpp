@@ -1,4 +1,4 @@
-// From porosity to the scattering parameter. Equations (K1)... of calib/README.md.
+// From porosity to the scattering parameter. Equations (K1)... of calib/porosity/README.md.
 #pragma once
 
 #include <vector>
@@ -24,16 +24,23 @@ struct PorosityOptions {
 struct SpecimenPorosity {
   double porosity = 0.0;                 ///< Mean over sections. [-]
   double porosity_standard_error = 0.0;  ///< [-]
-  double window_sd = 0.0;                ///< Pooled over sections. [-]
+  double window_sd = 0.0;  ///< Over the windows of all sections (K1); NaN: no section gives it. [-]
+  double window_sd_standard_error = 0.0;  ///< [-]
 };
 
-/// Mean and pooled spread over a specimen's sections. Precondition: at least one.
+/// Mean and pooled spread over a specimen's sections, weighted by bone area (equally, where a
+/// section has no pixel size). Precondition: at least one.
 SpecimenPorosity pool_sections(const std::vector<SectionPorosity>& sections);
 
-/// d = √12 n SD/(1−p) (K3) with `window`, d₀ + k p with `linear`; held inside [0, 1.99]. [-]
+/// d = √12 n SD/(1−p) (K3) with `window`, d₀ + k p with `linear`; held inside [0, 1.99]. With
+/// `none`, or where the window SD is unknown, NaN. [-]
 double scatter_of(const SpecimenPorosity& porosity, const PorosityOptions& options);
 
-/// SD of local porosity in a window of area A, for pores of mean area E[a] and E[a²] (K2). [-]
+/// Standard error of `scatter_of`, from those of window SD and porosity. [-]
+double scatter_standard_error(const SpecimenPorosity& porosity, const PorosityOptions& options);
+
+/// SD of local porosity in a window of area A [m²], for pores of area ratio a* = E[a²]/E[a] [m²]
+/// (K2). [-]
 double window_sd_closed_form(double porosity, double window_area, double pore_area_ratio);
 
 /// Factor (1−p)^m on the modulus (K4); 1 with `none`. [-]

@@ -1,0 +1,134 @@
+#include "calib/porosity/scatter_map.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace havers::calib {
+namespace {
+
+constexpr double largest_scatter = 1.99;  // d < 2: no joint may start broken.
+
+// Weights of sum 1 from bone areas; equal ones where an area is unknown.
+std::vector<double> area_weights(const std::vector<const SectionPorosity*>& sections) {
+  std::vector<double> weights;
+  for (const SectionPorosity* section : sections) weights.push_back(section->bone_area);
+  const bool known = std::all_of(weights.begin(), weights.end(), [](double w) { return w > 0.0; });
+  if (!known) std::fill(weights.begin(), weights.end(), 1.0);
+  double sum = 0.0;
+  for (const double weight : weights) sum += weight;
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+struct Pooled {
+  double mean = 0.0;
+  double standard_error = 0.0;
+};
+
+// Weighted mean. Its standard error is the larger of what the sections differ by and what each of
+// them says of itself: few sections may agree by chance.
+Pooled pool(const std::vector<double>& values, const std::vector<double>& errors,
+            const std::vector<double>& weights) {
+  const auto n = static_cast<double>(values.size());
+  Pooled pooled;
+  for (std::size_t i = 0; i < values.size(); ++i) pooled.mean += weights[i] * values[i];
+  double within = 0.0, between = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    within += std::pow(weights[i] * errors[i], 2);
+    between += std::pow(weights[i] * (values[i] - pooled.mean), 2);
+  }
+  if (n > 1.0) between *= n / (n - 1.0);
+  pooled.standard_error = std::sqrt(std::max(within, between));
+  return pooled;
+}
+
+void pool_porosity(const std::vector<SectionPorosity>& sections, SpecimenPorosity& specimen) {
+  std::vector<const SectionPorosity*> all;
+  std::vector<double> values, errors;
+  for (const SectionPorosity& section : sections) {
+    all.push_back(&section);
+    values.push_back(section.porosity);
+    errors.push_back(section.porosity_standard_error);
+  }
+  const Pooled pooled = pool(values, errors, area_weights(all));
+  specimen.porosity = pooled.mean;
+  specimen.porosity_standard_error = pooled.standard_error;
+}
+
+// (K1): the variance over the windows of all sections together, so that sections of different
+// porosity widen it.
+void pool_window_sd(const std::vector<SectionPorosity>& sections, SpecimenPorosity& specimen) {
+  std::vector<const SectionPorosity*> known;
+  std::vector<double> variances, errors;
+  for (const SectionPorosity& section : sections) {
+    if (!std::isfinite(section.window_sd)) continue;
+    known.push_back(&section);
+    variances.push_back(std::pow(section.window_sd, 2) +
+                        std::pow(section.porosity - specimen.porosity, 2));
+    errors.push_back(2.0 * section.window_sd * section.window_sd_standard_error);
+  }
+  if (known.empty()) {
+    specimen.window_sd = std::numeric_limits<double>::quiet_NaN();
+    specimen.window_sd_standard_error = specimen.window_sd;
+    return;
+  }
+  const Pooled variance = pool(variances, errors, area_weights(known));
+  specimen.window_sd = std::sqrt(variance.mean);
+  if (specimen.window_sd > 0.0)
+    specimen.window_sd_standard_error = variance.standard_error / (2.0 * specimen.window_sd);
+}
+
+// Before it is held inside its bounds.
+double free_scatter(const SpecimenPorosity& porosity, const PorosityOptions& options) {
+  switch (options.to_scatter) {
+    case ToScatter::window:
+      return std::sqrt(12.0) * options.strength_exponent * porosity.window_sd /
+             (1.0 - porosity.porosity);
+    case ToScatter::linear:
+      return options.linear_offset + options.linear_slope * porosity.porosity;
+    case ToScatter::none:
+      break;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+SpecimenPorosity pool_sections(const std::vector<SectionPorosity>& sections) {
+  assert(!sections.empty());
+  SpecimenPorosity specimen;
+  pool_porosity(sections, specimen);
+  pool_window_sd(sections, specimen);
+  return specimen;
+}
+
+double scatter_of(const SpecimenPorosity& porosity, const PorosityOptions& options) {
+  assert(porosity.porosity >= 0.0 && porosity.porosity < 1.0);
+  return std::clamp(free_scatter(porosity, options), 0.0, largest_scatter);
+}
+
+double scatter_standard_error(const SpecimenPorosity& porosity, const PorosityOptions& options) {
+  const double d = free_scatter(porosity, options);
+  if (!std::isfinite(d)) return d;
+  if (options.to_scatter == ToScatter::linear)
+    return std::abs(options.linear_slope) * porosity.porosity_standard_error;
+  const double solid = 1.0 - porosity.porosity;
+  const double by_sd =
+      std::sqrt(12.0) * options.strength_exponent / solid * porosity.window_sd_standard_error;
+  return std::hypot(by_sd, d / solid * porosity.porosity_standard_error);
+}
+
+double window_sd_closed_form(double porosity, double window_area, double pore_area_ratio) {
+  assert(porosity >= 0.0 && porosity <= 1.0 && window_area >= 0.0 && pore_area_ratio >= 0.0);
+  if (pore_area_ratio == 0.0) return 0.0;
+  return std::sqrt(porosity * (1.0 - porosity) / (1.0 + window_area / pore_area_ratio));
+}
+
+double modulus_factor(const SpecimenPorosity& porosity, const PorosityOptions& options) {
+  if (options.to_modulus == ToModulus::none) return 1.0;
+  return std::pow(1.0 - porosity.porosity, options.modulus_exponent);
+}
+
+}  // namespace havers::calib

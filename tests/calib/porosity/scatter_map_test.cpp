@@ -1,0 +1,149 @@
+#include "calib/porosity/scatter_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace havers::calib {
+namespace {
+
+SectionPorosity section(double porosity, double bone_area, double window_sd) {
+  SectionPorosity made;
+  made.porosity = porosity;
+  made.bone_area = bone_area;
+  made.window_sd = window_sd;
+  return made;
+}
+
+// A window over bone that is either all pore or all solid: nothing averages out.
+TEST(WindowSd, IsThatOfACoinWhereTheWindowIsAPoint) {
+  EXPECT_NEAR(window_sd_closed_form(0.2, 0.0, 50e-12), std::sqrt(0.2 * 0.8), 1e-15);
+}
+
+TEST(WindowSd, FallsAsTheRootOfTheWindowWhereItHoldsManyPores) {
+  const double once = window_sd_closed_form(0.1, 1e-6, 1e-10);
+  EXPECT_NEAR(window_sd_closed_form(0.1, 4e-6, 1e-10), 0.5 * once, 1e-4 * once);
+}
+
+TEST(WindowSd, IsNothingWithoutPores) {
+  EXPECT_EQ(window_sd_closed_form(0.0, 1e-9, 0.0), 0.0);
+  EXPECT_EQ(window_sd_closed_form(0.0, 1e-9, 1e-10), 0.0);
+}
+
+// The definition that (K2) approximates, by drawing: equal pores that fill whole windows' cells.
+TEST(WindowSd, AgreesWithABinomialDrawOfManyCells) {
+  std::mt19937_64 random(3);
+  const double p = 0.15;
+  const int cells = 40, windows = 20000;
+  double sum = 0.0, squares = 0.0;
+  for (int window = 0; window < windows; ++window) {
+    int pores = 0;
+    for (int cell = 0; cell < cells; ++cell)
+      pores += static_cast<double>(random() >> 11U) * 0x1p-53 < p ? 1 : 0;
+    const double local = static_cast<double>(pores) / cells;
+    sum += local;
+    squares += local * local;
+  }
+  const double mean = sum / windows;
+  const double sd = std::sqrt(squares / windows - mean * mean);
+  // A window of 40 cells holds 40 a*: (K2) has 1 + A/a* where the draw has A/a*.
+  EXPECT_NEAR(window_sd_closed_form(p, cells, 1.0), sd, 0.02 * sd);
+}
+
+// (K3) by its meaning: thresholds uniform on an interval of length d (1 − p)^n have the scatter's
+// SD.
+TEST(Scatter, IsTheLengthOfTheIntervalWithTheSpreadOfLocalStrength) {
+  const SpecimenPorosity porosity{.porosity = 0.1, .window_sd = 0.03};
+  const double d = scatter_of(porosity, {.strength_exponent = 2.0});
+  const double relative_sd_of_strength = 2.0 * 0.03 / 0.9;
+  EXPECT_NEAR(d / std::sqrt(12.0), relative_sd_of_strength, 1e-15);
+}
+
+TEST(Scatter, IsLinearInPorosityWhereAsked) {
+  const PorosityOptions options{
+      .to_scatter = ToScatter::linear, .linear_offset = 0.1, .linear_slope = 3.0};
+  EXPECT_NEAR(scatter_of({.porosity = 0.05}, options), 0.25, 1e-15);
+  // And back: porosity from the scatter that it gave.
+  EXPECT_NEAR((scatter_of({.porosity = 0.07}, options) - 0.1) / 3.0, 0.07, 1e-15);
+}
+
+TEST(Scatter, StaysWhereNoJointStartsBroken) {
+  EXPECT_EQ(scatter_of({.porosity = 0.5, .window_sd = 0.5}, {}), 1.99);
+  EXPECT_EQ(scatter_of({.porosity = 0.1}, {.to_scatter = ToScatter::linear, .linear_offset = -1.0}),
+            0.0);
+}
+
+TEST(Scatter, IsUnknownWhereTheImagesDoNotGiveIt) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(scatter_of({.porosity = 0.1, .window_sd = unknown}, {})));
+  EXPECT_TRUE(std::isnan(scatter_of({.porosity = 0.1}, {.to_scatter = ToScatter::none})));
+  EXPECT_TRUE(std::isnan(scatter_standard_error({.window_sd = unknown}, {})));
+}
+
+// First-order propagation against the map itself.
+TEST(Scatter, CarriesTheStandardErrorsOfWhatItComesFrom) {
+  const SpecimenPorosity porosity{.porosity = 0.1,
+                                  .porosity_standard_error = 0.004,
+                                  .window_sd = 0.05,
+                                  .window_sd_standard_error = 0.003};
+  const auto shifted = [&](double dp, double dsd) {
+    return scatter_of({.porosity = 0.1 + dp, .window_sd = 0.05 + dsd}, {});
+  };
+  const double expected = std::hypot(0.5 * (shifted(0.004, 0.0) - shifted(-0.004, 0.0)),
+                                     0.5 * (shifted(0.0, 0.003) - shifted(0.0, -0.003)));
+  EXPECT_NEAR(scatter_standard_error(porosity, {}), expected, 1e-3 * expected);
+  EXPECT_NEAR(
+      scatter_standard_error(porosity, {.to_scatter = ToScatter::linear, .linear_slope = 2.0}),
+      0.008, 1e-15);
+}
+
+TEST(PooledSections, WeighByBoneArea) {
+  EXPECT_NEAR(pool_sections({section(0.1, 3e-6, 0.0), section(0.2, 1e-6, 0.0)}).porosity, 0.125,
+              1e-15);
+}
+
+TEST(PooledSections, WeighEquallyWhereAnAreaIsUnknown) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NEAR(pool_sections({section(0.1, unknown, 0.0), section(0.2, 1e-6, 0.0)}).porosity, 0.15,
+              1e-15);
+}
+
+// The windows of both sections in one bag: variance within plus variance of the means.
+TEST(PooledSections, WidenTheWindowSpreadByTheirDifference) {
+  const auto pooled = pool_sections({section(0.1, 1.0, 0.03), section(0.14, 1.0, 0.04)});
+  EXPECT_NEAR(pooled.window_sd, std::sqrt(0.5 * (0.03 * 0.03 + 0.04 * 0.04) + 0.02 * 0.02), 1e-15);
+}
+
+TEST(PooledSections, DifferAsTheirMeanIsUncertain) {
+  const auto pooled = pool_sections({section(0.1, 1.0, 0.0), section(0.14, 1.0, 0.0)});
+  EXPECT_NEAR(pooled.porosity_standard_error, 0.02, 1e-15);  // half the difference of two
+}
+
+TEST(PooledSections, KeepTheirOwnUncertaintyWhereTheyAgreeByChance) {
+  auto one = section(0.1, 1.0, 0.05);
+  one.porosity_standard_error = 0.02;
+  one.window_sd_standard_error = 0.01;
+  const auto pooled = pool_sections({one, one});
+  EXPECT_NEAR(pooled.porosity_standard_error, 0.02 / std::sqrt(2.0), 1e-15);
+  EXPECT_NEAR(pooled.window_sd_standard_error, 0.01 / std::sqrt(2.0), 1e-15);
+  EXPECT_NEAR(pool_sections({one}).window_sd_standard_error, 0.01, 1e-15);
+}
+
+TEST(PooledSections, TakeTheWindowSpreadFromThoseThatHaveIt) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NEAR(pool_sections({section(0.1, 1.0, unknown), section(0.1, 1.0, 0.04)}).window_sd, 0.04,
+              1e-15);
+  EXPECT_TRUE(std::isnan(pool_sections({section(0.1, 1.0, unknown)}).window_sd));
+}
+
+TEST(ModulusFactor, IsAPowerOfWhatIsSolidOrOne) {
+  const PorosityOptions power{.to_modulus = ToModulus::power, .modulus_exponent = 2.0};
+  EXPECT_NEAR(modulus_factor({.porosity = 0.1}, power), 0.81, 1e-15);
+  EXPECT_EQ(modulus_factor({.porosity = 0.0}, power), 1.0);
+  EXPECT_EQ(modulus_factor({.porosity = 0.1}, {}), 1.0);
+}
+
+}  // namespace
+}  // namespace havers::calib
