@@ -1,0 +1,115 @@
+#include "calib/synthetic/laboratory_record.hpp"
+
+#include <Random123/philox.h>
+
+#include <Random123/boxmuller.hpp>
+#include <cassert>
+#include <cmath>
+
+namespace havers::calib {
+namespace {
+
+// What a random number is for; with the seed and the row it names the number.
+enum class Draw : std::uint64_t { noise = 1, seed = 2, modulus = 3 };
+
+r123::Philox2x64::ctr_type draw(std::uint64_t seed, std::uint64_t row, Draw purpose) {
+  return r123::Philox2x64()({{row, static_cast<std::uint64_t>(purpose)}}, {{seed}});
+}
+
+r123::double2 gauss_pair(std::uint64_t seed, std::uint64_t row, Draw purpose) {
+  const auto bits = draw(seed, row, purpose);
+  return r123::boxmuller(bits[0], bits[1]);
+}
+
+// (Y1) While the specimen settles, the gauge moves and the specimen does not.
+double strain_of_specimen(double gauge, double toe) {
+  return toe > 0.0 ? gauge + toe * std::expm1(-gauge / toe) : gauge;
+}
+
+// The inverse of (Y1): a contraction with the factor exp(-gauge/toe), so that it ends wherever it
+// starts above 0.
+double strain_of_gauge(double specimen, double toe) {
+  if (toe <= 0.0 || specimen <= 0.0) return std::max(specimen, 0.0);
+  double gauge = specimen + toe;
+  for (double change = toe; std::abs(change) > 1e-9 * gauge;) {
+    const double next =
+        gauge - (strain_of_specimen(gauge, toe) - specimen) / -std::expm1(-gauge / toe);
+    change = next - gauge;
+    gauge = next;
+  }
+  return gauge;
+}
+
+// Stress of a curve at growing strains. A crosshead never goes back: where the curve does, what
+// comes before its strain exceeds all earlier ones is passed over.
+class Pulled {
+ public:
+  explicit Pulled(const std::vector<sim::CurvePoint>& curve) : curve_(curve) {}
+
+  /// Whether the curve has ended before this strain: the specimen has parted.
+  bool parted(double strain) {
+    while (next_ < curve_.size() && curve_[next_].strain < strain) ++next_;
+    return next_ == curve_.size();
+  }
+
+  /// Precondition: not parted at this strain.
+  [[nodiscard]] double stress(double strain) const {
+    const sim::CurvePoint& after = curve_[next_];
+    const sim::CurvePoint before = next_ > 0 ? curve_[next_ - 1] : sim::CurvePoint{};
+    if (after.strain <= before.strain) return after.stress_right;
+    const double part = (strain - before.strain) / (after.strain - before.strain);
+    return before.stress_right + part * (after.stress_right - before.stress_right);
+  }
+
+ private:
+  const std::vector<sim::CurvePoint>& curve_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+double strain_rate(const Bar& bar, const Laboratory& laboratory) {
+  return laboratory.crosshead_rate / bar.gauge_length;
+}
+
+RawTest record_test(const sim::Simulation& simulation, const Bar& bar, const Laboratory& laboratory,
+                    std::uint64_t seed) {
+  assert(!simulation.curve.empty() && simulation.modulus > 0.0);
+  assert(bar.area() > 0.0 && strain_rate(bar, laboratory) > 0.0 && laboratory.sampling > 0.0);
+  RawTest test;
+  test.width = bar.width;
+  test.thickness = bar.thickness;
+  test.gauge_length = bar.gauge_length;
+
+  // (Y2) The record starts, and strain and extension are zeroed, when the force reaches the
+  // preload.
+  const double start = strain_of_gauge(laboratory.preload / (bar.area() * simulation.modulus),
+                                       laboratory.toe_strain);
+  Pulled pulled(simulation.curve);
+  for (int row = 0, after_break = 0; after_break < laboratory.rows_after_break; ++row) {
+    const double time = row * laboratory.sampling;
+    const double since_start = strain_rate(bar, laboratory) * time;
+    const double strain = strain_of_specimen(start + since_start, laboratory.toe_strain);
+    const bool parted = pulled.parted(strain);
+    const auto noise = gauss_pair(seed, static_cast<std::uint64_t>(row), Draw::noise);
+    // (Y3) Parted, the halves carry nothing and the gauge springs back.
+    test.time.push_back(time);
+    test.extension.push_back(laboratory.crosshead_rate * time);
+    test.force.push_back((parted ? 0.0 : bar.area() * pulled.stress(strain)) +
+                         laboratory.force_noise * noise.x);
+    test.strain.push_back((parted ? -start : since_start) + laboratory.strain_noise * noise.y);
+    if (parted) ++after_break;
+  }
+  return test;
+}
+
+std::uint64_t specimen_seed(std::uint64_t study_seed, std::uint64_t specimen) {
+  return draw(study_seed, specimen, Draw::seed)[0];
+}
+
+double modulus_variation(std::uint64_t specimen_seed, double cv) {
+  const double sd = std::sqrt(std::log1p(cv * cv));
+  return std::exp(sd * gauss_pair(specimen_seed, 0, Draw::modulus).x - 0.5 * sd * sd);
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,49 @@
+// A simulation dressed as the record a testing machine would have kept: synthetic tests with a
+// known truth.
+#pragma once
+
+#include <cstdint>
+
+#include "calib/experiment/raw_test.hpp"
+#include "sim/simulation.hpp"
+
+namespace havers::calib {
+
+/// The bar in the machine. The model gives stress against strain; the bar makes force and extension
+/// of it.
+struct Bar {
+  double width = 4e-3;          ///< [m]
+  double thickness = 2e-3;      ///< [m]
+  double gauge_length = 25e-3;  ///< [m]
+
+  [[nodiscard]] double area() const { return width * thickness; }  ///< [m²]
+};
+
+/// How the laboratory tests and records.
+struct Laboratory {
+  double crosshead_rate = 0.5e-3 / 60;  ///< [m/s]
+  double sampling = 0.1;                ///< Time between rows. [s]
+  double preload = 10.0;     ///< Force at the first row, where strain and extension are zeroed. [N]
+  double toe_strain = 1e-4;  ///< Strain lost while the specimen settles in its grips. [-]
+  double force_noise = 0.5;  ///< Standard deviation. [N]
+  double strain_noise = 2e-6;  ///< Standard deviation. [-]
+  int rows_after_break = 5;    ///< The machine stops so many rows after the parting.
+};
+
+/// ε̇ of a specimen: crosshead rate over gauge length. [1/s]
+double strain_rate(const Bar& bar, const Laboratory& laboratory);
+
+/// Time, force, extension and strain as recorded, equations (Y1) to (Y3) of
+/// calib/synthetic/README.md. The noise is a function of seed, row and channel alone. Precondition:
+/// the simulation has rows; all rates and sizes are positive.
+RawTest record_test(const sim::Simulation& simulation, const Bar& bar, const Laboratory& laboratory,
+                    std::uint64_t seed);
+
+/// A seed for each specimen of a synthetic study; none of a fit's replicates has it.
+std::uint64_t specimen_seed(std::uint64_t study_seed, std::uint64_t specimen);
+
+/// Factor on a specimen's modulus, log-normal with mean 1 and coefficient of variation `cv`; 1 when
+/// cv = 0.
+double modulus_variation(std::uint64_t specimen_seed, double cv);
+
+}  // namespace havers::calib

@@ -1,0 +1,75 @@
+// havers check: every problem of a study or a scene, nothing run.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/load_study.hpp"
+#include "io/input_error.hpp"
+
+namespace havers::cli {
+namespace {
+
+constexpr const char* examples =
+    "  havers check study.toml\n"
+    "  havers check scene.toml --json\n";
+
+// Only a study has specimens. Looked for as text, so that a file with a syntax error is told apart
+// as well.
+bool is_study(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);)
+    if (line.rfind("[[specimen]]", 0) == 0 || line.rfind("[study]", 0) == 0) return true;
+  return false;
+}
+
+struct Findings {
+  std::vector<io::Problem> problems;
+  std::vector<std::string> warnings;
+};
+
+Findings look_at(const std::filesystem::path& file, const io::Overrides& overrides) {
+  try {
+    if (is_study(file)) return {.problems = {}, .warnings = load_study(file, overrides).warnings};
+    io::read_scene(file, overrides);
+    return {};
+  } catch (const io::InputError& error) {
+    return {.problems = error.problems(), .warnings = {}};
+  }
+}
+
+void print_json(const std::filesystem::path& file, const Findings& findings) {
+  nlohmann::json problems = nlohmann::json::array();
+  for (const io::Problem& problem : findings.problems)
+    problems.push_back({{"where", problem.where}, {"what", problem.what}, {"hint", problem.hint}});
+  const nlohmann::json all{
+      {"file", file.string()}, {"problems", problems}, {"warnings", findings.warnings}};
+  fmt::print("{}\n", all.dump(2));
+}
+
+int run_check(const std::filesystem::path& file, const CommonOptions& common) {
+  const Findings findings = look_at(file, common.set);
+  if (common.json) {
+    print_json(file, findings);
+    return findings.problems.empty() ? done : bad_input;
+  }
+  if (!findings.problems.empty()) throw io::InputError(findings.problems);
+  for (const std::string& warning : findings.warnings) fmt::print("note: {}\n", warning);
+  fmt::print("no problems\n");
+  return done;
+}
+
+}  // namespace
+
+Command check_command(CLI::App& app, CommonOptions& common) {
+  CLI::App* parser = add_command(app, common, "check",
+                                 "every problem of a study or a scene, nothing run", examples);
+  const auto file = std::make_shared<std::filesystem::path>();
+  parser->add_option("INPUT", *file, "study or scene file (TOML)")->required();
+  return {parser, [file, &common] { return run_check(*file, common); }};
+}
+
+}  // namespace havers::cli

@@ -1,0 +1,39 @@
+#include "cli/command.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "cli/version.hpp"
+
+namespace havers::cli {
+
+CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& name,
+                      const std::string& sentence, const std::string& examples) {
+  CLI::App* command = app.add_subcommand(name, sentence);
+  command->footer("Examples:\n" + examples +
+                  "\nExit codes: 0 done and to be trusted; 1 done, but the answer is no; "
+                  "2 usage, input, or a part not built in.");
+  command->add_flag("--json", common.json, "one JSON object on stdout instead of the summary");
+  command->add_flag("-q,--quiet", common.quiet, "no notes and no progress");
+  command->add_flag("-v,--verbose", common.verbose, "more notes");
+  command->add_option("--threads", common.threads, "threads; never changes a number (default: all)")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--seed", common.seed, "instead of the input's seed")->type_name("N");
+  command
+      ->add_option("--set", common.set,
+                   "instead of the input's value, e.g. joints.scatter=0.4; repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_flag("--force", common.force, "write into a folder that already holds a run");
+  command->set_version_flag("--version", version_text, "version and what is built in");
+  return command;
+}
+
+void note(const CommonOptions& common, const std::string& sentence) {
+  if (!common.quiet) fmt::print(stderr, "{}\n", sentence);
+}
+
+}  // namespace havers::cli

@@ -1,0 +1,59 @@
+// What the commands of havers have in common.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/config/read_scene.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace havers::cli {
+
+/// The exit codes every script may rely on.
+enum ExitCode {
+  done = 0,          ///< Done, and to be trusted.
+  answer_is_no = 1,  ///< Done, but not converged, rejected or stopped.
+  bad_input = 2,     ///< Usage, input, or a part that is not built in.
+};
+
+/// Options that every command takes.
+struct CommonOptions {
+  bool json = false;     ///< One JSON object on stdout instead of the summary.
+  bool quiet = false;    ///< No notes and no progress on stderr.
+  bool verbose = false;  ///< More notes on stderr.
+  bool force = false;    ///< Write into a folder that holds a run.
+  int threads = 0;       ///< 0: as many as the machine has. Never changes a number.
+  std::optional<std::uint64_t> seed;
+  io::Overrides set;
+  std::string command_line;  ///< As typed, for the provenance.
+};
+
+/// A command: its parser, and what it does when chosen; `run` returns the exit code.
+struct Command {
+  CLI::App* parser = nullptr;
+  std::function<int()> run;
+};
+
+Command fit_command(CLI::App& app, CommonOptions& common);
+Command simulate_command(CLI::App& app, CommonOptions& common);
+Command import_command(CLI::App& app, CommonOptions& common);
+Command porosity_command(CLI::App& app, CommonOptions& common);
+Command check_command(CLI::App& app, CommonOptions& common);
+Command synthesize_command(CLI::App& app, CommonOptions& common);
+Command report_command(CLI::App& app, CommonOptions& common);
+
+/// Adds a sub-command with the common options, a sentence of what it does, and examples under -h.
+CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& name,
+                      const std::string& sentence, const std::string& examples);
+
+/// A note for the user on stderr; silent with -q.
+void note(const CommonOptions& common, const std::string& sentence);
+
+}  // namespace havers::cli

@@ -1,0 +1,99 @@
+// havers fit: read, reduce, calibrate, check, report.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/fit_files.hpp"
+#include "cli/fit_summary.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/load_study.hpp"
+#include "cli/output_folder.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/provenance.hpp"
+#include "io/store/sqlite_store.hpp"
+
+namespace havers::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* examples =
+    "  havers fit study.toml -o runs/first\n"
+    "  havers fit study.toml -o runs/first          # after Ctrl-C: goes on where it stopped\n"
+    "  havers fit study.toml -o runs/wide --set calibrate.options.replicates=16 --seed 2\n";
+
+struct Arguments {
+  fs::path study, folder;
+};
+
+std::string progress_text(const calib::CalibrationProgress& progress) {
+  std::string text = fmt::format("{}  {} simulations  cost {:.4g}", progress.stage,
+                                 progress.evaluations, progress.best_cost);
+  for (const auto& [name, value] : progress.best) text += fmt::format("  {} {:.4g}", name, value);
+  return text;
+}
+
+// A folder with simulations but no result holds a fit that was stopped.
+bool was_stopped(const fs::path& folder) {
+  return fs::exists(folder / "evaluations.sqlite") && !fs::exists(folder / "result.json");
+}
+
+calib::CalibrationResult watched_fit(const calib::Study& study, calib::EvaluationStore& store,
+                                     const CommonOptions& common) {
+  ProgressLine line(common);
+  return calib::calibrate(study, &store, [&line](const calib::CalibrationProgress& progress) {
+    if (line.due()) line.show(progress_text(progress));
+    return !interrupted();
+  });
+}
+
+int run_fit(const Arguments& arguments, const CommonOptions& common) {
+  const Stopwatch watch;
+  LoadedStudy loaded = load_study(arguments.study, common.set);
+  loaded.study.calibrate.threads = common.threads;
+  if (common.seed) loaded.study.calibrate.seed = *common.seed;
+  for (const std::string& warning : loaded.warnings) note(common, "note: " + warning);
+
+  const bool resumes = was_stopped(arguments.folder);
+  OutputFolder output(arguments.folder, common.force || resumes);
+  if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
+  const auto store = io::open_store(output.keep("evaluations.sqlite"));
+  const calib::CalibrationResult result = watched_fit(loaded.study, *store, common);
+  if (result.status == calib::CalibrationStatus::cancelled) {
+    fmt::print(stderr,
+               "stopped by you; the simulations so far are kept in {}: the same command goes on "
+               "from there\n",
+               output.folder().string());
+    return answer_is_no;
+  }
+
+  const io::Provenance provenance = provenance_of(common, loaded.inputs, watch);
+  write_fit(output, loaded, result, provenance);
+  output.publish();
+  if (common.json) {
+    fmt::print("{}\n", io::calibration_json(loaded.study, result, provenance).dump(2));
+  } else {
+    print_fit_summary(result, provenance.wall_seconds);
+    fmt::print("{}\n",
+               (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
+  }
+  return result.trusted() ? done : answer_is_no;
+}
+
+}  // namespace
+
+Command fit_command(CLI::App& app, CommonOptions& common) {
+  CLI::App* parser = add_command(app, common, "fit",
+                                 "calibrate the model to a study's tests and report", examples);
+  const auto arguments = std::make_shared<Arguments>();
+  parser->add_option("STUDY", arguments->study, "study file (TOML)")->required();
+  parser->add_option("-o,--output", arguments->folder, "folder for the results")
+      ->required()
+      ->type_name("DIR");
+  return {parser, [arguments, &common] { return run_fit(*arguments, common); }};
+}
+
+}  // namespace havers::cli

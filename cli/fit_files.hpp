@@ -1,0 +1,28 @@
+// What a fit leaves in its folder, and how its page is made, now or later again.
+#pragma once
+
+#include <filesystem>
+
+#include "cli/load_study.hpp"
+#include "cli/output_folder.hpp"
+#include "io/results/result_files.hpp"
+#include "reports/pages.hpp"
+
+namespace havers::cli {
+
+/// Stages result.json, curves/, overlays/ and report.html.
+void write_fit(const OutputFolder& output, const LoadedStudy& loaded,
+               const calib::CalibrationResult& result, const io::Provenance& provenance);
+
+/// A finished fit, read back from its folder.
+struct FinishedFit {
+  io::FitFolder fit;
+  std::map<std::string, std::vector<std::vector<std::uint8_t>>> overlays;  ///< Specimen id to PNGs.
+
+  [[nodiscard]] reports::FitReport report() const;
+};
+
+/// @throws io::InputError when the folder holds no finished fit.
+FinishedFit read_fit(const std::filesystem::path& folder);
+
+}  // namespace havers::cli

@@ -1,0 +1,42 @@
+#include "cli/fit_summary.hpp"
+
+#include <fmt/core.h>
+
+namespace havers::cli {
+namespace {
+
+void print_parameter(const calib::CalibratedParameter& parameter) {
+  if (!parameter.identifiable) {
+    fmt::print("  {:<22}{:>10.5g}  not determined: {}\n", parameter.name, parameter.value,
+               parameter.left_out_because);
+    return;
+  }
+  fmt::print("  {:<22}{:>10.5g}  95 % interval {:.5g} to {:.5g}{}\n", parameter.name,
+             parameter.value, parameter.interval_95[0], parameter.interval_95[1],
+             parameter.at_bound ? "  AT ITS BOUND" : "");
+}
+
+void print_specimen(const calib::SpecimenResult& specimen) {
+  fmt::print("  {:<12}{:>9.2f}{:>11.2f}{:>12.2f}{:>12.2f}{:>11.3f}{:>11.3f}\n", specimen.id,
+             1e-9 * specimen.measured.modulus, 1e-9 * specimen.modulus.mean,
+             1e-6 * specimen.measured.strength, 1e-6 * specimen.strength.mean, specimen.porosity,
+             specimen.scatter);
+}
+
+}  // namespace
+
+void print_fit_summary(const calib::CalibrationResult& result, double wall_seconds) {
+  fmt::print("{}: {}\n", result.trusted() ? "to be trusted" : "NOT to be trusted",
+             calib::explain(result.status));
+  for (const calib::Check& check : result.verdict)
+    fmt::print("  {:<5}{}: {}\n", calib::to_string(check.outcome), check.check, check.text);
+  fmt::print("parameters\n");
+  for (const calib::CalibratedParameter& parameter : result.parameters) print_parameter(parameter);
+  fmt::print("specimens     E [GPa]  simulated  sigma [MPa]  simulated   porosity    scatter\n");
+  for (const calib::SpecimenResult& specimen : result.specimens) print_specimen(specimen);
+  fmt::print("{:.3g} s for a cost of {:.4g}: {} simulations, {} of them new, {} failed\n",
+             wall_seconds, result.cost, result.evaluations, result.simulated,
+             result.failed_simulations);
+}
+
+}  // namespace havers::cli

@@ -1,0 +1,12 @@
+// Ctrl-C asks for a clean end; a second one ends at once.
+#pragma once
+
+namespace havers::cli {
+
+/// From now on SIGINT and SIGTERM set a flag that observers ask for.
+void catch_interrupts();
+
+/// Whether the user asked to stop.
+bool interrupted();
+
+}  // namespace havers::cli

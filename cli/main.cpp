@@ -1,0 +1,89 @@
+// havers: the one program. Parses, calls, prints.
+#include <fmt/core.h>
+#include <tbb/global_control.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <string>
+
+#include "cli/command.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/version.hpp"
+#include "io/input_error.hpp"
+
+namespace havers::cli {
+namespace {
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  havers fit study.toml -o runs/first\n"
+    "  havers simulate scene.toml -o runs/impact --set loading.strain_rate_per_s=500\n"
+    "  havers import A1.csv --json\n"
+    "havers COMMAND -h says more about a command.";
+
+std::string typed(int argc, char** argv) {
+  std::string text = "havers";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const bool plain = !word.empty() && word.find_first_of(" \t'\"$&|;<>()*?") == std::string::npos;
+    text += plain ? " " + word : " '" + word + "'";
+  }
+  return text;
+}
+
+// CLI11 answers -h and --version through exceptions too; those are successes.
+int answer(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == 0) return app.exit(error);
+  fmt::print(stderr, "havers: {} (havers -h and havers COMMAND -h show how it is used)\n",
+             error.what());
+  return bad_input;
+}
+
+int run(const Command& command, const CommonOptions& common) {
+  std::optional<tbb::global_control> limit;
+  if (common.threads > 0)
+    limit.emplace(tbb::global_control::max_allowed_parallelism,
+                  static_cast<std::size_t>(common.threads));
+  try {
+    return command.run();
+  } catch (const io::InputError& error) {
+    for (const io::Problem& problem : error.problems())
+      fmt::print(stderr, "havers: {}\n", io::to_string(problem));
+  } catch (const std::exception& error) {  // a full disk, no memory: no answer either way
+    fmt::print(stderr, "havers: {}\n", error.what());
+  }
+  return bad_input;
+}
+
+int main(int argc, char** argv) {
+  CLI::App app("Fits a fibre-level fracture model of compact bone to a laboratory's tensile tests.",
+               "havers");
+  CommonOptions common;
+  common.command_line = typed(argc, argv);
+  const std::array commands{fit_command(app, common),    simulate_command(app, common),
+                            import_command(app, common), porosity_command(app, common),
+                            check_command(app, common),  synthesize_command(app, common),
+                            report_command(app, common)};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", version_text, "version and what is built in");
+  app.footer(examples);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return answer(app, error);
+  }
+  catch_interrupts();
+  for (const Command& command : commands)
+    if (command.parser->parsed()) return run(command, common);
+  return bad_input;
+}
+
+}  // namespace
+}  // namespace havers::cli
+
+int main(int argc, char** argv) {
+  return havers::cli::main(argc, argv);
+}

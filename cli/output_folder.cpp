@@ -1,0 +1,69 @@
+#include "cli/output_folder.hpp"
+
+#include <array>
+#include <system_error>
+
+#include "io/input_error.hpp"
+
+namespace havers::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What a run of havers may have left: an earlier run's must not stand beside a later one's.
+constexpr std::array results{"result.json",  "report.html", "curve.csv", "joints.csv",
+                             "fracture.svg", "curves",      "overlays",  "snapshots"};
+
+fs::path without_trailing_slash(const fs::path& path) {
+  const fs::path full = fs::absolute(path).lexically_normal();
+  return full.has_filename() ? full : full.parent_path();
+}
+
+void refuse_to_overwrite(const fs::path& folder, bool force) {
+  if (!fs::exists(folder)) return;
+  if (!fs::is_directory(folder))
+    throw io::InputError(folder.string(), "is a file, not a folder",
+                         "give another folder after -o");
+  if (!force && !fs::is_empty(folder))
+    throw io::InputError(folder.string(), "is not empty",
+                         "give another folder, or --force to replace the run in it");
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const fs::path& folder, bool force)
+    : folder_(without_trailing_slash(folder)),
+      staging_(folder_.parent_path() / ("." + folder_.filename().string() + ".partial")) {
+  refuse_to_overwrite(folder_, force);
+  std::error_code error;
+  fs::remove_all(staging_, error);
+  fs::create_directories(staging_, error);
+  if (error) throw io::InputError(folder.string(), "cannot be written: " + error.message());
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code ignored;
+  fs::remove_all(staging_, ignored);
+}
+
+fs::path OutputFolder::stage(const fs::path& name) const {
+  fs::create_directories((staging_ / name).parent_path());
+  return staging_ / name;
+}
+
+fs::path OutputFolder::keep(const fs::path& name) const {
+  fs::create_directories(folder_);
+  return folder_ / name;
+}
+
+void OutputFolder::publish() {
+  fs::create_directories(folder_);
+  for (const char* name : results) fs::remove_all(folder_ / name);
+  for (const auto& entry : fs::directory_iterator(staging_)) {
+    const fs::path target = folder_ / entry.path().filename();
+    fs::remove_all(target);
+    fs::rename(entry.path(), target);
+  }
+}
+
+}  // namespace havers::cli

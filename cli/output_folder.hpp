@@ -1,0 +1,36 @@
+// Where a run leaves its files: whole, or not at all.
+#pragma once
+
+#include <filesystem>
+
+namespace havers::cli {
+
+/// Files are written into a staging folder beside the target and moved there by `publish`; whatever
+/// was not published is removed again, so that no run leaves half of its files.
+class OutputFolder {
+ public:
+  /// @throws InputError when `folder` holds something and `force` is false, or cannot be made.
+  OutputFolder(const std::filesystem::path& folder, bool force);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  OutputFolder(OutputFolder&&) = delete;
+  OutputFolder& operator=(OutputFolder&&) = delete;
+
+  /// The target; exists only after `publish` or `keep`.
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+
+  /// A file's place in the staging folder; folders in between are made.
+  [[nodiscard]] std::filesystem::path stage(const std::filesystem::path& name) const;
+
+  /// A file's place in the target itself, for what must survive a kill.
+  [[nodiscard]] std::filesystem::path keep(const std::filesystem::path& name) const;
+
+  /// Moves all staged files to the target, in place of those of an earlier run.
+  void publish();
+
+ private:
+  std::filesystem::path folder_, staging_;
+};
+
+}  // namespace havers::cli

@@ -1,0 +1,34 @@
+// Where a result comes from and what it took.
+#pragma once
+
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <vector>
+
+#include "cli/command.hpp"
+#include "io/results/result_files.hpp"
+#include "reports/pages.hpp"
+
+namespace havers::cli {
+
+/// Started with a command, read when its result is written.
+class Stopwatch {
+ public:
+  [[nodiscard]] double wall_seconds() const;  ///< [s]
+  [[nodiscard]] double cpu_seconds() const;   ///< Of all threads. [s]
+
+ private:
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+  std::clock_t cpu_ = std::clock();
+};
+
+/// The command as typed, the inputs' digests, and the time so far.
+io::Provenance provenance_of(const CommonOptions& common,
+                             const std::vector<std::filesystem::path>& inputs,
+                             const Stopwatch& watch);
+
+/// The same as facts for the foot of a page.
+reports::Provenance page_facts(const io::Provenance& provenance);
+
+}  // namespace havers::cli

@@ -1,0 +1,92 @@
+// havers report: the page of a finished fit again, or several fits side by side.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/fit_files.hpp"
+#include "io/input_error.hpp"
+
+namespace havers::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* examples =
+    "  havers report runs/first                            # remakes runs/first/report.html\n"
+    "  havers report runs/first runs/second -o runs/both   # side by side\n";
+
+struct Arguments {
+  std::vector<fs::path> results;
+  fs::path folder;
+};
+
+std::vector<FinishedFit> read_all(const std::vector<fs::path>& results) {
+  std::vector<FinishedFit> fits;
+  std::vector<io::Problem> problems;
+  for (const fs::path& path : results) {
+    try {
+      fits.push_back(
+          read_fit(path.filename() == "result.json" ? fs::absolute(path).parent_path() : path));
+    } catch (const io::InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw io::InputError(std::move(problems));
+  return fits;
+}
+
+std::string page_of(const std::vector<FinishedFit>& fits) {
+  if (fits.size() == 1) return reports::fit_page(fits.front().report());
+  std::vector<reports::FitReport> reports;
+  for (const FinishedFit& fit : fits) reports.push_back(fit.report());
+  return reports::comparison_page(reports);
+}
+
+// One result: beside it, in place of the old page. Several: into a folder of their own.
+fs::path write_page(const Arguments& arguments, const std::vector<FinishedFit>& fits, bool force) {
+  const fs::path& first = arguments.results.front();
+  if (arguments.folder.empty()) {
+    const fs::path page =
+        (first.filename() == "result.json" ? fs::absolute(first).parent_path() : first) /
+        "report.html";
+    io::write_file(page, page_of(fits));
+    return fs::absolute(page).lexically_normal();
+  }
+  OutputFolder output(arguments.folder, force);
+  io::write_file(output.stage("report.html"), page_of(fits));
+  output.publish();
+  return output.folder() / "report.html";
+}
+
+int run_report(const Arguments& arguments, const CommonOptions& common) {
+  if (!reports::available())
+    throw io::InputError("havers report", "this build makes no pages",
+                         "apt-get install libmstch-dev gnuplot-nox and build again");
+  if (arguments.results.size() > 1 && arguments.folder.empty())
+    throw io::InputError("havers report", "several results need a folder for their page",
+                         "add -o DIR");
+  const std::vector<FinishedFit> fits = read_all(arguments.results);
+  const fs::path page = write_page(arguments, fits, common.force);
+  if (common.json)
+    fmt::print("{}\n", nlohmann::json{{"report", page.string()}, {"results", fits.size()}}.dump(2));
+  else
+    fmt::print("{}\n", page.string());
+  return done;
+}
+
+}  // namespace
+
+Command report_command(CLI::App& app, CommonOptions& common) {
+  CLI::App* parser = add_command(app, common, "report",
+                                 "a fit's page again, or several fits side by side", examples);
+  const auto arguments = std::make_shared<Arguments>();
+  parser->add_option("RESULT", arguments->results, "folder of a fit, or its result.json")
+      ->required();
+  parser->add_option("-o,--output", arguments->folder, "folder for the page")->type_name("DIR");
+  return {parser, [arguments, &common] { return run_report(*arguments, common); }};
+}
+
+}  // namespace havers::cli

@@ -1,0 +1,118 @@
+// havers simulate: one run of the model.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/output_folder.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/provenance.hpp"
+#include "io/snapshots/snapshots.hpp"
+
+namespace havers::cli {
+namespace {
+
+constexpr const char* examples =
+    "  havers simulate scene.toml -o runs/impact\n"
+    "  havers simulate scene.toml -o runs/seed7 --seed 7 --set joints.scatter=0.4\n"
+    "  havers simulate scene.toml -o runs/film --set output.snapshots=50   # for ParaView\n";
+
+struct Arguments {
+  std::filesystem::path scene, folder;
+};
+
+std::string progress_text(const sim::CurvePoint& point) {
+  return fmt::format("strain {:.4f} %  stress {:.2f} MPa  broken joints {}", 100.0 * point.strain,
+                     1e-6 * point.stress_right, point.broken_joints);
+}
+
+sim::Simulation watched_run(const sim::Scene& scene, io::SnapshotRecorder& snapshots,
+                            const CommonOptions& common) {
+  ProgressLine line(common);
+  return sim::simulate(scene, [&](const sim::Progress& progress) {
+    if (line.due()) line.show(progress_text(progress.point));
+    snapshots.record(progress);
+    return !interrupted();
+  });
+}
+
+void write_results(const OutputFolder& output, const sim::Scene& scene,
+                   const sim::Simulation& simulation, const io::SnapshotRecorder& snapshots,
+                   const io::Provenance& provenance) {
+  const sim::Assembly assembly = sim::build_assembly(scene.assembly, scene.loading.lateral);
+  io::write_curve(output.stage("curve.csv"), simulation);
+  io::write_joints(output.stage("joints.csv"), scene, assembly, simulation);
+  for (const io::Snapshot& snapshot : snapshots.chosen())
+    io::write_vtu(output.stage(fmt::format("snapshots/step_{:06}.vtu", snapshot.row)), assembly,
+                  snapshot.displacements, snapshot.joints);
+  if (reports::available()) {
+    io::write_file(output.stage("fracture.svg"), reports::fracture_svg(assembly, simulation));
+    io::write_file(output.stage("report.html"),
+                   reports::simulation_page({scene, assembly, simulation, page_facts(provenance)}));
+  }
+  io::write_file(output.stage("result.json"),
+                 io::simulation_json(scene, simulation, provenance).dump(2) + "\n");
+}
+
+void print_summary(const sim::Simulation& run, double wall_seconds, bool verbose) {
+  fmt::print("{}: {}\n", run.trusted() ? "to be trusted" : "NOT to be trusted",
+             sim::explain(run.status));
+  fmt::print("strength       {:.4g} MPa at a strain of {:.4g} %\n", 1e-6 * run.strength,
+             100.0 * run.failure_strain);
+  fmt::print("modulus        {:.4g} GPa\n", 1e-9 * run.modulus);
+  fmt::print("broken joints  {} of {}", run.broken_joints, run.joints.size());
+  if (run.broken_joints > 0) fmt::print(", the first at {:.4g} %", 100.0 * run.first_break_strain);
+  fmt::print("\nregime         {}: {}\n",
+             run.regime == sim::Regime::dynamic ? "dynamic" : "quasi-static", run.regime_ground);
+  fmt::print(
+      "time           {:.3g} s for {} steps; energy defect {:.1e}, residual {:.1e}, penetration "
+      "{:.1e} m\n",
+      wall_seconds, run.steps, run.energy_defect, run.worst_residual, run.worst_penetration);
+  if (!verbose) return;
+  for (const sim::LeftOut& left_out : run.left_out)
+    fmt::print("left out       {}: {}\n", left_out.what, left_out.why);
+}
+
+int run_simulate(const Arguments& arguments, const CommonOptions& common) {
+  const Stopwatch watch;
+  io::SceneFile file = io::read_scene(arguments.scene, common.set);
+  if (common.seed) file.scene.joints.seed = *common.seed;
+  io::SnapshotRecorder snapshots(file.snapshots);
+  OutputFolder output(arguments.folder, common.force);
+  if (!reports::available())
+    note(common, "no report.html and fracture.svg: this build makes no pages (havers --version)");
+
+  const sim::Simulation simulation = watched_run(file.scene, snapshots, common);
+  const io::Provenance provenance = provenance_of(common, {arguments.scene}, watch);
+  write_results(output, file.scene, simulation, snapshots, provenance);
+  output.publish();
+
+  if (common.json)
+    fmt::print("{}\n", io::simulation_json(file.scene, simulation, provenance).dump(2));
+  else
+    print_summary(simulation, provenance.wall_seconds, common.verbose);
+  if (simulation.status == sim::SimulationStatus::cancelled)
+    note(common,
+         "stopped by you; the rows until then are written. A simulation starts anew: add --force "
+         "to run it again.");
+  if (!common.json)
+    fmt::print("{}\n",
+               (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
+  return simulation.trusted() ? done : answer_is_no;
+}
+
+}  // namespace
+
+Command simulate_command(CLI::App& app, CommonOptions& common) {
+  CLI::App* parser = add_command(app, common, "simulate", "one run of the model", examples);
+  const auto arguments = std::make_shared<Arguments>();
+  parser->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
+  parser->add_option("-o,--output", arguments->folder, "folder for the results")
+      ->required()
+      ->type_name("DIR");
+  return {parser, [arguments, &common] { return run_simulate(*arguments, common); }};
+}
+
+}  // namespace havers::cli

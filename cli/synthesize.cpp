@@ -1,0 +1,222 @@
+// havers synthesize: a study's files made by the model, with noise and a known truth.
+#include <fmt/core.h>
+#include <tbb/parallel_for.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "calib/fit/scenes.hpp"
+#include "calib/study/parameter.hpp"
+#include "calib/synthetic/laboratory_record.hpp"
+#include "cli/command.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/output_folder.hpp"
+#include "io/config/read_study.hpp"
+#include "io/images/measure_section.hpp"
+#include "io/input_error.hpp"
+#include "io/machine/read_test.hpp"
+#include "io/results/result_files.hpp"
+
+namespace havers::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* examples =
+    "  havers synthesize study.toml -o made --seed 7\n"
+    "  havers synthesize study.toml -o made --set model.material.young_GPa=15   # the truth; the "
+    "copy of\n"
+    "                                                       # study.toml in made/ keeps its "
+    "starting point\n";
+
+struct Arguments {
+  fs::path study, folder;
+};
+
+/// A specimen as made: what a fit must find again.
+struct Made {
+  calib::Specimen specimen;
+  sim::Scene scene;
+  sim::Simulation simulation;
+};
+
+calib::Laboratory laboratory_of(const io::SynthesizeOptions& options) {
+  return {.crosshead_rate = options.crosshead_rate,
+          .sampling = options.sampling,
+          .preload = options.preload,
+          .toe_strain = options.toe_strain,
+          .force_noise = options.force_noise,
+          .strain_noise = options.strain_noise};
+}
+
+calib::Bar bar_of(const io::SpecimenFiles& files) {
+  calib::Bar bar;
+  bar.width = files.width.value_or(bar.width);
+  bar.thickness = files.thickness.value_or(bar.thickness);
+  bar.gauge_length = files.gauge_length.value_or(bar.gauge_length);
+  return bar;
+}
+
+// Every file goes to the same place beside the copy of the study that it has beside the study.
+fs::path place(const fs::path& study, const fs::path& file) {
+  const fs::path folder = fs::absolute(study).lexically_normal().parent_path();
+  return fs::absolute(file).lexically_normal().lexically_relative(folder);
+}
+
+std::vector<io::Problem> problems_of(const fs::path& study, const io::StudyFile& file) {
+  std::vector<io::Problem> problems;
+  for (const io::SpecimenFiles& specimen : file.specimens) {
+    std::vector<fs::path> files = specimen.sections;
+    files.push_back(specimen.test);
+    for (const fs::path& path : files)
+      if (*place(study, path).begin() == "..")
+        problems.push_back({path.string(), "lies outside the study's folder",
+                            "name files beside the study to have them made"});
+    if (!specimen.sections.empty() && !specimen.porosity)
+      problems.push_back({study.string() + ": specimen " + specimen.id,
+                          "has sections to draw but no porosity", "add porosity = 0.05, say"});
+  }
+  return problems;
+}
+
+// Draws the sections; what was drawn, not what was aimed at, is the truth.
+std::vector<calib::SectionPorosity> draw_sections(const fs::path& study, const OutputFolder& output,
+                                                  const io::StudyFile& file, std::size_t s,
+                                                  std::uint64_t seed) {
+  const io::SpecimenFiles& specimen = file.specimens[s];
+  const sim::AssemblyOptions& fibres = file.study.model.assembly;
+  std::vector<calib::SectionPorosity> drawn;
+  io::SectionDrawing drawing{.pixels = file.synthesize.section_pixels,
+                             .porosity = specimen.porosity.value_or(0.0),
+                             .pore_radius = file.synthesize.pore_radius};
+  drawing.pixel_size = specimen.pixel_size.value_or(drawing.pixel_size);
+  io::SectionOptions window;
+  window.pixel_size = drawing.pixel_size;
+  window.window_length = fibres.fibre_length;
+  window.window_height = fibres.fibre_height;
+  for (std::size_t i = 0; i < specimen.sections.size(); ++i) {
+    drawing.seed = calib::specimen_seed(seed, i);
+    const fs::path image = output.stage(place(study, specimen.sections[i]));
+    drawn.push_back(io::draw_section(image, drawing, window));
+  }
+  return drawn;
+}
+
+Made make_specimen(const fs::path& study, const OutputFolder& output, const io::StudyFile& file,
+                   std::size_t s) {
+  const std::uint64_t seed = calib::specimen_seed(file.study.calibrate.seed, s);
+  const calib::Bar bar = bar_of(file.specimens[s]);
+  const calib::Laboratory laboratory = laboratory_of(file.synthesize);
+
+  calib::Study one = file.study;
+  calib::Specimen& specimen = one.specimens[s];
+  specimen.sections = draw_sections(study, output, file, s, seed);
+  specimen.test.strain_rate = calib::strain_rate(bar, laboratory);
+  calib::SpecimenModel model = calib::model_of(one, s);
+  model.scene.material.young *=
+      model.modulus_factor * calib::modulus_variation(seed, file.synthesize.modulus_cv);
+  model.scene.joints.seed = seed;
+
+  Made made{.specimen = specimen, .scene = model.scene, .simulation = {}};
+  made.simulation = sim::simulate(made.scene, [](const sim::Progress&) { return !interrupted(); });
+  calib::RawTest record = calib::record_test(made.simulation, bar, laboratory, seed);
+  record.specimen_id = specimen.id;
+  io::write_bluehill(output.stage(place(study, file.specimens[s].test)), record);
+  return made;
+}
+
+std::vector<Made> make_all(const fs::path& study, const OutputFolder& output,
+                           const io::StudyFile& file) {
+  std::vector<Made> made(file.specimens.size());
+  tbb::parallel_for(std::size_t{0}, made.size(),
+                    [&](std::size_t s) { made[s] = make_specimen(study, output, file, s); });
+  return made;
+}
+
+nlohmann::json truth_of(const io::StudyFile& file, const std::vector<Made>& made) {
+  nlohmann::json parameters;
+  for (const calib::ParameterInfo& parameter : calib::all_parameters())
+    parameters[std::string(parameter.name)] = calib::value_of(file.study.model, parameter.name);
+  nlohmann::json specimens = nlohmann::json::array();
+  for (const Made& one : made) {
+    nlohmann::json specimen{
+        {"id", one.specimen.id},
+        {"orientation_deg", one.specimen.orientation * 180.0 / std::numbers::pi},
+        {"scatter", one.scene.joints.scatter},
+        {"seed", one.scene.joints.seed},
+        {"young_GPa", 1e-9 * one.scene.material.young},
+        {"status", sim::to_string(one.simulation.status)},
+        {"modulus_Pa", one.simulation.modulus},
+        {"strength_Pa", one.simulation.strength},
+        {"failure_strain", one.simulation.failure_strain}};
+    if (!one.specimen.sections.empty()) {
+      const calib::SpecimenPorosity porosity = calib::pool_sections(one.specimen.sections);
+      specimen["porosity"] = porosity.porosity;
+      specimen["window_sd"] = porosity.window_sd;
+    }
+    specimens.push_back(specimen);
+  }
+  return {{"study", file.study.name},
+          {"seed", file.study.calibrate.seed},
+          {"parameters", parameters},
+          {"specimens", specimens}};
+}
+
+bool all_broke(const std::vector<Made>& made) {
+  return std::ranges::all_of(
+      made, [](const Made& one) { return one.simulation.status == sim::SimulationStatus::broken; });
+}
+
+void print_summary(const std::vector<Made>& made) {
+  fmt::print("specimen    angle [deg]   scatter   E [GPa]   strength [MPa]   failure strain [%]\n");
+  for (const Made& one : made)
+    fmt::print("{:<12}{:>11.1f}{:>10.3f}{:>10.3f}{:>17.2f}{:>21.4f}\n", one.specimen.id,
+               one.specimen.orientation * 180.0 / std::numbers::pi, one.scene.joints.scatter,
+               1e-9 * one.simulation.modulus, 1e-6 * one.simulation.strength,
+               100.0 * one.simulation.failure_strain);
+}
+
+int run_synthesize(const Arguments& arguments, const CommonOptions& common) {
+  io::StudyFile file = io::read_study(arguments.study, common.set, io::Files::will_be_written);
+  if (common.seed) file.study.calibrate.seed = *common.seed;
+  if (auto problems = problems_of(arguments.study, file); !problems.empty())
+    throw io::InputError(std::move(problems));
+  OutputFolder output(arguments.folder, common.force);
+
+  const std::vector<Made> made = make_all(arguments.study, output, file);
+  if (interrupted()) {
+    fmt::print(stderr, "stopped by you; nothing was written: run the same command again\n");
+    return answer_is_no;
+  }
+  const nlohmann::json truth = truth_of(file, made);
+  io::write_file(output.stage("truth.json"), truth.dump(2) + "\n");
+  fs::copy_file(arguments.study, output.stage("study.toml"));
+  output.publish();
+
+  if (common.json) {
+    fmt::print("{}\n", truth.dump(2));
+  } else {
+    print_summary(made);
+    fmt::print("{}\n", (output.folder() / "study.toml").string());
+  }
+  if (all_broke(made)) return done;
+  note(common, "not every specimen broke: raise model.loading.max_strain; truth.json says which");
+  return answer_is_no;
+}
+
+}  // namespace
+
+Command synthesize_command(CLI::App& app, CommonOptions& common) {
+  CLI::App* parser = add_command(app, common, "synthesize",
+                                 "a study's files made by the model, with a known truth", examples);
+  const auto arguments = std::make_shared<Arguments>();
+  parser->add_option("STUDY", arguments->study, "study file (TOML)")->required();
+  parser->add_option("-o,--output", arguments->folder, "folder for the study")
+      ->required()
+      ->type_name("DIR");
+  return {parser, [arguments, &common] { return run_synthesize(*arguments, common); }};
+}
+
+}  // namespace havers::cli

@@ -1,0 +1,49 @@
+// The assembly at moments of a run, for ParaView (.vtu).
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <vector>
+
+#include "sim/simulation.hpp"
+
+namespace havers::io {
+
+/// Whether this build can write .vtu files.
+bool snapshots_available();
+
+/// One moment of a run.
+struct Snapshot {
+  int row = 0;                            ///< Of the curve, from 0.
+  Eigen::VectorXd displacements;          ///< x and y of every node. [m]
+  std::vector<sim::JointOutcome> joints;  ///< In the order of Assembly::joints.
+};
+
+/// Keeps `count` moments spread evenly over a run whose length is not known beforehand: every k-th
+/// row, and k doubles whenever twice as many are held as asked for.
+class SnapshotRecorder {
+ public:
+  /// @throws InputError when snapshots are asked for and VTK is not built in.
+  explicit SnapshotRecorder(int count);
+
+  /// To be called for every row, in order.
+  void record(const sim::Progress& progress);
+
+  /// The moments, the first and the last row among them (one: the last).
+  [[nodiscard]] std::vector<Snapshot> chosen() const;
+
+ private:
+  std::size_t count_;
+  int rows_ = 0, stride_ = 1;
+  std::vector<Snapshot> held_;
+  Snapshot last_;
+};
+
+/// Writes the triangles of the fibres and the joints as lines, both displaced by the point data
+/// `displacement` only when ParaView's "Warp By Vector" is applied. Cell data: `kind` (0 fibre, 1
+/// head_tail, 2 flank), `broken`, `gap_m`.
+/// @throws InputError when VTK is not built in or the file cannot be written.
+void write_vtu(const std::filesystem::path& file, const sim::Assembly& assembly,
+               const Eigen::VectorXd& displacements, const std::vector<sim::JointOutcome>& joints);
+
+}  // namespace havers::io
