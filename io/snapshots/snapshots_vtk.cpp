@@ -9,7 +9,7 @@
 
 #include <cassert>
 
-#include "io/input_error.hpp"
+#include "io/results/result_files.hpp"
 #include "io/snapshots/snapshots.hpp"
 
 namespace havers::io {
@@ -71,9 +71,10 @@ void write_vtu(const std::filesystem::path& file, const sim::Assembly& assembly,
   add_points(*grid, assembly, displacements);
   add_cells(*grid, assembly, joints);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetFileName(file.c_str());
+  writer->WriteToOutputStringOn();
   writer->SetInputData(grid);
-  if (writer->Write() == 0) throw InputError(file.string(), "cannot be written");
+  writer->Write();
+  write_file(file, writer->GetOutputString());
 }
 
 }  // namespace havers::io

@@ -1,0 +1,140 @@
+#include "calib/synthetic/laboratory_record.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+namespace havers::calib {
+namespace {
+
+constexpr double young = 15e9;
+constexpr double broken_at = 4e-3;
+
+// Linear up to the break, then nothing: the record of it is known row by row.
+sim::Simulation brittle() {
+  sim::Simulation simulation;
+  simulation.modulus = young;
+  for (const auto& [strain, stress] :
+       {std::pair{0.0, 0.0}, {broken_at, young * broken_at}, {broken_at, 0.0}}) {
+    sim::CurvePoint point;
+    point.strain = strain;
+    point.stress_right = stress;
+    simulation.curve.push_back(point);
+  }
+  return simulation;
+}
+
+Laboratory silent() {
+  Laboratory laboratory;
+  laboratory.preload = laboratory.toe_strain = 0.0;
+  laboratory.force_noise = laboratory.strain_noise = 0.0;
+  return laboratory;
+}
+
+double standard_deviation(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double squares = 0.0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return std::sqrt(squares / (n - 1.0));
+}
+
+TEST(LaboratoryRecord, OfALinearCurveIsTheLineUpToTheBreak) {
+  const Bar bar;
+  const Laboratory laboratory = silent();
+  const RawTest test = record_test(brittle(), bar, laboratory, 1);
+  const double rate = strain_rate(bar, laboratory);
+  const auto loaded = static_cast<std::size_t>(broken_at / (rate * laboratory.sampling)) + 1;
+  ASSERT_EQ(test.rows(), loaded + static_cast<std::size_t>(laboratory.rows_after_break));
+  for (std::size_t row = 0; row < loaded; ++row) {
+    const double strain = rate * laboratory.sampling * static_cast<double>(row);
+    EXPECT_NEAR(test.strain[row], strain, 1e-15);
+    EXPECT_NEAR(test.force[row], bar.area() * young * strain, 1e-9);
+    EXPECT_NEAR(test.extension[row], bar.gauge_length * strain, 1e-15);
+  }
+  for (std::size_t row = loaded; row < test.rows(); ++row) EXPECT_EQ(test.force[row], 0.0);
+}
+
+TEST(LaboratoryRecord, StartsAtThePreloadWithStrainZeroed) {
+  Laboratory laboratory = silent();
+  laboratory.preload = 12.0;
+  for (const double toe : {0.0, 1e-6, 2e-4}) {
+    laboratory.toe_strain = toe;
+    const RawTest test = record_test(brittle(), {}, laboratory, 1);
+    EXPECT_NEAR(test.force.front(), 12.0, 1e-6);
+    EXPECT_EQ(test.strain.front(), 0.0);
+  }
+}
+
+TEST(LaboratoryRecord, LosesTheToeInTheStrain) {
+  Laboratory laboratory = silent();
+  laboratory.toe_strain = 1e-4;
+  const Bar bar;
+  const RawTest test = record_test(brittle(), bar, laboratory, 1);
+  const auto peak =
+      static_cast<std::size_t>(std::ranges::max_element(test.force) - test.force.begin());
+  const double strain = test.force[peak] / (bar.area() * young);
+  EXPECT_NEAR(test.strain[peak] - strain, 1e-4, 1e-12);
+  EXPECT_LT(test.force[1], 0.2 * bar.area() * young * test.strain[1]);
+}
+
+TEST(LaboratoryRecord, HasTheNoiseAskedForAndTheSameForTheSameSeed) {
+  Laboratory laboratory = silent();
+  laboratory.sampling = 0.01;
+  const RawTest clean = record_test(brittle(), {}, laboratory, 1);
+  laboratory.force_noise = 0.7;
+  laboratory.strain_noise = 3e-6;
+  const RawTest noisy = record_test(brittle(), {}, laboratory, 1);
+  std::vector<double> force, strain;
+  for (std::size_t row = 0; row < clean.rows(); ++row) {
+    force.push_back(noisy.force[row] - clean.force[row]);
+    strain.push_back(noisy.strain[row] - clean.strain[row]);
+  }
+  EXPECT_NEAR(standard_deviation(force) / 0.7, 1.0, 0.1);
+  EXPECT_NEAR(standard_deviation(strain) / 3e-6, 1.0, 0.1);
+  EXPECT_EQ(record_test(brittle(), {}, laboratory, 1).force, noisy.force);
+  EXPECT_NE(record_test(brittle(), {}, laboratory, 2).force, noisy.force);
+}
+
+// After an avalanche the quasi-static sequence goes on at a smaller strain; a crosshead cannot.
+TEST(LaboratoryRecord, NeverGoesBackWhereTheCurveDoes) {
+  sim::Simulation simulation = brittle();
+  simulation.curve.resize(2);
+  for (const auto& [strain, stress] : {std::pair{2e-3, 1e6}, {6e-3, 5e6}}) {
+    sim::CurvePoint point;
+    point.strain = strain;
+    point.stress_right = stress;
+    simulation.curve.push_back(point);
+  }
+  const Bar bar;
+  const RawTest test = record_test(simulation, bar, silent(), 1);
+  EXPECT_TRUE(
+      std::ranges::is_sorted(test.strain.begin(), test.strain.end() - silent().rows_after_break));
+  const auto after =
+      std::ranges::find_if(test.strain, [](double strain) { return strain > broken_at; });
+  const auto row = static_cast<std::size_t>(after - test.strain.begin());
+  EXPECT_NEAR(test.force[row], bar.area() * (1e6 + 1e9 * (test.strain[row] - 2e-3)), 1e-9);
+}
+
+TEST(SyntheticSpecimens, HaveSeedsOfTheirOwn) {
+  std::set<std::uint64_t> seeds;
+  for (std::uint64_t study = 1; study <= 10; ++study)
+    for (std::uint64_t specimen = 0; specimen < 10; ++specimen)
+      seeds.insert(specimen_seed(study, specimen));
+  EXPECT_EQ(seeds.size(), 100U);
+}
+
+TEST(SyntheticSpecimens, VaryInModulusByTheCoefficientAskedFor) {
+  std::vector<double> factors;
+  for (std::uint64_t seed = 0; seed < 20000; ++seed)
+    factors.push_back(modulus_variation(seed, 0.1));
+  EXPECT_NEAR(std::accumulate(factors.begin(), factors.end(), 0.0) / 20000.0, 1.0, 0.003);
+  EXPECT_NEAR(standard_deviation(factors), 0.1, 0.003);
+  EXPECT_EQ(modulus_variation(5, 0.0), 1.0);
+}
+
+}  // namespace
+}  // namespace havers::calib

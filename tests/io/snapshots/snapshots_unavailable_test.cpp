@@ -1,0 +1,22 @@
+#include <gtest/gtest.h>
+
+#include "io/input_error.hpp"
+#include "io/snapshots/snapshots.hpp"
+
+namespace havers::io {
+namespace {
+
+TEST(Snapshots, SayHowToGetThemWhereTheyAreNotBuiltIn) {
+  EXPECT_FALSE(snapshots_available());
+  EXPECT_NO_THROW(SnapshotRecorder(0));
+  try {
+    const SnapshotRecorder recorder(3);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("apt-get install libvtk9-dev"), std::string::npos);
+  }
+  EXPECT_THROW(write_vtu("any.vtu", {}, {}, {}), InputError);
+}
+
+}  // namespace
+}  // namespace havers::io
