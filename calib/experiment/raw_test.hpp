@@ -9,13 +9,15 @@ namespace havers::calib {
 
 /// Channels of equal length; an empty one was not recorded.
 struct RawTest {
-  std::string specimen_id;                 ///< As the file names it; may be empty.
-  std::vector<double> time;                ///< [s]
-  std::vector<double> force;               ///< Tension positive. [N]
-  std::vector<double> extension;           ///< Of the crosshead. [m]
-  std::vector<double> strain;              ///< Gauge or extensometer. [-]
-  std::vector<double> stress;              ///< As the machine computed it; used only without a force. [Pa]
+  std::string specimen_id;        ///< As the file names it; may be empty.
+  std::vector<double> time;       ///< [s]
+  std::vector<double> force;      ///< Tension positive. [N]
+  std::vector<double> extension;  ///< Of the crosshead. [m]
+  std::vector<double> strain;     ///< Gauge or extensometer. [-]
+  std::vector<double>
+      stress;  ///< As the machine computed it; used only where force or area is unknown. [Pa]
   std::optional<double> width, thickness;  ///< Of the specimen. [m]
+  std::optional<double> area;              ///< Used where width or thickness is unknown. [m²]
   std::optional<double> gauge_length;      ///< [m]
   std::vector<std::string> warnings;       ///< What the reader noticed, a sentence each.
 

@@ -1,0 +1,182 @@
+#include "io/machine/channels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+#include "io/input_error.hpp"
+#include "io/machine/units.hpp"
+#include "io/machine/vocabulary.hpp"
+
+namespace havers::io {
+namespace {
+
+// A unit that the quantity can have. A gauge may be recorded as an elongation.
+bool fits(Quantity quantity, Dimension dimension) {
+  switch (quantity) {
+    case Quantity::time:
+      return dimension == Dimension::time;
+    case Quantity::force:
+      return dimension == Dimension::force;
+    case Quantity::extension:
+      return dimension == Dimension::length;
+    case Quantity::strain:
+      return dimension == Dimension::strain || dimension == Dimension::length;
+    case Quantity::stress:
+      return dimension == Dimension::stress;
+    case Quantity::other:
+      return false;
+  }
+  return false;
+}
+
+// Percent and mm/mm are units of too many things to stand for a strain.
+Quantity quantity_of_unit(const std::string& unit) {
+  const std::optional<Unit> known = find_unit(unit);
+  if (!known) return Quantity::other;
+  for (const Quantity quantity :
+       {Quantity::time, Quantity::force, Quantity::extension, Quantity::stress})
+    if (fits(quantity, known->dimension)) return quantity;
+  return Quantity::other;
+}
+
+struct Candidate {
+  Quantity quantity = Quantity::other;
+  bool named = false;
+};
+
+Candidate classify(const Column& column) {
+  const Quantity named = quantity_of_name(column.name);
+  const std::optional<Unit> unit = find_unit(column.unit);
+  if (named != Quantity::other && column.unit.empty()) return {named, true};
+  if (named != Quantity::other && unit && fits(named, unit->dimension)) return {named, true};
+  return {quantity_of_unit(column.unit), false};
+}
+
+// The user's word for a column: its name in the file, or its number from 1.
+std::optional<std::size_t> hinted_column(const std::string& hint,
+                                         const std::vector<Column>& columns) {
+  const auto found = std::ranges::find(columns, hint, &Column::name);
+  if (found != columns.end()) return static_cast<std::size_t>(found - columns.begin());
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(hint.data(), hint.data() + hint.size(), number);
+  const bool whole = error == std::errc{} && end == hint.data() + hint.size();
+  if (!whole || number < 1 || number > columns.size()) return std::nullopt;
+  return number - 1;
+}
+
+std::string list_of(const std::vector<Column>& columns) {
+  std::string text;
+  for (const Column& column : columns)
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", column.name,
+                        column.unit.empty() ? "" : " (" + column.unit + ")");
+  return text;
+}
+
+// What a number means where no unit is written.
+std::pair<double, const char*> unwritten_unit(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::extension:
+      return {1e-3, "mm"};
+    case Quantity::stress:
+      return {1e6, "MPa"};
+    case Quantity::time:
+      return {1.0, "s"};
+    case Quantity::force:
+      return {1.0, "N"};
+    case Quantity::strain:
+    case Quantity::other:
+      break;
+  }
+  return {1.0, "mm/mm"};
+}
+
+// Factor to SI; the warnings say what was assumed.
+double factor(const Column& column, calib::RawTest& test) {
+  const std::optional<Unit> unit = find_unit(column.unit);
+  if (!unit || !fits(column.quantity, unit->dimension)) {
+    const auto [to_si, name] = unwritten_unit(column.quantity);
+    test.warnings.push_back(
+        fmt::format("column \"{}\" has no unit, taken as {}", column.name, name));
+    return to_si;
+  }
+  if (column.quantity == Quantity::strain && unit->dimension == Dimension::length)
+    return unit->to_si / *test.gauge_length;
+  return unit->to_si;
+}
+
+// An elongation of the gauge is a strain only where its length is known.
+bool is_usable(const Column& column, const calib::RawTest& test) {
+  const std::optional<Unit> unit = find_unit(column.unit);
+  return column.quantity != Quantity::strain || !unit || unit->dimension == Dimension::strain ||
+         test.gauge_length.has_value();
+}
+
+using Chosen = std::map<Quantity, std::size_t>;
+
+Chosen take_hints(TestFile& file, const std::string& where, const ReadOptions& options) {
+  Chosen chosen;
+  for (const auto& [quantity, hint] : options.columns) {
+    const std::optional<std::size_t> column = hinted_column(hint.column, file.columns);
+    if (!column)
+      throw InputError(where, fmt::format("there is no column \"{}\"", hint.column),
+                       "the columns are " + list_of(file.columns));
+    file.columns[*column].quantity = quantity;
+    if (!hint.unit.empty()) file.columns[*column].unit = hint.unit;
+    const std::optional<Unit> unit = find_unit(hint.unit);
+    if (!hint.unit.empty() && (!unit || !fits(quantity, unit->dimension)))
+      throw InputError(
+          where, fmt::format("\"{}\" is not a known unit of {}", hint.unit, to_string(quantity)));
+    chosen[quantity] = *column;
+  }
+  return chosen;
+}
+
+// Named columns first; a second column of a quantity is not used, and that is said.
+void choose(TestFile& file, const std::vector<Candidate>& candidates, Chosen& chosen) {
+  for (const bool named : {true, false}) {
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      Column& column = file.columns[i];
+      const bool hinted =
+          std::ranges::any_of(chosen, [&](const auto& entry) { return entry.second == i; });
+      if (hinted || candidates[i].named != named) continue;
+      column.quantity = candidates[i].quantity;
+      if (column.quantity == Quantity::other) continue;
+      if (!is_usable(column, file.test)) {
+        file.test.warnings.push_back(
+            fmt::format("column \"{}\" is an elongation, and the gauge length is unknown: not used",
+                        column.name));
+      } else if (const auto [taken, fresh] = chosen.try_emplace(column.quantity, i); !fresh) {
+        file.test.warnings.push_back(
+            fmt::format("columns \"{}\" and \"{}\" both hold {}: the first is used",
+                        file.columns[taken->second].name, column.name, to_string(column.quantity)));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Channel> find_channels(TestFile& file, const Table& table, const ReadOptions& options) {
+  const std::string where = file.file + ":" + std::to_string(table.first_line);
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < table.names.size(); ++i) {
+    file.columns.push_back({table.names[i], table.units[i]});
+    candidates.push_back(classify(file.columns.back()));
+  }
+  Chosen chosen = take_hints(file, where, options);
+  choose(file, candidates, chosen);
+  if (!chosen.contains(Quantity::force) && !chosen.contains(Quantity::stress))
+    throw InputError(
+        where, "no column holds a force or a stress",
+        "the columns are " + list_of(file.columns) + "; name it in [specimen.columns]");
+  std::vector<Channel> channels;
+  for (const auto& [quantity, column] : chosen)
+    channels.push_back({quantity, column, factor(file.columns[column], file.test)});
+  return channels;
+}
+
+}  // namespace havers::io

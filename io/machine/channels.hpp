@@ -1,0 +1,25 @@
+// Which columns of a table are the channels of a test.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/machine/layout.hpp"
+#include "io/machine/read_test.hpp"
+
+namespace havers::io {
+
+/// A column that is read.
+struct Channel {
+  Quantity quantity = Quantity::other;
+  std::size_t column = 0;  ///< From 0.
+  double to_si = 1.0;      ///< Factor to s, N, m, 1 or Pa.
+};
+
+/// Finds the channels by the user's hint, by the name, by the unit. `test` gives the gauge length
+/// (a gauge may be recorded in mm) and takes the warnings. `columns` gets every column's quantity.
+/// @throws InputError, for the line of the names, when a hint names no column or nothing measures
+/// the load.
+std::vector<Channel> find_channels(TestFile& file, const Table& table, const ReadOptions& options);
+
+}  // namespace havers::io

@@ -1,0 +1,89 @@
+#include "io/machine/csv_rows.hpp"
+
+#include <csv.h>
+
+#include <algorithm>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace havers::io {
+
+struct CsvRows::State {
+  csv_parser parser{};
+  std::function<bool(const Row&)> take;
+  std::string text;                     // the row's cells, end to end
+  std::vector<std::size_t> ends;        // where each ends in `text`
+  std::vector<std::string_view> cells;  // reused, so that no row allocates
+  std::size_t line = 1;
+  char line_end = '\0';  // '\n' as soon as one was seen; '\r' in files that have only these
+  bool wanted = true;
+};
+
+namespace {
+
+constexpr std::size_t longest_cell = 1U << 20U;
+constexpr int inside_cell = 2;  // libcsv's FIELD_BEGUN, which csv.h does not name
+
+template <typename State>
+void hand_on(State& state) {
+  state.cells.clear();
+  std::size_t begin = 0;
+  for (const std::size_t end : state.ends) {
+    state.cells.emplace_back(state.text.data() + begin, end - begin);
+    begin = end;
+  }
+  const bool blank = state.text.empty() && state.ends.size() <= 1;
+  if (state.wanted && !blank) state.wanted = state.take({state.line, state.cells});
+  state.line += static_cast<std::size_t>(std::ranges::count(state.text, state.line_end));
+  state.text.clear();
+  state.ends.clear();
+}
+
+template <typename State>
+void on_cell(void* cell, std::size_t length, void* data) {
+  auto& state = *static_cast<State*>(data);
+  state.text.append(static_cast<const char*>(cell), length);
+  state.ends.push_back(state.text.size());
+}
+
+template <typename State>
+void on_row(int end, void* data) {
+  auto& state = *static_cast<State*>(data);
+  if (!state.ends.empty()) hand_on(state);
+  if (end == state.line_end) ++state.line;
+}
+
+}  // namespace
+
+CsvRows::CsvRows(char delimiter, std::function<bool(const Row&)> take)
+    : state_(std::make_unique<State>()) {
+  state_->take = std::move(take);
+  if (csv_init(&state_->parser, CSV_REPALL_NL) != 0) throw std::bad_alloc();
+  csv_set_delim(&state_->parser, static_cast<unsigned char>(delimiter));
+}
+
+CsvRows::~CsvRows() {
+  csv_free(&state_->parser);
+}
+
+bool CsvRows::feed(std::string_view block) {
+  State& state = *state_;
+  if (state.line_end == '\0') state.line_end = block.find('\n') == block.npos ? '\r' : '\n';
+  const std::size_t used =
+      csv_parse(&state.parser, block.data(), block.size(), on_cell<State>, on_row<State>, &state);
+  if (used != block.size()) throw std::bad_alloc();  // libcsv fails on nothing else unless strict
+  return state.wanted && state.parser.entry_pos < longest_cell;
+}
+
+void CsvRows::finish() {
+  csv_fini(&state_->parser, on_cell<State>, on_row<State>, state_.get());
+}
+
+std::size_t CsvRows::open_quote_line() const {
+  const State& state = *state_;
+  if (state.parser.quoted == 0 || state.parser.pstate != inside_cell) return 0;
+  return state.line + static_cast<std::size_t>(std::ranges::count(state.text, state.line_end));
+}
+
+}  // namespace havers::io

@@ -1,0 +1,43 @@
+// Rows of a delimited text, with their line numbers (libcsv inside).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace havers::io {
+
+/// One row. Cells are without quotes and outer blanks; they live until the callback returns.
+struct Row {
+  std::size_t line = 0;  ///< Where it begins, from 1.
+  std::span<const std::string_view> cells;
+};
+
+/// Cuts blocks of text into rows. Line ends LF, CRLF, CR and CR CR LF; quotes may span lines. Blank
+/// lines are counted but not handed on.
+class CsvRows {
+ public:
+  /// `take` is called once per row; false: no more rows are wanted.
+  CsvRows(char delimiter, std::function<bool(const Row&)> take);
+  ~CsvRows();
+  CsvRows(const CsvRows&) = delete;
+  CsvRows& operator=(const CsvRows&) = delete;
+  CsvRows(CsvRows&&) = delete;
+  CsvRows& operator=(CsvRows&&) = delete;
+
+  /// Takes the next block; false when no more is wanted.
+  bool feed(std::string_view block);
+  /// The last row, which may lack its line end.
+  void finish();
+  /// Line of a quote that is still open, or has swallowed more than a megabyte; 0 where there is
+  /// none.
+  [[nodiscard]] std::size_t open_quote_line() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace havers::io

@@ -1,0 +1,107 @@
+#include "io/machine/encoding.hpp"
+
+#include <uchardet/uchardet.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace havers::io {
+namespace {
+
+bool is_control(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f' && c != '\x1a';
+}
+
+// UTF-16 of western text has a zero in every second byte, nearly.
+std::string utf16_by_zeros(std::string_view bytes) {
+  std::array<std::size_t, 2> zeros{};
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    if (bytes[i] == '\0') ++zeros.at(i % 2);
+  const std::size_t many = bytes.size() / 2 * 8 / 10;
+  if (bytes.size() < 4) return {};
+  if (zeros[1] > many && zeros[0] == 0) return "UTF-16LE";
+  if (zeros[0] > many && zeros[1] == 0) return "UTF-16BE";
+  return {};
+}
+
+// Bytes that follow a first byte of UTF-8; -1 where it cannot be a first byte.
+int following_bytes(unsigned char first) {
+  if (first < 0x80) return 0;
+  if (first >= 0xC2 && first < 0xE0) return 1;
+  if (first >= 0xE0 && first < 0xF0) return 2;
+  if (first >= 0xF0 && first < 0xF5) return 3;
+  return -1;
+}
+
+// A character cut off by the end of the block is no fault.
+bool is_utf8(std::string_view bytes) {
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    int following = following_bytes(static_cast<unsigned char>(bytes[i]));
+    if (following < 0) return false;
+    for (; following > 0 && i + 1 < bytes.size(); --following)
+      if ((static_cast<unsigned char>(bytes[++i]) & 0xC0U) != 0x80U) return false;
+  }
+  return true;
+}
+
+// Only lines with accents: a thousand lines of digits would drown the few that tell.
+std::string telling_lines(std::string_view bytes) {
+  std::string lines;
+  while (!bytes.empty()) {
+    const std::size_t length = std::min(bytes.find_first_of("\r\n"), bytes.size() - 1) + 1;
+    const std::string_view line = bytes.substr(0, length);
+    if (std::ranges::any_of(line, [](char c) { return static_cast<signed char>(c) < 0; }))
+      lines += line;
+    bytes.remove_prefix(length);
+  }
+  return lines;
+}
+
+// "si³a" for "siła": read as WINDOWS-1252, central European letters are symbols inside a word. The
+// micro and degree signs stand before letters in their own right.
+bool has_symbols_in_words(std::string_view text) {
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const bool symbol = byte >= 0x80 && byte < 0xC0 && byte != 0xB5 && byte != 0xB0;
+    if (symbol && std::isalpha(static_cast<unsigned char>(text[i + 1])) != 0) return true;
+  }
+  return false;
+}
+
+std::string guess(std::string_view bytes) {
+  const std::string lines = telling_lines(bytes);
+  uchardet_t detector = uchardet_new();
+  uchardet_handle_data(detector, lines.data(), lines.size());
+  uchardet_data_end(detector);
+  std::string name = uchardet_get_charset(detector);
+  uchardet_delete(detector);
+  // A few accents do not tell the alphabets apart, so western Europe is assumed unless the text
+  // speaks against it. ISO-8859-1 is WINDOWS-1252 without the characters 0x80 to 0x9F.
+  for (const char* known : {"GB18030", "BIG5", "SHIFT_JIS", "EUC-KR"})
+    if (name == known) return name;
+  const bool central = name == "WINDOWS-1250" || name == "ISO-8859-2";
+  if (central && has_symbols_in_words(lines)) return name;
+  const bool latin1 = std::ranges::none_of(lines, [](char c) {
+    return static_cast<unsigned char>(c) >= 0x80 && static_cast<unsigned char>(c) < 0xA0;
+  });
+  return latin1 ? "ISO-8859-1" : "WINDOWS-1252";
+}
+
+}  // namespace
+
+Encoding find_encoding(std::string_view bytes) {
+  using std::string_view_literals::operator""sv;
+  if (bytes.starts_with("\xEF\xBB\xBF")) return {"UTF-8 with BOM", false, 3};
+  if (bytes.starts_with("\xFF\xFE"sv)) return {"UTF-16LE", true, 2};
+  if (bytes.starts_with("\xFE\xFF"sv)) return {"UTF-16BE", true, 2};
+  if (const std::string wide = utf16_by_zeros(bytes); !wide.empty()) return {wide, true, 0};
+  if (std::ranges::any_of(bytes, is_control)) return {};
+  if (std::ranges::all_of(bytes, [](char c) { return static_cast<signed char>(c) >= 0; }))
+    return {"ASCII", false, 0};
+  if (is_utf8(bytes)) return {"UTF-8", false, 0};
+  return {guess(bytes), true, 0};
+}
+
+}  // namespace havers::io

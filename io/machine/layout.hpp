@@ -1,0 +1,36 @@
+// Where the table of a test file is, and what stands above it.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/machine/preview.hpp"
+
+namespace havers::io {
+
+/// A recognised layout. Column by column: name and unit, as in the file; the unit may be empty.
+struct Table {
+  std::string layout;
+  std::vector<std::string> names, units;  ///< `names` is empty where the file has none.
+  std::size_t header_rows = 0;  ///< Rows of the preview above the names: facts of the specimen.
+  std::size_t first_line = 0;   ///< Of the numbers, from 1.
+  bool units_in_round_brackets = false;  ///< In a row of their own below the names.
+};
+
+/// A recogniser answers only for its own layout. A further layout is one function and one line in
+/// `layouts`.
+using Recognise = std::optional<Table> (*)(const Preview&);
+
+/// Asks every recogniser in turn, the most particular first.
+std::optional<Table> recognise_table(const Preview& preview);
+
+/// Any table of numbers: names above it or not, units in a row, in the names, or absent.
+std::optional<Table> recognise_any_table(const Preview& preview);
+
+/// INSTRON Bluehill's raw data: key,"value",unit lines, a blank line, names, units in round
+/// brackets.
+std::optional<Table> recognise_bluehill(const Preview& preview);
+
+}  // namespace havers::io

@@ -1,0 +1,120 @@
+#include "io/machine/number.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace havers::io {
+namespace {
+
+constexpr std::string_view minus_sign = "\xE2\x88\x92";
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+// Length of the thousands mark at the beginning of `rest`; 0 where there is none.
+std::size_t thousands_mark(std::string_view rest, char decimal) {
+  if (is_digit(rest.front())) return 0;
+  const char other = decimal == '.' ? ',' : '.';
+  if (rest.front() == other || rest.front() == ' ' || rest.front() == '\'') return 1;
+  for (const std::string_view mark : {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89", "\xE2\x80\x99"})
+    if (rest.starts_with(mark)) return mark.size();
+  return 0;
+}
+
+// Three digits and no fourth.
+bool is_group(std::string_view rest) {
+  return rest.size() >= 3 && std::all_of(rest.begin(), rest.begin() + 3, is_digit) &&
+         (rest.size() == 3 || !is_digit(rest[3]));
+}
+
+// The cell as from_chars wants it, in a buffer on the stack.
+class Scrubbed {
+ public:
+  // False where the cell cannot be a number.
+  bool scrub(std::string_view cell, char decimal) {
+    if (cell.starts_with(minus_sign)) {
+      put('-');
+      cell.remove_prefix(minus_sign.size());
+    } else if (cell.starts_with('+')) {
+      cell.remove_prefix(1);
+    }
+    std::size_t whole = 0;  // digits before the decimal mark
+    bool fraction = false;  // past the decimal mark or the exponent's letter
+    bool grouped = false;
+    while (!cell.empty() && length_ < buffer_.size()) {
+      const std::size_t mark = fraction || whole == 0 ? 0 : thousands_mark(cell, decimal);
+      if (mark > 0) {
+        const bool leading_zero = buffer_[length_ - whole] == '0';
+        if ((!grouped && (whole > 3 || leading_zero)) || !is_group(cell.substr(mark))) return false;
+        grouped = true;
+        cell.remove_prefix(mark);
+        continue;
+      }
+      const char c = cell.front();
+      if (c == '.' && decimal != '.') return false;
+      if (is_digit(c) && !fraction) ++whole;
+      if (c == decimal || c == 'e' || c == 'E') fraction = true;
+      put(c == decimal ? '.' : c);
+      cell.remove_prefix(1);
+    }
+    return cell.empty();
+  }
+  [[nodiscard]] std::string_view text() const { return {buffer_.data(), length_}; }
+
+ private:
+  void put(char c) { buffer_.at(length_++) = c; }
+  std::array<char, 64> buffer_{};
+  std::size_t length_ = 0;
+};
+
+Number convert(std::string_view text) {
+  Number number;
+  const char* end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, number.value);
+  if (error == std::errc::invalid_argument || stopped != end)
+    number.fault = NumberFault::text;
+  else if (error == std::errc::result_out_of_range)
+    // Too small is as good as zero; only a negative exponent leads there.
+    number = {0.0, text.find('-', 1) == text.npos ? NumberFault::too_large : NumberFault::none};
+  else if (!std::isfinite(number.value))
+    number.fault = NumberFault::not_finite;
+  return number;
+}
+
+}  // namespace
+
+std::string to_string(NumberFault fault) {
+  switch (fault) {
+    case NumberFault::none:
+      return "is a number";
+    case NumberFault::empty:
+      return "is empty";
+    case NumberFault::text:
+      return "is not a number";
+    case NumberFault::not_finite:
+      return "is not a finite number";
+    case NumberFault::too_large:
+      return "is too large for a number";
+  }
+  return "unknown";
+}
+
+Number parse_number(std::string_view cell, char decimal) {
+  if (cell.empty()) return {0.0, NumberFault::empty};
+  if (decimal == '.') {
+    const Number plain = convert(cell);
+    if (plain.fault != NumberFault::text) return plain;
+  }
+  Scrubbed scrubbed;
+  if (!scrubbed.scrub(cell, decimal)) return {0.0, NumberFault::text};
+  return convert(scrubbed.text());
+}
+
+bool is_number(std::string_view cell, char decimal) {
+  return parse_number(cell, decimal).fault == NumberFault::none;
+}
+
+}  // namespace havers::io

@@ -1,0 +1,26 @@
+// Numbers as testing machines write them.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace havers::io {
+
+enum class NumberFault { none, empty, text, not_finite, too_large };
+
+/// The fault in words, to follow the cell's text: "is not a number", ...
+std::string to_string(NumberFault fault);
+
+struct Number {
+  double value = 0.0;
+  NumberFault fault = NumberFault::none;
+};
+
+/// Reads a number with the given decimal mark ('.' or ','). The other mark, blanks, no-break blanks
+/// and apostrophes may group thousands, three digits a group: `1,004.80328`, `1 000,34`, `1'000.5`.
+Number parse_number(std::string_view cell, char decimal = '.');
+
+/// Whether the cell is a finite number.
+bool is_number(std::string_view cell, char decimal = '.');
+
+}  // namespace havers::io

@@ -1,0 +1,83 @@
+#include "io/machine/preview.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "io/machine/csv_rows.hpp"
+#include "io/machine/number.hpp"
+
+namespace havers::io {
+namespace {
+
+constexpr std::size_t preview_bytes = 1U << 16U;
+
+std::string_view whole_lines(std::string_view text) {
+  if (text.size() <= preview_bytes) return text;
+  text = text.substr(0, preview_bytes);
+  const std::size_t end = text.find_last_of("\r\n");
+  return end == text.npos ? text : text.substr(0, end + 1);
+}
+
+Preview cut(std::string_view text, char delimiter) {
+  Preview preview;
+  preview.dialect.delimiter = delimiter;
+  CsvRows rows(delimiter, [&](const Row& row) {
+    preview.rows.push_back({row.line, {row.cells.begin(), row.cells.end()}});
+    return true;
+  });
+  rows.feed(text);
+  preview.open_quote_line = rows.open_quote_line();
+  rows.finish();
+  return preview;
+}
+
+std::ptrdiff_t number_rows(const Preview& preview, char decimal) {
+  return std::ranges::count_if(preview.rows,
+                               [&](const PreviewRow& row) { return is_number_row(row, decimal); });
+}
+
+// `1,234;5,678` reads with either mark. Who separates by something else than the comma needs the
+// comma.
+char preferred_decimal(const Preview& preview) {
+  if (preview.dialect.delimiter == ',') return '.';
+  const auto has = [&](char mark) {
+    return std::ranges::any_of(preview.rows, [&](const PreviewRow& row) {
+      return is_number_row(row, ',') && std::ranges::any_of(row.cells, [&](const auto& cell) {
+               return cell.find(mark) != cell.npos;
+             });
+    });
+  };
+  return has(',') && !has('.') ? ',' : '.';
+}
+
+}  // namespace
+
+bool is_number_row(const PreviewRow& row, char decimal) {
+  int numbers = 0;
+  for (const std::string& cell : row.cells) {
+    if (cell.empty()) continue;
+    if (!is_number(cell, decimal)) return false;
+    ++numbers;
+  }
+  return numbers >= 2;
+}
+
+Preview make_preview(std::string_view text) {
+  text = whole_lines(text);
+  Preview best;
+  std::ptrdiff_t most = -1;
+  for (const char delimiter : {',', ';', '\t'}) {
+    Preview preview = cut(text, delimiter);
+    const char preferred = preferred_decimal(preview);
+    for (const char decimal : {preferred, preferred == '.' ? ',' : '.'}) {
+      const std::ptrdiff_t count = number_rows(preview, decimal);
+      if (count <= most) continue;
+      most = count;
+      preview.dialect.decimal = decimal;
+      best = preview;
+    }
+  }
+  return best;
+}
+
+}  // namespace havers::io

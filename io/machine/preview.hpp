@@ -1,0 +1,35 @@
+// The beginning of a test file, cut into cells.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace havers::io {
+
+/// How the cells of a file are separated and its numbers written.
+struct Dialect {
+  char delimiter = ',';
+  char decimal = '.';
+};
+
+struct PreviewRow {
+  std::size_t line = 0;  ///< From 1.
+  std::vector<std::string> cells;
+};
+
+struct Preview {
+  Dialect dialect;
+  std::vector<PreviewRow> rows;     ///< Without the blank ones.
+  std::size_t open_quote_line = 0;  ///< Of a quote that is never closed; 0 where there is none.
+};
+
+/// Cuts the first lines of `text` with the delimiter and decimal mark that make the most rows of
+/// numbers.
+Preview make_preview(std::string_view text);
+
+/// Whether the row holds two numbers or more, and nothing else.
+bool is_number_row(const PreviewRow& row, char decimal);
+
+}  // namespace havers::io

@@ -1,0 +1,94 @@
+#include "io/machine/text_source.hpp"
+
+#include <iconv.h>
+
+#include <array>
+#include <cerrno>
+
+#include "io/input_error.hpp"
+#include "io/machine/encoding.hpp"
+
+namespace havers::io {
+namespace {
+
+constexpr std::size_t block_bytes = 1U << 18U;
+
+void check_openable(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw InputError(file.string(), "there is no such file");
+  if (std::filesystem::is_directory(status))
+    throw InputError(file.string(), "is a folder, not a test file", "name one of the files in it");
+}
+
+}  // namespace
+
+TextSource::TextSource(const std::filesystem::path& file) : name_(file.string()) {
+  check_openable(file);
+  stream_.open(file, std::ios::binary);
+  if (!stream_) throw InputError(name_, "cannot be opened for reading");
+  read_block();
+  if (block_.empty()) throw InputError(name_, "the file is empty");
+  const Encoding encoding = find_encoding(block_);
+  if (encoding.name.empty())
+    throw InputError(
+        name_, "is not a text file",
+        block_.starts_with("PK") ? "a spreadsheet: save it as CSV" : "export the raw data as CSV");
+  encoding_ = encoding.name;
+  block_.erase(0, encoding.mark_bytes);
+  if (!encoding.convert) return;
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): iconv_open's own sign of failure
+  if (iconv_t opened = iconv_open("UTF-8", encoding_.c_str()); opened != iconv_t(-1))
+    converter_ = opened;
+  else
+    throw InputError(name_, "is encoded in " + encoding_ + ", which cannot be converted here",
+                     "save it as UTF-8");
+}
+
+TextSource::~TextSource() {
+  if (converter_ != nullptr) iconv_close(converter_);
+}
+
+std::string_view TextSource::next() {
+  if (!first_) read_block();
+  first_ = false;
+  if (converter_ == nullptr) {
+    text_.swap(block_);
+    block_.clear();
+  } else {
+    convert_block();
+  }
+  return text_;
+}
+
+void TextSource::read_block() {
+  const std::size_t kept = block_.size();
+  block_.resize(kept + block_bytes);
+  stream_.read(block_.data() + kept, block_bytes);
+  block_.resize(kept + static_cast<std::size_t>(stream_.gcount()));
+}
+
+// What iconv cannot read becomes '?'; a character cut off by the block's end waits for the next
+// block.
+void TextSource::convert_block() {
+  text_.clear();
+  char* in = block_.data();
+  std::size_t in_left = block_.size();
+  std::array<char, 1U << 14U> buffer{};
+  while (in_left > 0) {
+    char* out = buffer.data();
+    std::size_t out_left = buffer.size();
+    const std::size_t outcome = iconv(converter_, &in, &in_left, &out, &out_left);
+    const int fault = outcome == static_cast<std::size_t>(-1) ? errno : 0;
+    text_.append(buffer.data(), out);
+    if (fault == EINVAL && !stream_.eof()) break;
+    if (fault == EILSEQ || fault == EINVAL) {
+      text_ += '?';
+      ++in;
+      --in_left;
+    }
+  }
+  block_.erase(0, block_.size() - in_left);
+}
+
+}  // namespace havers::io

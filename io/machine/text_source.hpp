@@ -1,0 +1,43 @@
+// A text file of any encoding as a stream of UTF-8 blocks.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace havers::io {
+
+/// Opens a text file, finds its encoding from the first block and hands the text on block by block,
+/// so that memory does not grow with the file.
+class TextSource {
+ public:
+  /// @throws InputError when the file is missing, a directory, empty or not text.
+  explicit TextSource(const std::filesystem::path& file);
+  ~TextSource();
+  TextSource(const TextSource&) = delete;
+  TextSource& operator=(const TextSource&) = delete;
+  TextSource(TextSource&&) = delete;
+  TextSource& operator=(TextSource&&) = delete;
+
+  /// "ASCII", "UTF-8", "UTF-8 with BOM", "UTF-16LE", "WINDOWS-1252", ...
+  [[nodiscard]] const std::string& encoding() const { return encoding_; }
+
+  /// The next block as UTF-8, without a byte order mark; empty at the end. Valid until the next
+  /// call.
+  std::string_view next();
+
+ private:
+  void read_block();
+  void convert_block();
+
+  std::string name_;
+  std::ifstream stream_;
+  std::string encoding_;
+  std::string block_;          // raw bytes; begins with what the last conversion left over
+  std::string text_;           // converted
+  void* converter_ = nullptr;  // iconv_t; null: the bytes are UTF-8 already
+  bool first_ = true;
+};
+
+}  // namespace havers::io

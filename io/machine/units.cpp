@@ -1,0 +1,122 @@
+#include "io/machine/units.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace havers::io {
+namespace {
+
+struct NamedUnit {
+  std::string_view name;
+  Unit unit;
+};
+
+constexpr double standard_gravity = 9.80665;             // m/s²
+constexpr double pound = 0.45359237 * standard_gravity;  // N
+constexpr double inch = 0.0254;                          // m
+
+using enum Dimension;
+constexpr std::array units{
+    NamedUnit{"s", {time, 1.0}},
+    NamedUnit{"sec", {time, 1.0}},
+    NamedUnit{"ms", {time, 1e-3}},
+    NamedUnit{"min", {time, 60.0}},
+    NamedUnit{"h", {time, 3600.0}},
+    NamedUnit{"N", {force, 1.0}},
+    NamedUnit{"kN", {force, 1e3}},
+    NamedUnit{"mN", {force, 1e-3}},
+    NamedUnit{"MN", {force, 1e6}},
+    NamedUnit{"lbf", {force, pound}},
+    NamedUnit{"lb", {force, pound}},
+    NamedUnit{"kip", {force, 1e3 * pound}},
+    NamedUnit{"kgf", {force, standard_gravity}},
+    NamedUnit{"gf", {force, 1e-3 * standard_gravity}},
+    NamedUnit{"m", {length, 1.0}},
+    NamedUnit{"cm", {length, 1e-2}},
+    NamedUnit{"mm", {length, 1e-3}},
+    NamedUnit{"um", {length, 1e-6}},
+    NamedUnit{"µm", {length, 1e-6}},  // micro sign
+    NamedUnit{"μm", {length, 1e-6}},  // Greek mu
+    NamedUnit{"in", {length, inch}},
+    NamedUnit{"mm2", {area, 1e-6}},
+    NamedUnit{"mm^2", {area, 1e-6}},
+    NamedUnit{"mm²", {area, 1e-6}},
+    NamedUnit{"cm2", {area, 1e-4}},
+    NamedUnit{"cm^2", {area, 1e-4}},
+    NamedUnit{"cm²", {area, 1e-4}},
+    NamedUnit{"in2", {area, inch* inch}},
+    NamedUnit{"in^2", {area, inch* inch}},
+    NamedUnit{"in²", {area, inch* inch}},
+    NamedUnit{"Pa", {stress, 1.0}},
+    NamedUnit{"kPa", {stress, 1e3}},
+    NamedUnit{"MPa", {stress, 1e6}},
+    NamedUnit{"N/mm2", {stress, 1e6}},
+    NamedUnit{"N/mm^2", {stress, 1e6}},
+    NamedUnit{"N/mm²", {stress, 1e6}},
+    NamedUnit{"GPa", {stress, 1e9}},
+    NamedUnit{"psi", {stress, pound / (inch * inch)}},
+    NamedUnit{"ksi", {stress, 1e3 * pound / (inch * inch)}},
+    NamedUnit{"kgf/mm2", {stress, 1e6 * standard_gravity}},
+    NamedUnit{"kgf/mm^2", {stress, 1e6 * standard_gravity}},
+    NamedUnit{"kgf/mm²", {stress, 1e6 * standard_gravity}},
+    NamedUnit{"%", {strain, 1e-2}},
+    NamedUnit{"mm/mm", {strain, 1.0}},
+    NamedUnit{"m/m", {strain, 1.0}},
+    NamedUnit{"in/in", {strain, 1.0}},
+    NamedUnit{"-", {strain, 1.0}},
+    NamedUnit{"ustrain", {strain, 1e-6}},
+    NamedUnit{"microstrain", {strain, 1e-6}},
+    NamedUnit{"um/m", {strain, 1e-6}},
+    NamedUnit{"µm/m", {strain, 1e-6}},
+    NamedUnit{"μm/m", {strain, 1e-6}},
+    NamedUnit{"µε", {strain, 1e-6}},
+    NamedUnit{"με", {strain, 1e-6}},
+    NamedUnit{"ue", {strain, 1e-6}},
+};
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
+bool equal_but_case(std::string_view a, std::string_view b) {
+  return std::ranges::equal(a, b, [](char x, char y) {
+    return std::tolower(static_cast<unsigned char>(x)) ==
+           std::tolower(static_cast<unsigned char>(y));
+  });
+}
+
+}  // namespace
+
+std::string_view without_brackets(std::string_view text) {
+  text = trimmed(text);
+  if (text.size() < 2) return text;
+  const bool round = text.front() == '(' && text.back() == ')';
+  const bool square = text.front() == '[' && text.back() == ']';
+  return round || square ? trimmed(text.substr(1, text.size() - 2)) : text;
+}
+
+std::optional<Unit> find_unit(std::string_view text) {
+  const std::string_view name = without_brackets(text);
+  const auto* found = std::ranges::find(units, name, &NamedUnit::name);
+  if (found == units.end())
+    found = std::ranges::find_if(
+        units, [&](const NamedUnit& unit) { return equal_but_case(unit.name, name); });
+  if (found == units.end()) return std::nullopt;
+  return found->unit;
+}
+
+NameAndUnit split_unit(std::string_view text) {
+  text = trimmed(text);
+  const NameAndUnit whole{std::string(text), {}};
+  if (text.empty() || (text.back() != ')' && text.back() != ']')) return whole;
+  const std::size_t open = text.rfind(text.back() == ')' ? '(' : '[');
+  if (open == text.npos || open == 0) return whole;
+  const std::string_view unit = without_brackets(text.substr(open));
+  if (!unit.empty() && !find_unit(unit)) return whole;
+  return {std::string(trimmed(text.substr(0, open))), std::string(unit)};
+}
+
+}  // namespace havers::io

@@ -1,0 +1,31 @@
+// Units of testing machines and what they are in SI.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace havers::io {
+
+enum class Dimension { time, force, length, area, stress, strain };
+
+struct Unit {
+  Dimension dimension = Dimension::strain;
+  double to_si = 1.0;  ///< Factor to s, N, m, m², Pa or 1.
+};
+
+/// The unit a text names: "kN", "(mm)", "[ MPa ]", "sec"; upper and lower case as in the table
+/// first, then any.
+std::optional<Unit> find_unit(std::string_view text);
+
+/// Text without the blanks and one pair of brackets around it.
+std::string_view without_brackets(std::string_view text);
+
+/// A name and the unit in brackets at its end: "Force [ kN ]" is "Force" and "kN". Brackets that
+/// hold no known unit belong to the name, empty ones are dropped.
+struct NameAndUnit {
+  std::string name, unit;
+};
+NameAndUnit split_unit(std::string_view text);
+
+}  // namespace havers::io

@@ -1,0 +1,190 @@
+#include "io/machine/vocabulary.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace havers::io {
+namespace {
+
+// Lower case of ASCII and of the accented letters of western languages (U+00C0 to U+00DE).
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(result[i]);
+    const bool accented = i > 0 && result[i - 1] == '\xC3' && byte >= 0x80 && byte <= 0x9E;
+    if ((byte >= 'A' && byte <= 'Z') || accented) result[i] = static_cast<char>(byte + 0x20);
+  }
+  return result;
+}
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || static_cast<signed char>(c) < 0;
+}
+
+// A word that is common inside others ("last" in "plastic") must stand alone.
+enum class Match { anywhere, alone };
+
+bool contains(std::string_view text, std::string_view word, Match match) {
+  for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
+    const bool alone = (at == 0 || !is_letter(text[at - 1])) &&
+                       (at + word.size() == text.size() || !is_letter(text[at + word.size()]));
+    if (match == Match::anywhere || alone) return true;
+  }
+  return false;
+}
+
+struct QuantityWord {
+  std::string_view word;
+  Quantity quantity;
+  Match match = Match::anywhere;
+};
+
+// The first word found decides, so what contains another word comes first: "Zugspannung" and
+// "strain gauge load" before "load", 应力 (stress) before 力 (force). Languages: en fr de es it pl
+// pt zh.
+using enum Quantity;
+constexpr std::array quantity_words{
+    QuantityWord{"rate", other, Match::alone},
+    QuantityWord{"speed", other},
+    QuantityWord{"temperat", other},
+    QuantityWord{"températ", other},
+    QuantityWord{"strain", strain},
+    QuantityWord{"déform", strain},
+    QuantityWord{"dehnung", strain},
+    QuantityWord{"deformación", strain},
+    QuantityWord{"deformazione", strain},
+    QuantityWord{"deformação", strain},
+    QuantityWord{"odkształcenie", strain},
+    QuantityWord{"应变", strain},
+    QuantityWord{"stress", stress},
+    QuantityWord{"contrainte", stress},
+    QuantityWord{"spannung", stress},
+    QuantityWord{"esfuerzo", stress},
+    QuantityWord{"tensión", stress},
+    QuantityWord{"sforzo", stress, Match::alone},
+    QuantityWord{"tensione", stress},
+    QuantityWord{"naprężenie", stress},
+    QuantityWord{"tensão", stress},
+    QuantityWord{"应力", stress},
+    QuantityWord{"load", force},
+    QuantityWord{"force", force},
+    QuantityWord{"charge", force, Match::alone},
+    QuantityWord{"kraft", force},
+    QuantityWord{"last", force, Match::alone},
+    QuantityWord{"fuerza", force},
+    QuantityWord{"carga", force},
+    QuantityWord{"forza", force},
+    QuantityWord{"carico", force},
+    QuantityWord{"siła", force, Match::alone},
+    QuantityWord{"obciążenie", force},
+    QuantityWord{"força", force},
+    QuantityWord{"载荷", force},
+    QuantityWord{"力", force},
+    QuantityWord{"time", time, Match::alone},
+    QuantityWord{"temps", time},
+    QuantityWord{"zeit", time},
+    QuantityWord{"tiempo", time},
+    QuantityWord{"tempo", time, Match::alone},
+    QuantityWord{"czas", time},
+    QuantityWord{"时间", time},
+    QuantityWord{"extension", extension},
+    QuantityWord{"displacement", extension},
+    QuantityWord{"crosshead", extension},
+    QuantityWord{"stroke", extension},
+    QuantityWord{"travel", extension},
+    QuantityWord{"position", extension},
+    QuantityWord{"déplacement", extension},
+    QuantityWord{"allongement", extension},
+    QuantityWord{"traverse", extension},
+    QuantityWord{"course", extension},
+    QuantityWord{"verschiebung", extension},
+    QuantityWord{"verlängerung", extension},
+    QuantityWord{"weg", extension},
+    QuantityWord{"desplazamiento", extension},
+    QuantityWord{"extensión", extension},
+    QuantityWord{"alargamiento", extension},
+    QuantityWord{"spostamento", extension},
+    QuantityWord{"allungamento", extension},
+    QuantityWord{"przemieszczenie", extension},
+    QuantityWord{"wydłużenie", extension},
+    QuantityWord{"deslocamento", extension},
+    QuantityWord{"extensão", extension},
+    QuantityWord{"位移", extension},
+};
+
+struct FactWord {
+  std::string_view key;
+  Fact fact;
+};
+
+// Keys as a whole, since "Final width" is not the width.
+using enum Fact;
+constexpr std::array fact_words{
+    FactWord{"specimen id", specimen_id},
+    FactWord{"specimen label", specimen_id},
+    FactWord{"specimen name", specimen_id},
+    FactWord{"sample id", specimen_id},
+    FactWord{"éprouvette", specimen_id},
+    FactWord{"probe", specimen_id},
+    FactWord{"probeta", specimen_id},
+    FactWord{"provino", specimen_id},
+    FactWord{"próbka", specimen_id},
+    FactWord{"试样", specimen_id},
+    FactWord{"width", width},
+    FactWord{"specimen width", width},
+    FactWord{"largeur", width},
+    FactWord{"breite", width},
+    FactWord{"ancho", width},
+    FactWord{"larghezza", width},
+    FactWord{"szerokość", width},
+    FactWord{"largura", width},
+    FactWord{"宽度", width},
+    FactWord{"thickness", thickness},
+    FactWord{"specimen thickness", thickness},
+    FactWord{"épaisseur", thickness},
+    FactWord{"épaisseur éprouvette", thickness},
+    FactWord{"dicke", thickness},
+    FactWord{"espesor", thickness},
+    FactWord{"spessore", thickness},
+    FactWord{"grubość", thickness},
+    FactWord{"espessura", thickness},
+    FactWord{"厚度", thickness},
+    FactWord{"length", gauge_length},
+    FactWord{"gauge length", gauge_length},
+    FactWord{"gage length", gauge_length},
+    FactWord{"gage length, standard travel", gauge_length},
+    FactWord{"l0 - course standard", gauge_length},
+    FactWord{"longueur", gauge_length},
+    FactWord{"longueur initiale", gauge_length},
+    FactWord{"messlänge", gauge_length},
+    FactWord{"anfangsmesslänge", gauge_length},
+    FactWord{"longitud", gauge_length},
+    FactWord{"lunghezza", gauge_length},
+    FactWord{"długość", gauge_length},
+    FactWord{"comprimento", gauge_length},
+    FactWord{"标距", gauge_length},
+    FactWord{"area", area},
+    FactWord{"cross-section", area},
+    FactWord{"section", area},
+    FactWord{"querschnitt", area},
+};
+
+}  // namespace
+
+Quantity quantity_of_name(std::string_view name) {
+  const std::string text = lower(name);
+  for (const QuantityWord& known : quantity_words)
+    if (contains(text, known.word, known.match)) return known.quantity;
+  return other;
+}
+
+std::optional<Fact> fact_of_key(std::string_view key) {
+  if (const std::size_t group = key.rfind(" : "); group != key.npos) key.remove_prefix(group + 3);
+  while (key.ends_with(':') || key.ends_with(' ')) key.remove_suffix(1);
+  const std::string text = lower(key);
+  const auto* found = std::ranges::find(fact_words, text, &FactWord::key);
+  if (found == fact_words.end()) return std::nullopt;
+  return found->fact;
+}
+
+}  // namespace havers::io

@@ -1,0 +1,21 @@
+// What testing machines call things, in several languages.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "io/machine/read_test.hpp"
+
+namespace havers::io {
+
+/// The quantity a column's name speaks of; `other` where it names none that is known.
+Quantity quantity_of_name(std::string_view name);
+
+/// What a header line may tell of the specimen.
+enum class Fact { specimen_id, width, thickness, gauge_length, area };
+
+/// The fact a header's key names: "Specimen ID", "Geometry : Width", "Largeur", ...
+std::optional<Fact> fact_of_key(std::string_view key);
+
+}  // namespace havers::io

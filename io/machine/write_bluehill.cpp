@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <locale>
+#include <vector>
+
+#include "io/input_error.hpp"
+#include "io/machine/read_test.hpp"
+
+namespace havers::io {
+namespace {
+
+// Bluehill groups thousands: "1,004.80328".
+struct Thousands : std::numpunct<char> {
+  [[nodiscard]] char do_thousands_sep() const override { return ','; }
+  [[nodiscard]] std::string do_grouping() const override { return "\3"; }
+};
+
+struct WrittenColumn {
+  const char* name;
+  const char* unit;
+  const std::vector<double>& values;
+  double per_unit;  // SI to the column's unit
+  int decimals;
+};
+
+std::string quoted(const std::locale& locale, double value, int decimals) {
+  return fmt::format(locale, "\"{:.{}Lf}\"", value, decimals);
+}
+
+std::string header(const calib::RawTest& test, const std::locale& locale) {
+  std::string text;
+  const auto size = [&](const char* key, const std::optional<double>& value) {
+    if (value) text += fmt::format("{},{},mm\r\n", key, quoted(locale, *value * 1e3, 5));
+  };
+  size("Length", test.gauge_length);
+  text += fmt::format("Specimen ID,\"{}\"\r\n", test.specimen_id);
+  size("Thickness", test.thickness);
+  size("Width", test.width);
+  return text + "\r\n";
+}
+
+std::vector<WrittenColumn> columns_of(const calib::RawTest& test) {
+  std::vector<WrittenColumn> columns;
+  for (const WrittenColumn& column : {
+           WrittenColumn{"Time", "(s)", test.time, 1.0, 5},
+           WrittenColumn{"Extension", "(mm)", test.extension, 1e3, 5},
+           WrittenColumn{"Load", "(N)", test.force, 1.0, 5},
+           WrittenColumn{"Tensile strain (Strain 1)", "(%)", test.strain, 1e2, 5},
+           WrittenColumn{"Tensile stress", "(MPa)", test.stress, 1e-6, 4},
+       })
+    if (!column.values.empty()) columns.push_back(column);
+  return columns;
+}
+
+}  // namespace
+
+void write_bluehill(const std::filesystem::path& file, const calib::RawTest& test) {
+  const std::locale locale(std::locale::classic(), new Thousands);
+  const std::vector<WrittenColumn> columns = columns_of(test);
+  std::string text = header(test, locale);
+  const auto row = [&](const auto& cell_of) {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      text += (i == 0 ? "" : ",") + std::string(cell_of(columns[i]));
+    text += "\r\n";
+  };
+  row([](const WrittenColumn& column) { return column.name; });
+  row([](const WrittenColumn& column) { return column.unit; });
+  for (std::size_t i = 0; i < test.rows(); ++i)
+    row([&](const WrittenColumn& column) {
+      return quoted(locale, column.values[i] * column.per_unit, column.decimals);
+    });
+
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) throw InputError(file.string(), "cannot be written");
+}
+
+}  // namespace havers::io
