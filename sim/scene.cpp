@@ -1,6 +1,12 @@
 #include "sim/scene.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "sim/assembly/assembly.hpp"
 
 namespace havers::sim {
 
@@ -28,25 +34,128 @@ bool reinforced_boundary(const Scene& scene) {
 
 namespace {
 
+bool is_positive(double value) {
+  return value > 0.0 && std::isfinite(value);
+}
+bool is_not_negative(double value) {
+  return value >= 0.0 && std::isfinite(value);
+}
+
+// Collects complaints; a value is shown in the unit of its key.
 class Checker {
  public:
-  explicit Checker(std::vector<Scene::Problem>& found) : found_(found) {}
-
-  void require(bool holds, std::string key, double value, std::string rule) {
-    if (holds) return;
-    found_.push_back({std::move(key), "is " + number(value) + ", must be " + rule, ""});
+  void require(bool holds, std::string_view key, double value, std::string_view rule,
+               std::string_view hint = {}) {
+    if (!holds) say(key, fmt::format("is {:g}, must be {}", value, rule), hint);
   }
+  void positive(std::string_view key, double value) {
+    require(is_positive(value), key, value, "above 0");
+  }
+  void not_negative(std::string_view key, double value) {
+    require(is_not_negative(value), key, value, "0 or more");
+  }
+  void say(std::string_view key, std::string what, std::string_view hint = {}) {
+    found_.push_back({std::string(key), std::move(what), std::string(hint)});
+  }
+  [[nodiscard]] const std::vector<Scene::Problem>& found() const { return found_; }
 
  private:
-  static std::string number(double value) {
-    std::string text = std::to_string(value);
-    return text;
-  }
-  std::vector<Scene::Problem>& found_;
+  std::vector<Scene::Problem> found_;
 };
+
+void check_assembly(const AssemblyOptions& assembly, Checker& checker) {
+  constexpr double most_fibres = 1e6;
+  const double fibres = static_cast<double>(assembly.layers) * assembly.fibres;
+  checker.require(assembly.layers >= 1, "assembly.layers", assembly.layers, "at least 1");
+  checker.require(assembly.fibres >= 1, "assembly.fibres", assembly.fibres, "at least 1");
+  if (assembly.layers >= 1 && assembly.fibres >= 1 && fibres > most_fibres)
+    checker.say(
+        "assembly.layers",
+        fmt::format("and fibres make {:g} fibres, must be at most {:g}", fibres, most_fibres),
+        "check layers and fibres");
+
+  checker.positive("assembly.fibre_length_um", assembly.fibre_length * 1e6);
+  checker.positive("assembly.fibre_height_um", assembly.fibre_height * 1e6);
+  if (is_positive(assembly.fibre_length) && is_positive(assembly.fibre_height))
+    checker.require(assembly.fibre_length >= assembly.fibre_height, "assembly.fibre_length_um",
+                    assembly.fibre_length * 1e6, "at least fibre_height_um",
+                    "a fibre is longer than it is high");
+
+  const double degrees = assembly.orientation * 180.0 / std::numbers::pi;
+  checker.require(degrees > -90.0 && degrees <= 90.0, "assembly.orientation_deg", degrees,
+                  "above -90 and at most 90", "the angle between fibre axis and loading axis");
+}
+
+void check_material(const Material& material, Checker& checker) {
+  checker.positive("material.young_GPa", material.young / 1e9);
+  // At 1/2 plane strain is incompressible and has no stiffness matrix; plane stress has one.
+  if (material.plane == Plane::stress)
+    checker.require(material.poisson > -1.0 && material.poisson <= 0.5, "material.poisson",
+                    material.poisson, "above -1 and at most 0.5");
+  else
+    checker.require(material.poisson > -1.0 && material.poisson < 0.5, "material.poisson",
+                    material.poisson, "above -1 and below 0.5 in plane strain");
+  checker.positive("material.density_kg_m3", material.density);
+  checker.not_negative("material.viscosity_s", material.viscosity);
+}
+
+void check_joints(const JointOptions& joints, Checker& checker) {
+  checker.positive("joints.head_tail_MPa", joints.head_tail / 1e6);
+  checker.positive("joints.flank_MPa", joints.flank / 1e6);
+  if (joints.head_tail_shear)
+    checker.not_negative("joints.head_tail_shear_MPa", *joints.head_tail_shear / 1e6);
+  if (joints.flank_tension)
+    checker.positive("joints.flank_tension_MPa", *joints.flank_tension / 1e6);
+  checker.require(joints.scatter >= 0.0 && joints.scatter < 2.0, "joints.scatter", joints.scatter,
+                  "at least 0 and below 2", "the length of the interval of threshold factors");
+  checker.not_negative("joints.friction", joints.friction);
+}
+
+void check_loading(const Loading& loading, Checker& checker) {
+  checker.positive("loading.strain_rate_per_s", loading.strain_rate);
+  checker.require(loading.max_strain > 0.0 && loading.max_strain <= 1.0, "loading.max_strain",
+                  loading.max_strain, "above 0 and at most 1", "a fraction, not per cent");
+  checker.require(loading.end_fraction >= 0.0 && loading.end_fraction < 1.0, "loading.end_fraction",
+                  loading.end_fraction, "at least 0 and below 1", "a part of the strength");
+}
+
+void check_solver(const SolverOptions& solver, Checker& checker) {
+  if (solver.step) checker.positive("solver.step_s", *solver.step);
+  checker.require(solver.tolerance > 0.0 && solver.tolerance < 1.0, "solver.tolerance",
+                  solver.tolerance, "above 0 and below 1");
+  checker.require(solver.max_iterations >= 1, "solver.max_iterations", solver.max_iterations,
+                  "at least 1");
+}
+
+// Needs a scene that is otherwise sound: it lays the assembly to count its joints.
+void check_thresholds(const Scene& scene, Checker& checker) {
+  const std::vector<Threshold>& given = scene.joints.thresholds;
+  const std::size_t joints = build_assembly(scene.assembly, scene.loading.lateral).joints.size();
+  if (given.size() != joints)
+    checker.say("joints.thresholds_file",
+                fmt::format("names {} joints, the assembly has {}", given.size(), joints),
+                "write a matching file with havers simulate: joints.csv");
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (is_positive(given[i].normal) && is_not_negative(given[i].tangent)) continue;
+    checker.say("joints.thresholds_file",
+                fmt::format("gives joint {} f_N = {:g} and f_T = {:g} N/m, must be f_N above 0 and "
+                            "f_T 0 or more",
+                            i, given[i].normal, given[i].tangent));
+    return;  // one such sentence says enough
+  }
+}
 
 }  // namespace
 
-std::vector<Scene::Problem> Scene::problems() const { return {}; }
+std::vector<Scene::Problem> Scene::problems() const {
+  Checker checker;
+  check_assembly(assembly, checker);
+  check_material(material, checker);
+  check_joints(joints, checker);
+  check_loading(loading, checker);
+  check_solver(solver, checker);
+  if (checker.found().empty() && !joints.thresholds.empty()) check_thresholds(*this, checker);
+  return checker.found();
+}
 
 }  // namespace havers::sim

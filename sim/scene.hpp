@@ -1,4 +1,5 @@
-// One simulation, as its user describes it: plain data in SI units, with the defaults of a scene file.
+// One simulation, as its user describes it: plain data in SI units, with the defaults of a scene
+// file.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ struct AssemblyOptions {
   double fibre_height = 10e-6;   ///< l. [m]
   double orientation = 0.0;      ///< θ, angle between fibre axis and loading axis. [rad]
 
-  [[nodiscard]] double width() const { return fibres * fibre_length; }    ///< W. [m]
+  [[nodiscard]] double width() const { return fibres * fibre_length; }   ///< W. [m]
   [[nodiscard]] double height() const { return layers * fibre_height; }  ///< H. [m]
 };
 
@@ -42,16 +43,16 @@ struct Threshold {
 
 /// Strength of the joints. Sections 3 and 4.
 struct JointOptions {
-  double head_tail = 50e6;                  ///< σ₁ = f₁/l. [Pa]
-  double flank = 10e6;                      ///< σ₂ = f₂/(L/2). [Pa]
-  std::optional<double> head_tail_shear;    ///< f_T of a head-tail joint over l; default f₂/l. [Pa]
-  std::optional<double> flank_tension;      ///< f_N of a flank joint over L/2; default f₁/(L/2). [Pa]
-  double scatter = 0.2;                     ///< d ∈ [0, 2), length of the interval of w. [-]
+  double head_tail = 50e6;                ///< σ₁ = f₁/l. [Pa]
+  double flank = 10e6;                    ///< σ₂ = f₂/(L/2). [Pa]
+  std::optional<double> head_tail_shear;  ///< f_T of a head-tail joint over l; default f₂/l. [Pa]
+  std::optional<double> flank_tension;  ///< f_N of a flank joint over L/2; default f₁/(L/2). [Pa]
+  double scatter = 0.2;                 ///< d ∈ [0, 2), length of the interval of w. [-]
   Distribution distribution = Distribution::uniform;
   double friction = 0.3;                    ///< μ_f of broken joints. [-]
   std::optional<bool> reinforced_boundary;  ///< Default: on at 0° only.
   std::uint64_t seed = 1;
-  std::vector<Threshold> thresholds;        ///< One per joint instead of a draw; empty: draw.
+  std::vector<Threshold> thresholds;  ///< One per joint instead of a draw; empty: draw.
 };
 
 enum class Lateral { periodic, free };
@@ -62,8 +63,9 @@ struct Loading {
   double strain_rate = 1000.0;  ///< ε̇. [1/s]
   Lateral lateral = Lateral::periodic;
   Start start = Start::uniform;
-  double max_strain = 0.05;     ///< The run ends here at the latest. [-]
-  double end_fraction = 0.3;    ///< It ends when both sides carry less than this part of the strength. [-]
+  double max_strain = 0.05;  ///< The run ends here at the latest. [-]
+  double end_fraction =
+      0.3;  ///< It ends when both sides carry less than this part of the strength. [-]
 };
 
 enum class Regime { automatic, dynamic, quasi_static };
@@ -87,7 +89,8 @@ struct Scene {
   Loading loading;
   SolverOptions solver;
 
-  /// A complaint: the key of a scene file it is about ("joints.scatter"), what is wrong, what to do.
+  /// A complaint: the key of a scene file it is about ("joints.scatter"), what is wrong, what to
+  /// do.
   struct Problem {
     std::string key, what, hint;
   };

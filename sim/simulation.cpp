@@ -26,7 +26,8 @@ std::string explain(SimulationStatus status) {
     case SimulationStatus::broken:
       return "both sides dropped below the end fraction of the strength after a break";
     case SimulationStatus::strain_limit:
-      return "the strain limit was reached before the specimen broke; the strength is a lower bound";
+      return "the strain limit was reached before the specimen broke; the strength is a lower "
+             "bound";
     case SimulationStatus::not_converged:
       return "a step's residual stayed above the tolerance";
     case SimulationStatus::not_finite:

@@ -13,11 +13,11 @@ namespace havers::sim {
 
 /// Why a simulation ended.
 enum class SimulationStatus {
-  broken,           ///< Both sides dropped below the end fraction after a break.
-  strain_limit,     ///< The strain limit came first. The strength is a lower bound.
-  not_converged,    ///< A step's residual stayed above the tolerance.
-  not_finite,       ///< A number left the range of doubles.
-  cancelled,        ///< The observer asked to stop.
+  broken,         ///< Both sides dropped below the end fraction after a break.
+  strain_limit,   ///< The strain limit came first. The strength is a lower bound.
+  not_converged,  ///< A step's residual stayed above the tolerance.
+  not_finite,     ///< A number left the range of doubles.
+  cancelled,      ///< The observer asked to stop.
 };
 
 /// The status as one word, as written to result.json, and as a sentence.
@@ -38,7 +38,7 @@ struct CurvePoint {
 
 /// A joint at the end of a run.
 struct JointOutcome {
-  Threshold threshold;            ///< [N/m]
+  Threshold threshold;  ///< [N/m]
   bool broken = false;
   double broken_at_strain = 0.0;  ///< NaN while bonded. [-]
   double reaction_normal = 0.0;   ///< R_N, compression positive. [N/m]
@@ -60,7 +60,7 @@ struct Simulation {
 
   std::vector<CurvePoint> curve;
   std::vector<JointOutcome> joints;  ///< In the order of Assembly::joints.
-  Eigen::VectorXd displacements;     ///< Of the last row, x and y of every node of the assembly. [m]
+  Eigen::VectorXd displacements;  ///< Of the last row, x and y of every node of the assembly. [m]
 
   double strength = 0.0;            ///< Largest stress at the right side. [Pa]
   double failure_strain = 0.0;      ///< Strain there. [-]
@@ -68,11 +68,11 @@ struct Simulation {
   double first_break_strain = 0.0;  ///< NaN when nothing broke. [-]
   int broken_joints = 0;
 
-  int steps = 0;                  ///< Time steps, or events of the quasi-static sequence.
-  long iterations = 0;            ///< Of the contact solver, all steps together.
-  double energy_defect = 0.0;     ///< Largest relative defect of (M4) over the steps. [-]
-  double worst_residual = 0.0;    ///< Largest (M11) over the steps. [-]
-  double worst_penetration = 0.0; ///< Largest −g. [m]
+  int steps = 0;                   ///< Time steps, or events of the quasi-static sequence.
+  long iterations = 0;             ///< Of the contact solver, all steps together.
+  double energy_defect = 0.0;      ///< Largest relative defect of (M4) over the steps. [-]
+  double worst_residual = 0.0;     ///< Largest (M11) over the steps. [-]
+  double worst_penetration = 0.0;  ///< Largest −g. [m]
   std::vector<LeftOut> left_out;
 
   /// Whether the numbers may be used: the run ended as it should and the checks hold.

@@ -17,23 +17,24 @@ struct Body {
   int first_triangle = 0, triangles = 0;
 };
 
-/// An edge between two bodies, bonded at its midpoint. Side a lies where −n points, side b where n points:
-/// the gap is (u_b − u_a)·n and the slip (u_b − u_a)·t.
+/// An edge between two bodies, bonded at its midpoint. Side a lies where −n points, side b where n
+/// points: the gap is (u_b − u_a)·n and the slip (u_b − u_a)·t.
 struct Joint {
   JointKind kind = JointKind::flank;
   int body_a = 0, body_b = 0;
   std::array<int, 2> edge_a{}, edge_b{};  ///< Nodes of the edge on either side.
-  Eigen::Vector2d position;               ///< Midpoint. [m]
-  Eigen::Vector2d normal;                 ///< n, unit. The tangent t is n turned by +90°. [-]
+  Eigen::Vector2d position{0.0, 0.0};     ///< Midpoint. [m]
+  Eigen::Vector2d normal{1.0, 0.0};       ///< n, unit. The tangent t is n turned by +90°. [-]
   double length = 0.0;                    ///< s. [m]
 
   [[nodiscard]] Eigen::Vector2d tangent() const { return {-normal.y(), normal.x()}; }
 };
 
-/// A pair of facing points on top and bottom whose vertical distance is tied (periodic sides). Section 5.
+/// A pair of facing points on top and bottom whose vertical distance is tied (periodic sides).
+/// Section 5.
 struct Tie {
   int body_top = 0, body_bottom = 0;
-  std::array<int, 2> edge_top{}, edge_bottom{};        ///< Nodes of the facing edges.
+  std::array<int, 2> edge_top{}, edge_bottom{};         ///< Nodes of the facing edges.
   std::array<double, 2> weight_top{}, weight_bottom{};  ///< Linear interpolation on them.
 };
 
@@ -42,12 +43,12 @@ struct Assembly {
   std::vector<Eigen::Vector2d> nodes;         ///< [m]
   std::vector<std::array<int, 3>> triangles;  ///< Nodes, anticlockwise.
   std::vector<Body> bodies;
-  std::vector<Joint> joints;  ///< The index of a joint is the one its threshold is drawn by.
-  std::vector<Tie> ties;      ///< Empty with free sides.
-  std::vector<int> left, right;  ///< Nodes on the sides x = 0 and x = W.
-  int corner = 0;                ///< The node at (0, 0), held in y as well.
+  std::vector<Joint> joints;         ///< The index of a joint is the one its threshold is drawn by.
+  std::vector<Tie> ties;             ///< Empty with free sides.
+  std::vector<int> left, right;      ///< Nodes on the sides x = 0 and x = W.
+  int corner = 0;                    ///< The node at (0, 0), held in y as well.
   double width = 0.0, height = 0.0;  ///< [m]
-  int dropped = 0;               ///< Half fibres left out because they are smaller than 1e-6 of a whole one.
+  int dropped = 0;  ///< Half fibres left out because they are smaller than 1e-6 of a whole one.
 };
 
 /// Lays the running bond, turns it by θ, clips it, cuts it into triangles and finds the joints.

@@ -1,0 +1,39 @@
+// The grid of half fibres that the running bond is made of, shared by the sources of this folder.
+#pragma once
+
+#include <map>
+#include <utility>
+
+#include "sim/assembly/assembly.hpp"
+#include "sim/assembly/polygon.hpp"
+
+namespace havers::sim {
+
+/// A half fibre after clipping, and where it went. Column m and layer k: ξ in [m, m+1] L/2, η in
+/// [k, k+1] l.
+struct HalfFibre {
+  Polygon polygon;
+  int body = -1;
+  std::vector<int> nodes;  ///< Of the polygon's vertices, then of its centroid.
+
+  /// Nodes of the edge of that origin; the first is −1 when the clipping left none.
+  [[nodiscard]] std::array<int, 2> edge(EdgeOrigin origin) const;
+};
+
+/// Keyed by (layer, column), in the order in which bodies and joints are numbered.
+using HalfFibres = std::map<std::pair<int, int>, HalfFibre>;
+
+/// Whether the half fibre of that layer and column is the first of its fibre: odd layers are
+/// shifted by L/2.
+bool is_first_half(int layer, int column);
+
+/// Joints between the half fibres of different bodies. Section 1.
+void add_joints(const AssemblyOptions& options, const HalfFibres& halves, Assembly& assembly);
+
+/// Ties between facing points of top and bottom. Section 5.
+void add_ties(const HalfFibres& halves, Assembly& assembly);
+
+/// Lengths below this are rounding, not geometry. [m]
+double geometric_tolerance(const AssemblyOptions& options);
+
+}  // namespace havers::sim

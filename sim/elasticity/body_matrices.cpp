@@ -1,0 +1,30 @@
+#include "sim/elasticity/body_matrices.hpp"
+
+#include "sim/elasticity/triangle.hpp"
+
+namespace havers::sim {
+
+BodyMatrices body_matrices(const Assembly& assembly, const Body& body, const Material& material) {
+  const Eigen::Matrix3d D = material.young * plane_elasticity(material.poisson, material.plane);
+  BodyMatrices matrices{Eigen::MatrixXd::Zero(2 * body.nodes, 2 * body.nodes),
+                        Eigen::VectorXd::Zero(2 * body.nodes)};
+  for (int t = body.first_triangle; t < body.first_triangle + body.triangles; ++t) {
+    const std::array<int, 3>& nodes = assembly.triangles[static_cast<std::size_t>(t)];
+    Corners corners;
+    for (std::size_t i = 0; i < 3; ++i)
+      corners[i] = assembly.nodes[static_cast<std::size_t>(nodes[i])];
+    const Eigen::Matrix<double, 6, 6> element = triangle_stiffness(corners, D);
+    const double third = material.density * triangle_area(corners) / 3.0;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const Eigen::Index row = 2 * (nodes[static_cast<std::size_t>(i)] - body.first_node);
+      matrices.mass.segment<2>(row).array() += third;
+      for (Eigen::Index j = 0; j < 3; ++j) {
+        const Eigen::Index column = 2 * (nodes[static_cast<std::size_t>(j)] - body.first_node);
+        matrices.stiffness.block<2, 2>(row, column) += element.block<2, 2>(2 * i, 2 * j);
+      }
+    }
+  }
+  return matrices;
+}
+
+}  // namespace havers::sim

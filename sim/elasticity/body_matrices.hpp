@@ -1,0 +1,18 @@
+// Stiffness and mass of one body, per unit thickness.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "sim/assembly/assembly.hpp"
+
+namespace havers::sim {
+
+/// Degrees of freedom: x and y of each node of the body, in order.
+struct BodyMatrices {
+  Eigen::MatrixXd stiffness;  ///< K, symmetric ≥ 0. [N/m²]
+  Eigen::VectorXd mass;       ///< M, row-lumped. [kg/m]
+};
+
+BodyMatrices body_matrices(const Assembly& assembly, const Body& body, const Material& material);
+
+}  // namespace havers::sim

@@ -1,0 +1,36 @@
+#include "sim/elasticity/triangle.hpp"
+
+namespace havers::sim {
+
+Eigen::Matrix3d plane_elasticity(double poisson, Plane plane) {
+  // Plane strain is plane stress with E/(1−ν²) and ν/(1−ν).
+  const bool stress = plane == Plane::stress;
+  const double young = stress ? 1.0 : 1.0 / (1.0 - poisson * poisson);
+  const double nu = stress ? poisson : poisson / (1.0 - poisson);
+  Eigen::Matrix3d D;
+  D << 1.0, nu, 0.0, nu, 1.0, 0.0, 0.0, 0.0, 0.5 * (1.0 - nu);
+  return young / (1.0 - nu * nu) * D;
+}
+
+double triangle_area(const Corners& c) {
+  const Eigen::Vector2d a = c[1] - c[0], b = c[2] - c[0];
+  return 0.5 * (a.x() * b.y() - a.y() * b.x());
+}
+
+Eigen::Matrix<double, 6, 6> triangle_stiffness(const Corners& c, const Eigen::Matrix3d& D) {
+  const double area = triangle_area(c);
+  Eigen::Matrix<double, 3, 6> B = Eigen::Matrix<double, 3, 6>::Zero();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Eigen::Vector2d &next = c[static_cast<std::size_t>((i + 1) % 3)],
+                          &last = c[static_cast<std::size_t>((i + 2) % 3)];
+    const double dx = (next.y() - last.y()) / (2.0 * area);  // ∂N_i/∂x
+    const double dy = (last.x() - next.x()) / (2.0 * area);  // ∂N_i/∂y
+    B(0, 2 * i) = dx;
+    B(1, 2 * i + 1) = dy;
+    B(2, 2 * i) = dy;
+    B(2, 2 * i + 1) = dx;
+  }
+  return area * B.transpose() * D * B;
+}
+
+}  // namespace havers::sim

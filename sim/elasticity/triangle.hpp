@@ -1,0 +1,21 @@
+// The T3 triangle of linear elasticity, per unit thickness.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "sim/scene.hpp"
+
+namespace havers::sim {
+
+using Corners = std::array<Eigen::Vector2d, 3>;  ///< Anticlockwise. [m]
+
+/// σ = D ε with ε = (ε_xx, ε_yy, γ_xy), for a Young's modulus of 1. [-]
+Eigen::Matrix3d plane_elasticity(double poisson, Plane plane);
+
+double triangle_area(const Corners& corners);  ///< [m²]
+
+/// ∫ BᵀDB over the triangle; degrees of freedom (x, y) of each corner. Same unit as D.
+Eigen::Matrix<double, 6, 6> triangle_stiffness(const Corners& corners, const Eigen::Matrix3d& D);
+
+}  // namespace havers::sim

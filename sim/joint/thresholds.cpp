@@ -1,0 +1,103 @@
+#include "sim/joint/thresholds.hpp"
+
+#include <Random123/philox.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace havers::sim {
+namespace {
+
+// Uniform on (0, 1), both ends excluded. [SMDS11]
+double uniform(std::uint64_t seed, std::uint64_t joint) {
+  const r123::Philox2x64::ctr_type counter{{joint, 0}};
+  const r123::Philox2x64::key_type key{{seed}};
+  const std::uint64_t bits = r123::Philox2x64()(counter, key)[0];
+  return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
+}
+
+// Standard normal quantile by bisection on erfc: exact to rounding, and called once a joint.
+double normal_quantile(double u) {
+  double low = -9.0, high = 9.0;
+  while (high - low > 1e-15 * std::max(1.0, std::abs(low))) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    (0.5 * std::erfc(-middle / std::numbers::sqrt2) < u ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+// Shape k of the Weibull law whose coefficient of variation is `cv`: Γ(1+2/k)/Γ(1+1/k)² = 1 + cv².
+double weibull_shape(double cv) {
+  const auto excess = [&](double k) {
+    return std::lgamma(1.0 + 2.0 / k) - 2.0 * std::lgamma(1.0 + 1.0 / k) - std::log1p(cv * cv);
+  };
+  double low = 0.1, high = 1e7;  // cv from 400 to 1e-7
+  for (int i = 0; i < 200 && high / low > 1.0 + 1e-15; ++i) {
+    const double middle = std::sqrt(low * high);
+    (excess(middle) > 0.0 ? low : high) = middle;
+  }
+  return std::sqrt(low * high);
+}
+
+bool in_outer_layer(const Scene& scene, const Joint& joint) {
+  const double height = scene.assembly.fibre_height;
+  return joint.position.y() < height || joint.position.y() > scene.assembly.height() - height;
+}
+
+}  // namespace
+
+double threshold_factor(std::uint64_t seed, std::uint64_t joint, double scatter,
+                        Distribution distribution) {
+  if (scatter == 0.0) return 1.0;
+  const double u = uniform(seed, joint);
+  const double cv = scatter / std::sqrt(12.0);
+  switch (distribution) {
+    case Distribution::uniform:
+      return 1.0 + scatter * (u - 0.5);
+    case Distribution::lognormal: {
+      const double s2 = std::log1p(cv * cv);
+      return std::exp(std::sqrt(s2) * normal_quantile(u) - 0.5 * s2);
+    }
+    case Distribution::weibull: {
+      const double k = weibull_shape(cv);
+      return std::exp(std::log(-std::log1p(-u)) / k - std::lgamma(1.0 + 1.0 / k));
+    }
+  }
+  return 1.0;
+}
+
+Threshold mean_threshold(const Scene& scene, const Joint& joint) {
+  const JointOptions& j = scene.joints;
+  const double height = scene.assembly.fibre_height, half = 0.5 * scene.assembly.fibre_length;
+  const double f1 = j.head_tail * height, f2 = j.flank * half;
+  const bool head_tail = joint.kind == JointKind::head_tail;
+
+  Threshold full{f1, f2};
+  if (head_tail && j.head_tail_shear) full.tangent = *j.head_tail_shear * height;
+  if (!head_tail && j.flank_tension) full.normal = *j.flank_tension * half;
+  // The outer layers also carry the flanks whose neighbours are not modelled.
+  if (head_tail && reinforced_boundary(scene) && in_outer_layer(scene, joint)) full.normal += f2;
+
+  const double part = joint.length / (head_tail ? height : half);
+  return {full.normal * part, full.tangent * part};
+}
+
+std::vector<Threshold> draw_thresholds(const Scene& scene, const Assembly& assembly) {
+  assert(scene.joints.thresholds.empty() ||
+         scene.joints.thresholds.size() == assembly.joints.size());
+  if (!scene.joints.thresholds.empty()) return scene.joints.thresholds;
+  std::vector<Threshold> thresholds;
+  thresholds.reserve(assembly.joints.size());
+  for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
+    const Threshold mean = mean_threshold(scene, assembly.joints[i]);
+    const double w =
+        threshold_factor(scene.joints.seed, i, scene.joints.scatter, scene.joints.distribution);
+    thresholds.push_back({mean.normal * w, mean.tangent * w});
+  }
+  return thresholds;
+}
+
+}  // namespace havers::sim

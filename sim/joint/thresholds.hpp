@@ -1,0 +1,23 @@
+// Thresholds of the joints: mean forces and their scatter. Section 4 of sim/README.md.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/assembly/assembly.hpp"
+#include "sim/scene.hpp"
+
+namespace havers::sim {
+
+/// Factor w of mean 1 and standard deviation d/√12 (M8), a function of (seed, joint) alone:
+/// parameters stretch the draw but never reshuffle it. [-]
+double threshold_factor(std::uint64_t seed, std::uint64_t joint, double scatter,
+                        Distribution distribution);
+
+/// Mean thresholds of a joint, in proportion to its length, with the reinforced boundary. [N/m]
+Threshold mean_threshold(const Scene& scene, const Joint& joint);
+
+/// One per joint: the scene's own where it gives them, else drawn. [N/m]
+std::vector<Threshold> draw_thresholds(const Scene& scene, const Assembly& assembly);
+
+}  // namespace havers::sim

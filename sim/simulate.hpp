@@ -1,0 +1,22 @@
+// Which regime a scene is simulated in, and why. (simulate itself is declared in simulation.hpp.)
+#pragma once
+
+#include <string>
+
+#include "sim/scene.hpp"
+
+namespace havers::sim {
+
+/// The regime a scene will be run in. Never automatic.
+struct RegimeChoice {
+  Regime regime = Regime::dynamic;
+  double inertia_number = 0.0;  ///< I = ε̇ (W/c) / (σ₁/E), c = sqrt(E/ρ) (M12). [-]
+  std::string ground;           ///< Why, in one sentence.
+};
+
+/// Below this inertia number `automatic` takes the quasi-static limit.
+inline constexpr double quasi_static_below = 1e-3;
+
+RegimeChoice choose_regime(const Scene& scene);
+
+}  // namespace havers::sim

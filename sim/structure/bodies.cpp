@@ -1,0 +1,198 @@
+#include "sim/structure/bodies.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace havers::sim {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// A port with the row of B that it reads.
+struct PortRow {
+  Port port;
+  std::array<int, 2> nodes;
+  std::array<double, 2> weights;
+  Eigen::Vector2d direction;
+};
+
+std::vector<std::vector<PortRow>> ports_of_bodies(const Assembly& assembly) {
+  std::vector<std::vector<PortRow>> rows(assembly.bodies.size());
+  const auto of = [&](int body) -> std::vector<PortRow>& {
+    return rows[static_cast<std::size_t>(body)];
+  };
+  int unknown = 0;
+  for (const Joint& joint : assembly.joints) {
+    for (const Eigen::Vector2d& direction : {joint.normal, joint.tangent()}) {
+      of(joint.body_a).push_back({{unknown, PortSide::a}, joint.edge_a, {0.5, 0.5}, direction});
+      of(joint.body_b).push_back({{unknown, PortSide::b}, joint.edge_b, {0.5, 0.5}, direction});
+      ++unknown;
+    }
+  }
+  for (const Tie& tie : assembly.ties) {
+    const Eigen::Vector2d y(0.0, 1.0);
+    of(tie.body_bottom).push_back({{unknown, PortSide::a}, tie.edge_bottom, tie.weight_bottom, y});
+    of(tie.body_top).push_back({{unknown, PortSide::b}, tie.edge_top, tie.weight_top, y});
+    ++unknown;
+  }
+  return rows;
+}
+
+// u_x = 0 on the left, u_x given on the right, u_y = 0 at the left side's lower corner.
+std::vector<char> held_dofs(const Assembly& assembly) {
+  std::vector<char> held(2 * assembly.nodes.size(), 0);
+  for (const int node : assembly.left) held[2 * static_cast<std::size_t>(node)] = 1;
+  for (const int node : assembly.right) held[2 * static_cast<std::size_t>(node)] = 1;
+  held[2 * static_cast<std::size_t>(assembly.corner) + 1] = 1;
+  return held;
+}
+
+MatrixXd port_matrix(const std::vector<PortRow>& rows, const Body& body) {
+  MatrixXd B = MatrixXd::Zero(static_cast<Index>(rows.size()), 2 * body.nodes);
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Index column = 2 * (rows[r].nodes[k] - body.first_node);
+      B.block<1, 2>(static_cast<Index>(r), column) +=
+          rows[r].weights[k] * rows[r].direction.transpose();
+    }
+  return B;
+}
+
+// Everything an operator depends on, in units of 1e-9 of the body's size: equal bodies have equal
+// signatures.
+using Signature = std::vector<std::int64_t>;
+
+Signature signature(const Assembly& assembly, const Body& body, const MatrixXd& ports,
+                    const std::vector<char>& held) {
+  const auto node = [&](int i) {
+    return assembly.nodes[static_cast<std::size_t>(body.first_node + i)];
+  };
+  double size = 0.0;
+  for (int i = 1; i < body.nodes; ++i) size = std::max(size, (node(i) - node(0)).norm());
+  // Powers of two, so that rounding in `size` does not part equal bodies.
+  const double unit = 1e-9 * std::exp2(std::round(std::log2(size)));
+  Signature key{body.nodes, body.triangles, ports.rows(), std::llround(std::log2(unit))};
+  for (int i = 1; i < body.nodes; ++i) {
+    const Eigen::Vector2d p = (node(i) - node(0)) / unit;
+    key.push_back(std::llround(p.x()));
+    key.push_back(std::llround(p.y()));
+  }
+  for (const double value : ports.reshaped()) key.push_back(std::llround(value * 1e12));
+  key.insert(key.end(), held.begin(), held.end());
+  return key;
+}
+
+}  // namespace
+
+Bodies::Bodies(const Assembly& assembly, const Material& material, const Shift& shift, bool share)
+    : assembly_(&assembly), held_(held_dofs(assembly)), mass_(2 * assembly.nodes.size()) {
+  const std::vector<std::vector<PortRow>> rows = ports_of_bodies(assembly);
+  std::map<Signature, std::size_t> known;
+  for (std::size_t b = 0; b < assembly.bodies.size(); ++b) {
+    const Body& body = assembly.bodies[b];
+    first_port_.push_back(static_cast<Index>(ports_.size()));
+    for (const PortRow& row : rows[b]) ports_.push_back(row.port);
+
+    MatrixXd B = port_matrix(rows[b], body);
+    const auto first = held_.begin() + 2 * body.first_node;
+    const std::vector<char> held(first, first + 2 * body.nodes);
+    Signature key = signature(assembly, body, B, held);
+    if (!share) key.push_back(static_cast<std::int64_t>(b));
+    const auto [place, is_new] = known.try_emplace(std::move(key), classes_.size());
+    if (is_new)
+      classes_.push_back(
+          {make_body_operator(body_matrices(assembly, body, material), std::move(B), held, shift),
+           {}});
+    BodyClass& found = classes_[place->second];
+    found.bodies.push_back(static_cast<int>(b));
+    first_compatibility_.push_back(compatibilities_);
+    compatibilities_ += found.op.compatibility.rows();
+    mass_.segment(2 * body.first_node, 2 * body.nodes) = found.op.matrices.mass;
+  }
+}
+
+Index Bodies::first_dof(int body) const {
+  return 2 * static_cast<Index>(assembly_->bodies[static_cast<std::size_t>(body)].first_node);
+}
+
+namespace {
+
+// y = A x body by body, A being one of the operator's matrices.
+template <class Matrix, class From, class To>
+void apply(const std::vector<BodyClass>& classes, const Matrix& matrix, const VectorXd& x,
+           const From& from, const To& to, VectorXd& y) {
+  for (const BodyClass& bodies : classes) {
+    const auto& A = matrix(bodies.op);
+    scatter(A * gather(x, bodies, A.cols(), from), bodies, to, y);
+  }
+}
+
+}  // namespace
+
+VectorXd Bodies::stiffness_times(const VectorXd& q) const {
+  VectorXd y(dofs());
+  const auto dof = [&](int b) { return first_dof(b); };
+  apply(
+      classes_, [](const BodyOperator& op) -> const MatrixXd& { return op.matrices.stiffness; }, q,
+      dof, dof, y);
+  return y;
+}
+
+VectorXd Bodies::shifted_times(const VectorXd& q) const {
+  VectorXd y(dofs());
+  const auto dof = [&](int b) { return first_dof(b); };
+  apply(
+      classes_, [](const BodyOperator& op) -> const MatrixXd& { return op.shifted; }, q, dof, dof,
+      y);
+  return y;
+}
+
+VectorXd Bodies::port_displacements(const VectorXd& q) const {
+  VectorXd y(static_cast<Index>(ports_.size()));
+  apply(
+      classes_, [](const BodyOperator& op) -> const MatrixXd& { return op.ports; }, q,
+      [&](int b) { return first_dof(b); }, [&](int b) { return first_port(b); }, y);
+  return y;
+}
+
+VectorXd Bodies::port_forces_on_nodes(const VectorXd& t) const {
+  VectorXd y(dofs());
+  apply(
+      classes_, [](const BodyOperator& op) { return op.ports.transpose(); }, t,
+      [&](int b) { return first_port(b); }, [&](int b) { return first_dof(b); }, y);
+  return y;
+}
+
+VectorXd Bodies::incompatibility(const VectorXd& p) const {
+  VectorXd y(compatibilities_);
+  apply(
+      classes_, [](const BodyOperator& op) -> const MatrixXd& { return op.compatibility; }, p,
+      [&](int b) { return first_port(b); },
+      [&](int b) { return first_compatibility_[static_cast<std::size_t>(b)]; }, y);
+  return y;
+}
+
+VectorXd Bodies::compatibility_forces(const VectorXd& a) const {
+  VectorXd y(static_cast<Index>(ports_.size()));
+  apply(
+      classes_, [](const BodyOperator& op) { return op.compatibility.transpose(); }, a,
+      [&](int b) { return first_compatibility_[static_cast<std::size_t>(b)]; },
+      [&](int b) { return first_port(b); }, y);
+  return y;
+}
+
+VectorXd Bodies::port_forces(const VectorXd& p, const VectorXd& a) const {
+  VectorXd y(p.size());
+  const auto port = [&](int b) { return first_port(b); };
+  apply(
+      classes_, [](const BodyOperator& op) -> const MatrixXd& { return op.impedance; }, p, port,
+      port, y);
+  return y + compatibility_forces(a);
+}
+
+}  // namespace havers::sim

@@ -1,0 +1,70 @@
+#include "sim/structure/body_operator.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+#include <utility>
+
+namespace havers::sim {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+std::vector<Index> free_dofs(const std::vector<char>& held) {
+  std::vector<Index> free;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (held[i] == 0) free.push_back(static_cast<Index>(i));
+  return free;
+}
+
+// Splits the free displacements by the ports: δ = B⁺ p + Q c, and finds what no displacement can do
+// at them.
+struct PortSplit {
+  MatrixXd inverse;     // B⁺
+  MatrixXd interior;    // Q, B Q = 0
+  MatrixXd impossible;  // N, N B = 0
+};
+
+PortSplit split_by_ports(const MatrixXd& ports) {
+  const Eigen::JacobiSVD<MatrixXd> svd(ports, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::VectorXd& values = svd.singularValues();
+  Index rank = 0;
+  while (rank < values.size() && values(rank) > 1e-10) ++rank;
+  PortSplit split;
+  split.inverse = svd.matrixV().leftCols(rank) * values.head(rank).cwiseInverse().asDiagonal() *
+                  svd.matrixU().leftCols(rank).transpose();
+  split.interior = svd.matrixV().rightCols(ports.cols() - rank);
+  split.impossible = svd.matrixU().rightCols(ports.rows() - rank).transpose();
+  return split;
+}
+
+}  // namespace
+
+BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
+                                const std::vector<char>& held, const Shift& shift) {
+  BodyOperator body;
+  const std::vector<Index> free = free_dofs(held);
+  const Index n = ports.cols(), p = ports.rows();
+  body.shifted = shift.beta * matrices.stiffness;
+  body.shifted.diagonal() += shift.alpha * matrices.mass;
+
+  const MatrixXd A = body.shifted(free, free);
+  const PortSplit split = split_by_ports(ports(Eigen::all, free));
+  const MatrixXd& Q = split.interior;
+  // (S2): the interior follows the ports and the loads.
+  const MatrixXd G = Q * (Q.transpose() * A * Q).llt().solve(Q.transpose());
+  const MatrixXd T = split.inverse - G * (A * split.inverse);
+  const MatrixXd Z = T.transpose() * A * T;
+
+  body.compliance = MatrixXd::Zero(n, n);
+  body.compliance(free, free) = 0.5 * (G + G.transpose());
+  body.recovery = MatrixXd::Zero(n, p);
+  body.recovery(free, Eigen::all) = T;
+  body.impedance = 0.5 * (Z + Z.transpose());
+  body.compatibility = split.impossible;
+  body.matrices = std::move(matrices);
+  body.ports = std::move(ports);
+  return body;
+}
+
+}  // namespace havers::sim
