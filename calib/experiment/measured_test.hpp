@@ -8,12 +8,17 @@
 
 namespace havers::calib {
 
-/// How a raw test is reduced. Numbered equations (X1)... in calib/README.md.
+/// How a raw test is reduced. Equations (X1)... in calib/experiment/README.md.
 struct ReductionOptions {
-  double window_low = 0.1;   ///< Modulus window, lower end, part of the strength. [-]
-  double window_high = 0.4;  ///< Modulus window, upper end, part of the strength. [-]
-  bool remove_toe = true;    ///< Shift the strain so that the modulus line passes through the origin.
+  double window_low = 0.1;     ///< Modulus window, lower end, part of the strength. [-]
+  double window_high = 0.4;    ///< Modulus window, upper end, part of the strength. [-]
+  double straightness = 0.03;  ///< Slopes of the window's halves may differ by this part (X5). [-]
+  double standard_low = 5e-4;  ///< Window of ISO 527-1, for curves without a straight part. [-]
+  double standard_high = 25e-4;  ///< Its upper end. [-]
+  bool remove_toe = true;  ///< Shift the strain so that the modulus line passes through the origin.
   bool cut_after_break = true;  ///< Drop the rows after the specimen has parted.
+  double break_part =
+      0.5;  ///< Stress after the maximum that counts as parted, part of the strength. [-]
 };
 
 /// A correction that was applied, for the report: what, and by how much.
@@ -31,19 +36,20 @@ struct MeasuredTest {
   double area = 0.0;                    ///< [m²]
   double modulus = 0.0;                 ///< Robust slope in the window. [Pa]
   double modulus_standard_error = 0.0;  ///< [Pa]
-  double window_low = 0.0, window_high = 0.0;  ///< Strains between which the modulus was fitted. [-]
+  double window_low = 0.0,
+         window_high = 0.0;              ///< Strains between which the modulus was fitted. [-]
   double max_force = 0.0;                ///< [N]
-  double strength = 0.0;                ///< Largest stress. [Pa]
-  double strength_standard_error = 0.0; ///< From the noise of the force channel. [Pa]
-  double failure_strain = 0.0;          ///< Corrected strain at the strength. [-]
-  double strain_rate = 0.0;             ///< Median over the loading; 0 where time was not recorded. [1/s]
-  double linearity = 1.0;               ///< Strength / (modulus · failure strain): 1 when linear to failure. [-]
+  double strength = 0.0;                 ///< Largest stress. [Pa]
+  double strength_standard_error = 0.0;  ///< From the noise of the force channel. [Pa]
+  double failure_strain = 0.0;           ///< Corrected strain at the strength. [-]
+  double strain_rate = 0.0;  ///< Median over the loading; 0 where time was not recorded. [1/s]
+  double linearity = 1.0;  ///< Strength / (modulus · failure strain): 1 when linear to failure. [-]
   std::vector<Correction> corrections;
-  std::vector<std::string> warnings;    ///< A sentence each.
+  std::vector<std::string> warnings;  ///< A sentence each.
 };
 
-/// Reduces a test. A test that cannot be reduced (no rows, no strain, no area) says why in `problems` and
-/// leaves the numbers at zero.
+/// Reduces a test. A test that cannot be reduced (no rows, no strain, no area) says why in
+/// `problems` and leaves the numbers at zero.
 struct Reduction {
   MeasuredTest test;
   std::vector<std::string> problems;

@@ -1,0 +1,38 @@
+#include "calib/experiment/channel_noise.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace havers::calib {
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+// (X7) Second differences of white noise have six times its variance. The median is deaf to breaks
+// and jumps.
+double noise_of(std::span<const double> values) {
+  std::vector<double> differences;
+  for (std::size_t i = 1; i + 1 < values.size(); ++i)
+    differences.push_back(std::abs(values[i - 1] - 2.0 * values[i] + values[i + 1]));
+  constexpr double normal_sd_per_median = 1.4826;
+  return normal_sd_per_median * median(std::move(differences)) / std::sqrt(6.0);
+}
+
+// (X8) Over a twentieth of the record, so that noise between neighbours does not count.
+double median_rate(std::span<const double> values, std::span<const double> time) {
+  assert(values.size() == time.size());
+  const std::size_t span = std::max<std::size_t>(1, values.size() / 20);
+  std::vector<double> rates;
+  for (std::size_t i = 0; i + span < values.size(); ++i)
+    if (time[i + span] > time[i])
+      rates.push_back((values[i + span] - values[i]) / (time[i + span] - time[i]));
+  return median(std::move(rates));
+}
+
+}  // namespace havers::calib

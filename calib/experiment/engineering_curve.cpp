@@ -1,0 +1,81 @@
+#include "calib/experiment/engineering_curve.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace havers::calib {
+namespace {
+
+constexpr std::size_t fewest_rows = 10;
+
+double area_of(const RawTest& raw) {
+  if (raw.width && raw.thickness) return *raw.width * *raw.thickness;
+  return raw.area.value_or(0.0);
+}
+
+// (X1)
+void take_stress(const RawTest& raw, EngineeringCurve& curve) {
+  curve.area = area_of(raw);
+  if (!raw.force.empty() && curve.area > 0.0) {
+    curve.stress.reserve(raw.force.size());
+    for (const double force : raw.force) curve.stress.push_back(force / curve.area);
+  } else if (!raw.stress.empty()) {
+    curve.stress = raw.stress;
+    curve.warnings.emplace_back(
+        raw.force.empty() ? "no force was recorded: the machine's stress is used"
+                          : "width and thickness are unknown: the machine's stress is used");
+  } else if (raw.force.empty()) {
+    curve.problems.emplace_back("neither force nor stress was recorded");
+  } else {
+    curve.problems.emplace_back("the cross-section is unknown: give width and thickness");
+  }
+}
+
+// (X2)
+void take_strain(const RawTest& raw, EngineeringCurve& curve) {
+  if (!raw.strain.empty()) {
+    curve.strain = raw.strain;
+  } else if (raw.extension.empty()) {
+    curve.problems.emplace_back("neither strain nor crosshead extension was recorded");
+  } else if (!raw.gauge_length || *raw.gauge_length <= 0.0) {
+    curve.problems.emplace_back(
+        "no strain was recorded, and the gauge length that would turn extension into strain is "
+        "unknown");
+  } else {
+    curve.strain.reserve(raw.extension.size());
+    for (const double extension : raw.extension)
+      curve.strain.push_back(extension / *raw.gauge_length);
+    curve.warnings.emplace_back(
+        "no gauge: strain is the crosshead's extension over the gauge length, which contains the "
+        "compliance "
+        "of the machine; the modulus is too low by it");
+  }
+}
+
+bool all_finite(const std::vector<double>& values) {
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+}
+
+}  // namespace
+
+EngineeringCurve engineering_curve(const RawTest& raw) {
+  assert(raw.force.empty() || raw.stress.empty() || raw.force.size() == raw.stress.size());
+  assert(raw.strain.empty() || raw.strain.size() == raw.rows());
+  assert(raw.extension.empty() || raw.extension.size() == raw.rows());
+  EngineeringCurve curve;
+  take_stress(raw, curve);
+  take_strain(raw, curve);
+  if (!curve.problems.empty()) return curve;
+  if (raw.rows() < fewest_rows)
+    curve.problems.push_back(fmt::format("{} rows are too few", raw.rows()));
+  else if (!all_finite(curve.stress) || !all_finite(curve.strain) || !all_finite(raw.time))
+    curve.problems.emplace_back("a number is not finite");
+  else if (std::ranges::max(curve.stress) <= 0.0)
+    curve.problems.emplace_back("the specimen is never under tension");
+  return curve;
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,24 @@
+// Raw channels to engineering stress and strain.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/experiment/raw_test.hpp"
+
+namespace havers::calib {
+
+/// Stress against strain before any correction, or why there is none.
+struct EngineeringCurve {
+  std::vector<double> strain;  ///< [-]
+  std::vector<double> stress;  ///< [Pa]
+  double area = 0.0;           ///< 0 where unknown. [m²]
+  std::vector<std::string> warnings;
+  std::vector<std::string> problems;
+};
+
+/// (X1) stress from force and area, else the machine's; (X2) strain from the gauge, else from the
+/// crosshead.
+EngineeringCurve engineering_curve(const RawTest& raw);
+
+}  // namespace havers::calib

@@ -1,0 +1,149 @@
+#include "calib/experiment/modulus.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace havers::calib {
+namespace {
+
+constexpr std::size_t fewest_rows = 5;    // of a half window whose slope is to tell something
+constexpr double narrowing_step = 0.1;    // part of the window's stress range
+constexpr double fewest_remaining = 0.3;  // a window shorter than this part shows no straight line
+constexpr double yielded = 0.5;           // slope ratio of the halves that only yielding explains
+
+struct Curve {
+  std::span<const double> strain, stress;
+
+  [[nodiscard]] Line robust(RowRange r) const {
+    return fit_robust_line(strain.subspan(r.first, r.rows()), stress.subspan(r.first, r.rows()));
+  }
+  [[nodiscard]] Line plain(RowRange r) const {
+    return fit_plain_line(strain.subspan(r.first, r.rows()), stress.subspan(r.first, r.rows()));
+  }
+};
+
+// (X3) Rows between two stresses on the way up: noise may cross a stress several times.
+RowRange between(std::span<const double> stress, double low, double high) {
+  const auto above = std::ranges::find_if(stress, [&](double s) { return s > high; });
+  const auto last = static_cast<std::size_t>(above - stress.begin());
+  std::size_t first = last;
+  while (first > 0 && stress[first - 1] >= low) --first;
+  return {first, last};
+}
+
+// How the slopes of a window's lower and upper half, by stress, compare.
+struct Bend {
+  bool known = false;
+  Line lower, upper;
+
+  // (X5) What noise and the accepted curvature cannot explain.
+  [[nodiscard]] bool is_straight(double tolerance) const {
+    if (!known) return true;
+    const double noise = std::hypot(lower.slope_standard_error, upper.slope_standard_error);
+    const double larger = std::max(std::abs(lower.slope), std::abs(upper.slope));
+    return std::abs(upper.slope - lower.slope) <= std::max(tolerance * larger, 3.0 * noise);
+  }
+};
+
+Bend bend_of(const Curve& curve, double low, double high) {
+  const double middle = 0.5 * (low + high);
+  const RowRange whole = between(curve.stress, low, high);
+  const RowRange upper = between(curve.stress, middle, high);
+  const RowRange lower{whole.first, upper.first};
+  if (lower.rows() < fewest_rows || upper.rows() < fewest_rows) return {};
+  return {true, curve.robust(lower), curve.robust(upper)};
+}
+
+// The window in stress, and whether what is left of it is straight.
+struct Window {
+  double low = 0.0, high = 0.0;  // [Pa]
+  Bend bend;
+  bool straight = false;
+};
+
+// (X5) A toe is softer than what follows: the lower end moves up. Yielding is much softer than what
+// came before: the upper end moves down. A slope that only fades is neither, and narrowing would
+// pick a number at will.
+Window straight_window(const Curve& curve, double strength, const ReductionOptions& options) {
+  Window window{options.window_low * strength, options.window_high * strength, {}, false};
+  const double full = window.high - window.low;
+  const Bend whole = bend_of(curve, window.low, window.high);
+  const bool yields = whole.known && whole.upper.slope < yielded * whole.lower.slope;
+  while (window.high - window.low >= fewest_remaining * full) {
+    window.bend = bend_of(curve, window.low, window.high);
+    window.straight = window.bend.is_straight(options.straightness);
+    const bool toe = window.bend.known && window.bend.lower.slope < window.bend.upper.slope;
+    if (window.straight || (!toe && !yields)) break;
+    (toe ? window.low : window.high) += (toe ? 1.0 : -1.0) * narrowing_step * full;
+  }
+  return window;
+}
+
+// (X6) The line of ISO 527-1, where it can be one: the curve spans its window, and the line meets
+// the strain axis within half the window's length of zero, which that of a yielded curve does not.
+bool fit_standard(const Curve& curve, const ReductionOptions& options, ModulusFit& fit) {
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i < curve.strain.size(); ++i) {
+    if (curve.strain[i] < options.standard_low || curve.strain[i] > options.standard_high) continue;
+    if (x.empty()) fit.window.first = i;
+    fit.window.last = i + 1;
+    x.push_back(curve.strain[i]);
+    y.push_back(curve.stress[i]);
+  }
+  const Line plain = fit_plain_line(x, y), robust = fit_robust_line(x, y);
+  const bool spanned = curve.strain.back() >= options.standard_high;
+  if (!spanned || x.size() < 2 * fewest_rows || plain.slope <= 0.0) return false;
+  const double half = 0.5 * (options.standard_high - options.standard_low);
+  if (std::abs(plain.intercept / plain.slope) > half) return false;
+  fit.line = plain;
+  // Two ways to draw the line through a bend differ by more than the noise: that is its
+  // uncertainty.
+  fit.line.slope_standard_error =
+      std::hypot(plain.slope_standard_error, plain.slope - robust.slope);
+  return true;
+}
+
+void fall_back(const Curve& curve, const Window& window, const ReductionOptions& options,
+               ModulusFit& fit) {
+  const std::string complaint = fmt::format(
+      "the curve has no straight part between {:.4g} and {:.4g} MPa (its slope goes from {:.4g} to "
+      "{:.4g} "
+      "GPa)",
+      window.low * 1e-6, window.high * 1e-6, window.bend.lower.slope * 1e-9,
+      window.bend.upper.slope * 1e-9);
+  ModulusFit standard;
+  if (fit_standard(curve, options, standard)) {
+    fit.line = standard.line;
+    fit.window = standard.window;
+    fit.warnings.push_back(fmt::format(
+        "{}: the modulus is the least-squares slope between {:.3g} and {:.3g} % strain, as in "
+        "ISO 527-1, and its standard error the difference to the robust slope there",
+        complaint, options.standard_low * 100, options.standard_high * 100));
+  } else {
+    fit.warnings.push_back(complaint + ": the modulus is a mean slope");
+  }
+}
+
+}  // namespace
+
+ModulusFit fit_modulus(std::span<const double> strain, std::span<const double> stress,
+                       double strength, const ReductionOptions& options) {
+  const Curve curve{strain, stress};
+  const Window window = straight_window(curve, strength, options);
+  ModulusFit fit;
+  fit.window = between(stress, window.low, window.high);
+  fit.line = curve.robust(fit.window);
+  if (!window.straight) fall_back(curve, window, options, fit);
+  const double low = window.low / strength, high = window.high / strength;
+  if (low > options.window_low + 1e-9 || high < options.window_high - 1e-9)
+    fit.corrections.push_back(
+        {"modulus window",
+         fmt::format("narrowed from {:.2g}-{:.2g} to {:.2g}-{:.2g} of the strength, "
+                     "where the curve is straight",
+                     options.window_low, options.window_high, low, high)});
+  return fit;
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "calib/experiment/channel_noise.hpp"
+#include "calib/experiment/engineering_curve.hpp"
+#include "calib/experiment/measured_test.hpp"
+#include "calib/experiment/modulus.hpp"
+
+namespace havers::calib {
+namespace {
+
+constexpr double MPa = 1e-6;       // per Pa
+constexpr double percent = 100.0;  // per unit strain
+
+void truncate(MeasuredTest& test, std::size_t rows) {
+  test.strain.resize(rows);
+  test.stress.resize(rows);
+  if (!test.time.empty()) test.time.resize(rows);
+}
+
+void drop_first(MeasuredTest& test, std::size_t rows) {
+  const auto count = static_cast<std::ptrdiff_t>(rows);
+  test.strain.erase(test.strain.begin(), test.strain.begin() + count);
+  test.stress.erase(test.stress.begin(), test.stress.begin() + count);
+  if (!test.time.empty()) test.time.erase(test.time.begin(), test.time.begin() + count);
+}
+
+// The strain is zeroed at the preload, the stress is not: the toe correction brings them together.
+void note_preload(MeasuredTest& test) {
+  const double preload = test.stress.front();
+  if (preload <= 3.0 * test.strength_standard_error) return;
+  test.corrections.push_back(
+      {"preload", fmt::format("{:.4g} MPa on the specimen at the first row; kept in the stress",
+                              preload * MPa)});
+}
+
+std::size_t row_of_strength(const MeasuredTest& test) {
+  return static_cast<std::size_t>(std::ranges::max_element(test.stress) - test.stress.begin());
+}
+
+void find_strength(const RawTest& raw, MeasuredTest& test) {
+  test.strength = test.stress[row_of_strength(test)];
+  test.strength_standard_error = noise_of(test.stress);
+  if (!raw.force.empty()) test.max_force = std::ranges::max(raw.force);
+}
+
+void cut_after_break(MeasuredTest& test, double part) {
+  const auto peak = test.stress.begin() + static_cast<std::ptrdiff_t>(row_of_strength(test));
+  const auto parted = std::find_if(peak, test.stress.end(),
+                                   [&](double stress) { return stress < part * test.strength; });
+  if (parted == test.stress.end()) return;
+  const auto kept = static_cast<std::size_t>(parted - test.stress.begin());
+  test.corrections.push_back(
+      {"cut after break",
+       fmt::format("{} of {} rows, from where the stress fell below {:.2g} of the strength",
+                   test.stress.size() - kept, test.stress.size(), part)});
+  truncate(test, kept);
+}
+
+std::string take_modulus(MeasuredTest& test, const ReductionOptions& options, ModulusFit& fit) {
+  const std::size_t loading = row_of_strength(test) + 1;
+  fit = fit_modulus(std::span(test.strain).first(loading), std::span(test.stress).first(loading),
+                    test.strength, options);
+  if (!fit.line.fitted)
+    return fmt::format("too few rows between {:.4g} and {:.4g} MPa for a modulus",
+                       options.window_low * test.strength * MPa,
+                       options.window_high * test.strength * MPa);
+  if (fit.line.slope <= 0.0) return "the stress does not grow with the strain";
+  test.modulus = fit.line.slope;
+  test.modulus_standard_error = fit.line.slope_standard_error;
+  test.window_low = test.strain[fit.window.first];
+  test.window_high = test.strain[fit.window.last - 1];
+  test.corrections.insert(test.corrections.end(), fit.corrections.begin(), fit.corrections.end());
+  test.warnings.insert(test.warnings.end(), fit.warnings.begin(), fit.warnings.end());
+  return {};
+}
+
+// (X9) The modulus line is made to pass through the origin. What lies before the origin then is
+// slack.
+void remove_toe(MeasuredTest& test, const Line& line) {
+  const double shift = line.intercept / line.slope;
+  for (double& strain : test.strain) strain += shift;
+  test.window_low += shift;
+  test.window_high += shift;
+  std::string detail = fmt::format(
+      "strain shifted by {:+.5f} % so that the modulus line passes through zero", shift * percent);
+  const auto origin =
+      std::ranges::find_if(test.strain, [](double strain) { return strain >= 0.0; });
+  if (const auto slack = static_cast<std::size_t>(origin - test.strain.begin()); slack > 0) {
+    drop_first(test, slack);
+    detail += fmt::format("; {} rows before it dropped", slack);
+  }
+  test.corrections.push_back({"toe", detail});
+}
+
+}  // namespace
+
+Reduction reduce_test(const RawTest& raw, const ReductionOptions& options) {
+  assert(raw.time.empty() || raw.time.size() == raw.rows());
+  EngineeringCurve curve = engineering_curve(raw);
+  Reduction reduction;
+  reduction.problems = std::move(curve.problems);
+  if (!reduction.problems.empty()) return reduction;
+
+  MeasuredTest test;
+  test.strain = std::move(curve.strain);
+  test.stress = std::move(curve.stress);
+  test.time = raw.time;
+  test.area = curve.area;
+  test.warnings = raw.warnings;
+  test.warnings.insert(test.warnings.end(), curve.warnings.begin(), curve.warnings.end());
+
+  find_strength(raw, test);
+  note_preload(test);
+  if (options.cut_after_break) cut_after_break(test, options.break_part);
+  ModulusFit fit;
+  if (std::string problem = take_modulus(test, options, fit); !problem.empty()) {
+    reduction.problems.push_back(std::move(problem));
+    return reduction;
+  }
+  if (options.remove_toe) remove_toe(test, fit.line);
+
+  const std::size_t peak = row_of_strength(test);
+  test.failure_strain = test.strain[peak];
+  if (!test.time.empty())
+    test.strain_rate =
+        median_rate(std::span(test.strain).first(peak + 1), std::span(test.time).first(peak + 1));
+  test.linearity = test.strength / (test.modulus * test.failure_strain);  // (X10)
+  reduction.test = std::move(test);
+  return reduction;
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,70 @@
+#include "calib/experiment/robust_line.hpp"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multifit.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <memory>
+
+namespace havers::calib {
+namespace {
+
+struct Freed {
+  void operator()(gsl_matrix* m) const { gsl_matrix_free(m); }
+  void operator()(gsl_vector* v) const { gsl_vector_free(v); }
+  void operator()(gsl_multifit_robust_workspace* w) const { gsl_multifit_robust_free(w); }
+};
+template <typename T>
+using Gsl = std::unique_ptr<T, Freed>;
+
+// Stress is 1e8 and strain 1e-3: the fit works on x and y mapped to [0, 1].
+struct Range {
+  double low = 0.0, extent = 0.0;
+};
+Range range_of(std::span<const double> values) {
+  const auto [low, high] = std::ranges::minmax(values);
+  return {low, high - low};
+}
+
+Line fit(std::span<const double> x, std::span<const double> y,
+         const gsl_multifit_robust_type* weighting) {
+  assert(x.size() == y.size());
+  if (x.size() < 3) return {};
+  const Range rx = range_of(x), ry = range_of(y);
+  if (rx.extent <= 0.0) return {};
+  if (ry.extent <= 0.0) return {.intercept = ry.low, .fitted = true};
+
+  gsl_set_error_handler_off();  // a fit that stops at its last iteration is still an answer
+  const Gsl<gsl_matrix> design(gsl_matrix_alloc(x.size(), 2));
+  const Gsl<gsl_matrix> covariance(gsl_matrix_alloc(2, 2));
+  const Gsl<gsl_vector> values(gsl_vector_alloc(x.size()));
+  const Gsl<gsl_vector> answer(gsl_vector_alloc(2));
+  const Gsl<gsl_multifit_robust_workspace> work(gsl_multifit_robust_alloc(weighting, x.size(), 2));
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    gsl_matrix_set(design.get(), i, 0, 1.0);
+    gsl_matrix_set(design.get(), i, 1, (x[i] - rx.low) / rx.extent);
+    gsl_vector_set(values.get(), i, (y[i] - ry.low) / ry.extent);
+  }
+  gsl_multifit_robust(design.get(), values.get(), answer.get(), covariance.get(), work.get());
+
+  Line line{.fitted = true};
+  line.slope = gsl_vector_get(answer.get(), 1) * ry.extent / rx.extent;
+  line.slope_standard_error =
+      std::sqrt(std::max(0.0, gsl_matrix_get(covariance.get(), 1, 1))) * ry.extent / rx.extent;
+  line.intercept = ry.low + gsl_vector_get(answer.get(), 0) * ry.extent - line.slope * rx.low;
+  return line;
+}
+
+}  // namespace
+
+Line fit_robust_line(std::span<const double> x, std::span<const double> y) {
+  return fit(x, y, gsl_multifit_robust_bisquare);
+}
+
+Line fit_plain_line(std::span<const double> x, std::span<const double> y) {
+  return fit(x, y, gsl_multifit_robust_ols);
+}
+
+}  // namespace havers::calib

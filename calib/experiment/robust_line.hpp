@@ -1,0 +1,23 @@
+// A straight line through points of which some may be wrong.
+#pragma once
+
+#include <span>
+
+namespace havers::calib {
+
+/// y = intercept + slope x.
+struct Line {
+  double slope = 0.0;
+  double slope_standard_error = 0.0;
+  double intercept = 0.0;
+  bool fitted = false;  ///< False where fewer than three points, or one x only, leave it open.
+};
+
+/// Iteratively reweighted least squares with Tukey's bisquare (X4): points far off the line do not
+/// count.
+Line fit_robust_line(std::span<const double> x, std::span<const double> y);
+
+/// Ordinary least squares: every point counts.
+Line fit_plain_line(std::span<const double> x, std::span<const double> y);
+
+}  // namespace havers::calib
