@@ -9,7 +9,8 @@
 
 namespace havers::io {
 
-/// `--set key=value` of the command line: dotted key as in the file, value as TOML; a bare word is a string.
+/// `--set key=value` of the command line: dotted key as in the file, value as TOML; a bare word is
+/// a string.
 using Overrides = std::vector<std::string>;
 
 struct SceneFile {
@@ -18,8 +19,8 @@ struct SceneFile {
 };
 
 /// Reads a scene. Paths in it are relative to its folder.
-/// @throws InputError with every problem: unknown keys (with the nearest known one), wrong types, impossible
-/// values, missing files.
+/// @throws InputError with every problem: unknown keys (with the nearest known one), wrong types,
+/// impossible values, missing files.
 SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrides = {});
 
 }  // namespace havers::io

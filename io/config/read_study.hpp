@@ -20,26 +20,28 @@ struct SpecimenFiles {
   std::optional<double> width, thickness, gauge_length;  ///< Override what the test file says. [m]
   double orientation = 0.0;                              ///< [rad]
   std::vector<std::filesystem::path> sections;
-  std::optional<double> pixel_size;                      ///< [m]
+  std::optional<double> pixel_size;  ///< [m]
   std::optional<double> porosity;  ///< For specimens without sections; what `synthesize` draws. [-]
   calib::Use use = calib::Use::fit;
 };
 
-/// [synthesize]: how `havers synthesize` dresses the model's answers as a laboratory's files. SI units.
+/// [synthesize]: how `havers synthesize` dresses the model's answers as a laboratory's files. SI
+/// units.
 struct SynthesizeOptions {
-  double force_noise = 0.5;         ///< SD of the force channel. [N]
-  double strain_noise = 2e-6;       ///< SD of the strain channel. [-]
-  double preload = 10.0;            ///< Force at the first row. [N]
-  double toe_strain = 1e-4;         ///< Strain lost in the toe. [-]
-  double sampling = 0.1;            ///< Time between rows. [s]
+  double force_noise = 0.5;             ///< SD of the force channel. [N]
+  double strain_noise = 2e-6;           ///< SD of the strain channel. [-]
+  double preload = 10.0;                ///< Force at the first row. [N]
+  double toe_strain = 1e-4;             ///< Strain lost in the toe. [-]
+  double sampling = 0.1;                ///< Time between rows. [s]
   double crosshead_rate = 0.5e-3 / 60;  ///< Speed of the crosshead. [m/s]
-  double pore_radius = 8e-6;        ///< Mean radius of the drawn pores. [m]
-  double modulus_cv = 0.0;          ///< Coefficient of variation of E between specimens. [-]
-  int section_pixels = 512;         ///< Side of a drawn section.
+  double pore_radius = 8e-6;            ///< Mean radius of the drawn pores. [m]
+  double modulus_cv = 0.0;              ///< Coefficient of variation of E between specimens. [-]
+  int section_pixels = 512;             ///< Side of a drawn section.
 };
 
 struct StudyFile {
-  calib::Study study;  ///< Everything but the specimens, which hold only id, use, orientation, porosity.
+  calib::Study
+      study;  ///< Everything but the specimens, which hold only id, use, orientation, porosity.
   std::vector<SpecimenFiles> specimens;
   SynthesizeOptions synthesize;
 };

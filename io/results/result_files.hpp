@@ -10,20 +10,24 @@
 #include "calib/fit/calibration.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/machine/read_test.hpp"
+#include "io/results/sha256.hpp"
 #include "sim/simulation.hpp"
 
 namespace havers::io {
 
+/// Of havers, "0.1.0", and of the compiler that built it, "GNU 12.2.0".
+std::string version();
+std::string compiler_version();
+
 /// Where a result comes from.
 struct Provenance {
-  std::string command;                         ///< As typed.
-  std::map<std::string, std::string> inputs;   ///< File name to SHA-256.
+  std::string havers = version();
+  std::string compiler = compiler_version();
+  std::string command;                        ///< As typed.
+  std::map<std::string, std::string> inputs;  ///< File name to SHA-256.
   double wall_seconds = 0.0;
   double cpu_seconds = 0.0;
 };
-
-/// SHA-256 of a file, hexadecimal. @throws InputError when it cannot be read.
-std::string sha256(const std::filesystem::path& file);
 
 /// The objects of result.json and of --json.
 nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& simulation,
@@ -32,20 +36,28 @@ nlohmann::json calibration_json(const calib::Study& study, const calib::Calibrat
                                 const Provenance& provenance);
 nlohmann::json import_json(const TestFile& file, const calib::Reduction& reduction);
 nlohmann::json porosity_json(const calib::SectionPorosity& section, double scatter);
+/// A scene in the keys of a scene file. Thresholds given joint by joint are named as the file
+/// joints.csv.
 nlohmann::json scene_json(const sim::Scene& scene);
+/// The same as a scene file, which read_scene takes back to an equal scene.
+std::string scene_toml(const sim::Scene& scene);
 
 /// curve.csv and joints.csv of a simulation.
 void write_curve(const std::filesystem::path& file, const sim::Simulation& simulation);
-void write_joints(const std::filesystem::path& file, const sim::Scene& scene, const sim::Assembly& assembly,
+void write_joints(const std::filesystem::path& file, const sim::Assembly& assembly,
                   const sim::Simulation& simulation);
 
 /// f_N and f_T per joint from columns joint,f_N,f_T of a CSV file. @throws InputError.
 std::vector<sim::Threshold> read_thresholds(const std::filesystem::path& file);
 
-/// curves/ID.csv of a fit: strain, measured, simulated median and band, residual.
+/// The curves of a fit, and their files in its folder: strain, measured, simulated median and band,
+/// residual on a common grid; and the whole measured curve as it was used.
 void write_band(const std::filesystem::path& file, const calib::CurveBand& band);
+void write_measured(const std::filesystem::path& file, const calib::MeasuredTest& test);
+std::string band_file(const std::string& id);      ///< "curves/ID.csv"
+std::string measured_file(const std::string& id);  ///< "curves/ID_measured.csv"
 
-/// Writes whole or not at all: a temporary beside the file, then a rename.
+/// Writes whole or not at all: a temporary beside the file, then a rename. @throws InputError.
 void write_file(const std::filesystem::path& file, const std::string& content);
 
 /// What the report of a finished fit needs, read back from its folder. @throws InputError.

@@ -1,0 +1,22 @@
+#include "io/config/key_unit.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace havers::io {
+
+double from_si(double si, KeyUnit unit) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double nearest = si * unit.over / unit.times;
+  const double rounded = std::strtod(fmt::format("{:.15g}", nearest).c_str(), nullptr);
+  for (const double candidate : std::array{rounded, nearest, std::nextafter(nearest, infinity),
+                                           std::nextafter(nearest, -infinity)})
+    if (to_si(candidate, unit) == si) return candidate;
+  return nearest;
+}
+
+}  // namespace havers::io

@@ -1,0 +1,74 @@
+#include "io/config/parse_toml.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "io/input_error.hpp"
+
+namespace havers::io {
+namespace {
+
+toml::table parse_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || std::filesystem::is_directory(file) || !(text << stream.rdbuf()))
+    throw InputError(file.string(), "cannot be read", "a TOML file is expected there");
+  try {
+    return toml::parse(text.str(), file.string());
+  } catch (const toml::parse_error& error) {
+    const toml::source_position at = error.source().begin;
+    throw InputError(fmt::format("{}:{}:{}", file.string(), at.line, at.column),
+                     fmt::format("is not TOML: {}", error.description()));
+  }
+}
+
+// "joints.scatter=0.3" as a table; its nodes name "--set joints.scatter" as their source.
+toml::table parse_override(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string key = text.substr(0, equals);
+  const std::string source = std::string(override_mark) + key;
+  if (equals == std::string::npos)
+    throw InputError(source, "has no value", "write --set joints.scatter=0.3");
+  try {
+    return toml::parse(text, source);
+  } catch (const toml::parse_error&) {
+    // Not a TOML value, so perhaps a bare word: the shell has eaten its quotes, if it ever had any.
+  }
+  try {
+    return toml::parse(fmt::format("{} = '{}'", key, text.substr(equals + 1)), source);
+  } catch (const toml::parse_error& error) {
+    throw InputError(source, fmt::format("is not TOML: {}", error.description()),
+                     "write --set joints.scatter=0.3");
+  }
+}
+
+void merge(toml::table& into, toml::table&& from) {
+  for (auto&& [key, node] : from) {
+    toml::node* const present = into.get(key);
+    if (node.is_table() && present != nullptr && present->is_table())
+      merge(*present->as_table(), std::move(*node.as_table()));
+    else  // moved, not copied: only a move keeps the source
+      node.visit([&, &name = key](auto& value) { into.insert_or_assign(name, std::move(value)); });
+  }
+}
+
+}  // namespace
+
+toml::table parse_toml(const std::filesystem::path& file, const Overrides& overrides) {
+  toml::table table = parse_file(file);
+  std::vector<Problem> problems;
+  for (const std::string& text : overrides) {
+    try {
+      merge(table, parse_override(text));
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return table;
+}
+
+}  // namespace havers::io

@@ -1,0 +1,24 @@
+#include "io/config/read_scene.hpp"
+
+#include <fmt/format.h>
+
+#include "io/config/scene_tables.hpp"
+
+namespace havers::io {
+
+SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrides) {
+  ConfigFile config(file, overrides);
+  TableReader top = config.top();
+  SceneFile read;
+  read_scene_tables(top, read.scene);
+
+  TableReader output = top.table("output");
+  output.key("snapshots", read.snapshots);
+  if (read.snapshots < 0)
+    output.complain("snapshots", fmt::format("is {}, must be 0 or more", read.snapshots));
+
+  config.finish();
+  return read;
+}
+
+}  // namespace havers::io

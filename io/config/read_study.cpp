@@ -1,0 +1,185 @@
+#include "io/config/read_study.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "calib/study/parameter.hpp"
+#include "io/config/nearest.hpp"
+#include "io/config/scene_tables.hpp"
+#include "io/config/study_keys.hpp"
+
+namespace havers::io {
+namespace {
+
+void require(bool holds, TableReader& table, std::string_view key, double value,
+             std::string_view rule) {
+  if (!holds) table.complain(key, fmt::format("is {:g}, must be {}", value, rule));
+}
+
+void require_positive(TableReader& table, std::string_view key, const std::optional<double>& value,
+                      KeyUnit unit = {}) {
+  if (value) require(*value > 0.0, table, key, from_si(*value, unit), "above 0");
+}
+
+void require_not_negative(TableReader& table, std::string_view key, double value) {
+  require(value >= 0.0, table, key, value, "0 or more");
+}
+
+// The id names files of the result.
+void check_id(TableReader& table, const std::string& id, std::set<std::string>& ids) {
+  if (id.empty())
+    table.complain("id", table.has("id") ? "is empty" : "is missing", "name the specimen");
+  else if (id.find_first_of("/\\\n") != std::string::npos || id.front() == '.')
+    table.complain("id", fmt::format("is \"{}\", must be usable as a file's name", id));
+  else if (!ids.insert(id).second)
+    table.complain("id", fmt::format("is \"{}\", as that of an earlier specimen", id));
+}
+
+void check_specimen(TableReader& table, const SpecimenFiles& specimen) {
+  if (!table.has("test")) table.complain("test", "is missing", "the testing machine's file");
+  require_positive(table, "width_mm", specimen.width, millimetre);
+  require_positive(table, "thickness_mm", specimen.thickness, millimetre);
+  require_positive(table, "gauge_length_mm", specimen.gauge_length, millimetre);
+  require_positive(table, "pixel_size_um", specimen.pixel_size, micrometre);
+  constexpr double right_angle = std::numbers::pi / 2.0;
+  require(specimen.orientation > -right_angle && specimen.orientation <= right_angle, table,
+          "orientation_deg", from_si(specimen.orientation, degree), "above -90 and at most 90");
+  if (specimen.porosity)
+    require(*specimen.porosity >= 0.0 && *specimen.porosity < 1.0, table, "porosity",
+            *specimen.porosity, "at least 0 and below 1");
+}
+
+void check_files(TableReader& table, const SpecimenFiles& specimen) {
+  if (table.has("test")) table.require_file("test", specimen.test);
+  if (specimen.gauge) table.require_file("gauge", *specimen.gauge);
+  for (const std::filesystem::path& section : specimen.sections)
+    table.require_file("sections", section);
+}
+
+std::vector<SpecimenFiles> read_specimens(TableReader& top, Files files) {
+  std::vector<SpecimenFiles> specimens;
+  std::set<std::string> ids;
+  if (!top.has("specimen"))
+    top.complain("specimen", "is missing", "write one [[specimen]] for each test");
+  for (TableReader& table : top.tables("specimen")) {
+    SpecimenFiles& specimen = specimens.emplace_back();
+    keys(table, specimen);
+    check_id(table, specimen.id, ids);
+    check_specimen(table, specimen);
+    if (files == Files::must_exist) check_files(table, specimen);
+  }
+  return specimens;
+}
+
+void read_porosity(TableReader table, calib::PorosityOptions& porosity) {
+  keys(table, porosity);
+  require_not_negative(table, "strength_exponent", porosity.strength_exponent);
+  require_not_negative(table, "modulus_exponent", porosity.modulus_exponent);
+  require(porosity.linear_offset >= 0.0 && porosity.linear_offset < 2.0, table, "linear_offset",
+          porosity.linear_offset, "at least 0 and below 2");
+}
+
+// Only known names are kept, so that what is judged later complains of something else.
+void read_parameters(TableReader& calibrate, calib::CalibrateOptions& options) {
+  options.automatic = calibrate.is_word("parameters", "auto");
+  std::vector<std::string> names;
+  if (options.automatic || !calibrate.key("parameters", names)) return;
+  std::set<std::string, std::less<>> known;
+  for (const calib::ParameterInfo& info : calib::all_parameters()) known.emplace(info.name);
+
+  bool all_known = true;
+  for (const std::string& name : names) {
+    if (known.contains(name)) continue;
+    calibrate.complain("parameters", fmt::format("names \"{}\", which cannot be calibrated", name),
+                       fmt::format("did you mean {}?", nearest(name, known)));
+    all_known = false;
+  }
+  if (all_known) options.parameters = names;
+}
+
+// A bound must be in order with itself, and the model must be possible at either end.
+void check_bounds(TableReader& bounds, std::string_view name, std::pair<double, double> value,
+                  const sim::Scene& model) {
+  calib::CalibrateOptions alone;
+  alone.bounds.emplace(name, value);
+  const std::vector<std::string> problems = alone.problems();
+  for (const std::string& problem : problems) bounds.complain(name, problem);
+  if (!problems.empty() || !model.problems().empty()) return;
+  for (const double end : {value.first, value.second}) {
+    sim::Scene scene = model;
+    calib::apply(scene, name, end);
+    for (const sim::Scene::Problem& problem : scene.problems())
+      bounds.complain(name, fmt::format("at {:g}: {} {}", end, problem.key, problem.what));
+  }
+}
+
+void read_calibrate(TableReader calibrate, const sim::Scene& model,
+                    calib::CalibrateOptions& options) {
+  read_parameters(calibrate, options);
+  TableReader bounds = calibrate.table("bounds");
+  TableReader level = calibrate.table("level");
+  TableReader settings = calibrate.table("options");
+  keys(settings, options);
+  for (const std::string& problem : options.problems()) calibrate.complain("", problem);
+
+  for (const calib::ParameterInfo& info : calib::all_parameters()) {
+    std::pair<double, double> range;
+    if (bounds.key(info.name, range)) {
+      check_bounds(bounds, info.name, range, model);
+      options.bounds.emplace(info.name, range);
+    }
+    calib::Level shared_over{};
+    if (level.key(info.name, shared_over)) options.level.emplace(info.name, shared_over);
+  }
+}
+
+void read_synthesize(TableReader table, SynthesizeOptions& options) {
+  keys(table, options);
+  require_not_negative(table, "force_noise_N", options.force_noise);
+  require_not_negative(table, "strain_noise", options.strain_noise);
+  require_not_negative(table, "preload_N", options.preload);
+  require_not_negative(table, "toe_strain", options.toe_strain);
+  require_not_negative(table, "modulus_cv", options.modulus_cv);
+  require_positive(table, "sampling_s", options.sampling);
+  require_positive(table, "crosshead_mm_per_min", options.crosshead_rate, millimetre_per_minute);
+  require_positive(table, "pore_radius_um", options.pore_radius, micrometre);
+  require(options.section_pixels >= 16, table, "section_pixels", options.section_pixels,
+          "at least 16");
+}
+
+calib::Specimen without_tests(const SpecimenFiles& files) {
+  calib::Specimen specimen;
+  specimen.id = files.id;
+  specimen.use = files.use;
+  specimen.orientation = files.orientation;
+  specimen.porosity = files.porosity;
+  return specimen;
+}
+
+}  // namespace
+
+StudyFile read_study(const std::filesystem::path& file, const Overrides& overrides, Files files) {
+  ConfigFile config(file, overrides);
+  TableReader top = config.top();
+  StudyFile read;
+  top.table("study").key("name", read.study.name);
+  read.specimens = read_specimens(top, files);
+  for (const SpecimenFiles& specimen : read.specimens)
+    read.study.specimens.push_back(without_tests(specimen));
+
+  TableReader model = top.table("model");
+  read_scene_tables(model, read.study.model);
+  int snapshots = 0;  // accepted, so that a scene can be pasted whole; a fit writes none
+  model.table("output").key("snapshots", snapshots);
+
+  read_porosity(top.table("porosity"), read.study.porosity);
+  read_calibrate(top.table("calibrate"), read.study.model, read.study.calibrate);
+  read_synthesize(top.table("synthesize"), read.synthesize);
+  config.finish();
+  return read;
+}
+
+}  // namespace havers::io

@@ -1,0 +1,57 @@
+// The keys of a study's own tables, declared once as in scene_keys.hpp.
+#pragma once
+
+#include "calib/study/study.hpp"
+#include "io/config/key_unit.hpp"
+#include "io/config/read_study.hpp"
+
+namespace havers::io {
+
+template <class Table>
+void keys(Table& table, calib::PorosityOptions& porosity) {
+  table.key("to_scatter", porosity.to_scatter);
+  table.key("to_modulus", porosity.to_modulus);
+  table.key("strength_exponent", porosity.strength_exponent);
+  table.key("linear_offset", porosity.linear_offset);
+  table.key("linear_slope", porosity.linear_slope);
+  table.key("modulus_exponent", porosity.modulus_exponent);
+}
+
+/// [calibrate.options]; the number of threads is no option of a study, since it never changes a
+/// number.
+template <class Table>
+void keys(Table& table, calib::CalibrateOptions& options) {
+  table.key("replicates", options.replicates);
+  table.key("budget", options.budget);
+  table.key("seed", options.seed);
+}
+
+template <class Table>
+void keys(Table& table, SynthesizeOptions& options) {
+  table.key("force_noise_N", options.force_noise);
+  table.key("strain_noise", options.strain_noise);
+  table.key("preload_N", options.preload);
+  table.key("toe_strain", options.toe_strain);
+  table.key("sampling_s", options.sampling);
+  table.key("crosshead_mm_per_min", options.crosshead_rate, millimetre_per_minute);
+  table.key("pore_radius_um", options.pore_radius, micrometre);
+  table.key("modulus_cv", options.modulus_cv);
+  table.key("section_pixels", options.section_pixels);
+}
+
+template <class Table>
+void keys(Table& table, SpecimenFiles& specimen) {
+  table.key("id", specimen.id);
+  table.key("test", specimen.test);
+  table.key("gauge", specimen.gauge);
+  table.key("width_mm", specimen.width, millimetre);
+  table.key("thickness_mm", specimen.thickness, millimetre);
+  table.key("gauge_length_mm", specimen.gauge_length, millimetre);
+  table.key("orientation_deg", specimen.orientation, degree);
+  table.key("sections", specimen.sections);
+  table.key("pixel_size_um", specimen.pixel_size, micrometre);
+  table.key("porosity", specimen.porosity);
+  table.key("use", specimen.use);
+}
+
+}  // namespace havers::io

@@ -1,0 +1,268 @@
+#include "io/config/table_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/config/nearest.hpp"
+#include "io/config/parse_toml.hpp"
+
+namespace havers::io {
+namespace {
+
+std::string_view kind(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::string:
+      return "a text";
+    case toml::node_type::integer:
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::table:
+      return "a table";
+    default:
+      return "a date or time";
+  }
+}
+
+std::string join(const std::string& path, std::string_view name) {
+  if (path.empty() || name.empty()) return path + std::string(name);
+  return fmt::format("{}.{}", path, name);
+}
+
+// What a dotted key names, or the innermost table on the way that is there.
+const toml::node& innermost(const toml::table& table, std::string_view key) {
+  const std::size_t end = std::min(key.find('.'), key.size());
+  const toml::node* node = table.get(key.substr(0, end));
+  if (node == nullptr) return table;
+  return end < key.size() && node->is_table() ? innermost(*node->as_table(), key.substr(end + 1))
+                                              : *node;
+}
+
+std::filesystem::path beside(const std::filesystem::path& file, const std::string& name) {
+  return (file.parent_path() / name).lexically_normal();
+}
+
+}  // namespace
+
+std::string TableReader::full(std::string_view name) const {
+  return join(path_, name);
+}
+
+bool TableReader::has(std::string_view name) const {
+  return table_ != nullptr && table_->contains(name);
+}
+
+bool TableReader::is_word(std::string_view name, std::string_view word) const {
+  return has(name) && table_->get(name)->value<std::string_view>() == word;
+}
+
+const toml::node* TableReader::ask(std::string_view name) {
+  file_->asked_[path_].emplace(name);
+  return table_ == nullptr ? nullptr : table_->get(name);
+}
+
+void TableReader::complain(std::string_view name, std::string what, std::string hint) {
+  const toml::node& node =
+      table_ != nullptr ? innermost(*table_, name) : innermost(*file_->top_, full(name));
+  file_->complain({file_->where(node, full(name)), std::move(what), std::move(hint)});
+}
+
+void TableReader::complain(const std::vector<Problem>& problems) {
+  for (const Problem& problem : problems) file_->complain(problem);
+}
+
+bool TableReader::wrong_type(std::string_view name, const toml::node& node,
+                             std::string_view expected) {
+  complain(name, fmt::format("is {}, must be {}", kind(node), expected));
+  return false;
+}
+
+bool TableReader::key(std::string_view name, double& value, KeyUnit unit) {
+  const toml::node* node = ask(name);
+  if (node == nullptr) return false;
+  if (!node->is_number()) return wrong_type(name, *node, "a number");
+  const double number = *node->value<double>();
+  if (!std::isfinite(number)) {
+    complain(name, fmt::format("is {}, must be finite", number));
+    return false;
+  }
+  value = to_si(number, unit);
+  return true;
+}
+
+std::optional<std::int64_t> TableReader::whole_number(std::string_view name) {
+  const toml::node* node = ask(name);
+  if (node == nullptr) return std::nullopt;
+  const std::optional<std::int64_t> number = node->value_exact<std::int64_t>();
+  if (!number && node->is_number())
+    complain(name, fmt::format("is {}, must be a whole number", *node->value<double>()));
+  else if (!number)
+    wrong_type(name, *node, "a whole number");
+  return number;
+}
+
+bool TableReader::key(std::string_view name, int& value) {
+  constexpr std::numeric_limits<int> range;
+  const std::optional<std::int64_t> number = whole_number(name);
+  if (!number) return false;
+  if (*number < range.min() || *number > range.max()) {
+    complain(name, fmt::format("is {}, must be from {} to {}", *number, range.min(), range.max()));
+    return false;
+  }
+  value = static_cast<int>(*number);
+  return true;
+}
+
+bool TableReader::key(std::string_view name, std::uint64_t& value) {
+  const std::optional<std::int64_t> number = whole_number(name);
+  if (number && *number < 0) complain(name, fmt::format("is {}, must be 0 or more", *number));
+  if (!number || *number < 0) return false;
+  value = static_cast<std::uint64_t>(*number);
+  return true;
+}
+
+bool TableReader::key(std::string_view name, bool& value) {
+  const toml::node* node = ask(name);
+  if (node == nullptr) return false;
+  if (!node->is_boolean()) return wrong_type(name, *node, "true or false");
+  value = **node->as_boolean();
+  return true;
+}
+
+bool TableReader::key(std::string_view name, std::string& value) {
+  const toml::node* node = ask(name);
+  if (node == nullptr) return false;
+  if (!node->is_string()) return wrong_type(name, *node, "a text");
+  value = **node->as_string();
+  return true;
+}
+
+bool TableReader::key(std::string_view name, std::pair<double, double>& value) {
+  const toml::node* node = ask(name);
+  if (node == nullptr) return false;
+  const toml::array* list = node->as_array();
+  const auto is_number = [](const toml::node& item) { return item.is_number(); };
+  if (list == nullptr || list->size() != 2 || !std::all_of(list->begin(), list->end(), is_number)) {
+    complain(name, "must be a list of two numbers", "as in [5.0, 30.0]");
+    return false;
+  }
+  value = {*list->get(0)->value<double>(), *list->get(1)->value<double>()};
+  return true;
+}
+
+bool TableReader::key(std::string_view name, std::vector<std::string>& value) {
+  const toml::node* node = ask(name);
+  if (node == nullptr) return false;
+  const toml::array* list = node->as_array();
+  const auto is_text = [](const toml::node& item) { return item.is_string(); };
+  if (list == nullptr || !std::all_of(list->begin(), list->end(), is_text))
+    return wrong_type(name, *node, "a list of texts");
+  value.clear();
+  for (const toml::node& item : *list) value.push_back(**item.as_string());
+  return true;
+}
+
+bool TableReader::key(std::string_view name, std::filesystem::path& value) {
+  std::string text;
+  if (!key(name, text)) return false;
+  value = beside(file_->file_, text);
+  return true;
+}
+
+bool TableReader::key(std::string_view name, std::vector<std::filesystem::path>& value) {
+  std::vector<std::string> texts;
+  if (!key(name, texts)) return false;
+  value.clear();
+  for (const std::string& text : texts) value.push_back(beside(file_->file_, text));
+  return true;
+}
+
+bool TableReader::require_file(std::string_view name, const std::filesystem::path& file) {
+  if (std::filesystem::is_regular_file(file)) return true;
+  complain(name, fmt::format("names {}, which is not there", file.string()),
+           "paths are relative to the folder of this file");
+  return false;
+}
+
+std::optional<std::size_t> TableReader::word_index(std::string_view name,
+                                                   const std::vector<std::string_view>& known) {
+  std::string text;
+  if (!key(name, text)) return std::nullopt;
+  const auto found = std::find(known.begin(), known.end(), text);
+  if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
+  complain(name, fmt::format("is \"{}\", must be one of: {}", text, fmt::join(known, ", ")),
+           fmt::format("did you mean {}?", nearest(text, {known.begin(), known.end()})));
+  return std::nullopt;
+}
+
+TableReader TableReader::table(std::string_view name) {
+  const toml::node* node = ask(name);
+  if (node != nullptr && !node->is_table()) wrong_type(name, *node, "a table");
+  file_->asked_[full(name)];  // opened, even when it has no keys
+  return {*file_, node == nullptr ? nullptr : node->as_table(), full(name)};
+}
+
+std::vector<TableReader> TableReader::tables(std::string_view name) {
+  const toml::node* node = ask(name);
+  if (node == nullptr) return {};
+  file_->asked_[full(name)];
+  const toml::array* list = node->as_array();
+  const auto is_table = [](const toml::node& item) { return item.is_table(); };
+  if (list == nullptr || !std::all_of(list->begin(), list->end(), is_table)) {
+    complain(name, fmt::format("is {}, must be tables", kind(*node)),
+             fmt::format("write [[{}]]", name));
+    return {};
+  }
+  std::vector<TableReader> readers;
+  for (const toml::node& item : *list) readers.emplace_back(*file_, item.as_table(), full(name));
+  return readers;
+}
+
+ConfigFile::ConfigFile(std::filesystem::path file, const Overrides& overrides)
+    : file_(std::move(file)), top_(std::make_unique<toml::table>(parse_toml(file_, overrides))) {}
+
+ConfigFile::~ConfigFile() = default;
+
+TableReader ConfigFile::top() {
+  return {*this, top_.get(), ""};
+}
+
+std::string ConfigFile::where(const toml::node& node, const std::string& key) const {
+  const toml::source_region& source = node.source();
+  if (source.path && source.path->starts_with(override_mark))
+    return fmt::format("{}{}", override_mark, key);
+  if (&node == top_.get() || source.begin.line == 0)
+    return fmt::format("{}: {}", file_.string(), key);
+  return fmt::format("{}:{}: {}", file_.string(), source.begin.line, key);
+}
+
+void ConfigFile::find_unknown(const toml::table& table, const std::string& path) {
+  const auto& known = asked_[path];
+  for (auto&& [key, node] : table) {
+    const std::string name = join(path, key.str());
+    if (!known.contains(key.str()))
+      complain({where(node, name), "is not a known key",
+                fmt::format("did you mean {}?", nearest(key.str(), known))});
+    else if (!asked_.contains(name))
+      continue;  // a value, judged where it was read
+    else if (const toml::table* inner = node.as_table())
+      find_unknown(*inner, name);
+    else if (const toml::array* list = node.as_array())
+      for (const toml::node& item : *list)
+        if (const toml::table* entry = item.as_table()) find_unknown(*entry, name);
+  }
+}
+
+void ConfigFile::finish() {
+  find_unknown(*top_, "");
+  if (!problems_.empty()) throw InputError(problems_);
+}
+
+}  // namespace havers::io

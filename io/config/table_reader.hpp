@@ -1,0 +1,120 @@
+// A TOML file read key by key: what was asked for is known, everything else is a mistake of the
+// user.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/config/key_unit.hpp"
+#include "io/config/read_scene.hpp"
+#include "io/config/words.hpp"
+#include "io/input_error.hpp"
+
+namespace toml {
+inline namespace v3 {
+class node;
+class table;
+}  // namespace v3
+}  // namespace toml
+
+namespace havers::io {
+
+class ConfigFile;
+
+/// One table of a file. `key` leaves the value as it is, and answers false, when the key is absent
+/// or wrong; what is wrong is collected in the file.
+class TableReader {
+ public:
+  TableReader(ConfigFile& file, const toml::table* table, std::string path)
+      : file_(&file), table_(table), path_(std::move(path)) {}
+
+  bool key(std::string_view name, double& value, KeyUnit unit = {});
+  bool key(std::string_view name, int& value);
+  bool key(std::string_view name, std::uint64_t& value);
+  bool key(std::string_view name, bool& value);
+  bool key(std::string_view name, std::string& value);
+  bool key(std::string_view name, std::pair<double, double>& value);
+  bool key(std::string_view name, std::vector<std::string>& value);
+
+  /// Paths are resolved against the file's folder.
+  bool key(std::string_view name, std::filesystem::path& value);
+  bool key(std::string_view name, std::vector<std::filesystem::path>& value);
+  /// Complains unless the file that the key names is there.
+  bool require_file(std::string_view name, const std::filesystem::path& file);
+
+  template <Worded E>
+  bool key(std::string_view name, E& value) {
+    const auto known = words(value);
+    const std::optional<std::size_t> index = word_index(name, {known.begin(), known.end()});
+    if (index) value = static_cast<E>(*index);
+    return index.has_value();
+  }
+
+  template <class T, class... Units>
+  bool key(std::string_view name, std::optional<T>& value, Units... unit) {
+    T read{};
+    const bool good = key(name, read, unit...);
+    if (good) value = std::move(read);
+    return good;
+  }
+
+  /// The table of that name; an absent one has no keys.
+  TableReader table(std::string_view name);
+  /// The tables [[name]].
+  std::vector<TableReader> tables(std::string_view name);
+
+  [[nodiscard]] bool has(std::string_view name) const;
+  /// Whether the key holds this word, for keys that take a word or something else.
+  [[nodiscard]] bool is_word(std::string_view name, std::string_view word) const;
+  /// A complaint about a key, dotted where it is of an inner table; it need not be in the file.
+  void complain(std::string_view name, std::string what, std::string hint = {});
+  void complain(const std::vector<Problem>& problems);  ///< Of a file that is named here.
+
+ private:
+  const toml::node* ask(std::string_view name);
+  bool wrong_type(std::string_view name, const toml::node& node, std::string_view expected);
+  std::optional<std::int64_t> whole_number(std::string_view name);
+  std::optional<std::size_t> word_index(std::string_view name,
+                                        const std::vector<std::string_view>& known);
+  [[nodiscard]] std::string full(std::string_view name) const;
+
+  ConfigFile* file_;
+  const toml::table* table_;  ///< Null when the file has no such table.
+  std::string path_;          ///< "model.joints"; empty for the top.
+};
+
+/// The file, what was asked of it and what is wrong with it.
+class ConfigFile {
+ public:
+  /// @throws InputError when the file cannot be read or is not TOML, or an override is neither.
+  ConfigFile(std::filesystem::path file, const Overrides& overrides);
+  ~ConfigFile();
+  ConfigFile(const ConfigFile&) = delete;
+  ConfigFile& operator=(const ConfigFile&) = delete;
+
+  TableReader top();
+  void complain(Problem problem) { problems_.push_back(std::move(problem)); }
+  /// To be called when all keys were asked for. @throws InputError with all problems, unknown keys
+  /// among them.
+  void finish();
+
+ private:
+  friend class TableReader;
+  [[nodiscard]] std::string where(const toml::node& node, const std::string& key) const;
+  void find_unknown(const toml::table& table, const std::string& path);
+
+  std::filesystem::path file_;
+  std::unique_ptr<toml::table> top_;
+  std::map<std::string, std::set<std::string, std::less<>>> asked_;  ///< Keys by the table's path.
+  std::vector<Problem> problems_;
+};
+
+}  // namespace havers::io

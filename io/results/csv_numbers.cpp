@@ -1,0 +1,108 @@
+#include "io/results/csv_numbers.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "io/input_error.hpp"
+#include "io/machine/csv_rows.hpp"
+
+namespace havers::io {
+namespace {
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || std::filesystem::is_directory(file) || !(text << stream.rdbuf()))
+    throw InputError(file.string(), "cannot be read",
+                     "a CSV file with a header row is expected there");
+  return text.str();
+}
+
+// Takes rows one by one: the header first, then numbers.
+class Columns {
+ public:
+  Columns(std::string file, const std::vector<std::string>& names)
+      : file_(std::move(file)), names_(names) {}
+
+  bool take(const Row& row) {
+    if (positions_.empty()) return find_columns(row);
+    CsvNumbers numbers{row.line, {}};
+    for (std::size_t i = 0; i < names_.size(); ++i) numbers.values.push_back(number(row, i));
+    rows_.push_back(std::move(numbers));
+    return true;
+  }
+
+  std::vector<CsvNumbers> finish() {
+    if (positions_.empty() && problems_.empty())
+      problems_.push_back({file_, "is empty", expected()});
+    if (!problems_.empty()) throw InputError(std::move(problems_));
+    return std::move(rows_);
+  }
+
+ private:
+  [[nodiscard]] std::string expected() const {
+    return fmt::format("the columns needed are {}", fmt::join(names_, ","));
+  }
+
+  bool find_columns(const Row& header) {
+    for (const std::string& name : names_) {
+      const auto found = std::ranges::find(header.cells, name);
+      if (found == header.cells.end())
+        problems_.push_back({fmt::format("{}:{}", file_, header.line),
+                             fmt::format("has no column {}", name), expected()});
+      positions_.push_back(static_cast<std::size_t>(found - header.cells.begin()));
+    }
+    return problems_.empty();
+  }
+
+  double number(const Row& row, std::size_t column) {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    const std::size_t position = positions_[column];
+    const std::string_view cell = position < row.cells.size() ? row.cells[position] : "";
+    const char* const end = cell.data() + cell.size();
+    if (!cell.empty() && std::from_chars(cell.data(), end, value).ptr != end)
+      problems_.push_back(
+          {fmt::format("{}:{}", file_, row.line),
+           fmt::format("column {} holds \"{}\", must be a number", names_[column], cell), ""});
+    return value;
+  }
+
+  std::string file_;
+  const std::vector<std::string>& names_;
+  std::vector<std::size_t> positions_;  // of each name in the header
+  std::vector<CsvNumbers> rows_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+std::string csv_number(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : "";
+}
+
+std::string csv_text(const std::vector<std::string>& header,
+                     const std::vector<std::vector<double>>& columns) {
+  std::string text = fmt::format("{}\n", fmt::join(header, ","));
+  for (std::size_t row = 0; row < columns.front().size(); ++row)
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      text += csv_number(columns[i][row]) + (i + 1 < columns.size() ? "," : "\n");
+  return text;
+}
+
+std::vector<CsvNumbers> read_csv_numbers(const std::filesystem::path& file,
+                                         const std::vector<std::string>& names) {
+  Columns columns(file.string(), names);
+  CsvRows rows(',', [&](const Row& row) { return columns.take(row); });
+  rows.feed(read_text(file));
+  rows.finish();
+  return columns.finish();
+}
+
+}  // namespace havers::io

@@ -1,0 +1,28 @@
+// CSV files of numbers with a header row: written and read back without loss.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace havers::io {
+
+/// The shortest text that reads back as the same number; empty for a number that is not finite.
+std::string csv_number(double value);
+
+/// A header and rows of equal length, comma-separated.
+std::string csv_text(const std::vector<std::string>& header,
+                     const std::vector<std::vector<double>>& columns);
+
+/// The chosen columns of one row; an empty cell is NaN.
+struct CsvNumbers {
+  std::size_t line = 0;
+  std::vector<double> values;
+};
+
+/// Reads columns by the names in the header row; other columns may hold anything.
+/// @throws InputError naming missing columns and the lines of cells that are not numbers.
+std::vector<CsvNumbers> read_csv_numbers(const std::filesystem::path& file,
+                                         const std::vector<std::string>& names);
+
+}  // namespace havers::io

@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "io/input_error.hpp"
+#include "io/results/csv_numbers.hpp"
+#include "io/results/json_table.hpp"
+#include "io/results/result_files.hpp"
+#include "io/results/result_keys.hpp"
+
+namespace havers::io {
+namespace {
+
+const std::vector<std::string> band_columns{
+    "strain",     "measured_Pa", "simulated_median_Pa", "simulated_lower_Pa", "simulated_upper_Pa",
+    "residual_Pa"};
+const std::vector<std::string> measured_columns{"strain", "stress_Pa"};
+
+std::vector<std::vector<double>> read_columns(const std::filesystem::path& file,
+                                              const std::vector<std::string>& names) {
+  std::vector<std::vector<double>> columns(names.size());
+  for (const CsvNumbers& row : read_csv_numbers(file, names))
+    for (std::size_t i = 0; i < names.size(); ++i) columns[i].push_back(row.values[i]);
+  return columns;
+}
+
+calib::CurveBand read_band(const std::filesystem::path& file) {
+  std::vector<std::vector<double>> columns = read_columns(file, band_columns);
+  return {.strain = columns[0],
+          .median = columns[2],
+          .lower = columns[3],
+          .upper = columns[4],
+          .measured = columns[1],
+          .residual = columns[5]};
+}
+
+nlohmann::json read_json(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream)
+    throw InputError(file.string(), "is not there", "a folder written by havers fit has one");
+  nlohmann::json json = nlohmann::json::parse(stream);
+  if (!json.is_object() || !json.contains("verdict") || !json.contains("study"))
+    throw InputError(file.string(), "is not the result of a fit",
+                     "havers fit STUDY.toml -o DIR writes one");
+  return json;
+}
+
+FitFolder fit_of(nlohmann::json json) {
+  FitFolder fit;
+  JsonReader table(json);
+  keys(table, fit.result);
+  table.key("study", fit.study);
+  table.key("provenance", fit.provenance);
+  return fit;
+}
+
+void read_curves(const std::filesystem::path& folder, calib::SpecimenResult& specimen) {
+  specimen.band = read_band(folder / band_file(specimen.id));
+  std::vector<std::vector<double>> measured =
+      read_columns(folder / measured_file(specimen.id), measured_columns);
+  specimen.measured.strain = std::move(measured[0]);
+  specimen.measured.stress = std::move(measured[1]);
+}
+
+}  // namespace
+
+nlohmann::json calibration_json(const calib::Study& study, const calib::CalibrationResult& result,
+                                const Provenance& provenance) {
+  calib::CalibrationResult answer = result;
+  calib::Study question = study;
+  Provenance origin = provenance;
+  nlohmann::json json = json_of(answer);
+  json["status_text"] = calib::explain(result.status);
+  json["trusted"] = result.trusted();
+  json["wall_s"] = provenance.wall_seconds;
+  json["study"] = json_of(question);
+  json["provenance"] = json_of(origin);
+  return json;
+}
+
+std::string band_file(const std::string& id) {
+  return fmt::format("curves/{}.csv", id);
+}
+std::string measured_file(const std::string& id) {
+  return fmt::format("curves/{}_measured.csv", id);
+}
+
+void write_band(const std::filesystem::path& file, const calib::CurveBand& band) {
+  write_file(file, csv_text(band_columns, {band.strain, band.measured, band.median, band.lower,
+                                           band.upper, band.residual}));
+}
+
+void write_measured(const std::filesystem::path& file, const calib::MeasuredTest& test) {
+  write_file(file, csv_text(measured_columns, {test.strain, test.stress}));
+}
+
+FitFolder read_fit_folder(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "result.json";
+  FitFolder fit;
+  try {
+    fit = fit_of(read_json(file));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(file.string(), fmt::format("cannot be understood: {}", error.what()));
+  }
+  for (calib::SpecimenResult& specimen : fit.result.specimens) read_curves(folder, specimen);
+  for (calib::Specimen& specimen : fit.study.specimens) {
+    const auto found =
+        std::ranges::find(fit.result.specimens, specimen.id, &calib::SpecimenResult::id);
+    if (found != fit.result.specimens.end()) specimen.test = found->measured;
+  }
+  return fit;
+}
+
+}  // namespace havers::io

@@ -1,0 +1,131 @@
+// Structs to JSON and back by the keys that are declared once for them: void keys(Table&, Struct&).
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "io/config/key_unit.hpp"
+#include "io/config/words.hpp"
+
+namespace havers::io {
+
+class JsonWriter;
+
+/// A struct that has keys.
+template <class T>
+concept Keyed = requires(JsonWriter& table, T& value) {
+  keys(table, value);
+};
+
+template <class T>
+concept TextMap = requires {
+  typename T::mapped_type;
+};
+
+template <class T>
+concept List = requires(T& value) {
+  value.begin();
+}
+&&!TextMap<T> && !std::is_same_v<T, std::string>;
+
+/// JSON of a value given in SI units. A number that is not finite becomes null.
+template <class T>
+nlohmann::json json_of(T& value, KeyUnit unit = {}) {
+  nlohmann::json json;
+  if constexpr (std::is_same_v<T, double>) {
+    if (std::isfinite(value)) json = from_si(value, unit);
+  } else if constexpr (Worded<T>) {
+    json = word(value);
+  } else if constexpr (TextMap<T>) {
+    json = nlohmann::json::object();
+    for (auto& [name, item] : value) json[name] = json_of(item, unit);
+  } else if constexpr (List<T>) {
+    json = nlohmann::json::array();
+    for (auto& item : value) json.push_back(json_of(item, unit));
+  } else if constexpr (Keyed<T>) {
+    json = nlohmann::json::object();
+    JsonWriter table(json);
+    keys(table, value);
+  } else {
+    json = value;
+  }
+  return json;
+}
+
+/// Writes keys into a JSON object.
+class JsonWriter {
+ public:
+  explicit JsonWriter(nlohmann::json& object) : object_(&object) {}
+
+  template <class T>
+  void key(const char* name, T& value, KeyUnit unit = {}) {
+    (*object_)[name] = json_of(value, unit);
+  }
+  template <class T>
+  void key(const char* name, std::optional<T>& value, KeyUnit unit = {}) {
+    if (value) key(name, *value, unit);
+  }
+  /// An inner object that is no struct of its own.
+  template <class Inner>
+  void group(const char* name, Inner inner) {
+    JsonWriter table((*object_)[name] = nlohmann::json::object());
+    inner(table);
+  }
+
+ private:
+  nlohmann::json* object_;
+};
+
+/// Reads keys from a JSON object; an absent key leaves its value as it is.
+class JsonReader {
+ public:
+  explicit JsonReader(const nlohmann::json& object) : object_(&object) {}
+
+  template <class T>
+  void key(const char* name, T& value, KeyUnit unit = {}) {
+    if (object_->contains(name)) read(object_->at(name), value, unit);
+  }
+  template <class T>
+  void key(const char* name, std::optional<T>& value, KeyUnit unit = {}) {
+    if (object_->contains(name)) read(object_->at(name), value.emplace(), unit);
+  }
+  template <class Inner>
+  void group(const char* name, Inner inner) {
+    if (!object_->contains(name)) return;
+    JsonReader table(object_->at(name));
+    inner(table);
+  }
+
+ private:
+  template <class T>
+  static void read(const nlohmann::json& json, T& value, KeyUnit unit) {
+    if constexpr (std::is_same_v<T, double>) {
+      value = json.is_null() ? std::numeric_limits<double>::quiet_NaN()
+                             : to_si(json.get<double>(), unit);
+    } else if constexpr (Worded<T>) {
+      const auto known = words(value);
+      for (std::size_t i = 0; i < known.size(); ++i)
+        if (known.at(i) == json.get<std::string>()) value = static_cast<T>(i);
+    } else if constexpr (TextMap<T>) {
+      for (const auto& [name, item] : json.items()) read(item, value[name], unit);
+    } else if constexpr (List<T>) {
+      if constexpr (requires { value.resize(0); }) value.resize(json.size());
+      for (std::size_t i = 0; i < value.size(); ++i) read(json.at(i), value.at(i), unit);
+    } else if constexpr (Keyed<T>) {
+      JsonReader table(json);
+      keys(table, value);
+    } else {
+      json.get_to(value);
+    }
+  }
+
+  const nlohmann::json* object_;
+};
+
+}  // namespace havers::io

@@ -1,0 +1,46 @@
+#include "io/results/json_table.hpp"
+#include "io/results/result_files.hpp"
+#include "io/results/result_keys.hpp"
+
+namespace havers::io {
+namespace {
+
+nlohmann::json column_json(const Column& column) {
+  return {{"name", column.name}, {"unit", column.unit}, {"quantity", to_string(column.quantity)}};
+}
+
+nlohmann::json size_json(std::optional<double> size) {
+  return size ? json_of(*size) : nlohmann::json();
+}
+
+}  // namespace
+
+nlohmann::json import_json(const TestFile& file, const calib::Reduction& reduction) {
+  calib::MeasuredTest test = reduction.test;
+  nlohmann::json json = json_of(test);  // modulus_Pa, strength_Pa, ... and the corrections
+  json["file"] = file.file;
+  json["layout"] = file.layout;
+  json["encoding"] = file.encoding;
+  json["delimiter"] = file.delimiter;
+  json["decimal"] = file.decimal;
+  json["columns"] = nlohmann::json::array();
+  for (const Column& column : file.columns) json["columns"].push_back(column_json(column));
+  json["rows"] = file.rows;
+  json["specimen_id"] = file.test.specimen_id;
+  json["width_m"] = size_json(file.test.width);
+  json["thickness_m"] = size_json(file.test.thickness);
+  json["gauge_length_m"] = size_json(file.test.gauge_length);
+  json["warnings"] = file.test.warnings;
+  for (const std::string& warning : test.warnings) json["warnings"].push_back(warning);
+  json["problems"] = reduction.problems;
+  return json;
+}
+
+nlohmann::json porosity_json(const calib::SectionPorosity& section, double scatter) {
+  calib::SectionPorosity copy = section;
+  nlohmann::json json = json_of(copy);
+  json["scatter"] = json_of(scatter);
+  return json;
+}
+
+}  // namespace havers::io

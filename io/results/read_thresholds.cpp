@@ -1,0 +1,38 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/input_error.hpp"
+#include "io/results/csv_numbers.hpp"
+#include "io/results/result_files.hpp"
+
+namespace havers::io {
+
+// Rows may come in any order; the joints must be 0 to n - 1, each once.
+std::vector<sim::Threshold> read_thresholds(const std::filesystem::path& file) {
+  const std::vector<CsvNumbers> rows = read_csv_numbers(file, {"joint", "f_N", "f_T"});
+  std::vector<sim::Threshold> thresholds(rows.size());
+  std::vector<std::size_t> line_of(rows.size(), 0);
+  std::vector<Problem> problems;
+  const auto complain = [&](std::size_t line, std::string what) {
+    problems.push_back({fmt::format("{}:{}", file.string(), line), std::move(what), ""});
+  };
+  for (const CsvNumbers& row : rows) {
+    const double joint = row.values[0];
+    if (!(joint >= 0.0 && joint < static_cast<double>(rows.size()) && joint == std::floor(joint))) {
+      complain(row.line,
+               fmt::format("joint is {}, must be a whole number from 0 to {}, as many as rows",
+                           joint, rows.size() - 1));
+      continue;
+    }
+    const auto index = static_cast<std::size_t>(joint);
+    if (line_of[index] != 0)
+      complain(row.line, fmt::format("names joint {} again, after line {}", index, line_of[index]));
+    line_of[index] = row.line;
+    thresholds[index] = {.normal = row.values[1], .tangent = row.values[2]};
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return thresholds;
+}
+
+}  // namespace havers::io

@@ -1,0 +1,186 @@
+// The keys of results, declared once for writing and for reading back, as io/config/scene_keys.hpp
+// does for scenes.
+#pragma once
+
+#include "calib/fit/calibration.hpp"
+#include "io/config/scene_keys.hpp"
+#include "io/config/study_keys.hpp"
+#include "io/results/result_files.hpp"
+
+namespace havers::io {
+
+constexpr Words<3> words(calib::Outcome) {
+  return {"pass", "warn", "fail"};
+}
+constexpr Words<5> words(calib::CalibrationStatus) {
+  return {"converged", "budget_spent", "all_failed", "nothing_to_fit", "cancelled"};
+}
+
+template <class Table>
+void keys(Table& table, sim::Scene& scene) {
+  table.key("assembly", scene.assembly);
+  table.key("material", scene.material);
+  table.group("joints", [&](auto& joints) {
+    joints.key("head_tail_MPa", scene.joints.head_tail, megapascal);
+    joints.key("flank_MPa", scene.joints.flank, megapascal);
+    keys(joints, scene.joints);
+  });
+  table.key("loading", scene.loading);
+  table.key("solver", scene.solver);
+}
+
+template <class Table>
+void keys(Table& table, sim::LeftOut& left_out) {
+  table.key("what", left_out.what);
+  table.key("why", left_out.why);
+}
+
+template <class Table>
+void keys(Table& table, Provenance& provenance) {
+  table.key("havers", provenance.havers);
+  table.key("compiler", provenance.compiler);
+  table.key("command", provenance.command);
+  table.key("inputs", provenance.inputs);
+  table.key("wall_s", provenance.wall_seconds);
+  table.key("cpu_s", provenance.cpu_seconds);
+}
+
+template <class Table>
+void keys(Table& table, calib::Correction& correction) {
+  table.key("what", correction.what);
+  table.key("detail", correction.detail);
+}
+
+template <class Table>
+void keys(Table& table, calib::MeasuredTest& test) {
+  table.key("area_m2", test.area);
+  table.key("modulus_Pa", test.modulus);
+  table.key("modulus_standard_error_Pa", test.modulus_standard_error);
+  table.key("window_low", test.window_low);
+  table.key("window_high", test.window_high);
+  table.key("max_force_N", test.max_force);
+  table.key("strength_Pa", test.strength);
+  table.key("strength_standard_error_Pa", test.strength_standard_error);
+  table.key("failure_strain", test.failure_strain);
+  table.key("strain_rate_per_s", test.strain_rate);
+  table.key("linearity", test.linearity);
+  table.key("corrections", test.corrections);
+  table.key("warnings", test.warnings);
+}
+
+template <class Table>
+void keys(Table& table, calib::SectionPorosity& section) {
+  table.key("file", section.file);
+  table.key("pixel_size_um", section.pixel_size, micrometre);
+  table.key("method", section.method);
+  table.key("threshold", section.threshold);
+  table.key("porosity", section.porosity);
+  table.key("porosity_standard_error", section.porosity_standard_error);
+  table.key("pore_count", section.pore_count);
+  table.key("pore_area_um2", section.pore_area, square_micrometre);
+  table.key("bone_area_um2", section.bone_area, square_micrometre);
+  table.key("window_sd", section.window_sd);
+  table.key("warnings", section.warnings);
+}
+
+template <class Table>
+void keys(Table& table, calib::Specimen& specimen) {
+  table.key("id", specimen.id);
+  table.key("use", specimen.use);
+  table.key("orientation_deg", specimen.orientation, degree);
+  table.key("porosity", specimen.porosity);
+  table.key("sections", specimen.sections);
+}
+
+template <class Table>
+void keys(Table& table, calib::Study& study) {
+  table.key("name", study.name);
+  table.key("specimens", study.specimens);
+  table.key("model", study.model);
+  table.key("porosity", study.porosity);
+  table.group("calibrate", [&](auto& calibrate) {
+    calibrate.key("parameters", study.calibrate.parameters);
+    calibrate.key("automatic", study.calibrate.automatic);
+    calibrate.key("bounds", study.calibrate.bounds);
+    calibrate.key("level", study.calibrate.level);
+    calibrate.key("options", study.calibrate);
+  });
+}
+
+template <class Table>
+void keys(Table& table, calib::Check& check) {
+  table.key("check", check.check);
+  table.key("outcome", check.outcome);
+  table.key("text", check.text);
+}
+
+template <class Table>
+void keys(Table& table, calib::CalibratedParameter& parameter) {
+  table.key("name", parameter.name);
+  table.key("value", parameter.value);
+  table.key("unit", parameter.unit);
+  table.key("standard_error", parameter.standard_error);
+  table.key("interval_95", parameter.interval_95);
+  table.key("bounds", parameter.bounds);
+  table.key("at_bound", parameter.at_bound);
+  table.key("identifiable", parameter.identifiable);
+  table.key("left_out_because", parameter.left_out_because);
+}
+
+template <class Table>
+void keys(Table& table, calib::Spread& spread) {
+  table.key("mean", spread.mean);
+  table.key("sd", spread.sd);
+}
+
+template <class Table>
+void keys(Table& table, calib::SpecimenResult& specimen) {
+  table.key("id", specimen.id);
+  table.key("use", specimen.use);
+  table.key("orientation_deg", specimen.orientation, degree);
+  table.key("modulus_Pa", specimen.measured.modulus);
+  table.key("strength_Pa", specimen.measured.strength);
+  table.key("failure_strain", specimen.measured.failure_strain);
+  table.key("porosity", specimen.porosity);
+  table.key("scatter", specimen.scatter);
+  table.key("measured", specimen.measured);
+  table.group("simulated", [&](auto& simulated) {
+    simulated.key("modulus_Pa", specimen.modulus);
+    simulated.key("strength_Pa", specimen.strength);
+    simulated.key("failure_strain", specimen.failure_strain);
+  });
+  table.group("residual", [&](auto& residual) {
+    residual.key("modulus", specimen.residual[0]);
+    residual.key("strength", specimen.residual[1]);
+    residual.key("failure_strain", specimen.residual[2]);
+  });
+  table.key("failed_simulations", specimen.failed_simulations);
+}
+
+template <class Table>
+void keys(Table& table, calib::StageLog& stage) {
+  table.key("optimiser", stage.optimiser);
+  table.key("cost_before", stage.cost_before);
+  table.key("cost_after", stage.cost_after);
+  table.key("evaluations", stage.evaluations);
+  table.key("message", stage.message);
+}
+
+template <class Table>
+void keys(Table& table, calib::CalibrationResult& result) {
+  table.key("status", result.status);
+  table.key("verdict", result.verdict);
+  table.key("parameters", result.parameters);
+  table.key("specimens", result.specimens);
+  table.key("stages", result.stages);
+  table.key("left_out", result.left_out);
+  table.key("scene", result.scene);
+  table.key("cost", result.cost);
+  table.key("specimen_effect", result.specimen_effect);
+  table.key("evaluations", result.evaluations);
+  table.key("simulated", result.simulated);
+  table.key("distinct_simulations", result.distinct_simulations);
+  table.key("failed_simulations", result.failed_simulations);
+}
+
+}  // namespace havers::io

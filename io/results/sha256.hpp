@@ -1,0 +1,15 @@
+// SHA-256 digests, hexadecimal (libmd inside).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace havers::io {
+
+/// Of a file. @throws InputError when it cannot be read.
+std::string sha256(const std::filesystem::path& file);
+
+std::string sha256_of_text(std::string_view text);
+
+}  // namespace havers::io

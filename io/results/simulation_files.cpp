@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <cassert>
+
+#include "io/results/csv_numbers.hpp"
+#include "io/results/json_table.hpp"
+#include "io/results/result_files.hpp"
+#include "io/results/result_keys.hpp"
+
+namespace havers::io {
+
+nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& simulation,
+                               const Provenance& provenance) {
+  sim::Scene used = scene;
+  used.joints.reinforced_boundary = sim::reinforced_boundary(scene);
+  auto number = [](double value) { return json_of(value); };
+  sim::Regime regime = simulation.regime;
+  std::vector<sim::LeftOut> left_out = simulation.left_out;
+  Provenance origin = provenance;
+  return {
+      {"status", sim::to_string(simulation.status)},
+      {"status_text", sim::explain(simulation.status)},
+      {"trusted", simulation.trusted()},
+      {"regime", json_of(regime)},
+      {"regime_ground", simulation.regime_ground},
+      {"step_s", number(simulation.step)},
+      {"strength_Pa", number(simulation.strength)},
+      {"failure_strain", number(simulation.failure_strain)},
+      {"modulus_Pa", number(simulation.modulus)},
+      {"first_break_strain", number(simulation.first_break_strain)},
+      {"broken_joints", simulation.broken_joints},
+      {"steps", simulation.steps},
+      {"iterations", simulation.iterations},
+      {"energy_defect", number(simulation.energy_defect)},
+      {"worst_residual", number(simulation.worst_residual)},
+      {"worst_penetration_m", number(simulation.worst_penetration)},
+      {"wall_s", number(provenance.wall_seconds)},
+      {"left_out", json_of(left_out)},
+      {"scene", scene_json(used)},
+      {"provenance", json_of(origin)},
+  };
+}
+
+void write_curve(const std::filesystem::path& file, const sim::Simulation& simulation) {
+  std::string text =
+      "time_s,strain,stress_right_Pa,stress_left_Pa,broken_joints,kinetic_J_per_m,elastic_J_per_m,"
+      "dissipated_J_per_m\n";
+  for (const sim::CurvePoint& point : simulation.curve)
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{}\n", csv_number(point.time), csv_number(point.strain),
+        csv_number(point.stress_right), csv_number(point.stress_left), point.broken_joints,
+        csv_number(point.kinetic), csv_number(point.elastic), csv_number(point.dissipated));
+  write_file(file, text);
+}
+
+void write_joints(const std::filesystem::path& file, const sim::Assembly& assembly,
+                  const sim::Simulation& simulation) {
+  assert(assembly.joints.size() == simulation.joints.size());
+  std::string text =
+      "joint,kind,x_m,y_m,normal_x,normal_y,length_m,f_N,f_T,status,broken_at_strain,"
+      "reaction_N_N_per_m,reaction_T_N_per_m,gap_m\n";
+  for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
+    const sim::Joint& joint = assembly.joints[i];
+    const sim::JointOutcome& outcome = simulation.joints[i];
+    text += fmt::format(
+        "{},{},{},{},{},{},{},", i, joint.kind == sim::JointKind::flank ? "flank" : "head_tail",
+        csv_number(joint.position.x()), csv_number(joint.position.y()),
+        csv_number(joint.normal.x()), csv_number(joint.normal.y()), csv_number(joint.length));
+    text += fmt::format("{},{},{},{},{},{},{}\n", csv_number(outcome.threshold.normal),
+                        csv_number(outcome.threshold.tangent), outcome.broken ? "broken" : "bonded",
+                        csv_number(outcome.broken_at_strain), csv_number(outcome.reaction_normal),
+                        csv_number(outcome.reaction_tangent), csv_number(outcome.gap));
+  }
+  write_file(file, text);
+}
+
+}  // namespace havers::io

@@ -1,0 +1,28 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "io/input_error.hpp"
+#include "io/results/result_files.hpp"
+
+namespace havers::io {
+
+void write_file(const std::filesystem::path& file, const std::string& content) {
+  // The process's number keeps two runs on one folder from sharing the temporary.
+  const std::filesystem::path temporary = fmt::format("{}.{}.tmp", file.string(), getpid());
+  std::ofstream stream(temporary, std::ios::binary);
+  stream << content;
+  stream.close();
+  std::error_code failure;
+  if (stream) std::filesystem::rename(temporary, file, failure);
+  if (stream && !failure) return;
+
+  const std::string reason = failure ? failure.message() : std::strerror(errno);
+  std::filesystem::remove(temporary, failure);
+  throw InputError(file.string(), "cannot be written: " + reason);
+}
+
+}  // namespace havers::io

@@ -1,0 +1,31 @@
+// What a reader says of a faulty file, with the folder taken out of the sentences.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "io/input_error.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+namespace havers::test {
+
+/// The sentences of the InputError that `read` throws; empty when it throws none.
+inline std::vector<std::string> complaints_of(const ScratchFolder& folder,
+                                              const std::function<void()>& read) {
+  std::vector<std::string> sentences;
+  try {
+    read();
+  } catch (const io::InputError& error) {
+    const std::string prefix = folder.path().string() + "/";
+    for (const io::Problem& problem : error.problems()) {
+      std::string sentence = to_string(problem);
+      for (std::size_t at = sentence.find(prefix); at != sentence.npos; at = sentence.find(prefix))
+        sentence.erase(at, prefix.size());
+      sentences.push_back(sentence);
+    }
+  }
+  return sentences;
+}
+
+}  // namespace havers::test

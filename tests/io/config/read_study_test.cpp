@@ -1,0 +1,278 @@
+#include "io/config/read_study.hpp"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "tests/io/config/complaints.hpp"
+
+namespace havers::io {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::Pair;
+
+class ReadStudy : public testing::Test {
+ protected:
+  StudyFile read(const std::string& text, const Overrides& overrides = {},
+                 Files files = Files::will_be_written) {
+    return read_study(folder.write("study.toml", text), overrides, files);
+  }
+  std::vector<std::string> complaints(const std::string& text,
+                                      Files files = Files::will_be_written) {
+    return test::complaints_of(folder, [&] { read(text, {}, files); });
+  }
+  test::ScratchFolder folder;
+};
+
+const std::string one_specimen = "[[specimen]]\nid = \"A1\"\ntest = \"A1.csv\"\n";
+
+TEST_F(ReadStudy, TakesEveryKeyInItsUnit) {
+  for (const char* name : {"a/A1.csv", "A1_gauge.csv", "s1.png", "s2.png"}) folder.write(name, "");
+  const StudyFile file = read(R"(
+[study]
+name = "bovine femur A"
+[[specimen]]
+id = "A1"
+test = "a/A1.csv"
+gauge = "A1_gauge.csv"
+width_mm = 4.0
+thickness_mm = 2
+gauge_length_mm = 25.0
+orientation_deg = 45
+sections = ["s1.png", "s2.png"]
+pixel_size_um = 5.0
+porosity = 0.05
+use = "validate"
+[[specimen]]
+id = "A2"
+test = "a/A1.csv"
+[model.assembly]
+layers = 12
+[model.joints]
+resultant_MPa = 100.0
+ratio = 2.0
+[model.output]
+snapshots = 0
+[porosity]
+to_scatter = "linear"
+to_modulus = "power"
+strength_exponent = 1.5
+linear_offset = 0.1
+linear_slope = 2.0
+modulus_exponent = 3.0
+[calibrate]
+parameters = ["young_GPa", "scatter"]
+[calibrate.bounds]
+young_GPa = [5.0, 30]
+[calibrate.level]
+young_GPa = "orientation"
+[calibrate.options]
+replicates = 4
+budget = 100
+seed = 9
+[synthesize]
+force_noise_N = 0.25
+strain_noise = 1e-6
+preload_N = 5.0
+toe_strain = 2e-4
+sampling_s = 0.05
+crosshead_mm_per_min = 6.0
+pore_radius_um = 10.0
+modulus_cv = 0.02
+section_pixels = 256
+)",
+                              {}, Files::must_exist);
+  EXPECT_EQ(file.study.name, "bovine femur A");
+  ASSERT_EQ(file.specimens.size(), 2U);
+  const SpecimenFiles& specimen = file.specimens[0];
+  EXPECT_EQ(specimen.id, "A1");
+  EXPECT_EQ(specimen.test, folder.path() / "a/A1.csv");
+  EXPECT_EQ(specimen.gauge, folder.path() / "A1_gauge.csv");
+  EXPECT_EQ(specimen.width, 4e-3);
+  EXPECT_EQ(specimen.thickness, 2e-3);
+  EXPECT_EQ(specimen.gauge_length, 25e-3);
+  EXPECT_EQ(specimen.orientation, std::numbers::pi / 4.0);
+  EXPECT_THAT(specimen.sections, ElementsAre(folder.path() / "s1.png", folder.path() / "s2.png"));
+  EXPECT_EQ(specimen.pixel_size, 5e-6);
+  EXPECT_EQ(specimen.porosity, 0.05);
+  EXPECT_EQ(specimen.use, calib::Use::validate);
+  EXPECT_EQ(file.specimens[1].use, calib::Use::fit);
+  EXPECT_FALSE(file.specimens[1].width || file.specimens[1].gauge || file.specimens[1].porosity);
+
+  ASSERT_EQ(file.study.specimens.size(), 2U);
+  EXPECT_EQ(file.study.specimens[0].id, "A1");
+  EXPECT_EQ(file.study.specimens[0].use, calib::Use::validate);
+  EXPECT_EQ(file.study.specimens[0].orientation, std::numbers::pi / 4.0);
+  EXPECT_EQ(file.study.specimens[0].porosity, 0.05);
+
+  const sim::Scene& model = file.study.model;
+  EXPECT_EQ(model.assembly.layers, 12);
+  EXPECT_DOUBLE_EQ(sim::resultant(model.assembly, model.joints), 100e6);
+  EXPECT_DOUBLE_EQ(sim::ratio(model.assembly, model.joints), 2.0);
+
+  EXPECT_EQ(file.study.porosity.to_scatter, calib::ToScatter::linear);
+  EXPECT_EQ(file.study.porosity.to_modulus, calib::ToModulus::power);
+  EXPECT_EQ(file.study.porosity.strength_exponent, 1.5);
+  EXPECT_EQ(file.study.porosity.linear_offset, 0.1);
+  EXPECT_EQ(file.study.porosity.linear_slope, 2.0);
+  EXPECT_EQ(file.study.porosity.modulus_exponent, 3.0);
+
+  const calib::CalibrateOptions& calibrate = file.study.calibrate;
+  EXPECT_THAT(calibrate.parameters, ElementsAre("young_GPa", "scatter"));
+  EXPECT_FALSE(calibrate.automatic);
+  EXPECT_THAT(calibrate.bounds, ElementsAre(Pair("young_GPa", Pair(5.0, 30.0))));
+  EXPECT_THAT(calibrate.level, ElementsAre(Pair("young_GPa", calib::Level::orientation)));
+  EXPECT_EQ(calibrate.replicates, 4);
+  EXPECT_EQ(calibrate.budget, 100);
+  EXPECT_EQ(calibrate.seed, 9U);
+
+  EXPECT_EQ(file.synthesize.force_noise, 0.25);
+  EXPECT_EQ(file.synthesize.strain_noise, 1e-6);
+  EXPECT_EQ(file.synthesize.preload, 5.0);
+  EXPECT_EQ(file.synthesize.toe_strain, 2e-4);
+  EXPECT_EQ(file.synthesize.sampling, 0.05);
+  EXPECT_DOUBLE_EQ(file.synthesize.crosshead_rate, 1e-4);
+  EXPECT_EQ(file.synthesize.pore_radius, 10e-6);
+  EXPECT_EQ(file.synthesize.modulus_cv, 0.02);
+  EXPECT_EQ(file.synthesize.section_pixels, 256);
+}
+
+TEST_F(ReadStudy, TakesAutoAsTheChoiceOfParameters) {
+  EXPECT_TRUE(
+      read(one_specimen + "[calibrate]\nparameters = \"auto\"\n").study.calibrate.automatic);
+  EXPECT_THAT(
+      complaints(one_specimen + "[calibrate]\nparameters = \"all\"\n"),
+      ElementsAre("study.toml:5: calibrate.parameters: is a text, must be a list of texts"));
+}
+
+TEST_F(ReadStudy, LetsTheCommandLineOverrideTheFile) {
+  const StudyFile file =
+      read(one_specimen, {"calibrate.options.budget=50", "model.joints.scatter=0.7",
+                          "calibrate.parameters=[\"ratio\"]"});
+  EXPECT_EQ(file.study.calibrate.budget, 50);
+  EXPECT_EQ(file.study.model.joints.scatter, 0.7);
+  EXPECT_THAT(file.study.calibrate.parameters, ElementsAre("ratio"));
+}
+
+TEST_F(ReadStudy, ReportsAllProblemsAtOnce) {
+  folder.write("A1.csv", "");
+  EXPECT_THAT(complaints(R"([study]
+nmae = "x"
+[[specimen]]
+id = "A1"
+test = "A1.csv"
+gauge = "g.csv"
+[[specimen]]
+id = "A1"
+test = "B.csv"
+sections = ["s.png"]
+use = "both"
+[model.material]
+young_GPa = -1
+)",
+                         Files::must_exist),
+              ElementsAre("study.toml:6: specimen.gauge: names g.csv, which is not there (paths "
+                          "are relative to the folder "
+                          "of this file)",
+                          "study.toml:11: specimen.use: is \"both\", must be one of: fit, validate "
+                          "(did you mean fit?)",
+                          "study.toml:8: specimen.id: is \"A1\", as that of an earlier specimen",
+                          "study.toml:9: specimen.test: names B.csv, which is not there (paths are "
+                          "relative to the folder of "
+                          "this file)",
+                          "study.toml:10: specimen.sections: names s.png, which is not there "
+                          "(paths are relative to the "
+                          "folder of this file)",
+                          "study.toml:13: model.material.young_GPa: is -1, must be above 0",
+                          "study.toml:2: study.nmae: is not a known key (did you mean name?)"));
+}
+
+TEST_F(ReadStudy, AsksForSpecimens) {
+  EXPECT_THAT(complaints(""),
+              ElementsAre("study.toml: specimen: is missing (write one [[specimen]] for each "
+                          "test)"));
+  EXPECT_THAT(
+      complaints("[specimen]\nid = \"A\"\n"),
+      ElementsAre("study.toml:1: specimen: is a table, must be tables (write [[specimen]])"));
+}
+
+struct Impossible {
+  std::string text, sentence;
+};
+
+TEST_F(ReadStudy, NamesImpossibleValuesWithLineAndRule) {
+  const std::vector<Impossible> cases{
+      {"[[specimen]]\ntest = \"t\"\n", "study.toml:1: specimen.id: is missing (name the specimen)"},
+      {"[[specimen]]\nid = \"\"\ntest = \"t\"\n",
+       "study.toml:2: specimen.id: is empty (name the specimen)"},
+      {"[[specimen]]\nid = \"a/b\"\ntest = \"t\"\n",
+       "study.toml:2: specimen.id: is \"a/b\", must be usable as a file's name"},
+      {"[[specimen]]\nid = \"A1\"\n",
+       "study.toml:1: specimen.test: is missing (the testing machine's file)"},
+      {one_specimen + "width_mm = 0", "study.toml:4: specimen.width_mm: is 0, must be above 0"},
+      {one_specimen + "thickness_mm = -2",
+       "study.toml:4: specimen.thickness_mm: is -2, must be above 0"},
+      {one_specimen + "gauge_length_mm = 0",
+       "study.toml:4: specimen.gauge_length_mm: is 0, must be above 0"},
+      {one_specimen + "pixel_size_um = 0",
+       "study.toml:4: specimen.pixel_size_um: is 0, must be above 0"},
+      {one_specimen + "orientation_deg = 91",
+       "study.toml:4: specimen.orientation_deg: is 91, must be above -90 and at most 90"},
+      {one_specimen + "porosity = 1",
+       "study.toml:4: specimen.porosity: is 1, must be at least 0 and below 1"},
+      {one_specimen + "sections = \"s.png\"",
+       "study.toml:4: specimen.sections: is a text, must be a list of texts"},
+      {one_specimen + "[porosity]\nstrength_exponent = -1",
+       "study.toml:5: porosity.strength_exponent: is -1, must be 0 or more"},
+      {one_specimen + "[porosity]\nmodulus_exponent = -1",
+       "study.toml:5: porosity.modulus_exponent: is -1, must be 0 or more"},
+      {one_specimen + "[porosity]\nlinear_offset = 2",
+       "study.toml:5: porosity.linear_offset: is 2, must be at least 0 and below 2"},
+      {one_specimen + "[calibrate]\nparameters = [\"yuong_GPa\"]",
+       "study.toml:5: calibrate.parameters: names \"yuong_GPa\", which cannot be calibrated (did "
+       "you mean "
+       "young_GPa?)"},
+      {one_specimen + "[calibrate.bounds]\nyung_GPa = [1, 2]",
+       "study.toml:5: calibrate.bounds.yung_GPa: is not a known key (did you mean young_GPa?)"},
+      {one_specimen + "[calibrate.bounds]\nyoung_GPa = [1]",
+       "study.toml:5: calibrate.bounds.young_GPa: must be a list of two numbers (as in [5.0, "
+       "30.0])"},
+      {one_specimen + "[calibrate.level]\nratio = \"bone\"",
+       "study.toml:5: calibrate.level.ratio: is \"bone\", must be one of: shared, orientation, "
+       "specimen (did "
+       "you mean shared?)"},
+      {one_specimen + "[synthesize]\nforce_noise_N = -1",
+       "study.toml:5: synthesize.force_noise_N: is -1, must be 0 or more"},
+      {one_specimen + "[synthesize]\nsampling_s = 0",
+       "study.toml:5: synthesize.sampling_s: is 0, must be above 0"},
+      {one_specimen + "[synthesize]\nsection_pixels = 3",
+       "study.toml:5: synthesize.section_pixels: is 3, must be at least 16"},
+  };
+  for (const Impossible& wrong : cases)
+    EXPECT_THAT(complaints(wrong.text), ElementsAre(wrong.sentence)) << wrong.text;
+}
+
+// The sentences are those of the options themselves; the reader adds the line.
+TEST_F(ReadStudy, AsksTheOptionsOfTheCalibration) {
+  calib::CalibrateOptions one_seed;
+  one_seed.replicates = 1;
+  ASSERT_EQ(one_seed.problems().size(), 1U);
+  EXPECT_THAT(complaints(one_specimen + "[calibrate.options]\nreplicates = 1\n"),
+              ElementsAre("study.toml:4: calibrate: " + one_seed.problems()[0]));
+
+  calib::CalibrateOptions falling;
+  falling.bounds["ratio"] = {3.0, 1.0};
+  ASSERT_EQ(falling.problems().size(), 1U);
+  EXPECT_THAT(complaints(one_specimen + "[calibrate.bounds]\nratio = [3, 1]\n"),
+              ElementsAre("study.toml:5: calibrate.bounds.ratio: " + falling.problems()[0]));
+}
+
+TEST_F(ReadStudy, DoesNotAskForFilesThatWillBeWritten) {
+  EXPECT_THAT(complaints(one_specimen, Files::will_be_written), IsEmpty());
+  EXPECT_EQ(complaints(one_specimen, Files::must_exist).size(), 1U);
+}
+
+}  // namespace
+}  // namespace havers::io
