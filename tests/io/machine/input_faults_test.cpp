@@ -1,0 +1,123 @@
+// Every bad input: one sentence that names the file, the line, and what to do.
+#include <gtest/gtest.h>
+
+#include "io/input_error.hpp"
+#include "io/machine/read_test.hpp"
+#include "tests/support/machine_files.hpp"
+
+namespace havers::io {
+namespace {
+
+std::string complaint(const std::filesystem::path& file, const ReadOptions& options = {}) {
+  try {
+    read_test(file, options);
+  } catch (const InputError& error) {
+    EXPECT_TRUE(error.problems()[0].where.starts_with(file.string()));
+    return test::replaced(error.what(), file.parent_path().string() + "/", "");
+  }
+  return "read without complaint";
+}
+
+std::string complaint_of(const std::string& content, const ReadOptions& options = {}) {
+  const test::TemporaryFile file(content);
+  return complaint(file.path(), options);
+}
+
+const std::string header = "Time (s),Load (N),Extension (mm)\n0,1,2\n1,2,3\n";
+
+TEST(InputFaults, NamesAMissingFile) {
+  EXPECT_EQ(complaint("nowhere/none.csv"), "none.csv: there is no such file");
+}
+
+TEST(InputFaults, NamesAFolder) {
+  const test::TemporaryFile file("x");
+  EXPECT_NE(complaint(file.path().parent_path()).find("is a folder, not a test file"),
+            std::string::npos);
+}
+
+TEST(InputFaults, NamesAnEmptyFile) {
+  EXPECT_EQ(complaint_of(""), "test.csv: the file is empty");
+}
+
+TEST(InputFaults, NamesABinaryFile) {
+  EXPECT_EQ(complaint_of(std::string("\x89PNG\r\n\x1A\n\0\0\0\rIHDR", 16)),
+            "test.csv: is not a text file (export the raw data as CSV)");
+  EXPECT_EQ(complaint_of(std::string("PK\x03\x04\x14\0\x06\0", 8)),
+            "test.csv: is not a text file (a spreadsheet: save it as CSV)");
+}
+
+TEST(InputFaults, NamesTextWithoutNumbers) {
+  EXPECT_EQ(complaint_of("Dear reader,\nthere is nothing here.\n"),
+            "test.csv: no rows of numbers were found in it (a test file has a row of column names "
+            "and rows "
+            "of two numbers or more)");
+}
+
+TEST(InputFaults, NamesATruncatedRow) {
+  EXPECT_EQ(complaint_of(header + "2,3"),
+            "test.csv:4: the row ends after 2 of 3 columns (the file may be cut off here)");
+}
+
+TEST(InputFaults, NamesTextWhereANumberShouldBe) {
+  EXPECT_EQ(complaint_of(header + "2,abc,4\n"),
+            "test.csv:4: column \"Load\": \"abc\" is not a number");
+  EXPECT_EQ(complaint_of(header + "2,,4\n"), "test.csv:4: column \"Load\": \"\" is empty");
+}
+
+TEST(InputFaults, NamesNumbersThatAreNone) {
+  EXPECT_EQ(complaint_of(header + "2,NaN,4\n"),
+            "test.csv:4: column \"Load\": \"NaN\" is not a finite number");
+  EXPECT_EQ(complaint_of(header + "2,1e999,4\n"),
+            "test.csv:4: column \"Load\": \"1e999\" is too large for a number");
+}
+
+TEST(InputFaults, NamesTimeThatGoesBack) {
+  EXPECT_EQ(complaint_of(header + "\n0.5,3,4\n"),
+            "test.csv:5: time goes back from 1 s to 0.5 s (one file holds one test)");
+}
+
+TEST(InputFaults, NamesAFileWithoutForce) {
+  EXPECT_EQ(
+      complaint_of("Time (s),Extension (mm)\n0,1\n1,2\n"),
+      "test.csv:2: no column holds a force or a stress (the columns are Time (s), Extension (mm); "
+      "name it in [specimen.columns])");
+}
+
+TEST(InputFaults, NamesAQuoteThatIsNeverClosed) {
+  const std::string sentence =
+      "a quote is opened and never closed (the file may be cut off or damaged here)";
+  EXPECT_EQ(complaint_of(header + "2,\"3,4\n3,4,5\n"), "test.csv:4: " + sentence);
+  EXPECT_EQ(complaint_of("\"Key,1\n" + header), "test.csv:1: " + sentence);
+  EXPECT_EQ(complaint_of(header + "2,\"3" + std::string(3U << 20U, '\n')),
+            "test.csv:4: " + sentence);
+}
+
+TEST(InputFaults, AsksForTheNamesOfColumnsAndGuesses) {
+  EXPECT_EQ(
+      complaint_of("0,0.1,5\n1,0.2,60\n2,0.25,90\n3,0.3,130\n"),
+      "test.csv:1: the columns have no names (say which is which in [specimen.columns]; from the "
+      "numbers it may be time = \"1\", force = \"3\", extension = \"2\")");
+}
+
+TEST(InputFaults, NamesAColumnThatIsNotThere) {
+  EXPECT_EQ(complaint_of(header, {{{Quantity::force, {"Kraft", ""}}}}),
+            "test.csv:2: there is no column \"Kraft\" (the columns are Time (s), Load (N), "
+            "Extension (mm))");
+  EXPECT_EQ(complaint_of(header, {{{Quantity::force, {"2", "mm"}}}}),
+            "test.csv:2: \"mm\" is not a known unit of force");
+}
+
+TEST(InputFaults, CollectsAFewAndThenStops) {
+  std::string rows = header;
+  for (int i = 0; i < 100; ++i) rows += "2,x,4\n";
+  const test::TemporaryFile file(rows);
+  try {
+    read_test(file.path());
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().size(), 5U);
+  }
+}
+
+}  // namespace
+}  // namespace havers::io

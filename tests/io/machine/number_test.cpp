@@ -1,0 +1,64 @@
+#include "io/machine/number.hpp"
+
+#include <gtest/gtest.h>
+
+namespace havers::io {
+namespace {
+
+TEST(Number, ReadsWhatMachinesWrite) {
+  EXPECT_EQ(parse_number("1.5").value, 1.5);
+  EXPECT_EQ(parse_number("-0.0012").value, -0.0012);
+  EXPECT_EQ(parse_number("+2").value, 2.0);
+  EXPECT_EQ(parse_number("7.50E-05").value, 7.5e-5);
+  EXPECT_EQ(parse_number("−3.5").value, -3.5);
+  EXPECT_EQ(parse_number("7,5E-05", ',').value, 7.5e-5);
+}
+
+TEST(Number, ReadsEveryThousandsMark) {
+  EXPECT_EQ(parse_number("1,004.80328").value, 1004.80328);
+  EXPECT_EQ(parse_number("1,234,567").value, 1234567.0);
+  EXPECT_EQ(parse_number("-12,345.5").value, -12345.5);
+  EXPECT_EQ(parse_number("1 000.5").value, 1000.5);
+  EXPECT_EQ(parse_number("1'000.5").value, 1000.5);
+  EXPECT_EQ(parse_number("1’000.5").value, 1000.5);
+  EXPECT_EQ(parse_number("1\xC2\xA0"
+                         "000,34",
+                         ',')
+                .value,
+            1000.34);
+  EXPECT_EQ(parse_number("1\xE2\x80\xAF"
+                         "000,34",
+                         ',')
+                .value,
+            1000.34);
+  EXPECT_EQ(parse_number("1.004,80328", ',').value, 1004.80328);
+}
+
+// A mark that groups nothing is a mistake, not a mark.
+TEST(Number, RefusesGroupsThatAreNotOfThree) {
+  for (const char* text : {"1,5", "1,0000", "0,123", "1234,567", "1,234,56", "1.2,345", ",5", "1,"})
+    EXPECT_EQ(parse_number(text).fault, NumberFault::text) << text;
+  EXPECT_EQ(parse_number("1.5", ',').fault, NumberFault::text);
+}
+
+TEST(Number, NamesEveryFault) {
+  EXPECT_EQ(to_string(parse_number("1").fault), "is a number");
+  EXPECT_EQ(to_string(parse_number("").fault), "is empty");
+  EXPECT_EQ(to_string(parse_number("12a").fault), "is not a number");
+  EXPECT_EQ(to_string(parse_number("NaN").fault), "is not a finite number");
+  EXPECT_EQ(to_string(parse_number("-inf").fault), "is not a finite number");
+  EXPECT_EQ(to_string(parse_number("1e999").fault), "is too large for a number");
+}
+
+TEST(Number, TakesWhatIsTooSmallAsZero) {
+  EXPECT_EQ(parse_number("1e-999").value, 0.0);
+  EXPECT_TRUE(is_number("1e-999"));
+}
+
+TEST(Number, RefusesACellLongerThanAnyNumber) {
+  EXPECT_FALSE(is_number(std::string(1000, '1') + "x"));
+  EXPECT_FALSE(is_number(std::string(1000, '1'), ','));
+}
+
+}  // namespace
+}  // namespace havers::io
