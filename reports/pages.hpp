@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -23,6 +24,7 @@ struct SimulationReport {
   const sim::Assembly& assembly;
   const sim::Simulation& simulation;
   Provenance provenance;
+  double wall_seconds = std::numeric_limits<double>::quiet_NaN();  ///< NaN where not recorded. [s]
 };
 
 struct FitReport {
@@ -30,6 +32,7 @@ struct FitReport {
   const calib::CalibrationResult& result;
   std::map<std::string, std::vector<std::vector<std::uint8_t>>> overlays;  ///< Specimen id to PNGs.
   Provenance provenance;
+  double wall_seconds = std::numeric_limits<double>::quiet_NaN();  ///< NaN where not recorded. [s]
 };
 
 struct ImportReport {

@@ -1,0 +1,31 @@
+// The figures of the pages. Every one takes the id that keeps it apart from others on its page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/figures/gnuplot.hpp"
+#include "reports/pages.hpp"
+
+namespace havers::reports {
+
+/// Measured and simulated curve of a specimen with the band of its replicates; below, their
+/// difference.
+Figure specimen_figure(const calib::SpecimenResult& specimen, const std::string& id);
+
+/// Measured against simulated strength of all specimens, with error bars and the line of equality.
+Figure strength_figure(const std::vector<calib::SpecimenResult>& specimens, const std::string& id);
+
+/// 95 % intervals of the parameters of several fits, one panel a parameter.
+Figure intervals_figure(const std::vector<FitReport>& fits, const std::string& id);
+
+/// Stress, broken joints and energies of a simulation against strain.
+Figure simulation_figure(const sim::Simulation& simulation, const std::string& id);
+
+/// A test as read and as used, with the modulus line and the strength.
+Figure test_figure(const ImportReport& report, const std::string& id);
+
+/// An interval between its bounds, small enough for a table. SVG.
+std::string interval_bar(const calib::CalibratedParameter& parameter);
+
+}  // namespace havers::reports

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "reports/figures/figures.hpp"
+#include "reports/text/format.hpp"
+
+namespace havers::reports {
+namespace {
+
+struct Estimate {
+  std::size_t fit = 0;
+  const calib::CalibratedParameter* parameter = nullptr;
+};
+
+// One panel a parameter, in the order in which the fits name them.
+std::vector<std::vector<Estimate>> by_parameter(const std::vector<FitReport>& fits) {
+  std::vector<std::vector<Estimate>> panels;
+  std::map<std::string, std::size_t> place;
+  for (std::size_t fit = 0; fit < fits.size(); ++fit)
+    for (const auto& parameter : fits[fit].result.parameters) {
+      if (!std::isfinite(parameter.value)) continue;
+      const auto [at, fresh] = place.try_emplace(parameter.name, panels.size());
+      if (fresh) panels.emplace_back();
+      panels[at->second].push_back({fit, &parameter});
+    }
+  return panels;
+}
+
+std::string panel_commands(const std::vector<Estimate>& estimates, std::size_t number) {
+  std::string data = fmt::format("$panel{} << EOD\n", number);
+  for (const auto& [fit, parameter] : estimates) {
+    const auto [low, high] = parameter->interval_95;
+    const bool known = std::isfinite(low) && std::isfinite(high);
+    data += fmt::format("{:.6g} {} {:.6g} {:.6g}\n", parameter->value, fit + 1,
+                        known ? low : parameter->value, known ? high : parameter->value);
+  }
+  const auto& first = *estimates.front().parameter;
+  const std::string unit = first.unit.empty() ? "" : fmt::format(" ({})", plain(first.unit));
+  return data + fmt::format(
+                    "EOD\nset xlabel '{0}{1}' noenhanced offset 0,0.4\n"
+                    "plot $panel{2} using 1:2:3:4 with xerrorbars pt 7 ps 0.9 lw 1.8 lc rgb blue\n",
+                    plain(first.name), unit, number);
+}
+
+std::string fit_names(const std::vector<FitReport>& fits) {
+  std::string tics;
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    tics += fmt::format("{}'{}' {}", i > 0 ? ", " : "", plain(fits[i].study.name), i + 1);
+  return fmt::format("set ytics noenhanced ({})\nset yrange [{}.5:0.5]\n", tics, fits.size());
+}
+
+}  // namespace
+
+Figure intervals_figure(const std::vector<FitReport>& fits, const std::string& id) {
+  const auto panels = by_parameter(fits);
+  const double axis = 52.0, rows = 26.0 * static_cast<double>(fits.size()) + 12.0;
+  const double height = static_cast<double>(panels.size()) * (axis + rows);
+  Figure figure{.id = id,
+                .description = "95 % intervals of the parameters of every fit",
+                .height = static_cast<int>(height)};
+  if (panels.empty()) return figure;
+  figure.commands =
+      "set multiplot\nunset key\nset lmargin at screen 0.3\nset offsets graph 0.08, graph 0.08, 0, "
+      "0\n" +
+      fit_names(fits);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const double top = 1.0 - (static_cast<double>(i) * (axis + rows) + 4.0) / height;
+    figure.commands += panel(top - rows / height, top) + panel_commands(panels[i], i);
+  }
+  figure.commands += "unset multiplot\n";
+  return figure;
+}
+
+std::string interval_bar(const calib::CalibratedParameter& parameter) {
+  constexpr double left = 4.0, width = 132.0;
+  const auto [low, high] = parameter.bounds;
+  if (!std::isfinite(parameter.value) || !(high > low)) return {};
+  const auto at = [&](double value) {
+    return left + width * std::clamp((value - low) / (high - low), 0.0, 1.0);
+  };
+  std::string svg = fmt::format(
+      "<svg class=\"bar\" role=\"img\" viewBox=\"0 0 140 16\" width=\"140\" "
+      "height=\"16\"><title>interval "
+      "between the bounds {} and {}</title><path d=\"M{:.1f} 8H{:.1f}M{:.1f} 4V12M{:.1f} 4V12\" "
+      "stroke=\"#999\" fill=\"none\"/>",
+      number(low), number(high), left, left + width, left, left + width);
+  const auto [from, to] = parameter.interval_95;
+  if (std::isfinite(from) && std::isfinite(to))
+    svg +=
+        fmt::format("<rect x=\"{:.1f}\" y=\"5\" width=\"{:.1f}\" height=\"6\" fill=\"#56a0cf\"/>",
+                    at(from), std::max(2.0, at(to) - at(from)));
+  return svg + fmt::format("<path d=\"M{:.1f} 2V14\" stroke=\"#003a5d\" stroke-width=\"2\"/></svg>",
+                           at(parameter.value));
+}
+
+}  // namespace havers::reports

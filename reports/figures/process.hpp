@@ -1,0 +1,19 @@
+// One program, run to its end.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace havers::reports {
+
+struct ProcessResult {
+  bool started = false;
+  int status = -1;  ///< Exit status; -1 when it did not end by itself.
+  std::string output, errors;
+};
+
+/// Runs a command (program and arguments), found through PATH and without a shell, with `input` on
+/// its standard input.
+ProcessResult run_process(std::vector<std::string> command, const std::string& input);
+
+}  // namespace havers::reports

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/figures/figures.hpp"
+#include "reports/text/format.hpp"
+
+namespace havers::reports {
+namespace {
+
+constexpr std::size_t most_points = 2000;
+
+constexpr std::string_view commands = R"(
+set multiplot
+{range}{top}
+set xtics format ''
+set ylabel 'Stress (MPa)'
+set key top left
+plot {left}$curve using ($1*100):($2*1e-6) with lines lw 1.8 lc rgb blue title '{right}'
+{middle}
+set ylabel 'Broken joints'
+set yrange [0:*]
+plot $curve using ($1*100):4 with fsteps lw 1.8 lc rgb red notitle
+{bottom}
+set xtics format '%g'
+set xlabel 'Strain (%)'
+set ylabel 'Energy ({unit}J/m)'
+plot $curve using ($1*100):($5/{factor}) with lines lw 1.8 lc rgb blue title 'elastic', \
+  $curve using ($1*100):($6/{factor}) with lines lw 1.8 dt 2 lc rgb red title 'dissipated', \
+  $curve using ($1*100):($7/{factor}) with lines lw 1.8 dt 4 lc rgb green title 'kinetic'
+unset multiplot
+)";
+
+constexpr std::string_view left_side =
+    "$curve using ($1*100):($3*1e-6) with lines lw 1.2 lc rgb orange title 'left side', ";
+
+// Rows of a long run are thinned evenly; those at which a joint broke and the strongest all stay.
+std::string curve_data(const std::vector<sim::CurvePoint>& curve) {
+  const std::size_t stride = curve.size() / most_points + 1;
+  const auto strongest = std::max_element(curve.begin(), curve.end(),
+                                          [](const sim::CurvePoint& a, const sim::CurvePoint& b) {
+                                            return a.stress_right < b.stress_right;
+                                          });
+  const auto peak = static_cast<std::size_t>(strongest - curve.begin());
+  std::string block = "$curve << EOD\n";
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const bool breaks = i > 0 && curve[i].broken_joints != curve[i - 1].broken_joints;
+    if (i % stride != 0 && i != peak && i + 1 != curve.size() && !breaks) continue;
+    const sim::CurvePoint& p = curve[i];
+    block += fmt::format("{:.6g} {:.6g} {:.6g} {} {:.6g} {:.6g} {:.6g}\n", p.strain, p.stress_right,
+                         p.stress_left, p.broken_joints, p.elastic, p.dissipated, p.kinetic);
+  }
+  return block + "EOD\n";
+}
+
+double largest_energy(const std::vector<sim::CurvePoint>& curve) {
+  double largest = 0.0;
+  for (const sim::CurvePoint& p : curve)
+    for (const double energy : {p.elastic, p.dissipated, p.kinetic})
+      if (std::isfinite(energy)) largest = std::max(largest, energy);
+  return largest;
+}
+
+}  // namespace
+
+Figure simulation_figure(const sim::Simulation& simulation, const std::string& id) {
+  Figure figure{.id = id,
+                .description = "Stress, number of broken joints and energies against strain",
+                .height = 660};
+  std::vector<double> strain;
+  for (const sim::CurvePoint& point : simulation.curve) strain.push_back(point.strain);
+  const std::string range = x_range({strain}, 100.0);
+  if (range.empty()) return figure;
+  const bool dynamic = simulation.regime == sim::Regime::dynamic;
+  const Prefix prefix = prefix_for(largest_energy(simulation.curve));
+  figure.commands =
+      curve_data(simulation.curve) +
+      fmt::format(commands, fmt::arg("range", range), fmt::arg("top", panel(0.60, 0.98)),
+                  fmt::arg("middle", panel(0.36, 0.56)), fmt::arg("bottom", panel(0.08, 0.32)),
+                  fmt::arg("left", dynamic ? left_side : ""),
+                  fmt::arg("right", dynamic ? "right side" : "stress"),
+                  fmt::arg("unit", prefix.symbol), fmt::arg("factor", prefix.factor));
+  return figure;
+}
+
+}  // namespace havers::reports

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "reports/figures/figures.hpp"
+#include "reports/text/format.hpp"
+
+namespace havers::reports {
+namespace {
+
+// Specimens that share a symbol: those of one orientation and one use.
+using Group = std::pair<long, calib::Use>;
+using Groups = std::map<Group, std::vector<const calib::SpecimenResult*>>;
+
+Groups groups_of(const std::vector<calib::SpecimenResult>& specimens) {
+  Groups groups;
+  for (const auto& specimen : specimens) {
+    if (!std::isfinite(specimen.strength.mean) || !std::isfinite(specimen.measured.strength))
+      continue;
+    const long degrees = std::lround(specimen.orientation * 180.0 / std::numbers::pi);
+    groups[{degrees, specimen.use}].push_back(&specimen);
+  }
+  return groups;
+}
+
+double or_zero(double error) {
+  return std::isfinite(error) ? error : 0.0;
+}
+
+std::string group_data(int number, const std::vector<const calib::SpecimenResult*>& group) {
+  std::string block = fmt::format("$group{} << EOD\n", number);
+  for (const auto* specimen : group)
+    block +=
+        fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} \"{}\"\n", specimen->measured.strength,
+                    specimen->strength.mean, or_zero(specimen->measured.strength_standard_error),
+                    or_zero(specimen->strength.sd), plain(specimen->id));
+  return block + "EOD\n";
+}
+
+// Filled symbols were fitted, open ones only validated; the shape tells the orientation.
+std::string group_plot(int number, const Group& group, int shape) {
+  constexpr std::string_view colours[] = {"blue", "red", "green", "purple", "orange"};
+  const bool fitted = group.second == calib::Use::fit;
+  return fmt::format(
+      ", $group{0} using ($1*1e-6):($2*1e-6):($3*1e-6):($4*1e-6) with xyerrorbars pt {1} ps 1.2 lw "
+      "1.4 "
+      "lc rgb {2} title '{3}°{4}', "
+      "$group{0} using ($1*1e-6):($2*1e-6):5 with labels noenhanced left offset 0.9,-0.7 "
+      "font ',11' tc rgb '#555555' notitle",
+      number, 5 + 2 * (shape % 5) - (fitted ? 0 : 1), colours[shape % 5], group.first,
+      fitted ? "" : ", validation");
+}
+
+}  // namespace
+
+Figure strength_figure(const std::vector<calib::SpecimenResult>& specimens, const std::string& id) {
+  Figure figure{.id = id,
+                .description = "Simulated against measured strength of all specimens",
+                .width = 560,
+                .height = 440};
+  const Groups groups = groups_of(specimens);
+  if (groups.empty()) return figure;
+  std::string data, plots;
+  std::map<long, int> shapes;
+  int number = 0;
+  for (const auto& [group, members] : groups) {
+    const int shape =
+        shapes.try_emplace(group.first, static_cast<int>(shapes.size())).first->second;
+    data += group_data(number, members);
+    plots += group_plot(number, group, shape);
+    ++number;
+  }
+  figure.commands = data + panel(0.13, 0.97) + R"(
+set xlabel 'Measured strength (MPa)'
+set ylabel 'Simulated strength (MPa)'
+set offsets graph 0.08, graph 0.14, graph 0.08, graph 0.08
+plot x with lines lw 1.2 dt 2 lc rgb grey title 'equal')" +
+                    plots + "\n";
+  return figure;
+}
+
+}  // namespace havers::reports

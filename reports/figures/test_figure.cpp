@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "reports/figures/figures.hpp"
+#include "reports/figures/thin.hpp"
+
+namespace havers::reports {
+namespace {
+
+constexpr std::string_view commands = R"(
+set xlabel 'Strain (%)'
+set ylabel 'Engineering stress (MPa)'
+set key bottom right
+set object 1 rectangle from first {low},graph 0 to first {high},graph 1 fc rgb '#f4efe2' fs solid noborder behind
+plot $raw using ($1*100):($2*1e-6) with lines lw 2.4 lc rgb '#c4c4c4' title 'as read', \
+  $used using ($1*100):($2*1e-6) with points pt 7 ps 0.22 lc rgb blue title 'as used', \
+  $line using ($1*100):($2*1e-6) with lines lw 1.6 dt 2 lc rgb orange title 'modulus; window shaded', \
+  $peak using ($1*100):($2*1e-6) with points pt 12 ps 1.3 lw 1.6 lc rgb red title 'strength'
+)";
+
+// The recorded channels on the axes of a stress-strain plot; empty where one was not recorded.
+Points raw_points(const calib::RawTest& raw, double area) {
+  std::vector<double> strain = raw.strain, stress = raw.stress;
+  if (strain.empty() && raw.gauge_length)
+    for (const double extension : raw.extension) strain.push_back(extension / *raw.gauge_length);
+  if (!raw.force.empty() && area > 0.0) {
+    stress = raw.force;
+    for (double& value : stress) value /= area;
+  }
+  return thin(strain, stress, 2000);
+}
+
+// The line of the modulus' slope through the middle of the points in its window.
+Points modulus_line(const calib::MeasuredTest& test) {
+  double strain = 0.0, stress = 0.0, inside = 0.0;
+  for (std::size_t i = 0; i < std::min(test.strain.size(), test.stress.size()); ++i) {
+    if (test.strain[i] < test.window_low || test.strain[i] > test.window_high) continue;
+    strain += test.strain[i];
+    stress += test.stress[i];
+    inside += 1.0;
+  }
+  if (inside == 0.0) return {};
+  const double offset = (stress - test.modulus * strain) / inside, end = 1.25 * test.window_high;
+  return {{0.0, end}, {offset, offset + end * test.modulus}};
+}
+
+}  // namespace
+
+Figure test_figure(const ImportReport& report, const std::string& id) {
+  const calib::MeasuredTest& test = report.test;
+  Figure figure{
+      .id = id, .description = "Stress against strain, as read and as used", .height = 400};
+  const Points raw = raw_points(report.raw, test.area);
+  const Points used = thin(test.strain, test.stress);
+  const std::string range = x_range({raw.x, used.x}, 100.0);
+  if (range.empty()) return figure;
+  const Points line = modulus_line(test);
+  const std::array<double, 1> peak_strain{test.failure_strain}, peak_stress{test.strength};
+  figure.commands = data_block("raw", {raw.x, raw.y}) + data_block("used", {used.x, used.y}) +
+                    data_block("line", {line.x, line.y}) +
+                    data_block("peak", {peak_strain, peak_stress}) + range + panel(0.135, 0.97) +
+                    fmt::format(commands, fmt::arg("low", 100.0 * test.window_low),
+                                fmt::arg("high", 100.0 * test.window_high));
+  return figure;
+}
+
+}  // namespace havers::reports

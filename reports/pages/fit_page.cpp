@@ -1,0 +1,152 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "calib/study/parameter.hpp"
+#include "reports/figures/figures.hpp"
+#include "reports/pages/page.hpp"
+#include "reports/text/base64.hpp"
+#include "reports/text/format.hpp"
+
+namespace havers::reports {
+namespace {
+
+// "young_GPa[A1]" is young_GPa of A1: symbol and, in brackets, of what.
+std::string symbol_of(const std::string& name) {
+  const std::size_t bracket = name.find('[');
+  const calib::ParameterInfo* info = calib::find_parameter(name.substr(0, bracket));
+  const std::string level = bracket == std::string::npos ? "" : fmt::format(" {}", name.substr(bracket));
+  return info == nullptr ? level : std::string(info->symbol) + level;
+}
+
+mstch::map parameter_row(const calib::CalibratedParameter& p) {
+  const bool held = !p.left_out_because.empty();
+  std::string note = p.at_bound ? "at its bound" : "";
+  if (!held && !p.identifiable) note += note.empty() ? "not identifiable" : ", not identifiable";
+  return {{"symbol", text(symbol_of(p.name))},
+          {"name", text(p.name)},
+          {"unit", text(p.unit)},
+          {"estimate", text(held ? number(p.value) : plus_minus(p.value, p.standard_error))},
+          {"interval", text(held ? "held" : interval(p.interval_95[0], p.interval_95[1]))},
+          {"bar", text(held ? "" : interval_bar(p))},
+          {"bounds",
+           text(held ? "" : fmt::format("{} to {}", number(p.bounds[0]), number(p.bounds[1])))},
+          {"note", text(note)},
+          {"held", text(p.left_out_because)}};
+}
+
+// What a measured and a simulated quantity are called and shown in.
+struct Compared {
+  std::string quantity, unit;
+  double scale;
+  double measured, measured_error;
+  calib::Spread simulated;
+  double residual;
+};
+
+std::vector<Compared> compared(const calib::SpecimenResult& s) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  return {{"Modulus", "GPa", in::GPa, s.measured.modulus, s.measured.modulus_standard_error,
+           s.modulus, s.residual[0]},
+          {"Strength", "MPa", in::MPa, s.measured.strength, s.measured.strength_standard_error,
+           s.strength, s.residual[1]},
+          {"Failure strain", "%", in::percent, s.measured.failure_strain, unknown, s.failure_strain,
+           s.residual[2]}};
+}
+
+mstch::array comparison_rows(const calib::SpecimenResult& specimen) {
+  mstch::array rows;
+  for (const Compared& c : compared(specimen))
+    rows.emplace_back(mstch::map{
+        {"quantity", text(c.quantity)},
+        {"unit", text(c.unit)},
+        {"measured", text(plus_minus(c.measured / c.scale, c.measured_error / c.scale))},
+        {"simulated", text(plus_minus(c.simulated.mean / c.scale, c.simulated.sd / c.scale))},
+        {"residual", text(number(c.residual, 3))}});
+  return rows;
+}
+
+mstch::array overview_cells(const calib::SpecimenResult& s) {
+  return {text(quantity(s.measured.strength / in::MPa, "MPa")),
+          text(quantity(s.strength.mean / in::MPa, "MPa")),
+          text(quantity(s.measured.failure_strain / in::percent, "%", 3)),
+          text(quantity(s.failure_strain.mean / in::percent, "%", 3))};
+}
+
+const calib::Specimen* find_specimen(const calib::Study& study, const std::string& id) {
+  for (const calib::Specimen& specimen : study.specimens)
+    if (specimen.id == id) return &specimen;
+  return nullptr;
+}
+
+// Overlays and numbers of the sections, whichever of the two is there.
+mstch::array section_items(const FitReport& report, const std::string& id) {
+  const calib::Specimen* specimen = find_specimen(report.study, id);
+  const auto found = report.overlays.find(id);
+  const std::size_t numbers = specimen == nullptr ? 0 : specimen->sections.size();
+  const std::size_t images = found == report.overlays.end() ? 0 : found->second.size();
+  mstch::array items;
+  for (std::size_t i = 0; i < std::max(numbers, images); ++i)
+    items.emplace_back(
+        mstch::map{{"png", text(i < images ? base64(found->second[i]) : "")},
+                   {"caption", text(i < numbers ? section_caption(specimen->sections[i]) : "")}});
+  return items;
+}
+
+mstch::map specimen_content(const FitReport& report, std::size_t index) {
+  const calib::SpecimenResult& s = report.result.specimens[index];
+  const std::string use = s.use == calib::Use::fit ? "fit" : "validate";
+  const std::string porosity = quantity(s.porosity / in::percent, "%", 3);
+  return {{"id", text(s.id)},
+          {"use", text(use)},
+          {"orientation", text(degrees(s.orientation))},
+          {"porosity", text(porosity)},
+          {"scatter", text(number(s.scatter, 3))},
+          {"overview", mstch::node{overview_cells(s)}},
+          {"summary", text(fmt::format("{}, θ = {}, porosity {}, scatter d = {}", use,
+                                       degrees(s.orientation), porosity, number(s.scatter, 3)))},
+          {"figure", text(draw(specimen_figure(s, fmt::format("s{}", index))))},
+          {"rows", mstch::node{comparison_rows(s)}},
+          {"failed", text(s.failed_simulations == 0 ? ""
+                                                    : count(s.failed_simulations, "simulation") +
+                                                          " of this specimen failed.")},
+          {"corrections", correction_section(s.measured.corrections)},
+          {"warnings", text_section(s.measured.warnings)},
+          {"sections", section(section_items(report, s.id))}};
+}
+
+mstch::array stage_rows(const std::vector<calib::StageLog>& stages) {
+  mstch::array rows;
+  for (const calib::StageLog& stage : stages)
+    rows.emplace_back(mstch::map{{"optimiser", text(stage.optimiser)},
+                                 {"before", text(number(stage.cost_before))},
+                                 {"after", text(number(stage.cost_after))},
+                                 {"evaluations", text(std::to_string(stage.evaluations))},
+                                 {"message", text(stage.message)}});
+  return rows;
+}
+
+}  // namespace
+
+std::string fit_page(const FitReport& report) {
+  const calib::CalibrationResult& result = report.result;
+  mstch::array parameters, specimens;
+  for (const auto& parameter : result.parameters) parameters.emplace_back(parameter_row(parameter));
+  for (std::size_t i = 0; i < result.specimens.size(); ++i)
+    specimens.emplace_back(specimen_content(report, i));
+  return render_page(
+      fmt::format("havers fit: {}", report.study.name), "fit",
+      {{"grade", text(result.trusted() ? "good" : "bad")},
+       {"sentence", text(fit_sentence(result))},
+       {"detail", text(search_sentence(report))},
+       {"checks", check_section(result.verdict)},
+       {"parameters", mstch::node{parameters}},
+       {"strength_figure", text(draw(strength_figure(result.specimens, "strength")))},
+       {"specimens", mstch::node{specimens}},
+       {"search", text(search_sentence(report))},
+       {"stages", mstch::node{stage_rows(result.stages)}},
+       {"left_out", left_out_section(result.left_out)}},
+      report.provenance);
+}
+
+}  // namespace havers::reports

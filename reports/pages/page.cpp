@@ -1,0 +1,142 @@
+#include "reports/pages/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reports/templates/templates.hpp"
+#include "reports/text/format.hpp"
+
+namespace havers::reports {
+namespace {
+
+std::string mark_of(calib::Outcome outcome) {
+  switch (outcome) {
+    case calib::Outcome::pass:
+      return "✓";
+    case calib::Outcome::warn:
+      return "△";
+    case calib::Outcome::fail:
+      return "✗";
+  }
+  return "";
+}
+
+long count_of(const std::vector<calib::Check>& checks, calib::Outcome outcome) {
+  return std::count_if(checks.begin(), checks.end(),
+                       [&](const calib::Check& check) { return check.outcome == outcome; });
+}
+
+}  // namespace
+
+bool available() {
+  return true;
+}
+
+mstch::array fact_list(const Facts& facts) {
+  mstch::array list;
+  for (const auto& [name, value] : facts)
+    list.emplace_back(mstch::map{{"name", text(name)}, {"value", text(value)}});
+  return list;
+}
+
+mstch::node section(mstch::array items) {
+  if (items.empty()) return mstch::node{false};
+  return mstch::map{{"items", mstch::node{std::move(items)}}};
+}
+
+mstch::node left_out_section(const std::vector<sim::LeftOut>& left_out) {
+  Facts facts;
+  for (const auto& [what, why] : left_out) facts.emplace_back(what, why);
+  return section(fact_list(facts));
+}
+
+mstch::node correction_section(const std::vector<calib::Correction>& corrections) {
+  Facts facts;
+  for (const auto& [what, detail] : corrections) facts.emplace_back(what, detail);
+  return section(fact_list(facts));
+}
+
+mstch::node text_section(const std::vector<std::string>& sentences) {
+  mstch::array items;
+  for (const std::string& sentence : sentences) items.push_back(text(sentence));
+  return section(std::move(items));
+}
+
+mstch::node check_section(const std::vector<calib::Check>& checks) {
+  mstch::array items;
+  for (const calib::Check& check : checks)
+    items.emplace_back(mstch::map{{"outcome", text(to_string(check.outcome))},
+                                  {"mark", text(mark_of(check.outcome))},
+                                  {"check", text(check.check)},
+                                  {"text", text(check.text)}});
+  return section(std::move(items));
+}
+
+std::string fit_sentence(const calib::CalibrationResult& result) {
+  const long warned = count_of(result.verdict, calib::Outcome::warn);
+  const long failed = count_of(result.verdict, calib::Outcome::fail);
+  if (result.trusted())
+    return warned == 0
+               ? "The fit can be trusted."
+               : fmt::format("The fit can be trusted, with {}.", count(warned, "reservation"));
+  if (failed == 0) return fmt::format("The fit cannot be trusted: {}.", explain(result.status));
+  std::string names;
+  for (const calib::Check& check : result.verdict)
+    if (check.outcome == calib::Outcome::fail) names += (names.empty() ? "" : ", ") + check.check;
+  return fmt::format("The fit cannot be trusted: {} of {} failed ({}).", failed,
+                     count(static_cast<long>(result.verdict.size()), "check"), names);
+}
+
+std::string search_sentence(const FitReport& report) {
+  const calib::CalibrationResult& result = report.result;
+  return fmt::format(
+      "{}: {}. Cost ½ Σ residual² = {} after {} ({} run, {} taken from the store, {} failed) in {} "
+      "wall time.",
+      to_string(result.status), explain(result.status), number(result.cost),
+      count(result.evaluations, "simulation"), result.simulated,
+      result.evaluations - result.simulated, result.failed_simulations,
+      duration(report.wall_seconds));
+}
+
+std::string section_caption(const calib::SectionPorosity& section) {
+  return fmt::format(
+      "{}: porosity {} %, {} on {} mm² of bone, standard deviation {} in windows of one fibre; {}, "
+      "threshold {}, pixel {}",
+      base_name(section.file),
+      plus_minus(section.porosity / in::percent, section.porosity_standard_error / in::percent),
+      count(section.pore_count, "pore"), number(section.bone_area / in::mm2, 3),
+      number(section.window_sd, 3), section.method, number(section.threshold, 3),
+      quantity(section.pixel_size / in::um, "µm", 3));
+}
+
+std::string duration(double seconds) {
+  if (!std::isfinite(seconds)) return "unrecorded";
+  if (seconds < 60.0) return quantity(seconds, "s", 3);
+  const long whole = std::lround(seconds);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+std::string degrees(double radians) {
+  return number(radians * 180.0 / std::numbers::pi, 3) + "°";
+}
+
+std::string base_name(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
+std::string render_page(const std::string& title, const std::string& name, mstch::map content,
+                        const Provenance& provenance) {
+  const std::string body = mstch::render(templates().at(name), content, templates());
+  return mstch::render(templates().at("page"),
+                       mstch::map{{"title", text(title)},
+                                  {"body", text(body)},
+                                  {"has_provenance", mstch::node{!provenance.empty()}},
+                                  {"provenance", mstch::node{fact_list(provenance)}}},
+                       templates());
+}
+
+}  // namespace havers::reports

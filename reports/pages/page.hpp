@@ -1,0 +1,57 @@
+// What the pages share: filling templates, and the pieces that several of them show.
+#pragma once
+
+#include <mstch/mstch.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calib/experiment/measured_test.hpp"
+#include "calib/fit/calibration.hpp"
+#include "reports/pages.hpp"
+
+namespace havers::reports {
+
+/// Names with values, both as text.
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+/// A string for a template; a bare literal would turn into a truth value.
+inline mstch::node text(std::string value) {
+  return mstch::node{std::move(value)};
+}
+
+/// {name, value} of each.
+mstch::array fact_list(const Facts& facts);
+
+/// A list for a section of a template that vanishes with it: {items}, or nothing when it is empty.
+mstch::node section(mstch::array items);
+
+mstch::node left_out_section(const std::vector<sim::LeftOut>& left_out);
+mstch::node check_section(const std::vector<calib::Check>& checks);
+mstch::node text_section(const std::vector<std::string>& sentences);
+mstch::node correction_section(const std::vector<calib::Correction>& corrections);
+
+/// Whether a fit may be used, in a sentence; with the checks that failed, or how many made a
+/// reservation.
+std::string fit_sentence(const calib::CalibrationResult& result);
+
+/// How the search of a fit ended, and what it took.
+std::string search_sentence(const FitReport& report);
+
+/// The numbers of a section below its overlay.
+std::string section_caption(const calib::SectionPorosity& section);
+
+/// "12.3 s", "4 min 12 s"; a dash when not recorded.
+std::string duration(double seconds);
+
+/// An angle in degrees.
+std::string degrees(double radians);
+
+/// The file behind the last slash, or the whole when there is none.
+std::string base_name(const std::string& path);
+
+/// A whole page: the template of that name filled, in the common frame.
+std::string render_page(const std::string& title, const std::string& name, mstch::map content,
+                        const Provenance& provenance);
+
+}  // namespace havers::reports

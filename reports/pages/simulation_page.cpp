@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+
+#include "reports/figures/figures.hpp"
+#include "reports/pages/page.hpp"
+#include "reports/text/format.hpp"
+
+namespace havers::reports {
+namespace {
+
+std::string sentence_of(const sim::Simulation& s) {
+  if (!s.trusted())
+    return fmt::format("Not to be trusted: {}.",
+                       s.status == sim::SimulationStatus::broken
+                           ? "the specimen broke, but the energy balance does not close"
+                           : explain(s.status));
+  const std::string at = fmt::format("{} at {} strain", quantity(s.strength / in::MPa, "MPa"),
+                                     quantity(s.failure_strain / in::percent, "%", 3));
+  return s.status == sim::SimulationStatus::broken
+             ? fmt::format("The specimen broke: strength {}. To be trusted.", at)
+             : fmt::format(
+                   "The specimen did not break: its strength is at least {}. To be trusted as a "
+                   "lower bound.",
+                   at);
+}
+
+// A time never stands without the error it was bought with.
+std::string cost_of(const SimulationReport& report) {
+  const sim::Simulation& s = report.simulation;
+  return fmt::format(
+      "Status {}: {}. {} wall time, for a relative energy defect of {}, a residual of at most {} "
+      "and a "
+      "penetration of at most {}.",
+      to_string(s.status), explain(s.status), duration(report.wall_seconds),
+      number(s.energy_defect, 3), number(s.worst_residual, 3),
+      quantity(s.worst_penetration / in::um, "µm", 3));
+}
+
+Facts key_numbers(const SimulationReport& report) {
+  const sim::Simulation& s = report.simulation;
+  const bool dynamic = s.regime == sim::Regime::dynamic;
+  return {
+      {"Strength", quantity(s.strength / in::MPa, "MPa")},
+      {"Failure strain", quantity(s.failure_strain / in::percent, "%")},
+      {"Modulus", quantity(s.modulus / in::GPa, "GPa")},
+      {"Strain of the first break", quantity(s.first_break_strain / in::percent, "%")},
+      {"Broken joints", fmt::format("{} of {}", s.broken_joints, report.assembly.joints.size())},
+      {"Regime", fmt::format("{}: {}", dynamic ? "dynamic" : "quasi-static", s.regime_ground)},
+      {dynamic ? "Time steps" : "Events",
+       dynamic ? fmt::format("{} of {} s", s.steps, number(s.step, 3)) : std::to_string(s.steps)},
+      {"Contact iterations", std::to_string(s.iterations)}};
+}
+
+std::string to_string(sim::Distribution distribution) {
+  switch (distribution) {
+    case sim::Distribution::uniform:
+      return "uniform";
+    case sim::Distribution::weibull:
+      return "Weibull";
+    case sim::Distribution::lognormal:
+      return "log-normal";
+  }
+  return "";
+}
+
+Facts scene_facts(const sim::Scene& scene) {
+  const auto& [assembly, material, joints, loading, solver] = scene;
+  return {
+      {"Assembly",
+       fmt::format("{} layers of {} fibres, {} by {}, at {}", assembly.layers, assembly.fibres,
+                   quantity(assembly.fibre_length / in::um, "µm"),
+                   quantity(assembly.fibre_height / in::um, "µm"), degrees(assembly.orientation))},
+      {"Material", fmt::format("E = {}, ν = {}, ρ = {} kg/m³, plane {}",
+                               quantity(material.young / in::GPa, "GPa"), number(material.poisson),
+                               number(material.density),
+                               material.plane == sim::Plane::stress ? "stress" : "strain")},
+      {"Joints",
+       fmt::format("σ₁ = {}, σ₂ = {}, r = {}", quantity(joints.head_tail / in::MPa, "MPa"),
+                   quantity(joints.flank / in::MPa, "MPa"), number(ratio(assembly, joints)))},
+      {"Thresholds", joints.thresholds.empty() ? fmt::format("{}, scatter d = {}, seed {}",
+                                                             to_string(joints.distribution),
+                                                             number(joints.scatter), joints.seed)
+                                               : "one per joint, given"},
+      {"Loading",
+       fmt::format("{} 1/s, {} sides, {} start, up to {} strain", number(loading.strain_rate),
+                   loading.lateral == sim::Lateral::periodic ? "periodic" : "free",
+                   loading.start == sim::Start::uniform ? "uniform" : "rest",
+                   quantity(loading.max_strain / in::percent, "%"))},
+      {"Tolerance", number(solver.tolerance)}};
+}
+
+}  // namespace
+
+std::string simulation_page(const SimulationReport& report) {
+  const sim::Simulation& simulation = report.simulation;
+  return render_page(
+      "havers simulate", "simulation",
+      {{"grade", text(simulation.trusted() ? "good" : "bad")},
+       {"sentence", text(sentence_of(simulation))},
+       {"detail", text(cost_of(report))},
+       {"facts", mstch::node{fact_list(key_numbers(report))}},
+       {"curve", text(draw(simulation_figure(simulation, "curve")))},
+       {"fracture", text(fracture_svg(report.assembly, simulation))},
+       {"left_out", left_out_section(simulation.left_out)},
+       {"scene",
+        mstch::node{mstch::map{{"facts", mstch::node{fact_list(scene_facts(report.scene))}}}}}},
+      report.provenance);
+}
+
+}  // namespace havers::reports

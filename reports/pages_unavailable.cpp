@@ -1,0 +1,40 @@
+// Stands in for the pages in a build without mstch.
+#include "reports/pages.hpp"
+
+namespace havers::reports {
+namespace {
+
+std::string how_to_get_pages() {
+  return "Pages are not part of this build: apt-get install libmstch-dev gnuplot-nox, then "
+         "configure again.\n";
+}
+
+}  // namespace
+
+bool available() {
+  return false;
+}
+
+std::string fracture_svg(const sim::Assembly& /*assembly*/, const sim::Simulation& /*simulation*/) {
+  return how_to_get_pages();
+}
+std::string test_svg(const ImportReport& /*report*/) {
+  return how_to_get_pages();
+}
+std::string simulation_page(const SimulationReport& /*report*/) {
+  return how_to_get_pages();
+}
+std::string fit_page(const FitReport& /*report*/) {
+  return how_to_get_pages();
+}
+std::string import_page(const std::vector<ImportReport>& /*reports*/, const Provenance& /*facts*/) {
+  return how_to_get_pages();
+}
+std::string porosity_page(const PorosityReport& /*report*/) {
+  return how_to_get_pages();
+}
+std::string comparison_page(const std::vector<FitReport>& /*reports*/) {
+  return how_to_get_pages();
+}
+
+}  // namespace havers::reports

@@ -1,0 +1,102 @@
+#include "reports/text/format.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace havers::reports {
+namespace {
+
+constexpr std::string_view unknown = "–";
+
+// Exponent of ten after rounding to `digits`, so that 9.9996 counts as 10.00.
+int exponent_of(double value, int digits) {
+  const std::string text = fmt::format("{:.{}e}", value, digits - 1);
+  return std::stoi(text.substr(text.find('e') + 1));
+}
+
+// A true minus sign, as wide as a plus.
+std::string with_minus(const std::string& text) {
+  return text.starts_with('-') ? fmt::format("−{}", text.substr(1)) : text;
+}
+
+std::string fixed(double value, int decimals) {
+  return with_minus(fmt::format("{:.{}f}", value, decimals));
+}
+
+std::string superscript(int exponent) {
+  constexpr std::array<std::string_view, 10> digits{"⁰", "¹", "²", "³", "⁴",
+                                                    "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = exponent < 0 ? "⁻" : "";
+  for (const char c : std::to_string(std::abs(exponent)))
+    text += digits.at(static_cast<std::size_t>(c - '0'));
+  return text;
+}
+
+// Decimals that show two significant digits of `width`.
+int decimals_for(double width) {
+  return std::max(0, 1 - exponent_of(width, 2));
+}
+
+bool shows_plainly(double value, double width) {
+  return std::abs(value) < 1e6 && decimals_for(width) <= 7;
+}
+
+}  // namespace
+
+std::string number(double value, int digits) {
+  if (!std::isfinite(value)) return std::string(unknown);
+  if (value == 0.0) return "0";
+  const int exponent = exponent_of(value, digits);
+  if (exponent >= -4 && exponent < 6) return fixed(value, std::max(0, digits - 1 - exponent));
+  const std::string text = fmt::format("{:.{}e}", value, digits - 1);
+  return with_minus(text.substr(0, text.find('e'))) + " × 10" + superscript(exponent);
+}
+
+std::string quantity(double value, std::string_view unit, int digits) {
+  if (!std::isfinite(value) || unit.empty()) return number(value, digits);
+  return fmt::format("{} {}", number(value, digits), unit);
+}
+
+std::string plus_minus(double value, double error) {
+  if (!std::isfinite(value) || !std::isfinite(error) || error <= 0.0) return number(value);
+  if (!shows_plainly(value, error)) return fmt::format("{} ± {}", number(value), number(error, 2));
+  const int decimals = decimals_for(error);
+  return fmt::format("{} ± {}", fixed(value, decimals), fixed(error, decimals));
+}
+
+std::string interval(double low, double high) {
+  if (!std::isfinite(low) || !std::isfinite(high)) return std::string(unknown);
+  const double width = high - low;
+  if (width <= 0.0 || !shows_plainly(std::max(std::abs(low), std::abs(high)), width))
+    return fmt::format("{} to {}", number(low), number(high));
+  const int decimals = decimals_for(width);
+  return fmt::format("{} to {}", fixed(low, decimals), fixed(high, decimals));
+}
+
+std::string count(long n, std::string_view noun) {
+  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+}
+
+Prefix prefix_for(double magnitude) {
+  constexpr std::array<Prefix, 7> prefixes{Prefix{1e6, "M"},  Prefix{1e3, "k"},  Prefix{1.0, ""},
+                                           Prefix{1e-3, "m"}, Prefix{1e-6, "µ"}, Prefix{1e-9, "n"},
+                                           Prefix{1e-12, "p"}};
+  for (const Prefix& prefix : prefixes)
+    if (std::abs(magnitude) >= prefix.factor) return prefix;
+  return {};
+}
+
+std::string plain(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+    const bool special = c == '"' || c == '\'' || c == '`' || c == '\\';
+    result += control ? ' ' : special ? '_' : c;
+  }
+  return result;
+}
+
+}  // namespace havers::reports

@@ -1,0 +1,45 @@
+// Numbers as a reader wants them: few digits, a unit, and a dash for what is not known.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace havers::reports {
+
+/// What a value in SI units is divided by to be shown in the unit.
+namespace in {
+inline constexpr double percent = 0.01;
+inline constexpr double um = 1e-6;   ///< [m]
+inline constexpr double mm2 = 1e-6;  ///< [m²]
+inline constexpr double mm = 1e-3;   ///< [m]
+inline constexpr double MPa = 1e6;   ///< [Pa]
+inline constexpr double GPa = 1e9;   ///< [Pa]
+}  // namespace in
+
+/// `digits` significant digits: "38.21", "0.004100", "3.21 × 10⁻¹⁴"; "–" when not finite.
+std::string number(double value, int digits = 4);
+
+/// A number and its unit: "38.2 MPa"; "–" when not finite.
+std::string quantity(double value, std::string_view unit, int digits = 4);
+
+/// Value and error to two digits of the error: "13.02 ± 0.14"; the value alone when the error is
+/// not known.
+std::string plus_minus(double value, double error);
+
+/// "12.74 to 13.30", to two digits of the width; "–" when an end is not known.
+std::string interval(double low, double high);
+
+/// "1 joint", "2 joints".
+std::string count(long n, std::string_view noun);
+
+/// The decimal prefix that brings `magnitude` between 1 and 1000.
+struct Prefix {
+  double factor = 1.0;
+  std::string_view symbol;  ///< "k", "m", "µ", ...
+};
+Prefix prefix_for(double magnitude);
+
+/// Characters that could end a quoted string or a line of a gnuplot script, replaced.
+std::string plain(std::string_view text);
+
+}  // namespace havers::reports

@@ -1,0 +1,115 @@
+#include "reports/figures/figures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "reports/figures/process.hpp"
+#include "reports/figures/thin.hpp"
+#include "tests/support/results.hpp"
+
+namespace havers::reports {
+namespace {
+
+bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(Thin, KeepsThePeakTheEndAndTheOrder) {
+  std::vector<double> x, y;
+  for (int i = 0; i < 10000; ++i) {
+    x.push_back(i);
+    y.push_back(i == 6789 ? 5.0 : 0.001 * (i % 7));
+  }
+  const Points points = thin(x, y);
+  EXPECT_LE(points.x.size(), 400U);
+  EXPECT_GE(points.x.size(), 200U);
+  EXPECT_TRUE(std::is_sorted(points.x.begin(), points.x.end()));
+  EXPECT_EQ(std::count(points.x.begin(), points.x.end(), 6789.0), 1);
+}
+
+TEST(Thin, DropsWhatIsNotFinite) {
+  EXPECT_EQ(
+      thin(std::vector<double>{1.0, test::nan, 3.0}, std::vector<double>{1.0, 2.0, test::nan}).x,
+      std::vector<double>{1.0});
+}
+
+TEST(Figure, IsAnSvgThatFillsItsContainer) {
+  const auto sample = test::fit_sample();
+  const std::string svg = draw(specimen_figure(sample.result.specimens.front(), "s0"));
+  EXPECT_TRUE(svg.starts_with("<svg role=\"img\" width=\"100%\""));
+  EXPECT_TRUE(contains(svg, "viewBox=\"0 0 640 430\""));
+  EXPECT_TRUE(contains(svg, "Strain (%)"));
+  EXPECT_TRUE(contains(svg, "95 % of the replicates"));
+  EXPECT_TRUE(contains(svg, "id='s0-gpDot'"));
+  EXPECT_FALSE(contains(svg, "id='gpDot'"));
+}
+
+TEST(Figure, DrawsEverySpecimenByItsName) {
+  const auto sample = test::fit_sample();
+  const std::string svg = draw(strength_figure(sample.result.specimens, "strength"));
+  for (const auto& specimen : sample.result.specimens) EXPECT_TRUE(contains(svg, specimen.id));
+  EXPECT_TRUE(contains(svg, "45°"));
+  EXPECT_TRUE(contains(svg, "90°, validation"));
+}
+
+TEST(Figure, ShowsBothSidesOnlyWhereTheyDiffer) {
+  const sim::Assembly assembly;
+  auto simulation = test::simulation_sample(assembly);
+  EXPECT_TRUE(contains(draw(simulation_figure(simulation, "c")), "left side"));
+  simulation.regime = sim::Regime::quasi_static;
+  EXPECT_FALSE(contains(draw(simulation_figure(simulation, "c")), "left side"));
+}
+
+TEST(Figure, LetsNoNameReachTheCommandsOfGnuplot) {
+  auto sample = test::fit_sample();
+  sample.study.name = "'; system('false'); \n exit status 3 `false`";
+  sample.result.specimens.front().id = "\"\nEOD\nexit status 3\n";
+  for (const Figure& figure : {strength_figure(sample.result.specimens, "a"),
+                               intervals_figure({{sample.study, sample.result, {}, {}}}, "b")})
+    EXPECT_FALSE(contains(draw(figure), "Figure not drawn"));
+}
+
+TEST(Figure, SaysSoWhenThereIsNothingToDraw) {
+  EXPECT_TRUE(contains(draw(specimen_figure({}, "s")), "Nothing to draw"));
+  EXPECT_TRUE(contains(draw(strength_figure({}, "s")), "Nothing to draw"));
+  EXPECT_TRUE(contains(draw(simulation_figure({}, "s")), "Nothing to draw"));
+  EXPECT_TRUE(contains(draw(intervals_figure({}, "s")), "Nothing to draw"));
+}
+
+TEST(Figure, SaysWhatGnuplotComplainedAbout) {
+  const std::string svg = draw({.id = "x", .description = "", .commands = "plot <nonsense>\n"});
+  EXPECT_TRUE(contains(svg, "Figure not drawn; gnuplot says"));
+}
+
+TEST(Figure, IsASentenceWithoutGnuplot) {
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nonexistent", 1);
+  const std::string svg = draw({.id = "x", .description = "", .commands = "plot x\n"});
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_TRUE(contains(svg, "gnuplot did not start (apt-get install gnuplot-nox)"));
+}
+
+TEST(Process, HandsOverItsInputAndEndsWithItsStatus) {
+  const ProcessResult copied = run_process({"cat"}, "as it is");
+  EXPECT_EQ(copied.status, 0);
+  EXPECT_EQ(copied.output, "as it is");
+  EXPECT_EQ(run_process({"false"}, "").status, 1);
+  EXPECT_FALSE(run_process({"no-such-program-anywhere"}, "").started);
+}
+
+TEST(IntervalBar, StaysBetweenItsBounds) {
+  calib::CalibratedParameter parameter;
+  parameter.value = 20.0;
+  parameter.interval_95 = {-100.0, 500.0};
+  parameter.bounds = {0.0, 40.0};
+  const std::string bar = interval_bar(parameter);
+  EXPECT_TRUE(contains(bar, "<rect x=\"4.0\" y=\"5\" width=\"132.0\""));
+  EXPECT_TRUE(contains(bar, "M70.0 2V14"));
+  parameter.value = test::nan;
+  EXPECT_EQ(interval_bar(parameter), "");
+}
+
+}  // namespace
+}  // namespace havers::reports

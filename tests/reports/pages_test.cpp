@@ -1,0 +1,236 @@
+#include "reports/pages.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <regex>
+#include <set>
+
+#include "tests/support/results.hpp"
+
+namespace havers::reports {
+namespace {
+
+bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::vector<std::string> matches(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern);
+  std::vector<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it)
+    found.push_back((*it)[1]);
+  return found;
+}
+
+// Every start tag has its end tag in the right order; void elements and self-closed ones aside.
+void expect_balanced(const std::string& page) {
+  static const std::set<std::string> alone{"meta", "img", "br"};
+  std::vector<std::string> open;
+  const std::regex tag(R"(<(/?)([a-zA-Z0-9]+)[^<>]*?(/?)>)");
+  for (std::sregex_iterator it(page.begin(), page.end(), tag), end; it != end; ++it) {
+    const std::string name = (*it)[2];
+    if (alone.contains(name) || (*it)[3].length() > 0) continue;
+    if ((*it)[1].length() == 0) {
+      open.push_back(name);
+    } else {
+      ASSERT_FALSE(open.empty()) << "</" << name << "> closes nothing";
+      ASSERT_EQ(open.back(), name);
+      open.pop_back();
+    }
+  }
+  EXPECT_TRUE(open.empty());
+}
+
+void expect_self_contained(const std::string& page) {
+  EXPECT_FALSE(contains(page, "<script"));
+  EXPECT_FALSE(contains(page, "<link"));
+  EXPECT_FALSE(contains(page, "@import"));
+  for (const std::string& source : matches(page, R"re((?:src|href)=["']([^"']{1,12}))re"))
+    EXPECT_TRUE(source.starts_with("data:image/") || source.starts_with("#")) << source;
+}
+
+void expect_unique_ids(const std::string& page) {
+  std::map<std::string, int> uses;
+  for (const std::string& id : matches(page, R"re(\sid=["']([^"']+))re")) ++uses[id];
+  for (const auto& [id, n] : uses) EXPECT_EQ(n, 1) << id;
+  for (const std::string& target : matches(page, R"re((?:href=["']|url\()#([^"')]+))re"))
+    EXPECT_TRUE(uses.contains(target)) << target;
+}
+
+void expect_sound(const std::string& page) {
+  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
+  EXPECT_FALSE(contains(page, "{{"));
+  EXPECT_FALSE(contains(page, ">nan"));
+  expect_balanced(page);
+  expect_self_contained(page);
+  expect_unique_ids(page);
+}
+
+sim::Assembly small_assembly() {
+  return sim::build_assembly({.layers = 6, .fibres = 4}, sim::Lateral::periodic);
+}
+
+TEST(FitPage, GivesTheVerdictBeforeAnyNumber) {
+  const auto sample = test::fit_sample();
+  const std::string page = fit_page({sample.study, sample.result, {}, {{"havers", "0.1.0"}}, 38.2});
+  expect_sound(page);
+  const std::size_t verdict = page.find("The fit can be trusted, with 1 reservation.");
+  ASSERT_NE(verdict, std::string::npos);
+  EXPECT_LT(verdict, page.find("goodness of fit"));
+  EXPECT_LT(page.find("goodness of fit"), page.find("13.123 ± 0.087"));
+}
+
+TEST(FitPage, ShowsEverySpecimenParameterCheckAndStage) {
+  const auto sample = test::fit_sample();
+  const std::string page =
+      fit_page({sample.study, sample.result, {{"A2", {test::tiny_png()}}}, {{"seed", "1"}}, 38.2});
+  for (const auto& specimen : sample.result.specimens)
+    EXPECT_TRUE(contains(page, "<h3>" + specimen.id + " "));
+  for (const auto& parameter : sample.result.parameters)
+    EXPECT_TRUE(contains(page, parameter.name));
+  for (const auto& check : sample.result.verdict) EXPECT_TRUE(contains(page, check.text));
+  for (const auto& stage : sample.result.stages) EXPECT_TRUE(contains(page, stage.optimiser));
+  EXPECT_TRUE(contains(page, sample.result.parameters.back().left_out_because));
+  EXPECT_TRUE(contains(page, "38.2 s wall time"));
+  EXPECT_TRUE(contains(page, "data:image/png;base64,iVBORw0KGgo"));
+  EXPECT_TRUE(contains(page, "porosity 4.80 ± 0.21 %"));
+}
+
+TEST(FitPage, NamesTheChecksThatFailed) {
+  auto sample = test::fit_sample();
+  sample.result.verdict[1].outcome = calib::Outcome::fail;
+  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  EXPECT_TRUE(contains(page, "The fit cannot be trusted: 1 of 4 checks failed (goodness of fit)."));
+  EXPECT_FALSE(contains(page, "class=\"verdict good\""));
+}
+
+TEST(FitPage, SaysWhyAFitWithoutFailedChecksCannotBeTrusted) {
+  auto sample = test::fit_sample();
+  sample.result.status = calib::CalibrationStatus::cancelled;
+  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}),
+                       "The fit cannot be trusted: " + explain(sample.result.status)));
+}
+
+TEST(FitPage, EscapesWhatUsersWrote) {
+  auto sample = test::fit_sample();
+  sample.study.name = "<script>alert(1)</script> & \"co\"";
+  sample.result.specimens.front().id = "<b>A1</b>";
+  sample.result.specimens.front().measured.warnings = {"1 < 2 & 3"};
+  const std::string page = fit_page({sample.study, sample.result, {}, {{"command", "a <b> 'c'"}}});
+  expect_sound(page);
+  EXPECT_FALSE(contains(page, "<b>A1"));
+  EXPECT_TRUE(contains(page, "&lt;script&gt;"));
+}
+
+TEST(FitPage, SurvivesAResultOfNothing) {
+  expect_sound(fit_page({calib::Study{}, calib::CalibrationResult{}, {}, {}}));
+}
+
+TEST(FitPage, SurvivesNumbersThatAreNone) {
+  auto sample = test::fit_sample();
+  auto& specimen = sample.result.specimens.front();
+  specimen.modulus = specimen.strength = specimen.failure_strain = {test::nan, test::nan};
+  specimen.residual = {test::nan, test::nan, test::nan};
+  specimen.porosity = test::nan;
+  specimen.measured = {};
+  std::fill(specimen.band.residual.begin(), specimen.band.residual.end(), test::nan);
+  std::fill(specimen.band.median.begin(), specimen.band.median.end(), test::nan);
+  sample.result.parameters.front().value = test::nan;
+  expect_sound(fit_page({sample.study, sample.result, {}, {}}));
+}
+
+TEST(SimulationPage, PutsTheErrorBesideTheTime) {
+  const auto assembly = small_assembly();
+  const auto simulation = test::simulation_sample(assembly);
+  const sim::Scene scene;
+  const std::string page =
+      simulation_page({scene, assembly, simulation, {{"havers", "0.1.0"}}, 12.34});
+  expect_sound(page);
+  EXPECT_TRUE(contains(page, "The specimen broke: strength 38.90 MPa at 0.300 % strain."));
+  EXPECT_TRUE(contains(
+      page,
+      "12.3 s wall time, for a relative energy defect of 3.20 × 10⁻¹⁴, a residual of at most "
+      "6.10 × 10⁻¹⁰"));
+  EXPECT_LT(page.find("To be trusted"), page.find("<table"));
+}
+
+TEST(SimulationPage, DoesNotTrustARunWhoseEnergyDoesNotClose) {
+  const auto assembly = small_assembly();
+  auto simulation = test::simulation_sample(assembly);
+  simulation.energy_defect = 1e-3;
+  EXPECT_TRUE(
+      contains(simulation_page({sim::Scene{}, assembly, simulation, {}}),
+               "Not to be trusted: the specimen broke, but the energy balance does not close."));
+}
+
+TEST(SimulationPage, SurvivesARunWithoutRows) {
+  const sim::Assembly assembly;
+  const sim::Simulation simulation;
+  const sim::Scene scene;
+  expect_sound(simulation_page({scene, assembly, simulation, {}}));
+}
+
+TEST(ImportPage, ShowsNumbersCorrectionsAndWarningsOfEveryTest) {
+  const auto raw = test::raw_test(13e9, 43e6, 1);
+  auto measured = test::measured_test(13e9, 43e6, 1);
+  measured.warnings = {"The curve is not linear to failure."};
+  const std::string page =
+      import_page({{"a/A1.csv", raw, measured}, {"a/A2.csv", raw, measured}}, {});
+  expect_sound(page);
+  EXPECT_TRUE(contains(page, "<h2>A1.csv</h2>"));
+  EXPECT_TRUE(contains(page, "<h2>A2.csv</h2>"));
+  EXPECT_TRUE(contains(page, "13.000 ± 0.078 GPa, between 0.033 to 0.132 % strain"));
+  EXPECT_TRUE(contains(page, "strain shifted by 2.0e-4"));
+  EXPECT_TRUE(contains(page, "The curve is not linear to failure."));
+}
+
+TEST(ImportPage, SurvivesAnEmptyTest) {
+  const calib::RawTest raw;
+  const calib::MeasuredTest measured;
+  expect_sound(import_page({{"empty.csv", raw, measured}}, {}));
+  expect_sound(import_page({}, {}));
+}
+
+TEST(TestSvg, StandsOnItsOwn) {
+  const auto raw = test::raw_test(13e9, 43e6, 1);
+  const auto measured = test::measured_test(13e9, 43e6, 1);
+  const std::string svg = test_svg({"A1.csv", raw, measured});
+  EXPECT_TRUE(contains(svg, "xmlns=\"http://www.w3.org/2000/svg\""));
+  EXPECT_TRUE(contains(svg, "modulus; window shaded"));
+  EXPECT_LT(svg.size(), 200'000U);
+}
+
+TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
+  auto section = test::fit_sample().study.specimens.front().sections.front();
+  section.warnings = {"The bone touches the edge of the image."};
+  const std::string page =
+      porosity_page({{section, section}, {test::tiny_png()}, {0.41}, {{"seed", "1"}}});
+  expect_sound(page);
+  EXPECT_TRUE(contains(page, "4.80 ± 0.21"));
+  EXPECT_TRUE(contains(page, "0.410"));
+  EXPECT_TRUE(contains(page, "The bone touches the edge of the image."));
+  EXPECT_EQ(matches(page, "(<img)").size(), 1U);
+}
+
+TEST(ComparisonPage, PutsFitsSideBySide) {
+  const auto a = test::fit_sample();
+  auto b = test::fit_sample();
+  b.study.name = "bovine femur B";
+  b.result.parameters.pop_back();
+  b.result.parameters.front().value = 14.2;
+  b.result.verdict.front().outcome = calib::Outcome::fail;
+  const std::string page = comparison_page({{a.study, a.result, {}, {{"seed", "1"}}, 38.2},
+                                            {b.study, b.result, {}, {{"seed", "2"}}, 61.0}});
+  expect_sound(page);
+  EXPECT_TRUE(contains(page, "13.123 ± 0.087"));
+  EXPECT_TRUE(contains(page, "14.200 ± 0.087"));
+  EXPECT_TRUE(contains(page, "The fit cannot be trusted: 1 of 4 checks failed (search)."));
+  EXPECT_TRUE(contains(page, "1 min 1 s"));
+  EXPECT_TRUE(contains(page, "bovine femur B: seed"));
+  expect_sound(comparison_page({}));
+}
+
+}  // namespace
+}  // namespace havers::reports

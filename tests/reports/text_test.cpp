@@ -1,0 +1,83 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "reports/text/base64.hpp"
+#include "reports/text/format.hpp"
+
+namespace havers::reports {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TEST(Number, KeepsSignificantDigitsAndNotMore) {
+  EXPECT_EQ(number(38.2149), "38.21");
+  EXPECT_EQ(number(0.0041), "0.004100");
+  EXPECT_EQ(number(123456.7), "123457");
+  EXPECT_EQ(number(-2.5, 2), "−2.5");
+  EXPECT_EQ(number(0.0), "0");
+}
+
+TEST(Number, CountsDigitsAfterRounding) {
+  EXPECT_EQ(number(9.99996), "10.00");
+}
+
+TEST(Number, WritesPowersOfTenOnlyWhereTheyHelp) {
+  EXPECT_EQ(number(3.214e-14, 3), "3.21 × 10⁻¹⁴");
+  EXPECT_EQ(number(1.5e9, 2), "1.5 × 10⁹");
+}
+
+TEST(Number, IsADashWhereNothingIsKnown) {
+  EXPECT_EQ(number(nan), "–");
+  EXPECT_EQ(quantity(infinity, "MPa"), "–");
+  EXPECT_EQ(interval(nan, 2.0), "–");
+}
+
+TEST(PlusMinus, ShowsTwoDigitsOfTheError) {
+  EXPECT_EQ(plus_minus(13.1234, 0.0871), "13.123 ± 0.087");
+  EXPECT_EQ(plus_minus(1234.6, 56.0), "1235 ± 56");
+  EXPECT_EQ(plus_minus(0.3, 0.0996), "0.30 ± 0.10");
+}
+
+TEST(PlusMinus, LeavesOutAnErrorThatIsNotKnown) {
+  EXPECT_EQ(plus_minus(13.1234, nan), "13.12");
+  EXPECT_EQ(plus_minus(13.1234, 0.0), "13.12");
+  EXPECT_EQ(plus_minus(nan, 0.1), "–");
+}
+
+TEST(Interval, ShowsTwoDigitsOfItsWidth) {
+  EXPECT_EQ(interval(12.9494, 13.2974), "12.95 to 13.30");
+  EXPECT_EQ(interval(2.0, 2.0), "2.000 to 2.000");
+}
+
+TEST(Count, KnowsThePlural) {
+  EXPECT_EQ(count(1, "pore"), "1 pore");
+  EXPECT_EQ(count(0, "pore"), "0 pores");
+}
+
+TEST(Prefix, BringsTheNumberAboveOne) {
+  EXPECT_EQ(prefix_for(4.2e-6).symbol, "µ");
+  EXPECT_EQ(prefix_for(0.5).symbol, "m");
+  EXPECT_EQ(prefix_for(0.0).factor, 1.0);
+}
+
+TEST(Plain, LeavesNothingThatEndsAStringOrALine) {
+  EXPECT_EQ(plain("a'b\"c`d\\e\nEOD"), "a_b_c_d_e EOD");
+  EXPECT_EQ(plain("Fémur A"), "Fémur A");
+}
+
+// The vectors of RFC 4648, section 10.
+TEST(Base64, AgreesWithItsStandard) {
+  const auto encode = [](std::string_view text) {
+    return base64(std::vector<std::uint8_t>(text.begin(), text.end()));
+  };
+  EXPECT_EQ(encode(""), "");
+  EXPECT_EQ(encode("f"), "Zg==");
+  EXPECT_EQ(encode("fo"), "Zm8=");
+  EXPECT_EQ(encode("foo"), "Zm9v");
+  EXPECT_EQ(encode("foobar"), "Zm9vYmFy");
+}
+
+}  // namespace
+}  // namespace havers::reports
