@@ -98,8 +98,7 @@ bool fit_standard(const Curve& curve, const ReductionOptions& options, ModulusFi
   const double half = 0.5 * (options.standard_high - options.standard_low);
   if (std::abs(plain.intercept / plain.slope) > half) return false;
   fit.line = plain;
-  // Two ways to draw the line through a bend differ by more than the noise: that is its
-  // uncertainty.
+  // Two ways to draw a line through a bend differ by more than the noise: that is its uncertainty.
   fit.line.slope_standard_error =
       std::hypot(plain.slope_standard_error, plain.slope - robust.slope);
   return true;
@@ -108,9 +107,8 @@ bool fit_standard(const Curve& curve, const ReductionOptions& options, ModulusFi
 void fall_back(const Curve& curve, const Window& window, const ReductionOptions& options,
                ModulusFit& fit) {
   const std::string complaint = fmt::format(
-      "the curve has no straight part between {:.4g} and {:.4g} MPa (its slope goes from {:.4g} to "
-      "{:.4g} "
-      "GPa)",
+      "the curve has no straight part between {:.4g} and {:.4g} MPa (its slope goes from {:.4g} "
+      "to {:.4g} GPa)",
       window.low * 1e-6, window.high * 1e-6, window.bend.lower.slope * 1e-9,
       window.bend.upper.slope * 1e-9);
   ModulusFit standard;
