@@ -1,0 +1,17 @@
+// The depth image: 0 in bone, 1 in pores. Private to io/images.
+#pragma once
+
+#include "io/images/pores.hpp"
+
+namespace havers::io {
+
+/// Sets `levels`' contrast from pixels known to be pores or background.
+void fit_contrast(const cv::Mat& grey, const cv::Mat& pores, Levels& levels);
+
+/// Depth (I6) of every pixel, float.
+cv::Mat depth_image(const cv::Mat& grey, const Levels& levels);
+
+/// Gaussian smoothing in place; 0 is none. [px]
+void smooth(cv::Mat& depth, double sigma);
+
+}  // namespace havers::io

@@ -1,0 +1,157 @@
+// Synthetic sections of known porosity.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <random>
+#include <vector>
+
+#include "io/images/section_quantities.hpp"
+#include "io/input_error.hpp"
+
+namespace havers::io {
+namespace {
+
+// Grey levels of the drawing; the distance leaves room for shading and noise.
+constexpr double bone_grey = 210.0, pore_grey = 50.0;
+constexpr double radius_variation = 0.3;  // SD over mean.
+constexpr double rim = 3.0;               // Least bone between a pore and what is next to it. [px]
+
+// The standard's generators are the same everywhere, its distributions are not.
+double uniform(std::mt19937_64& random) {
+  return static_cast<double>(random() >> 11U) * 0x1p-53;
+}
+
+double normal(std::mt19937_64& random) {
+  const double r = std::sqrt(-2.0 * std::log(1.0 - uniform(random)));
+  return r * std::cos(2.0 * std::numbers::pi * uniform(random));
+}
+
+struct Circle {
+  double x = 0.0, y = 0.0, r = 0.0;
+};
+
+struct Shape {
+  double middle = 0.0, half_width = 0.0, half_height = 0.0;  // Of the bar.
+  double outer = 0.0, inner = 0.0;                           // Of the ring, when outer > 0.
+
+  // How far inside the bone a point is. [px]
+  [[nodiscard]] double depth(double x, double y) const {
+    if (outer > 0.0) {
+      const double r = std::hypot(x - middle, y - middle);
+      return std::min(outer - r, r - inner);
+    }
+    return std::min(half_width - std::abs(x - middle), half_height - std::abs(y - middle));
+  }
+};
+
+Shape shape_of(const SectionDrawing& drawing) {
+  const double side = drawing.pixels;
+  Shape shape{.middle = 0.5 * side, .half_width = 0.44 * side, .half_height = 0.36 * side};
+  if (drawing.ring) shape.outer = 0.45 * side, shape.inner = 0.22 * side;
+  return shape;
+}
+
+// Log-normal radii up to the wanted area, the last one what is left of it; largest first, so that
+// they fit.
+std::vector<double> radii(const SectionDrawing& drawing, double area, std::mt19937_64& random) {
+  const double mean = drawing.pore_radius / drawing.pixel_size;
+  const double s = std::sqrt(std::log(1.0 + radius_variation * radius_variation));
+  std::vector<double> drawn;
+  double left = area / std::numbers::pi;
+  while (left > 0.25 * mean * mean) {
+    const double r = mean * std::exp(s * normal(random) - 0.5 * s * s);
+    drawn.push_back(std::min(r, std::sqrt(left)));
+    left -= drawn.back() * drawn.back();
+  }
+  std::sort(drawn.rbegin(), drawn.rend());
+  return drawn;
+}
+
+// Circles apart from each other and from the surface. Where no room is found for one, it is left
+// out.
+std::vector<Circle> place(const std::vector<double>& wanted, const Shape& shape,
+                          std::mt19937_64& random) {
+  std::vector<Circle> placed;
+  for (const double r : wanted) {
+    for (int attempt = 0; attempt < 2000; ++attempt) {
+      const Circle pore{2.0 * shape.middle * uniform(random), 2.0 * shape.middle * uniform(random),
+                        r};
+      const auto touches = [&](const Circle& other) {
+        return std::hypot(pore.x - other.x, pore.y - other.y) < pore.r + other.r + rim;
+      };
+      if (shape.depth(pore.x, pore.y) < r + rim) continue;
+      if (std::any_of(placed.begin(), placed.end(), touches)) continue;
+      placed.push_back(pore);
+      break;
+    }
+  }
+  return placed;
+}
+
+cv::Mat bone_mask(const Shape& shape, int side) {
+  cv::Mat bone(side, side, CV_8U);
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
+      bone.at<std::uint8_t>(y, x) = shape.depth(x + 0.5, y + 0.5) > 0.0 ? 255 : 0;
+  return bone;
+}
+
+void draw_pores(const std::vector<Circle>& circles, cv::Mat& pores) {
+  for (const Circle& c : circles)
+    for (int y = static_cast<int>(c.y - c.r); y <= static_cast<int>(c.y + c.r); ++y)
+      for (int x = static_cast<int>(c.x - c.r); x <= static_cast<int>(c.x + c.r); ++x)
+        if (std::hypot(x + 0.5 - c.x, y + 0.5 - c.y) < c.r) pores.at<std::uint8_t>(y, x) = 255;
+}
+
+// Blurred by one pixel, shaded from the centre, noisy.
+cv::Mat photograph(const PoreMap& truth, const SectionDrawing& drawing, std::mt19937_64& random) {
+  cv::Mat solid, image;
+  cv::bitwise_and(truth.bone, ~truth.pores, solid);
+  solid.convertTo(image, CV_64F, (bone_grey - pore_grey) / 255.0, pore_grey);
+  cv::GaussianBlur(image, image, {}, 1.0, 1.0, cv::BORDER_REPLICATE);
+  const double middle = 0.5 * drawing.pixels;
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x) {
+      const double u = (x - middle) / middle, v = (y - middle) / middle;
+      double& value = image.at<double>(y, x);
+      value *= 1.0 - 0.5 * drawing.shading * (u * u + v * v);
+      value += drawing.noise * (bone_grey - pore_grey) * normal(random);
+    }
+  image.convertTo(image, CV_8U);
+  return image;
+}
+
+}  // namespace
+
+calib::SectionPorosity draw_section(const std::filesystem::path& image,
+                                    const SectionDrawing& drawing, const SectionOptions& options) {
+  std::mt19937_64 random(drawing.seed);
+  const Shape shape = shape_of(drawing);
+  PoreMap truth;
+  truth.bone = bone_mask(shape, drawing.pixels);
+  const double area = drawing.porosity * cv::countNonZero(truth.bone);
+  truth.pores = cv::Mat::zeros(truth.bone.size(), CV_8U);
+  draw_pores(place(radii(drawing, area, random), shape, random), truth.pores);
+  count_pores(truth);
+  truth.area_by_grey = truth.area;
+
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", photograph(truth, drawing, random), png, {cv::IMWRITE_PNG_COMPRESSION, 9});
+  std::ofstream file(image, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  if (!file.flush())
+    throw InputError(image.string(), "cannot be written", "check the folder and its space");
+
+  SectionOptions scale = options;
+  scale.pixel_size = drawing.pixel_size;
+  calib::SectionPorosity section = section_quantities(truth, scale);
+  section.file = image.string();
+  section.method = "counted on the drawing";
+  section.threshold = 0.5;
+  return section;
+}
+
+}  // namespace havers::io

@@ -1,0 +1,100 @@
+#include "io/images/grey_image.hpp"
+
+#include <fmt/format.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "io/input_error.hpp"
+
+namespace havers::io {
+namespace {
+
+cv::Mat read_any(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file))
+    throw InputError(file.string(), "there is no such file",
+                     "check the path; it is relative to the study");
+  if (std::filesystem::is_directory(file))
+    throw InputError(file.string(), "is a folder, not an image", "name the images in it");
+  if (std::filesystem::file_size(file) == 0)
+    throw InputError(file.string(), "is an empty file", "export the image again");
+  cv::Mat image;
+  try {
+    image = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception& error) {
+    throw InputError(file.string(), fmt::format("cannot be decoded: {}", error.err));
+  }
+  if (image.empty())
+    throw InputError(file.string(), "is not a readable image", "use PNG, TIFF, JPEG or BMP");
+  if (image.depth() == CV_8U || image.depth() == CV_16U) return image;
+  image.convertTo(image, CV_32F);
+  return image;
+}
+
+// What is transparent takes the colour, black or white, that is farther from the opaque pixels'
+// mean.
+cv::Mat without_alpha(const cv::Mat& image) {
+  cv::Mat alpha, colour;
+  cv::extractChannel(image, alpha, 3);
+  cv::cvtColor(image, colour, cv::COLOR_BGRA2BGR);
+  const double full = image.depth() == CV_8U ? 255.0 : 65535.0;
+  const cv::Mat hidden = alpha < 0.5 * full;
+  if (cv::countNonZero(hidden) == 0) return colour;
+  cv::Mat visible;
+  cv::bitwise_not(hidden, visible);
+  const cv::Scalar mean = cv::mean(colour, visible);
+  const double paper = mean[0] + mean[1] + mean[2] > 1.5 * full ? 0.0 : full;
+  colour.setTo(cv::Scalar::all(paper), hidden);
+  return colour;
+}
+
+// (I1): projection on the first principal axis of the colours, which is grey itself for a grey
+// image and the stain's colour for a stained one. Its sign follows brightness.
+cv::Mat along_main_colour(const cv::Mat& colour) {
+  const double step = std::sqrt(static_cast<double>(colour.total()) / 1e4);
+  cv::Mat few;
+  cv::resize(colour, few, {}, 1.0 / std::max(1.0, step), 1.0 / std::max(1.0, step),
+             cv::INTER_NEAREST);
+  few.convertTo(few, CV_32F);
+  const cv::PCA axes(few.reshape(1, static_cast<int>(few.total())), cv::noArray(),
+                     cv::PCA::DATA_AS_ROW, 1);
+  cv::Mat weights = axes.eigenvectors.clone();
+  if (cv::sum(weights)[0] < 0.0) weights *= -1.0;
+  cv::Mat bands, grey;
+  colour.convertTo(bands, CV_32F);
+  cv::transform(bands, grey, weights);
+  return grey;
+}
+
+}  // namespace
+
+cv::Mat read_grey(const std::filesystem::path& file) {
+  cv::Mat image = read_any(file);
+  if (image.channels() == 4) image = without_alpha(image);
+  if (image.channels() == 2) cv::extractChannel(cv::Mat(image), image, 0);
+  double lowest = 0.0, highest = 0.0;
+  cv::minMaxLoc(image.reshape(1), &lowest, &highest);
+  if (lowest == highest)
+    throw InputError(file.string(), fmt::format("every pixel has the same value ({:g})", lowest),
+                     "this image is empty");
+  return image.channels() == 3 ? along_main_colour(image) : image;
+}
+
+cv::Mat read_mask(const std::filesystem::path& file, cv::Size size) {
+  cv::Mat mask = read_any(file);
+  if (mask.size() != size)
+    throw InputError(file.string(),
+                     fmt::format("the mask is {} × {} pixels, its image {} × {}", mask.cols,
+                                 mask.rows, size.width, size.height),
+                     "draw the mask on the image itself");
+  if (mask.channels() == 4) cv::cvtColor(mask, mask, cv::COLOR_BGRA2GRAY);
+  if (mask.channels() == 3) cv::cvtColor(mask, mask, cv::COLOR_BGR2GRAY);
+  double highest = 0.0;
+  cv::minMaxLoc(mask, nullptr, &highest);
+  if (highest == 0.0)
+    throw InputError(file.string(), "the mask marks nothing", "paint the bone white");
+  return mask > 0.5 * highest;
+}
+
+}  // namespace havers::io

@@ -1,0 +1,85 @@
+// Grey levels of bone, background and pores, and the depth image they make.
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "io/images/depth.hpp"
+
+namespace havers::io {
+namespace {
+
+// Second difference in both directions: blind to levels and slopes, 6 times the noise [Immerkær].
+double noise_at(const cv::Mat& grey, const cv::Mat& mask) {
+  const cv::Matx33f kernel(1, -2, 1, -2, 4, -2, 1, -2, 1);
+  const int strips = 64, height = std::min(3, grey.rows);
+  std::vector<float> found;
+  cv::Mat difference;
+  for (int strip = 0; strip < strips; ++strip) {
+    const int top = (grey.rows - height) * strip / strips;
+    cv::filter2D(grey.rowRange(top, top + height), difference, CV_32F, kernel);
+    const auto* values = difference.ptr<float>(height / 2);
+    const auto* wanted = mask.ptr<std::uint8_t>(top + height / 2);
+    for (int x = 0; x < grey.cols; ++x)
+      if (wanted[x] != 0) found.push_back(std::abs(values[x]));
+  }
+  return found.empty() ? 0.0 : median(found) / 0.6745 / 6.0;
+}
+
+}  // namespace
+
+Levels bone_levels(const cv::Mat& grey, const Regions& regions) {
+  Levels levels;
+  levels.sign = regions.dark_pores ? 1.0 : -1.0;
+  levels.bone = fit_majority(sample(grey, regions.bone, 20000), grey.size());
+  levels.noise = noise_at(grey, regions.bone);
+  return levels;
+}
+
+// Contrast as a linear function of the bone level holds for a shade that multiplies, for one that
+// adds, and for a negative of either. The slope is taken only where the levels span enough to show
+// it.
+void fit_contrast(const cv::Mat& grey, const cv::Mat& pores, Levels& levels) {
+  double n = 0.0, b = 0.0, d = 0.0, bb = 0.0, bd = 0.0, dd = 0.0;
+  for (const Sample& s : sample(grey, pores, 20000)) {
+    const double bone = levels.bone.at(s.x, s.y), depth = levels.sign * (bone - s.value);
+    n += 1.0, b += bone, d += depth, bb += bone * bone, bd += bone * depth, dd += depth * depth;
+  }
+  if (n == 0.0) return;
+  b /= n, d /= n;
+  const double spread = bb / n - b * b, common = bd / n - b * d, total = dd / n - d * d;
+  const double slope = spread > 0.0 ? common / spread : 0.0;
+  const double unexplained = std::max(0.0, total - slope * common);
+  const double slope_error = std::sqrt(unexplained / std::max(spread * n, 1e-300));
+  const bool determined = std::abs(slope) > 3.0 * slope_error &&
+                          std::abs(slope) * 3.0 * std::sqrt(spread) < std::abs(d);
+  levels.slope = determined ? slope : 0.0;
+  levels.offset = d - levels.slope * b;
+}
+
+cv::Mat depth_image(const cv::Mat& grey, const Levels& levels) {
+  cv::Mat depth(grey.size(), CV_32F), row;
+  const auto scale = static_cast<float>(2.0 / grey.cols);
+  for (int y = 0; y < grey.rows; ++y) {
+    const std::array<double, 5> exact = levels.bone.row(y);
+    std::array<float, 5> c{};
+    std::copy(exact.begin(), exact.end(), c.begin());
+    const auto sign = static_cast<float>(levels.sign), slope = static_cast<float>(levels.slope);
+    const auto offset = static_cast<float>(levels.offset);
+    const float least = 1e-3F * std::abs(offset + slope * c[0]);
+    grey.row(y).convertTo(row, CV_32F);
+    const auto* value = row.ptr<float>();
+    auto* out = depth.ptr<float>(y);
+    for (int x = 0; x < grey.cols; ++x) {
+      const float u = scale * static_cast<float>(x) - 1.0F;
+      const float bone = c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * c[4])));
+      out[x] = sign * (bone - value[x]) / std::max(offset + slope * bone, least);
+    }
+  }
+  return depth;
+}
+
+void smooth(cv::Mat& depth, double sigma) {
+  if (sigma > 0.0) cv::GaussianBlur(depth, depth, {}, sigma, sigma, cv::BORDER_REPLICATE);
+}
+
+}  // namespace havers::io

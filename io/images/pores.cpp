@@ -1,0 +1,168 @@
+#include "io/images/pores.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "io/images/depth.hpp"
+
+namespace havers::io {
+namespace {
+
+cv::Mat square(int side) {
+  return cv::Mat::ones(side, side, CV_8U);
+}
+
+cv::Mat eroded(const cv::Mat& mask, int side) {
+  cv::Mat result;
+  cv::erode(mask, result, square(side));
+  return result;
+}
+
+cv::Mat dilated(const cv::Mat& mask, int side) {
+  cv::Mat result;
+  cv::dilate(mask, result, square(side));
+  return result;
+}
+
+// As much smoothing as brings the noise to a tenth of the contrast, where a false pore of four
+// pixels is out of the question. White noise falls by 1/(2√π σ).
+double enough_smoothing(const Levels& levels) {
+  const double contrast = std::abs(levels.contrast(levels.bone.coefficients[0]));
+  const double sigma = std::min(3.0, 2.8 * levels.noise / std::max(contrast, 1e-300));
+  return sigma < 0.4 ? 0.0 : sigma;
+}
+
+// Spread about the bone level of a depth image: robust, so that pores do not widen it.
+double bone_spread(const cv::Mat& depth, const cv::Mat& bone) {
+  std::vector<float> values;
+  for (const Sample& s : sample(depth, bone, 20000)) values.push_back(s.value);
+  const auto middle = static_cast<float>(median(values));
+  for (float& value : values) value = std::abs(value - middle);
+  return 1.4826 * median(values);
+}
+
+// Where pores are deepest, by erosion that leaves enough of them.
+cv::Mat cores_of(const cv::Mat& pores) {
+  for (const int side : {7, 5}) {
+    cv::Mat cores = eroded(pores, side);
+    if (cv::countNonZero(cores) >= 200) return cores;
+  }
+  cv::Mat cores = eroded(pores, 3);
+  return cv::countNonZero(cores) > 0 ? cores : pores;
+}
+
+// The test for a second level, and the level: patches of three by three pixels all five deviations
+// deep are no chance. Refits the bone level away from pores. Returns the pores' cores; empty: one
+// level.
+cv::Mat find_pore_level(const cv::Mat& grey, const cv::Mat& bone, Levels& levels) {
+  levels.offset = 1.0, levels.slope = 0.0;
+  cv::Mat depth = depth_image(grey, levels);
+  smooth(depth, levels.noise > 0.0 ? 1.0 : 0.0);
+  const double least = std::max(5.0 * bone_spread(depth, bone), 0.01 * levels.noise);
+  const cv::Mat seeds = eroded((depth > least) & bone, 3) & bone;
+  if (cv::countNonZero(seeds) == 0) return {};
+
+  const cv::Mat pores = (depth > 0.5 * cv::mean(depth, seeds)[0]) & bone;
+  const cv::Mat clean = eroded(bone & ~pores, 7);
+  const std::vector<Sample> samples = sample(grey, clean, 20000);
+  if (samples.size() >= 500) levels.bone = fit_surface(samples, grey.size(), 4);
+  const cv::Mat cores = cores_of(pores);
+  fit_contrast(grey, cores, levels);
+  return cores;
+}
+
+// In the rim, where bone fades into background, only what continues a pore from further inside is
+// pore.
+cv::Mat without_rim(const cv::Mat& pores, const cv::Mat& bone) {
+  return pores & dilated(pores & eroded(bone, 5), 5);
+}
+
+double perimeter(const cv::Mat& mask) {
+  const cv::Mat across = mask.colRange(1, mask.cols) != mask.colRange(0, mask.cols - 1);
+  const cv::Mat down = mask.rowRange(1, mask.rows) != mask.rowRange(0, mask.rows - 1);
+  return std::numbers::pi / 4.0 * (cv::countNonZero(across) + cv::countNonZero(down));
+}
+
+// σ of the blur [px], from how the area about the pores changes with the threshold.
+double blur_of(const cv::Mat& depth, const PoreMap& map, const cv::Mat& about) {
+  const double between =
+      cv::countNonZero((depth > 0.3F) & about) - cv::countNonZero((depth > 0.7F) & about);
+  return between / (1.0488 * perimeter(map.pores));  // Φ⁻¹(0.7) − Φ⁻¹(0.3)
+}
+
+// Depth that small pores' cores keep under blur: the pores' image, blurred alike, is read there.
+double depth_left_in(const cv::Mat& cores, const cv::Mat& pores, double blur) {
+  cv::Mat blurred;
+  pores.convertTo(blurred, CV_32F, 1.0 / 255.0);
+  smooth(blurred, blur);
+  return std::max(0.5, cv::mean(blurred, cores)[0]);
+}
+
+void cut(const cv::Mat& depth, bool outlined, PoreMap& map) {
+  map.pores = (depth > map.threshold) & map.bone;
+  if (outlined) map.pores = without_rim(map.pores, map.bone);
+  count_pores(map);
+}
+
+}  // namespace
+
+cv::Mat find_bone(const cv::Mat& grey, const Regions& regions, Levels levels) {
+  if (!regions.outlined) return regions.bone;
+  fit_contrast(grey, regions.background, levels);
+  if (!(levels.contrast(levels.bone.coefficients[0]) > 0.0)) return {};
+  cv::Mat depth = depth_image(grey, levels);
+  smooth(depth, enough_smoothing(levels));
+  return outline((depth < 0.5F) & regions.search);
+}
+
+PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, bool outlined, Levels levels) {
+  PoreMap map;
+  map.bone = bone;
+  map.pores = cv::Mat::zeros(bone.size(), CV_8U);
+  const cv::Mat cores = find_pore_level(grey, outlined ? eroded(bone, 5) : bone, levels);
+  if (cores.empty()) return map;
+
+  cv::Mat depth = depth_image(grey, levels);
+  const double smoothing = enough_smoothing(levels);
+  smooth(depth, smoothing);
+  cut(depth, outlined, map);
+  if (map.count == 0) return map;
+  const cv::Mat about = dilated(map.pores, 7) & bone;
+  const double blur = blur_of(depth, map, about);
+  const double own_blur = std::sqrt(std::max(0.0, blur * blur - smoothing * smoothing));
+  const double full_depth = 1.0 / depth_left_in(cores, map.pores, own_blur);
+  map.area_by_grey = cv::mean(depth, about)[0] * cv::countNonZero(about) / full_depth;
+
+  // (I7) Blur σ pulls the half-maximum contour of a pore inwards by σ²κ/2, κ its curvature: π σ²
+  // less area a pore, whatever its shape. A lower threshold gives the area back.
+  const double lowering =
+      std::sqrt(std::numbers::pi / 2.0) * blur * map.count / perimeter(map.pores);
+  map.threshold = std::max(0.3, 0.5 - lowering) * full_depth;
+  cut(depth, outlined, map);
+  return map;
+}
+
+void count_pores(PoreMap& map) {
+  cv::Mat labels, stats, centroids;
+  const int objects = cv::connectedComponentsWithStats(map.pores, labels, stats, centroids, 8);
+  map.area = map.area_squared = map.largest = 0.0;
+  map.count = map.specks = 0;
+  for (int i = 1; i < objects; ++i) {
+    const double area = stats.at<int>(i, cv::CC_STAT_AREA);
+    if (area < smallest_pore) {
+      const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
+                         stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
+      map.pores(box).setTo(0, labels(box) == i);
+      ++map.specks;
+      continue;
+    }
+    map.area += area;
+    map.area_squared += area * area;
+    map.largest = std::max(map.largest, area);
+    ++map.count;
+  }
+}
+
+}  // namespace havers::io

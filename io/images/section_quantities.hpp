@@ -1,0 +1,13 @@
+// What is stated of a section, from its bone and pores. Private to io/images.
+#pragma once
+
+#include "io/images/measure_section.hpp"
+#include "io/images/pores.hpp"
+
+namespace havers::io {
+
+/// Porosity, counts, areas and spread between windows of a pore map. Where the pixel size is
+/// unknown, what needs it is NaN.
+calib::SectionPorosity section_quantities(const PoreMap& map, const SectionOptions& options);
+
+}  // namespace havers::io

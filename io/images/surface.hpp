@@ -1,0 +1,37 @@
+// Smooth surfaces over an image, for levels that shading bends. Private to io/images.
+#pragma once
+
+#include <array>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace havers::io {
+
+/// A pixel and a value there.
+struct Sample {
+  float x = 0.0F, y = 0.0F, value = 0.0F;
+};
+
+/// Polynomial of degree ≤ 4 in x and y over an image of `size`.
+struct Surface {
+  cv::Size size;
+  std::array<double, 15> coefficients{};
+
+  [[nodiscard]] double at(double x, double y) const;
+  /// Coefficients of u⁰…u⁴ along a row, u = 2x/width − 1.
+  [[nodiscard]] std::array<double, 5> row(double y) const;
+};
+
+/// Least squares over samples. Fewer samples than a degree needs: a lower degree.
+Surface fit_surface(const std::vector<Sample>& samples, cv::Size size, int degree);
+
+/// The surface of the majority, where a minority (pores) lies to one side.
+Surface fit_majority(const std::vector<Sample>& samples, cv::Size size);
+
+/// About `count` pixels of a one-channel image where `mask` is set, on a square grid.
+std::vector<Sample> sample(const cv::Mat& image, const cv::Mat& mask, int count);
+
+/// Median of values (reordered); NaN without any.
+double median(std::vector<float>& values);
+
+}  // namespace havers::io

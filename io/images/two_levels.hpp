@@ -1,0 +1,20 @@
+// Two levels under a smooth shade, on a small image. Private to io/images.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+namespace havers::io {
+
+/// How a small grey image splits.
+struct TwoLevels {
+  cv::Mat bright;           ///< 255 on the brighter level.
+  double separation = 0.0;  ///< Distance of the levels over the deviation about them. [-]
+};
+
+/// Splits a float image into two levels, each a smooth surface (I2).
+TwoLevels split_levels(const cv::Mat& image);
+
+/// Whether the levels differ by a step and not by a slope of the shade or by noise.
+bool is_a_step(const TwoLevels& levels, const cv::Mat& image);
+
+}  // namespace havers::io

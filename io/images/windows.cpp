@@ -1,0 +1,100 @@
+#include "io/images/windows.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+
+namespace havers::io {
+namespace {
+
+constexpr int parts = 4;  // Along each side of the grid of blocks.
+
+struct Sums {
+  double n = 0.0, q = 0.0, qq = 0.0;
+};
+using Blocks = std::array<Sums, static_cast<std::size_t>(parts) * parts>;
+
+std::size_t block_of(int x, int y, cv::Size size) {
+  return static_cast<std::size_t>(y * parts / size.height * parts + x * parts / size.width);
+}
+
+// Integral image along a row, at a fraction between pixels.
+double between(const int* row, int whole, double part) {
+  return part == 0.0 ? row[whole] : (1.0 - part) * row[whole] + part * row[whole + 1];
+}
+
+// Adds the windows of one orientation to the sums of the blocks they start in.
+void add_windows(const cv::Mat& bone, const cv::Mat& integral, cv::Size2d window, Blocks& blocks) {
+  const cv::Size covered(static_cast<int>(std::ceil(window.width)),
+                         static_cast<int>(std::ceil(window.height)));
+  if (covered.width > bone.cols || covered.height > bone.rows) return;
+  cv::Mat fits;
+  cv::erode(bone, fits, cv::Mat::ones(covered, CV_8U), {0, 0}, 1, cv::BORDER_CONSTANT,
+            cv::Scalar(0));
+  const int step = std::max(1, static_cast<int>(std::min(window.width, window.height) / 2.0));
+  const int dx = static_cast<int>(window.width), dy = static_cast<int>(window.height);
+  const double fx = window.width - dx, fy = window.height - dy, scale = 1.0 / window.area();
+  for (int y = 0; y + covered.height <= bone.rows; y += step) {
+    const auto *top = integral.ptr<int>(y), *low = integral.ptr<int>(y + dy);
+    const auto* lower = fy == 0.0 ? low : integral.ptr<int>(y + dy + 1);
+    for (int x = 0; x + covered.width <= bone.cols; x += step) {
+      if (fits.at<std::uint8_t>(y, x) == 0) continue;
+      const double above = between(top, x + dx, fx) - top[x];
+      const double below = (1.0 - fy) * (between(low, x + dx, fx) - low[x]) +
+                           fy * (between(lower, x + dx, fx) - lower[x]);
+      const double q = scale * (below - above);
+      Sums& sums = blocks[block_of(x, y, bone.size())];
+      sums.n += 1.0, sums.q += q, sums.qq += q * q;
+    }
+  }
+}
+
+}  // namespace
+
+WindowSpread window_spread(const cv::Mat& bone, const cv::Mat& pores, double length,
+                           double height) {
+  const cv::Rect box = cv::boundingRect(bone);
+  cv::Mat integral;
+  cv::integral(pores(box) & 1, integral, CV_32S);
+  Blocks blocks{};
+  add_windows(bone(box), integral, {length, height}, blocks);
+  add_windows(bone(box), integral, {height, length}, blocks);
+
+  Sums all;
+  for (const Sums& block : blocks) all.n += block.n, all.q += block.q, all.qq += block.qq;
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (all.n == 0.0) return {unknown, unknown};
+  const double mean = all.q / all.n;
+  const double variance = std::max(0.0, all.qq / all.n - mean * mean);
+  double squares = 0.0, used = 0.0;
+  for (const Sums& block : blocks) {
+    if (block.n == 0.0) continue;
+    const double own = (block.qq - 2.0 * mean * block.q) / block.n + mean * mean;
+    squares += std::pow(block.n / all.n * (own - variance), 2);
+    used += 1.0;
+  }
+  WindowSpread spread{.sd = std::sqrt(variance)};
+  if (used > 1.0 && spread.sd > 0.0)
+    spread.standard_error = std::sqrt(used / (used - 1.0) * squares) / (2.0 * spread.sd);
+  return spread;
+}
+
+double porosity_standard_error(const cv::Mat& bone, const cv::Mat& pores) {
+  const cv::Rect box = cv::boundingRect(bone);
+  const double all = cv::countNonZero(bone), mean = cv::countNonZero(pores) / all;
+  double squares = 0.0, used = 0.0;
+  for (int part = 0; part < parts * parts; ++part) {
+    const int i = part % parts, j = part / parts;
+    const cv::Rect block(
+        cv::Point(box.x + box.width * i / parts, box.y + box.height * j / parts),
+        cv::Point(box.x + box.width * (i + 1) / parts, box.y + box.height * (j + 1) / parts));
+    const double area = cv::countNonZero(bone(block));
+    squares += std::pow((cv::countNonZero(pores(block)) - mean * area) / all, 2);
+    used += area > 0.0 ? 1.0 : 0.0;
+  }
+  return used > 1.0 ? std::sqrt(used / (used - 1.0) * squares) : 0.0;
+}
+
+}  // namespace havers::io
