@@ -10,7 +10,7 @@
 
 namespace havers::cli {
 
-/// Stages result.json, curves/, overlays/ and report.html.
+/// Stages result.json, the calibrated scene.toml, curves/, overlays/ and report.html.
 void write_fit(const OutputFolder& output, const LoadedStudy& loaded,
                const calib::CalibrationResult& result, const io::Provenance& provenance);
 

@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include "cli/version.hpp"
-
 namespace havers::cli {
 
 double Stopwatch::wall_seconds() const {
@@ -26,7 +24,9 @@ io::Provenance provenance_of(const CommonOptions& common,
 }
 
 reports::Provenance page_facts(const io::Provenance& provenance) {
-  reports::Provenance facts{{"Command", provenance.command}, {"Program", version()}};
+  reports::Provenance facts{
+      {"Command", provenance.command},
+      {"Program", fmt::format("havers {}, {}", provenance.havers, provenance.compiler)}};
   for (const auto& [file, digest] : provenance.inputs)
     facts.emplace_back(file, "SHA-256 " + digest);
   facts.emplace_back("Wall time", fmt::format("{:.3g} s", provenance.wall_seconds));

@@ -43,14 +43,15 @@ void write_results(const OutputFolder& output, const sim::Scene& scene,
                    const io::Provenance& provenance) {
   const sim::Assembly assembly = sim::build_assembly(scene.assembly, scene.loading.lateral);
   io::write_curve(output.stage("curve.csv"), simulation);
-  io::write_joints(output.stage("joints.csv"), scene, assembly, simulation);
+  io::write_joints(output.stage("joints.csv"), assembly, simulation);
   for (const io::Snapshot& snapshot : snapshots.chosen())
     io::write_vtu(output.stage(fmt::format("snapshots/step_{:06}.vtu", snapshot.row)), assembly,
                   snapshot.displacements, snapshot.joints);
   if (reports::available()) {
     io::write_file(output.stage("fracture.svg"), reports::fracture_svg(assembly, simulation));
     io::write_file(output.stage("report.html"),
-                   reports::simulation_page({scene, assembly, simulation, page_facts(provenance)}));
+                   reports::simulation_page({scene, assembly, simulation, page_facts(provenance),
+                                             provenance.wall_seconds}));
   }
   io::write_file(output.stage("result.json"),
                  io::simulation_json(scene, simulation, provenance).dump(2) + "\n");

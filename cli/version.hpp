@@ -5,9 +5,6 @@
 
 namespace havers::cli {
 
-/// "havers 0.1.0".
-std::string version();
-
 /// Version, optional parts, and the libraries it was built with.
 std::string version_text();
 

@@ -1,0 +1,86 @@
+#include "tests/cli/run_havers.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+namespace havers::test {
+
+namespace fs = std::filesystem;
+
+Answer run_havers(const fs::path& folder, const std::string& arguments) {
+  const fs::path out = folder.string() + ".out", err = folder.string() + ".err";
+  const std::string command = "cd '" + folder.string() + "' && '" HAVERS_PROGRAM "' " + arguments +
+                              " </dev/null >'" + out.string() + "' 2>'" + err.string() + "'";
+  const int status = std::system(command.c_str());
+  return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+          .out = read_text(out),
+          .err = read_text(err)};
+}
+
+fs::path own_folder() {
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  fs::path folder = fs::path(testing::TempDir()) / "havers_cli" /
+                    (std::string(test->test_suite_name()) + "." + test->name());
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+std::string read_text(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream(file) << text;
+}
+
+std::string small_scene() {
+  return R"([assembly]
+layers = 4
+fibres = 5
+[joints]
+resultant_MPa = 100.0
+ratio = 1.0
+scatter = 0.4
+[loading]
+strain_rate_per_s = 1e-3
+)";
+}
+
+std::string small_study() {
+  std::string text = R"([study]
+name = "two bars"
+[model.assembly]
+layers = 4
+fibres = 5
+[model.joints]
+head_tail_MPa = 80.0
+ratio = 1.0
+scatter = 0.4
+[synthesize]
+force_noise_N = 0.2
+sampling_s = 0.05
+[porosity]
+to_scatter = "none"
+[calibrate]
+parameters = ["young_GPa", "head_tail_MPa"]
+[calibrate.options]
+replicates = 2
+budget = 60
+)";
+  for (const char* angle : {"0", "90"})
+    text +=
+        std::string("[[specimen]]\nid = \"B") + angle + "\"\ntest = \"B" + angle +
+        ".csv\"\nwidth_mm = 4.0\nthickness_mm = 2.0\ngauge_length_mm = 25.0\norientation_deg = " +
+        angle + "\n";
+  return text;
+}
+
+}  // namespace havers::test

@@ -1,0 +1,30 @@
+// The program as a user runs it: a command line in, exit code and two streams out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace havers::test {
+
+struct Answer {
+  int exit_code = -1;
+  std::string out, err;
+};
+
+/// Runs `havers ARGUMENTS` through a shell, with `folder` as the working folder.
+Answer run_havers(const std::filesystem::path& folder, const std::string& arguments);
+
+/// A new, empty folder of the running test's own.
+std::filesystem::path own_folder();
+
+std::string read_text(const std::filesystem::path& file);
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+/// A scene that runs in milliseconds: 5 x 4 fibres, quasi-static.
+std::string small_scene();
+
+/// A study of two specimens, one at 0 and one at 90 degrees, of 5 x 4 fibres each, without
+/// sections.
+std::string small_study();
+
+}  // namespace havers::test

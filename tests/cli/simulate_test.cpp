@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_havers.hpp"
+
+namespace havers {
+namespace {
+
+namespace fs = std::filesystem;
+using test::own_folder;
+using test::run_havers;
+
+// Turns the small scene into one that is stepped in time.
+constexpr const char* impact =
+    " --set loading.strain_rate_per_s=1000 --set solver.regime=dynamic --set solver.step_s=2e-8";
+
+TEST(Simulate, LeavesTheFilesOfTheContract) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "scene.toml", test::small_scene());
+  const auto answer = run_havers(folder, "simulate scene.toml -o out");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_TRUE(answer.err.find('\r') == std::string::npos) << "progress without a terminal";
+  for (const char* file : {"curve.csv", "joints.csv", "result.json"})
+    EXPECT_TRUE(fs::exists(folder / "out" / file));
+  const auto result = nlohmann::json::parse(test::read_text(folder / "out/result.json"));
+  for (const char* key :
+       {"status", "trusted", "strength_Pa", "failure_strain", "modulus_Pa", "first_break_strain",
+        "broken_joints", "steps", "energy_defect", "worst_residual", "worst_penetration_m",
+        "wall_s", "left_out", "scene", "provenance"})
+    EXPECT_TRUE(result.contains(key)) << key;
+  EXPECT_EQ(result["status"], "broken");
+  EXPECT_NEAR(result["modulus_Pa"].get<double>() / 13e9, 1.0, 1e-9);
+  EXPECT_EQ(test::read_text(folder / "out/curve.csv").substr(0, 31),
+            "time_s,strain,stress_right_Pa,s");
+}
+
+TEST(Simulate, SummaryPutsTheVerdictFirstAndThePathLast) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "scene.toml", test::small_scene());
+  const auto answer = run_havers(folder, "simulate scene.toml -o out");
+  EXPECT_TRUE(answer.out.starts_with("to be trusted: ")) << answer.out;
+  std::string last = answer.out.substr(0, answer.out.size() - 1);
+  last = last.substr(last.rfind('\n') + 1);
+  EXPECT_TRUE(fs::is_regular_file(last)) << last;
+}
+
+TEST(Simulate, JsonIsTheResultFile) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "scene.toml", test::small_scene());
+  const auto answer = run_havers(folder, "simulate scene.toml -o out --json");
+  EXPECT_EQ(nlohmann::json::parse(answer.out),
+            nlohmann::json::parse(test::read_text(folder / "out/result.json")));
+}
+
+TEST(Simulate, SetAndSeedReplaceTheScenesValues) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "scene.toml", test::small_scene());
+  const auto answer = run_havers(folder,
+                                 "simulate scene.toml -o out --json --seed 42 --set "
+                                 "material.young_GPa=20 --set loading.lateral=free");
+  const auto result = nlohmann::json::parse(answer.out);
+  EXPECT_NEAR(result["modulus_Pa"].get<double>() / 20e9, 1.0, 1e-9);
+  EXPECT_EQ(result["scene"]["joints"]["seed"], 42);
+  EXPECT_EQ(result["scene"]["loading"]["lateral"], "free");
+
+  const auto wrong = run_havers(folder, "simulate scene.toml -o wrong --set material.yung_GPa=20");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("young_GPa"), std::string::npos) << wrong.err;
+}
+
+TEST(Simulate, GivesTheSameBytesForAnyNumberOfThreads) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "scene.toml", test::small_scene());
+  for (const std::string threads : {"1", "2"})
+    ASSERT_EQ(run_havers(folder,
+                         "simulate scene.toml -o out" + threads + " --threads " + threads + impact)
+                  .exit_code,
+              0);
+  const std::string curve = test::read_text(folder / "out1/curve.csv");
+  EXPECT_GT(std::ranges::count(curve, '\n'), 100);
+  EXPECT_EQ(curve, test::read_text(folder / "out2/curve.csv"));
+  EXPECT_EQ(test::read_text(folder / "out1/joints.csv"),
+            test::read_text(folder / "out2/joints.csv"));
+}
+
+TEST(Simulate, ExitsOneWhenTheRunIsNotToBeTrusted) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "scene.toml", test::small_scene());
+  const auto answer = run_havers(
+      folder, std::string("simulate scene.toml -o out --set solver.tolerance=1e-300") + impact);
+  EXPECT_EQ(answer.exit_code, 1) << answer.out << answer.err;
+  EXPECT_TRUE(answer.out.starts_with("NOT to be trusted: ")) << answer.out;
+}
+
+}  // namespace
+}  // namespace havers

@@ -1,0 +1,86 @@
+// synthesize and fit on a study that is small enough for a test.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_havers.hpp"
+
+namespace havers {
+namespace {
+
+namespace fs = std::filesystem;
+using test::own_folder;
+using test::run_havers;
+
+fs::path folder_with_study() {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "study.toml", test::small_study());
+  return folder;
+}
+
+TEST(Synthesize, MakesTheSameFilesForTheSameSeedAndOthersForAnother) {
+  const fs::path folder = folder_with_study();
+  for (const char* arguments :
+       {"-o one --seed 3 --threads 1", "-o two --seed 3 --threads 2", "-o three --seed 4"})
+    ASSERT_EQ(run_havers(folder, std::string("synthesize study.toml ") + arguments).exit_code, 0);
+  for (const char* file : {"B0.csv", "B90.csv", "truth.json", "study.toml"})
+    EXPECT_EQ(test::read_text(folder / "one" / file), test::read_text(folder / "two" / file))
+        << file;
+  EXPECT_NE(test::read_text(folder / "one/B0.csv"), test::read_text(folder / "three/B0.csv"));
+}
+
+TEST(Synthesize, KeepsTheStudyAsItIsWhenTheTruthIsSetApart) {
+  const fs::path folder = folder_with_study();
+  ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made --set model.material.young_GPa=17")
+                .exit_code,
+            0);
+  EXPECT_EQ(test::read_text(folder / "made/study.toml"), test::small_study());
+  const auto truth = nlohmann::json::parse(test::read_text(folder / "made/truth.json"));
+  EXPECT_EQ(truth["parameters"]["young_GPa"], 17.0);
+}
+
+TEST(Synthesize, RefusesFilesOutsideTheStudysFolder) {
+  const fs::path folder = folder_with_study();
+  std::string study = test::small_study();
+  study.replace(study.find("\"B0.csv\""), 8, "\"../B0.csv\"");
+  test::write_text(folder / "study.toml", study);
+  const auto answer = run_havers(folder, "synthesize study.toml -o made");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_NE(answer.err.find("outside"), std::string::npos) << answer.err;
+  EXPECT_FALSE(fs::exists(folder / "made"));
+}
+
+TEST(Fit, WritesItsFilesAndResumesOnlyWhatHasNoResult) {
+  const fs::path folder = folder_with_study();
+  ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made --set model.material.young_GPa=16")
+                .exit_code,
+            0);
+  const auto first = run_havers(folder, "fit made/study.toml -o out --json");
+  ASSERT_NE(first.exit_code, 2) << first.err;
+  const auto result = nlohmann::json::parse(first.out);
+  EXPECT_EQ(first.exit_code, result["trusted"].get<bool>() ? 0 : 1);
+  EXPECT_NEAR(result["parameters"][0]["value"].get<double>(), 16.0, 0.3);
+  for (const char* file : {"curves/B0.csv", "curves/B90.csv", "evaluations.sqlite", "result.json"})
+    EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
+
+  EXPECT_EQ(run_havers(folder, "fit made/study.toml -o out").exit_code, 2)
+      << "a result is not replaced unasked";
+  fs::remove(folder / "out/result.json");
+  const auto resumed = run_havers(folder, "fit made/study.toml -o out --json");
+  EXPECT_EQ(resumed.exit_code, first.exit_code) << resumed.err;
+  EXPECT_EQ(nlohmann::json::parse(resumed.out)["parameters"], result["parameters"]);
+}
+
+TEST(Fit, ReportsTheProblemsOfAllFilesAtOnceAndWritesNothing) {
+  const fs::path folder = folder_with_study();
+  test::write_text(folder / "B0.csv", "");
+  test::write_text(folder / "B90.csv", "not a test\n");
+  const auto answer = run_havers(folder, "fit study.toml -o out");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_NE(answer.err.find("B0.csv"), std::string::npos) << answer.err;
+  EXPECT_NE(answer.err.find("B90.csv"), std::string::npos) << answer.err;
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+}  // namespace
+}  // namespace havers

@@ -1,0 +1,104 @@
+// What a user meets first: help, version, and mistakes in the command line.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_havers.hpp"
+
+namespace havers {
+namespace {
+
+using test::own_folder;
+using test::run_havers;
+
+constexpr std::array commands{"fit",   "simulate",   "import", "porosity",
+                              "check", "synthesize", "report"};
+
+TEST(Usage, HelpListsEveryCommandAndNoOther) {
+  const auto answer = run_havers(own_folder(), "-h");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_TRUE(answer.err.empty()) << answer.err;
+  for (const char* command : commands)
+    EXPECT_NE(answer.out.find(command), std::string::npos) << command;
+  EXPECT_EQ(answer.out.find("sweep"), std::string::npos);
+}
+
+TEST(Usage, EveryCommandShowsExamplesAndExitCodes) {
+  const auto folder = own_folder();
+  for (const char* command : commands) {
+    const auto answer = run_havers(folder, std::string(command) + " -h");
+    EXPECT_EQ(answer.exit_code, 0);
+    EXPECT_NE(answer.out.find("Examples:\n  havers " + std::string(command)), std::string::npos)
+        << answer.out;
+    for (const char* option : {"--json", "-q", "-v", "--threads", "--seed", "--set", "--force",
+                               "--version", "Exit codes"})
+      EXPECT_NE(answer.out.find(option), std::string::npos) << command << " " << option;
+  }
+}
+
+TEST(Usage, VersionSaysWhatIsBuiltIn) {
+  const auto answer = run_havers(own_folder(), "--version");
+  EXPECT_EQ(answer.exit_code, 0);
+  for (const char* part :
+       {"havers ", "images O", "reports O", "VTK snapshots O", "Eigen 3", "Ceres 2", "NLopt 2"})
+    EXPECT_NE(answer.out.find(part), std::string::npos) << part;
+}
+
+TEST(Usage, MistakesInTheCommandLineAreOneLineAndExitTwo) {
+  const auto folder = own_folder();
+  for (const char* arguments :
+       {"", "fly", "simulate", "simulate scene.toml", "check a.toml --threads 0",
+        "check a.toml --nonsense", "porosity a.png --pixel-size-um -3"}) {
+    SCOPED_TRACE(arguments);
+    const auto answer = run_havers(folder, arguments);
+    EXPECT_EQ(answer.exit_code, 2);
+    EXPECT_TRUE(answer.out.empty()) << answer.out;
+    EXPECT_EQ(std::ranges::count(answer.err, '\n'), 1) << answer.err;
+    EXPECT_TRUE(answer.err.starts_with("havers: ")) << answer.err;
+  }
+}
+
+TEST(Usage, MissingFilesAreNamed) {
+  const auto folder = own_folder();
+  for (const char* arguments :
+       {"simulate none.toml -o out", "fit none.toml -o out", "check none.toml", "import none.csv",
+        "synthesize none.toml -o out"}) {
+    SCOPED_TRACE(arguments);
+    const auto answer = run_havers(folder, arguments);
+    EXPECT_EQ(answer.exit_code, 2);
+    EXPECT_NE(answer.err.find("none."), std::string::npos) << answer.err;
+    EXPECT_TRUE(std::filesystem::is_empty(folder));
+  }
+}
+
+TEST(Check, SaysNoProblemsOrAllOfThem) {
+  const auto folder = own_folder();
+  test::write_text(folder / "good.toml", test::small_scene());
+  test::write_text(folder / "bad.toml",
+                   "[assembly]\nlayer = 3\nfibres = \"many\"\n[joints]\nscatter = 2.5\n");
+  auto answer = run_havers(folder, "check good.toml");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_EQ(answer.out, "no problems\n");
+
+  answer = run_havers(folder, "check bad.toml");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_TRUE(answer.out.empty());
+  for (const char* word : {"layers", "fibres", "scatter"})
+    EXPECT_NE(answer.err.find(word), std::string::npos) << answer.err;
+
+  answer = run_havers(folder, "check bad.toml --json");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_EQ(nlohmann::json::parse(answer.out).at("problems").size(), 3U);
+}
+
+TEST(Check, TellsAStudyFromASceneAndReportsAllItsFiles) {
+  const auto folder = own_folder();
+  test::write_text(folder / "study.toml", test::small_study());
+  const auto answer = run_havers(folder, "check study.toml");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_NE(answer.err.find("B0.csv"), std::string::npos) << answer.err;
+  EXPECT_NE(answer.err.find("B90.csv"), std::string::npos) << answer.err;
+}
+
+}  // namespace
+}  // namespace havers
