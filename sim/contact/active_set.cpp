@@ -1,0 +1,138 @@
+#include "sim/contact/active_set.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace havers::sim {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+// A new factor costs about as much as the columns of this many joints.
+constexpr int worth_detaching = 24;
+
+Local at(const VectorXd& values, int joint) { return values.segment<2>(2 * static_cast<Index>(joint)); }
+
+}  // namespace
+
+ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, int max_iterations, bool detach_open)
+    : bodies_(&bodies),
+      max_iterations_(max_iterations),
+      detach_open_(detach_open),
+      detached_(bodies.assembly().joints.size(), 0),
+      structure_(bodies),
+      loose_(structure_),
+      stiffness_(joint_stiffness(bodies)) {}
+
+void ActiveSetSolver::rebuild(std::vector<char> detached) {
+  detached_ = std::move(detached);
+  structure_ = Structure(*bodies_, detached_);
+  loose_ = LooseJoints(structure_);
+}
+
+void ActiveSetSolver::detach_opened(const JointStep& step) {
+  if (!detach_open_) return;
+  std::vector<char> detached = detached_;
+  int opened = 0;
+  for (const int joint : loose_.joints()) {
+    const auto j = static_cast<std::size_t>(joint);
+    if (step.broken[j] == 0 || step.states[j] != JointState::open) continue;
+    detached[j] = 1;
+    ++opened;
+  }
+  if (opened >= worth_detaching) rebuild(std::move(detached));
+}
+
+// Jumps that bring every joint to where it is held, the loose ones to where they are now.
+VectorXd ActiveSetSolver::jumps(const JointStep& step) const {
+  VectorXd target = VectorXd::Zero(step.gaps.size());
+  for (const int joint : loose_.joints()) target.segment<2>(2 * static_cast<Index>(joint)) = at(step.gaps, joint);
+  return target - step.predicted;
+}
+
+// The loose joints among themselves, and again with those that the answer overloads, until none is.
+bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded_reactions, JointStepResult& result,
+                                   VectorXd& y) {
+  for (;;) {
+    const auto n = static_cast<Index>(loose_.size());
+    LocalContact contact{loose_.stiffness(), VectorXd(2 * n), VectorXd(2 * n), {}};
+    std::vector<JointState> states;
+    for (Index i = 0; i < n; ++i) {
+      const int joint = loose_.joints()[static_cast<std::size_t>(i)];
+      contact.r0.segment<2>(2 * i) = at(bonded_reactions, joint);
+      contact.u0.segment<2>(2 * i) = at(step.gaps, joint) - at(step.held_at, joint);
+      contact.laws.push_back(step.laws[static_cast<std::size_t>(joint)]);
+      states.push_back(result.states[static_cast<std::size_t>(joint)]);
+    }
+    const LocalContactResult local = solve_local_contact(contact, std::move(states), max_iterations_);
+    result.iterations += local.iterations;
+    y = local.y;
+    if (!local.converged) return false;
+    for (Index i = 0; i < n; ++i)
+      result.states[static_cast<std::size_t>(loose_.joints()[static_cast<std::size_t>(i)])] =
+          local.states[static_cast<std::size_t>(i)];
+    if (!loosen_violated(step, bonded_reactions + loose_.reactions_to(y), result)) return true;
+  }
+}
+
+bool ActiveSetSolver::loosen_violated(const JointStep& step, const VectorXd& reactions, JointStepResult& result) {
+  const double scale = reactions.cwiseAbs().maxCoeff();
+  std::vector<int> violated;
+  for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint) {
+    const auto j = static_cast<std::size_t>(joint);
+    if (structure_.detached(joint) || loose_.contains(joint)) continue;
+    const JointState state = state_of(at(reactions, joint), Local::Zero(), JointState::stick, step.laws[j], scale);
+    if (state == JointState::stick) continue;
+    result.states[j] = state;
+    violated.push_back(joint);
+  }
+  for (const int joint : violated) loose_.add(joint);
+  return !violated.empty();
+}
+
+bool ActiveSetSolver::reattach_closed(const JointStepResult& result) {
+  std::vector<char> detached = detached_;
+  for (std::size_t j = 0; j < detached.size(); ++j)
+    if (detached[j] != 0 && result.gaps(static_cast<Index>(2 * j)) < 0.0) detached[j] = 0;
+  if (detached == detached_) return false;
+  std::vector<int> again;
+  for (std::size_t j = 0; j < detached.size(); ++j)
+    if (detached[j] != detached_[j]) again.push_back(static_cast<int>(j));
+  again.insert(again.end(), loose_.joints().begin(), loose_.joints().end());
+  rebuild(std::move(detached));
+  for (const int joint : again) loose_.add(joint);
+  return true;
+}
+
+JointStepResult ActiveSetSolver::solve(const JointStep& step) {
+  detach_opened(step);
+  // What is broken and not detached may move; after a rebuild it has to be said again.
+  for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint)
+    if (step.broken[static_cast<std::size_t>(joint)] != 0 && !structure_.detached(joint) && !loose_.contains(joint))
+      loose_.add(joint);
+
+  JointStepResult result;
+  do {
+    result.states = step.states;
+    if (!structure_.ok()) return result;
+    StructureLoads loads{step.forces, step.prescribed, jumps(step)};
+    StructureResponse response = structure_.solve(loads);
+    VectorXd y;
+    result.converged = settle_loose(step, response.reactions, result, y);
+    if (y.size() > 0 && !y.isZero(0.0)) {
+      for (std::size_t i = 0; i < loose_.size(); ++i)
+        loads.jumps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) += y.segment<2>(2 * static_cast<Index>(i));
+      response = structure_.solve(loads);
+    }
+    result.iterations += response.solves;
+    result.displacements = std::move(response.displacements);
+    result.reactions = std::move(response.reactions);
+    result.gaps = step.predicted + joint_gaps(*bodies_, result.displacements);
+    result.residual = std::max(joint_residual(step, result, stiffness_), response.residual);
+  } while (result.converged && reattach_closed(result));
+  return result;
+}
+
+}  // namespace havers::sim

@@ -1,0 +1,41 @@
+// The few joints that may move, after everything bonded has been condensed: a small dense contact problem.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sim/joint/cohesive_cone.hpp"
+
+namespace havers::sim {
+
+/// What a joint does in the solution of a step.
+enum class JointState { stick, slip_forward, slip_backward, open };
+
+/// Find y with r = r₀ + S y and the joint law at every joint, gaps being u = u₀ + y (C1), sim/contact/README.md.
+struct LocalContact {
+  Eigen::MatrixXd S;           ///< Reactions to unit gaps, 2n × 2n, symmetric ≥ 0. [N/m²]
+  Eigen::VectorXd r0;          ///< Reactions at y = 0, 2n. [N/m]
+  Eigen::VectorXd u0;          ///< Gap, and slip since the joint last held, at y = 0, 2n. [m]
+  std::vector<JointLaw> laws;  ///< n.
+};
+
+struct LocalContactResult {
+  bool converged = false;
+  Eigen::VectorXd y;               ///< 2n. [m]
+  std::vector<JointState> states;  ///< n.
+  int iterations = 0;              ///< Sets tried, and sweeps of the fallback.
+};
+
+/// Which state a joint with that reaction and gap belongs in. `scale` is a force: less than 1e-12 of it is
+/// rounding.
+JointState state_of(const Local& reaction, const Local& gap, JointState now, const JointLaw& law, double scale);
+
+/// One joint alone: y with r = `free` + S y and the law for the gap u₀ + y. [m]
+Local solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const Local& u0, const JointLaw& law);
+
+/// Active set started from `states`: each set is one linear solve (C2). When a set comes back, Gauss-Seidel over
+/// the joints (C3) finds the set instead, which is globally convergent in practice.
+LocalContactResult solve_local_contact(const LocalContact& problem, std::vector<JointState> states,
+                                       int max_iterations);
+
+}  // namespace havers::sim

@@ -1,0 +1,37 @@
+// The joint law: Signorini-Coulomb with the cone's tip moved by the cohesion. Section 3 of sim/README.md.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "sim/scene.hpp"
+
+namespace havers::sim {
+
+/// A vector in a joint's frame: (normal, tangential).
+using Local = Eigen::Vector2d;
+
+/// |R_T| ≤ μ (R_N + c): (M5) with c = f_N and μ = f_T/f_N while intact, (M7) with c = 0 and μ = μ_f when broken.
+struct JointLaw {
+  double cohesion = 0.0;  ///< c. [N/m]
+  double friction = 0.0;  ///< μ. [-]
+};
+
+JointLaw intact_law(const Threshold& threshold);
+JointLaw broken_law(double friction);
+
+/// How far inside the cone a reaction is, μ (R_N + c) − |R_T|; negative outside. [N/m]
+double cone_margin(const Local& reaction, const JointLaw& law);
+
+/// Nearest point of the shifted cone.
+Local project_on_cone(const Local& reaction, const JointLaw& law);
+
+/// Natural-map residual of the law; zero exactly where it holds (M11).
+///
+///   r − P( r − k (u + μ |u_t| n) )
+///
+/// @param reaction   r. [N/m]
+/// @param gap        u: gap along the normal and slip since the joint last held. [m]
+/// @param stiffness  k > 0, makes the two comparable: the force that a wrong gap would cause. [N/m²]
+Local law_residual(const Local& reaction, const Local& gap, const JointLaw& law, double stiffness);
+
+}  // namespace havers::sim

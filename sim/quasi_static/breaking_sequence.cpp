@@ -1,0 +1,204 @@
+#include "sim/quasi_static/breaking_sequence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/contact/local_contact.hpp"
+#include "sim/contact/loose_joints.hpp"
+#include "sim/joint/thresholds.hpp"
+#include "sim/outcome.hpp"
+#include "sim/quasi_static/intact_structure.hpp"
+
+namespace havers::sim {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// Joints that meet their cones at strains closer than this break together, whatever their order.
+constexpr double together = 1e-9;
+
+// The structure as it is between two events. Its answer is proportional to the strain: it is known from ε = 1.
+class BreakingRun {
+ public:
+  BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact)
+      : scene_(scene),
+        intact_(std::move(intact)),
+        loose_(intact_->structure),
+        joints(initial_outcomes(draw_thresholds(scene, intact_->assembly))),
+        reactions_(intact_->reactions),
+        force_(intact_->force) {}
+
+  /// Strain at which the next joints meet their cones; infinite when none ever will.
+  [[nodiscard]] double next_event() const;
+  /// Breaks all joints that have met their cones at `event`; `strain` is that of the specimen by then.
+  void break_joints(double event, double strain);
+  /// Solves the changed structure for ε = 1, broken joints pressed together included (M7).
+  bool settle();
+
+  [[nodiscard]] CurvePoint point(double strain) const;
+  [[nodiscard]] VectorXd all_gaps() const;
+  /// Relative defect of ½ qᵀKq = ½ (F W ε + r·u), both sides computed apart; fills the final joints.
+  double finish(double strain, double energy_scale, Simulation& simulation);
+
+ private:
+  [[nodiscard]] double meets_cone_at(std::size_t joint) const;
+
+  const Scene& scene_;
+  std::shared_ptr<const IntactStructure> intact_;
+  LooseJoints loose_;
+  std::vector<JointState> states_;  // of the loose joints
+  VectorXd y_;                      // their gaps [m per unit strain]
+
+ public:
+  std::vector<JointOutcome> joints;
+  double dissipated = 0.0;  // [J/m]
+  double worst_residual = 0.0, worst_penetration = 0.0;
+  long iterations = 0;
+  int broken = 0;
+
+ private:
+  VectorXd reactions_;  // for E = 1 and ε = 1 [N/m]
+  double force_;        // likewise
+};
+
+// ε = f_N μ_c / (|r_T| − μ_c r_N), section 6.
+double BreakingRun::meets_cone_at(std::size_t joint) const {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  if (joints[joint].broken) return never;
+  const JointLaw law = intact_law(joints[joint].threshold);
+  const Local r = scene_.material.young * reactions_.segment<2>(static_cast<Index>(2 * joint));
+  const double denominator = std::abs(r.y()) - law.friction * r.x();
+  // What rounding leaves on an unloaded joint is not a load.
+  const double noise = 1e-10 * scene_.material.young * intact_->reactions.cwiseAbs().maxCoeff();
+  return denominator > noise * std::max(1.0, law.friction) ? law.cohesion * law.friction / denominator : never;
+}
+
+double BreakingRun::next_event() const {
+  double first = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < joints.size(); ++j) first = std::min(first, meets_cone_at(j));
+  return first;
+}
+
+void BreakingRun::break_joints(double event, double strain) {
+  std::vector<std::size_t> breaking;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (meets_cone_at(j) <= event * (1.0 + together)) breaking.push_back(j);
+  for (const std::size_t j : breaking) {
+    joints[j].broken = true;
+    joints[j].broken_at_strain = strain;
+    loose_.add(static_cast<int>(j));
+    states_.push_back(JointState::open);
+    ++broken;
+  }
+}
+
+bool BreakingRun::settle() {
+  const auto n = static_cast<Index>(loose_.size());
+  LocalContact contact{loose_.stiffness(), VectorXd(2 * n), VectorXd::Zero(2 * n),
+                       std::vector<JointLaw>(loose_.size(), broken_law(scene_.joints.friction))};
+  for (Index i = 0; i < n; ++i)
+    contact.r0.segment<2>(2 * i) =
+        intact_->reactions.segment<2>(2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)]));
+  const LocalContactResult result = solve_local_contact(contact, states_, scene_.solver.max_iterations);
+  iterations += result.iterations;
+  states_ = result.states;
+  y_ = result.y;
+  reactions_ = intact_->reactions + loose_.reactions_to(y_);
+  // By reciprocity the force at the end changes by r¹·y/W.
+  force_ = intact_->force + contact.r0.dot(y_) / intact_->assembly.width;
+  return result.converged;
+}
+
+CurvePoint BreakingRun::point(double strain) const {
+  const double stress = scene_.material.young * force_ * strain / intact_->assembly.height;
+  const double work = 0.5 * stress * strain * intact_->assembly.width * intact_->assembly.height;
+  return {.time = strain / scene_.loading.strain_rate,
+          .strain = strain,
+          .stress_right = stress,
+          .stress_left = stress,
+          .broken_joints = broken,
+          .elastic = work,
+          .dissipated = dissipated};
+}
+
+VectorXd BreakingRun::all_gaps() const {
+  VectorXd gaps = VectorXd::Zero(2 * intact_->structure.joints());
+  for (std::size_t i = 0; i < loose_.size(); ++i)
+    gaps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) = y_.segment<2>(static_cast<Index>(2 * i));
+  return gaps;
+}
+
+double BreakingRun::finish(double strain, double energy_scale, Simulation& simulation) {
+  const VectorXd gaps = all_gaps();
+  const StructureResponse response = intact_->stretch(gaps);
+  const double young = scene_.material.young;
+  simulation.displacements = strain * response.displacements;
+  worst_residual = std::max(worst_residual, response.residual);
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const auto row = static_cast<Index>(2 * j);
+    joints[j].reaction_normal = young * strain * response.reactions(row);
+    joints[j].reaction_tangent = young * strain * response.reactions(row + 1);
+    joints[j].gap = strain * gaps(row);
+    worst_penetration = std::max(worst_penetration, -joints[j].gap);
+  }
+  const VectorXd& q = response.displacements;
+  const double elastic = 0.5 * q.dot(intact_->bodies.stiffness_times(q));
+  const double work = 0.5 * (force_ * intact_->assembly.width + response.reactions.dot(gaps));
+  return energy_scale > 0.0 ? young * strain * strain * std::abs(elastic - work) / energy_scale : 0.0;
+}
+
+}  // namespace
+
+Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
+  Simulation simulation;
+  simulation.regime = Regime::quasi_static;
+  const std::shared_ptr<const IntactStructure> intact = intact_structure(scene);
+  if (!intact->structure.ok()) return simulation;
+  BreakingRun run(scene, intact);
+  simulation.curve.push_back(run.point(0.0));
+  double strain = 0.0, largest_energy = 0.0;
+
+  for (;;) {
+    const double event = run.next_event();
+    if (event > scene.loading.max_strain) {
+      strain = scene.loading.max_strain;
+      simulation.curve.push_back(run.point(strain));
+      simulation.status = SimulationStatus::strain_limit;
+      break;
+    }
+    strain = std::max(strain, event);
+    const CurvePoint before = run.point(strain);
+    simulation.curve.push_back(before);
+    has_failed(simulation, scene.loading.end_fraction);  // takes note of the strength
+    largest_energy = std::max(largest_energy, before.elastic);
+
+    run.break_joints(event, strain);
+    const bool solved = run.settle();
+    run.dissipated += before.elastic - run.point(strain).elastic;
+    simulation.curve.push_back(run.point(strain));
+    ++simulation.steps;
+    if (!solved) {
+      simulation.status = SimulationStatus::not_converged;
+      break;
+    }
+    if (observer && !observer({simulation.curve.back(), simulation.displacements, run.joints})) {
+      simulation.status = SimulationStatus::cancelled;
+      break;
+    }
+    if (has_failed(simulation, scene.loading.end_fraction)) {
+      simulation.status = SimulationStatus::broken;
+      break;
+    }
+  }
+  largest_energy = std::max(largest_energy, simulation.curve.back().elastic);
+  simulation.energy_defect = run.finish(strain, largest_energy, simulation);
+  simulation.joints = run.joints;
+  simulation.iterations = run.iterations;
+  simulation.worst_residual = run.worst_residual;
+  simulation.worst_penetration = run.worst_penetration;
+  return simulation;
+}
+
+}  // namespace havers::sim
