@@ -84,9 +84,17 @@ void read_porosity(TableReader table, calib::PorosityOptions& porosity) {
 
 // Only known names are kept, so that what is judged later complains of something else.
 void read_parameters(TableReader& calibrate, calib::CalibrateOptions& options) {
-  options.automatic = calibrate.is_word("parameters", "auto");
+  if (calibrate.is_text("parameters")) {
+    std::string text;
+    calibrate.key("parameters", text);
+    options.automatic = text == "auto";
+    if (!options.automatic)
+      calibrate.complain("parameters", fmt::format("is \"{}\", must be a list of names", text),
+                         "or \"auto\": what the specimens inform");
+    return;
+  }
   std::vector<std::string> names;
-  if (options.automatic || !calibrate.key("parameters", names)) return;
+  if (!calibrate.key("parameters", names)) return;
   std::set<std::string, std::less<>> known;
   for (const calib::ParameterInfo& info : calib::all_parameters()) known.emplace(info.name);
 

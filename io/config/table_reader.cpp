@@ -59,8 +59,8 @@ bool TableReader::has(std::string_view name) const {
   return table_ != nullptr && table_->contains(name);
 }
 
-bool TableReader::is_word(std::string_view name, std::string_view word) const {
-  return has(name) && table_->get(name)->value<std::string_view>() == word;
+bool TableReader::is_text(std::string_view name) const {
+  return has(name) && table_->get(name)->is_string();
 }
 
 const toml::node* TableReader::ask(std::string_view name) {

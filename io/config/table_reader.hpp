@@ -72,8 +72,8 @@ class TableReader {
   std::vector<TableReader> tables(std::string_view name);
 
   [[nodiscard]] bool has(std::string_view name) const;
-  /// Whether the key holds this word, for keys that take a word or something else.
-  [[nodiscard]] bool is_word(std::string_view name, std::string_view word) const;
+  /// Whether the key holds a text, for keys that take a text or something else.
+  [[nodiscard]] bool is_text(std::string_view name) const;
   /// A complaint about a key, dotted where it is of an inner table; it need not be in the file.
   void complain(std::string_view name, std::string what, std::string hint = {});
   void complain(const std::vector<Problem>& problems);  ///< Of a file that is named here.

@@ -144,7 +144,9 @@ TEST_F(ReadStudy, TakesAutoAsTheChoiceOfParameters) {
       read(one_specimen + "[calibrate]\nparameters = \"auto\"\n").study.calibrate.automatic);
   EXPECT_THAT(
       complaints(one_specimen + "[calibrate]\nparameters = \"all\"\n"),
-      ElementsAre("study.toml:5: calibrate.parameters: is a text, must be a list of texts"));
+      ElementsAre(
+          "study.toml:5: calibrate.parameters: is \"all\", must be a list of names (or \"auto\": "
+          "what the specimens inform)"));
 }
 
 TEST_F(ReadStudy, LetsTheCommandLineOverrideTheFile) {

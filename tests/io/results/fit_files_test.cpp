@@ -1,0 +1,212 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "io/input_error.hpp"
+#include "io/results/result_files.hpp"
+#include "tests/support/results.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+namespace havers::io {
+namespace {
+
+using testing::HasSubstr;
+using testing::Pointwise;
+
+// As havers fit leaves it: result.json, and the curves beside it.
+void write_folder(const test::ScratchFolder& folder, const test::FitSample& fit,
+                  const Provenance& provenance) {
+  folder.write("result.json", calibration_json(fit.study, fit.result, provenance).dump(2));
+  std::filesystem::create_directories(folder.path() / "curves");
+  for (const calib::SpecimenResult& specimen : fit.result.specimens) {
+    write_band(folder.path() / band_file(specimen.id), specimen.band);
+    write_measured(folder.path() / measured_file(specimen.id), specimen.measured);
+  }
+}
+
+test::FitSample sample() {
+  test::FitSample fit = test::fit_sample();
+  fit.study.calibrate.automatic = true;
+  fit.study.calibrate.bounds["young_GPa"] = {5.0, 30.0};
+  fit.study.calibrate.level["ratio"] = calib::Level::specimen;
+  fit.study.calibrate.budget = 77;
+  fit.study.porosity.to_modulus = calib::ToModulus::power;
+  fit.study.porosity.linear_slope = 0.3;
+  fit.study.model.material.poisson = 0.31;
+  fit.result.scene.material.young = 13.1234e9;
+  fit.result.specimen_effect = {0.01, 0.02, 0.03};
+  fit.result.distinct_simulations = 99;
+  return fit;
+}
+
+TEST(FitFolder, GivesBackTheWholeResult) {
+  const test::ScratchFolder folder;
+  const test::FitSample fit = sample();
+  Provenance provenance{.command = "havers fit study.toml -o r"};
+  provenance.havers = "9.9.9";
+  provenance.inputs = {{"study.toml", "abcd"}};
+  provenance.wall_seconds = 4.5;
+  write_folder(folder, fit, provenance);
+  const FitFolder again = read_fit_folder(folder.path());
+
+  // All that result.json holds is there again, to the last digit; the curves are looked at below.
+  EXPECT_EQ(calibration_json(again.study, again.result, again.provenance),
+            calibration_json(fit.study, fit.result, provenance));
+  EXPECT_EQ(again.provenance.havers, "9.9.9");
+  EXPECT_EQ(again.study.name, "bovine femur A");
+  EXPECT_EQ(again.study.calibrate.bounds.at("young_GPa").second, 30.0);
+  EXPECT_EQ(again.study.calibrate.level.at("ratio"), calib::Level::specimen);
+  EXPECT_EQ(again.study.calibrate.budget, 77);
+  EXPECT_EQ(again.study.model.material.poisson, 0.31);
+  EXPECT_EQ(again.study.porosity.to_modulus, calib::ToModulus::power);
+  EXPECT_EQ(again.result.scene.material.young, 13.1234e9);
+  EXPECT_EQ(again.result.status, calib::CalibrationStatus::converged);
+  EXPECT_EQ(again.result.verdict.at(3).outcome, calib::Outcome::warn);
+  EXPECT_EQ(again.result.parameters.at(0).interval_95[1], 13.2974);
+  EXPECT_TRUE(std::isnan(again.result.parameters.at(2).standard_error));
+  EXPECT_EQ(again.result.stages.at(1).optimiser, "Ceres Levenberg-Marquardt");
+  EXPECT_EQ(again.study.specimens.at(0).sections.at(0).pore_area, 3.1e-7);
+}
+
+TEST(FitFolder, GivesBackTheCurves) {
+  const test::ScratchFolder folder;
+  const test::FitSample fit = sample();
+  write_folder(folder, fit, {});
+  const FitFolder again = read_fit_folder(folder.path());
+  ASSERT_EQ(again.result.specimens.size(), fit.result.specimens.size());
+  for (std::size_t i = 0; i < fit.result.specimens.size(); ++i) {
+    const calib::SpecimenResult& before = fit.result.specimens[i];
+    const calib::SpecimenResult& after = again.result.specimens[i];
+    EXPECT_THAT(after.band.strain, Pointwise(testing::Eq(), before.band.strain));
+    EXPECT_THAT(after.band.median, Pointwise(testing::Eq(), before.band.median));
+    EXPECT_THAT(after.band.lower, Pointwise(testing::Eq(), before.band.lower));
+    EXPECT_THAT(after.band.upper, Pointwise(testing::Eq(), before.band.upper));
+    EXPECT_THAT(after.band.measured,
+                Pointwise(testing::NanSensitiveDoubleEq(), before.band.measured));
+    EXPECT_THAT(after.band.residual,
+                Pointwise(testing::NanSensitiveDoubleEq(), before.band.residual));
+    EXPECT_THAT(after.measured.strain, Pointwise(testing::Eq(), before.measured.strain));
+    EXPECT_THAT(after.measured.stress, Pointwise(testing::Eq(), before.measured.stress));
+    EXPECT_EQ(again.study.specimens[i].test.stress.size(), before.measured.stress.size());
+  }
+}
+
+TEST(CalibrationJson, HoldsTheKeysOfTheContract) {
+  const test::FitSample fit = sample();
+  Provenance provenance{.command = "havers fit"};
+  provenance.wall_seconds = 4.5;
+  const nlohmann::json json = calibration_json(fit.study, fit.result, provenance);
+  EXPECT_EQ(json["status"], "converged");
+  EXPECT_EQ(json["trusted"], fit.result.trusted());
+  EXPECT_EQ(json["verdict"][3], (nlohmann::json{{"check", "failed simulations"},
+                                                {"outcome", "warn"},
+                                                {"text", "12 of 4128 simulations failed"}}));
+  const nlohmann::json& parameter = json["parameters"][2];
+  for (const char* key : {"name", "value", "unit", "standard_error", "interval_95", "bounds",
+                          "at_bound", "identifiable", "left_out_because"})
+    EXPECT_TRUE(parameter.contains(key)) << key;
+  EXPECT_TRUE(parameter["interval_95"][0].is_null());
+  const nlohmann::json& specimen = json["specimens"][0];
+  for (const char* key : {"id", "use", "modulus_Pa", "strength_Pa", "failure_strain", "porosity",
+                          "scatter", "measured", "simulated", "residual"})
+    EXPECT_TRUE(specimen.contains(key)) << key;
+  EXPECT_EQ(specimen["strength_Pa"], fit.result.specimens[0].measured.strength);
+  EXPECT_EQ(specimen["simulated"]["strength_Pa"]["mean"], fit.result.specimens[0].strength.mean);
+  EXPECT_EQ(specimen["residual"]["failure_strain"], 0.31);
+  EXPECT_EQ(json["evaluations"], 4128);
+  EXPECT_EQ(json["failed_simulations"], 12);
+  EXPECT_EQ(json["wall_s"], 4.5);
+  EXPECT_EQ(json["scene"]["material"]["young_GPa"], 13.1234);
+}
+
+// Statuses and outcomes have the same words in result.json as on the page.
+TEST(CalibrationJson, SpellsStatusesAndOutcomesAsTheCalibrationDoes) {
+  test::FitSample fit = sample();
+  for (const auto status :
+       {calib::CalibrationStatus::converged, calib::CalibrationStatus::budget_spent,
+        calib::CalibrationStatus::all_failed, calib::CalibrationStatus::nothing_to_fit,
+        calib::CalibrationStatus::cancelled}) {
+    fit.result.status = status;
+    EXPECT_EQ(calibration_json(fit.study, fit.result, {})["status"], to_string(status));
+  }
+  for (const auto outcome : {calib::Outcome::pass, calib::Outcome::warn, calib::Outcome::fail}) {
+    fit.result.verdict[0].outcome = outcome;
+    EXPECT_EQ(calibration_json(fit.study, fit.result, {})["verdict"][0]["outcome"],
+              to_string(outcome));
+  }
+}
+
+std::string refusal(const test::ScratchFolder& folder) {
+  try {
+    read_fit_folder(folder.path());
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(FitFolder, SaysWhatIsWrongWithAFolder) {
+  const test::ScratchFolder folder;
+  EXPECT_THAT(refusal(folder),
+              HasSubstr("result.json: is not there (a folder written by havers fit has one)"));
+  folder.write("result.json", "{ \"verdict\": ");
+  EXPECT_THAT(refusal(folder), HasSubstr("result.json: cannot be understood: "));
+  folder.write("result.json", R"({"status": "broken"})");
+  EXPECT_THAT(refusal(folder),
+              HasSubstr("result.json: is not the result of a fit (havers fit STUDY.toml"));
+  folder.write("result.json", R"({"verdict": [], "study": {}, "status": 3})");
+  EXPECT_THAT(refusal(folder), HasSubstr("result.json: cannot be understood: "));
+  write_folder(folder, sample(), {});
+  std::filesystem::remove(folder.path() / "curves/A1.csv");
+  EXPECT_THAT(refusal(folder), HasSubstr("A1.csv: cannot be read"));
+}
+
+TEST(ImportJson, HoldsTheKeysOfTheContract) {
+  TestFile file;
+  file.file = "A1.csv";
+  file.encoding = "UTF-8";
+  file.delimiter = ",";
+  file.decimal = ".";
+  file.columns = {{"Load", "N", Quantity::force}};
+  file.rows = 3000;
+  file.test = test::raw_test(13e9, 40e6, 1);
+  file.test.warnings = {"first"};
+  calib::Reduction reduction;
+  reduction.test = test::measured_test(13e9, 40e6, 1);
+  reduction.test.warnings = {"second"};
+  const nlohmann::json json = import_json(file, reduction);
+  EXPECT_EQ(json["columns"],
+            (nlohmann::json::array({{{"name", "Load"}, {"unit", "N"}, {"quantity", "force"}}})));
+  EXPECT_EQ(json["specimen_id"], "A1");
+  EXPECT_EQ(json["width_m"], 4e-3);
+  EXPECT_EQ(json["area_m2"], 8e-6);
+  EXPECT_EQ(json["strength_Pa"], 40e6);
+  EXPECT_EQ(json["max_force_N"], 320.0);
+  EXPECT_EQ(json["warnings"], (nlohmann::json{"first", "second"}));
+  for (const char* key :
+       {"file", "encoding", "delimiter", "decimal", "rows", "thickness_m", "gauge_length_m",
+        "modulus_Pa", "modulus_standard_error_Pa", "failure_strain"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  file.test.width.reset();
+  EXPECT_TRUE(import_json(file, reduction)["width_m"].is_null());
+}
+
+TEST(PorosityJson, HoldsTheKeysOfTheContract) {
+  const nlohmann::json json = porosity_json(test::section_sample("s.png"), 0.4);
+  EXPECT_EQ(json, (nlohmann::json{{"file", "s.png"},
+                                  {"pixel_size_um", 5.0},
+                                  {"method", "half maximum"},
+                                  {"threshold", 0.51},
+                                  {"porosity", 0.048},
+                                  {"porosity_standard_error", 0.0021},
+                                  {"pore_count", 213},
+                                  {"pore_area_um2", 310000.0},
+                                  {"bone_area_um2", 6500000.0},
+                                  {"window_sd", 0.11},
+                                  {"scatter", 0.4},
+                                  {"warnings", nlohmann::json::array()}}));
+}
+
+}  // namespace
+}  // namespace havers::io
