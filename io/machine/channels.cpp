@@ -122,7 +122,7 @@ Chosen take_hints(TestFile& file, const std::string& where, const ReadOptions& o
   for (const auto& [quantity, hint] : options.columns) {
     const std::optional<std::size_t> column = hinted_column(hint.column, file.columns);
     if (!column)
-      throw InputError(where, fmt::format("there is no column \"{}\"", hint.column),
+      throw InputError(where, fmt::format(R"(there is no column "{}")", hint.column),
                        "the columns are " + list_of(file.columns));
     file.columns[*column].quantity = quantity;
     if (!hint.unit.empty()) file.columns[*column].unit = hint.unit;
@@ -151,7 +151,7 @@ void choose(TestFile& file, const std::vector<Candidate>& candidates, Chosen& ch
                         column.name));
       } else if (const auto [taken, fresh] = chosen.try_emplace(column.quantity, i); !fresh) {
         file.test.warnings.push_back(
-            fmt::format("columns \"{}\" and \"{}\" both hold {}: the first is used",
+            fmt::format(R"(columns "{}" and "{}" both hold {}: the first is used)",
                         file.columns[taken->second].name, column.name, to_string(column.quantity)));
       }
     }

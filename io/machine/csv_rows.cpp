@@ -69,7 +69,8 @@ CsvRows::~CsvRows() {
 
 bool CsvRows::feed(std::string_view block) {
   State& state = *state_;
-  if (state.line_end == '\0') state.line_end = block.find('\n') == block.npos ? '\r' : '\n';
+  if (state.line_end == '\0')
+    state.line_end = block.find('\n') == std::string_view::npos ? '\r' : '\n';
   const std::size_t used =
       csv_parse(&state.parser, block.data(), block.size(), on_cell<State>, on_row<State>, &state);
   if (used != block.size()) throw std::bad_alloc();  // libcsv fails on nothing else unless strict

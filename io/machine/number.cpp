@@ -78,7 +78,8 @@ Number convert(std::string_view text) {
     number.fault = NumberFault::text;
   else if (error == std::errc::result_out_of_range)
     // Too small is as good as zero; only a negative exponent leads there.
-    number = {0.0, text.find('-', 1) == text.npos ? NumberFault::too_large : NumberFault::none};
+    number = {0.0, text.find('-', 1) == std::string_view::npos ? NumberFault::too_large
+                                                               : NumberFault::none};
   else if (!std::isfinite(number.value))
     number.fault = NumberFault::not_finite;
   return number;

@@ -57,7 +57,7 @@ void NumberColumns::take_cells(const Row& row) {
     const Number number = parse_number(cell, dialect_.decimal);
     if (number.fault != NumberFault::none)
       return complain(
-          row, fmt::format("column \"{}\": \"{}\" {}", file_.columns[channel.column].name, cell,
+          row, fmt::format(R"(column "{}": "{}" {})", file_.columns[channel.column].name, cell,
                            to_string(number.fault)));
     values_[i].push_back(number.value * channel.to_si);
   }

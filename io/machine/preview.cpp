@@ -15,7 +15,7 @@ std::string_view whole_lines(std::string_view text) {
   if (text.size() <= preview_bytes) return text;
   text = text.substr(0, preview_bytes);
   const std::size_t end = text.find_last_of("\r\n");
-  return end == text.npos ? text : text.substr(0, end + 1);
+  return end == std::string_view::npos ? text : text.substr(0, end + 1);
 }
 
 Preview cut(std::string_view text, char delimiter) {
@@ -43,7 +43,7 @@ char preferred_decimal(const Preview& preview) {
   const auto has = [&](char mark) {
     return std::ranges::any_of(preview.rows, [&](const PreviewRow& row) {
       return is_number_row(row, ',') && std::ranges::any_of(row.cells, [&](const auto& cell) {
-               return cell.find(mark) != cell.npos;
+               return cell.find(mark) != std::string_view::npos;
              });
     });
   };

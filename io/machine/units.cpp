@@ -110,10 +110,10 @@ std::optional<Unit> find_unit(std::string_view text) {
 
 NameAndUnit split_unit(std::string_view text) {
   text = trimmed(text);
-  const NameAndUnit whole{std::string(text), {}};
+  NameAndUnit whole{std::string(text), {}};
   if (text.empty() || (text.back() != ')' && text.back() != ']')) return whole;
   const std::size_t open = text.rfind(text.back() == ')' ? '(' : '[');
-  if (open == text.npos || open == 0) return whole;
+  if (open == std::string_view::npos || open == 0) return whole;
   const std::string_view unit = without_brackets(text.substr(open));
   if (!unit.empty() && !find_unit(unit)) return whole;
   return {std::string(trimmed(text.substr(0, open))), std::string(unit)};

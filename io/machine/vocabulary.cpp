@@ -25,7 +25,8 @@ bool is_letter(char c) {
 enum class Match { anywhere, alone };
 
 bool contains(std::string_view text, std::string_view word, Match match) {
-  for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
+  for (std::size_t at = text.find(word); at != std::string_view::npos;
+       at = text.find(word, at + 1)) {
     const bool alone = (at == 0 || !is_letter(text[at - 1])) &&
                        (at + word.size() == text.size() || !is_letter(text[at + word.size()]));
     if (match == Match::anywhere || alone) return true;
@@ -179,7 +180,8 @@ Quantity quantity_of_name(std::string_view name) {
 }
 
 std::optional<Fact> fact_of_key(std::string_view key) {
-  if (const std::size_t group = key.rfind(" : "); group != key.npos) key.remove_prefix(group + 3);
+  if (const std::size_t group = key.rfind(" : "); group != std::string_view::npos)
+    key.remove_prefix(group + 3);
   while (key.ends_with(':') || key.ends_with(' ')) key.remove_suffix(1);
   const std::string text = lower(key);
   const auto* found = std::ranges::find(fact_words, text, &FactWord::key);
