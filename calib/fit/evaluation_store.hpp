@@ -9,17 +9,18 @@ namespace havers::calib {
 
 /// What a calibration keeps of a simulation.
 struct Response {
-  bool failed = true;            ///< No usable answer; `why` says why.
-  bool broke = false;            ///< false: the strain limit came first, the strength is a lower bound.
+  bool failed = true;  ///< No usable answer; `why` says why.
+  bool broke = false;  ///< false: the strain limit came first, the strength is a lower bound.
   std::string why;
-  double modulus = 0.0;          ///< [Pa]
-  double strength = 0.0;         ///< [Pa]
-  double failure_strain = 0.0;   ///< [-]
-  std::vector<double> strain;    ///< Curve. [-]
-  std::vector<double> stress;    ///< Curve. [Pa]
+  double modulus = 0.0;         ///< [Pa]
+  double strength = 0.0;        ///< [Pa]
+  double failure_strain = 0.0;  ///< [-]
+  std::vector<double> strain;   ///< Curve. [-]
+  std::vector<double> stress;   ///< Curve. [Pa]
 };
 
-/// Keyed by a text that names everything the response depends on. Safe to call from several threads.
+/// Keyed by a text that names everything the response depends on. Safe to call from several
+/// threads.
 class EvaluationStore {
  public:
   virtual ~EvaluationStore() = default;

@@ -1,4 +1,5 @@
-// The model quantities that can be calibrated, declared once for reader, validator, help and report.
+// The model quantities that can be calibrated, declared once for reader, validator, help and
+// report.
 #pragma once
 
 #include <string>
@@ -14,10 +15,10 @@ enum class Scale { logarithmic, linear };
 
 /// One calibratable quantity. Values are in `unit`, as in the input files; `apply` converts to SI.
 struct ParameterInfo {
-  std::string_view name;     ///< Key in a study, e.g. "head_tail_MPa".
-  std::string_view symbol;   ///< As in the theory, e.g. "σ₁".
-  std::string_view unit;     ///< "GPa", "MPa", "" for dimensionless.
-  double lower, upper;       ///< Default bounds, in `unit`.
+  std::string_view name;    ///< Key in a study, e.g. "head_tail_MPa".
+  std::string_view symbol;  ///< As in the theory, e.g. "σ₁".
+  std::string_view unit;    ///< "GPa", "MPa", "" for dimensionless.
+  double lower, upper;      ///< Default bounds, in `unit`.
   Scale scale;
   std::string_view meaning;  ///< One sentence.
 };

@@ -35,10 +35,10 @@ struct CalibrateOptions {
   bool automatic = false;  ///< parameters = "auto": try all, keep what the specimens inform.
   std::map<std::string, std::pair<double, double>> bounds;  ///< Overrides of the defaults.
   std::map<std::string, Level> level;                       ///< Default: shared.
-  int replicates = 8;       ///< Seeds per specimen.
-  int budget = 400;         ///< Simulations of one specimen's set.
-  std::uint64_t seed = 1;   ///< Of the replicates' seeds and of the optimisers' random starts.
-  int threads = 0;          ///< 0: as many as the machine has. Never changes a number.
+  int replicates = 8;                                       ///< Seeds per specimen.
+  int budget = 400;                                         ///< Simulations of one specimen's set.
+  std::uint64_t seed = 1;  ///< Of the replicates' seeds and of the optimisers' random starts.
+  int threads = 0;         ///< 0: as many as the machine has. Never changes a number.
 
   /// What is wrong, a sentence each; empty when usable.
   [[nodiscard]] std::vector<std::string> problems() const;
@@ -47,7 +47,8 @@ struct CalibrateOptions {
 struct Study {
   std::string name;
   std::vector<Specimen> specimens;
-  sim::Scene model;  ///< Starting point; orientation, scatter, strain rate and seed are set per specimen.
+  sim::Scene
+      model;  ///< Starting point; orientation, scatter, strain rate and seed are set per specimen.
   PorosityOptions porosity;
   CalibrateOptions calibrate;
 };

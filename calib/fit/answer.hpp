@@ -1,0 +1,41 @@
+// What the searches came to, and the parts of the result that are made of it.
+#pragma once
+
+#include <vector>
+
+#include "calib/fit/calibration.hpp"
+#include "calib/fit/fit_problem.hpp"
+#include "calib/fit/identifiability.hpp"
+#include "calib/fit/uncertainty.hpp"
+
+namespace havers::calib {
+
+/// The best point, with everything known about it.
+struct Answer {
+  CalibrationStatus status = CalibrationStatus::all_failed;
+  Evaluation best;
+  Weights weights;
+  Active active;                  ///< Unknowns that were fitted.
+  std::vector<LeftUnknown> left;  ///< Unknowns that were not.
+  std::vector<Evaluation> ends;   ///< Where the refined starts came to, best first.
+  std::vector<StageLog> stages;
+  Differences slopes;       ///< At the best point; failed where it could not be had.
+  Uncertainty uncertainty;  ///< Empty when `slopes` failed.
+};
+
+/// Values, errors and intervals of all unknowns.
+std::vector<CalibratedParameter> parameters_of(const FitProblem& problem, const Answer& answer);
+
+/// Every specimen simulated at the answer, those kept for validation too.
+std::vector<SpecimenResult> specimens_of(const FitProblem& problem, SimulationBatch& batch,
+                                         const Answer& answer);
+
+/// What the calibration did without.
+std::vector<sim::LeftOut> left_out_of(const FitProblem& problem, const SimulationBatch& batch,
+                                      const Answer& answer);
+
+/// One sentence per check, with its numbers and what to do.
+std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
+                              const CalibrationResult& result);
+
+}  // namespace havers::calib

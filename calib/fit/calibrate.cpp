@@ -1,0 +1,168 @@
+#include "calib/fit/calibrate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/fit/answer.hpp"
+#include "calib/fit/search.hpp"
+#include "calib/fit/specimen_effect.hpp"
+
+namespace havers::calib {
+namespace {
+
+// Steps of the derivatives by which unknowns are judged: wider than those of the search, to see
+// through the replicates' noise.
+constexpr double screening_step = 0.2, answer_step = 0.05;
+constexpr int most_rounds = 8;
+// Cost that a search may leave on the table: a tenth of a standard deviation (½·0.1²).
+constexpr double close_enough = 0.005;
+
+// The first of the study's start and the middle of the bounds where the simulations answer.
+bool begin(const FitProblem& problem, Trail& trail) {
+  for (auto& evaluation :
+       predict(problem, trail.batch(),
+               {start_point(problem.unknowns), middle_point(problem.unknowns)})) {
+    if (evaluation.failed) continue;
+    trail.restart(weigh(problem, trail.batch(), evaluation, Landmarks::Zero()), evaluation);
+    return true;
+  }
+  return false;
+}
+
+// Unknowns that the specimens inform neither at the start nor at the middle of the bounds.
+std::vector<LeftUnknown> screen(Trail& trail, const Active& all) {
+  trail.enter("what the specimens inform");
+  std::vector<LeftUnknown> left;
+  bool first = true;
+  for (const auto& point : {trail.best().point, middle_point(trail.problem().unknowns)}) {
+    const auto here = trail.evaluate(point);
+    if (here.failed) continue;
+    const auto slopes = differentiate(trail, here, all, screening_step);
+    if (slopes.failed) continue;
+    const auto now = uninformed(trail.problem(), point, all, slopes);
+    if (first) left = now;
+    std::erase_if(left, [&](const LeftUnknown& one) {
+      return std::ranges::find(now, one.unknown, &LeftUnknown::unknown) == now.end();
+    });
+    first = false;
+  }
+  return left;
+}
+
+void search(Trail& trail, const Active& active, bool polish, Answer& answer) {
+  const auto split = split_by_cost(trail.problem(), trail.batch(), trail.best().point, active);
+  trail.enter("least squares");
+  answer.stages.push_back(search_ceres(trail, trail.best(), active).log);
+  if (!polish || split.costly.empty()) return;
+  trail.enter("polish");
+  answer.stages.push_back(search_nlopt(trail, trail.best(), split, Stride::polish).log);
+}
+
+// Unknowns that turn out uninformed at the answer go back to where the study has them.
+void leave_out(Trail& trail, const std::vector<LeftUnknown>& left, Answer& answer) {
+  Point point = trail.best().point;
+  for (const auto& [unknown, because] : left)
+    point[unknown] = trail.problem().unknowns[static_cast<std::size_t>(unknown)].start;
+  answer.active = without(answer.active, left);
+  answer.left.insert(answer.left.end(), left.begin(), left.end());
+  trail.restart(trail.weights(), trail.evaluate(point));
+}
+
+bool settled(const Landmarks& before, const Landmarks& now) {
+  return ((now - before).abs() <= 0.02 * now + 1e-4).all();
+}
+
+// Search, weigh anew, search again, until weights and answer agree.
+void refine(Trail& trail, Answer& answer) {
+  Landmarks effect = Landmarks::Zero();
+  for (int round = 0; round < most_rounds && !trail.stopped(); ++round) {
+    trail.restart(weigh(trail.problem(), trail.batch(), trail.best(), effect), trail.best());
+    search(trail, answer.active, round == 0, answer);
+    const auto slopes = differentiate(trail, trail.best(), answer.active, answer_step);
+    if (slopes.failed) continue;
+    const auto left = uninformed(trail.problem(), trail.best().point, answer.active, slopes);
+    if (!left.empty()) {
+      leave_out(trail, left, answer);
+      if (answer.active.empty() || trail.best().failed) return;
+      continue;
+    }
+    const auto before = effect;
+    effect = specimen_effect(trail.problem(), trail.weights(), trail.best(), slopes.jacobian);
+    const auto error = uncertainty_of(trail.problem(), trail.weights(), trail.best(), answer.active,
+                                      slopes.jacobian);
+    if (settled(before, effect) && error.distance < close_enough) return;
+  }
+}
+
+void look_back(Trail& trail, Answer& answer) {
+  answer.best = trail.best();
+  answer.weights = trail.weights();
+  if (trail.cancelled() || answer.active.empty()) return;
+  trail.lift_budget();
+  trail.enter("uncertainty");
+  answer.slopes = differentiate(trail, answer.best, answer.active, answer_step);
+  answer.best = trail.best();
+  if (!answer.slopes.failed)
+    answer.uncertainty = uncertainty_of(trail.problem(), answer.weights, answer.best, answer.active,
+                                        answer.slopes.jacobian);
+}
+
+CalibrationStatus status_of(const Trail& trail, const Answer& answer) {
+  if (trail.cancelled()) return CalibrationStatus::cancelled;
+  if (answer.active.empty()) return CalibrationStatus::nothing_to_fit;
+  if (trail.best().failed) return CalibrationStatus::all_failed;
+  if (trail.budget_spent()) return CalibrationStatus::budget_spent;
+  return CalibrationStatus::converged;
+}
+
+Answer solve(const FitProblem& problem, Trail& trail) {
+  Answer answer;
+  answer.best.point = start_point(problem.unknowns);
+  if (problem.fitted.empty() || problem.unknowns.empty()) {
+    answer.status = CalibrationStatus::nothing_to_fit;
+    return answer;
+  }
+  if (!begin(problem, trail)) return answer;
+
+  for (std::size_t k = 0; k < problem.unknowns.size(); ++k)
+    answer.active.push_back(static_cast<Eigen::Index>(k));
+  answer.left = screen(trail, answer.active);
+  answer.active = without(answer.active, answer.left);
+  if (!answer.active.empty()) {
+    auto [ends, logs] = search_globally(trail, answer.active);
+    answer.ends = std::move(ends);
+    answer.stages = std::move(logs);
+    refine(trail, answer);
+  }
+  look_back(trail, answer);
+  answer.status = status_of(trail, answer);
+  return answer;
+}
+
+}  // namespace
+
+CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
+                                 EvaluationStore* store, const CalibrationObserver& observer) {
+  const FitProblem problem = make_problem(study);
+  SimulationBatch batch(simulator, store, study.calibrate.threads);
+  Trail trail(problem, batch, observer);
+  const Answer answer = solve(problem, trail);
+
+  CalibrationResult result{.status = answer.status, .stages = answer.stages, .scene = study.model};
+  result.parameters = parameters_of(problem, answer);
+  result.specimens = specimens_of(problem, batch, answer);
+  result.left_out = left_out_of(problem, batch, answer);
+  if (!problem.fitted.empty())
+    result.scene = replicate_scenes(problem, answer.best.point, problem.fitted.front()).front();
+  result.cost = answer.best.cost;
+  result.specimen_effect = {answer.weights.specimen[0], answer.weights.specimen[1],
+                            answer.weights.specimen[2]};
+  result.evaluations = batch.asked();
+  result.simulated = batch.simulated();
+  result.failed_simulations = batch.failed();
+  result.distinct_simulations = batch.distinct();
+  result.verdict = verdict_of(problem, answer, result);
+  return result;
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,63 @@
+#include "calib/fit/differences.hpp"
+
+#include <cmath>
+
+namespace havers::calib {
+namespace {
+
+// Variance of the mean difference between paired replicates: common random numbers leave only what
+// does not cancel.
+Landmarks variance_of_difference(const Prediction& a, const Prediction& b) {
+  Landmarks sum = Landmarks::Zero(), squares = Landmarks::Zero();
+  int n = 0;
+  for (std::size_t i = 0; i < a.replicates.size(); ++i) {
+    const Landmarks change = a.replicates[i] - b.replicates[i];
+    if (!change.isFinite().all()) continue;
+    sum += change;
+    squares += change.square();
+    ++n;
+  }
+  if (n < 2) return Landmarks::Zero();
+  return (squares - sum.square() / n).max(0.0) / (n * (n - 1.0));
+}
+
+void set_column(const FitProblem& problem, const Weights& weights, const Evaluation& low,
+                const Evaluation& high, Eigen::Index column, Differences& result) {
+  const double span = (high.point - low.point).norm();
+  result.jacobian.col(column) = (high.residuals - low.residuals) / span;
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+    const Landmarks scale = span * weights.sd[problem.fitted[f]];
+    result.variance.col(column).segment<3>(landmark_count * static_cast<Eigen::Index>(f)) =
+        variance_of_difference(high.predictions[f], low.predictions[f]) / scale.square();
+  }
+}
+
+}  // namespace
+
+Differences differentiate(Trail& trail, const Evaluation& at, const Active& active, double step) {
+  const auto& problem = trail.problem();
+  std::vector<Point> points;
+  for (const Eigen::Index k : active) {
+    Point moved = at.point;
+    moved[k] = at.point[k] - step;
+    points.push_back(inside_bounds(problem.unknowns, moved));
+    moved[k] = at.point[k] + step;
+    points.push_back(inside_bounds(problem.unknowns, moved));
+  }
+  const auto evaluations = trail.evaluate(points);
+
+  Differences result;
+  const auto columns = static_cast<Eigen::Index>(active.size());
+  result.jacobian = Eigen::MatrixXd::Zero(at.residuals.size(), columns);
+  result.variance = result.jacobian;
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const auto& low = evaluations[2 * i].failed ? at : evaluations[2 * i];
+    const auto& high = evaluations[2 * i + 1].failed ? at : evaluations[2 * i + 1];
+    if (low.failed || high.failed || low.point == high.point) return result;
+    set_column(problem, trail.weights(), low, high, static_cast<Eigen::Index>(i), result);
+  }
+  result.failed = false;
+  return result;
+}
+
+}  // namespace havers::calib

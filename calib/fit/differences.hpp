@@ -1,0 +1,22 @@
+// Derivatives of the residuals by finite differences: batched, inside the bounds, with their noise.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "calib/fit/trail.hpp"
+
+namespace havers::calib {
+
+/// How the residuals change with the active unknowns (F8). Rows as Evaluation::residuals.
+struct Differences {
+  bool failed = true;
+  Eigen::MatrixXd jacobian;
+  Eigen::MatrixXd variance;  ///< Of each entry, from the spread of its replicates.
+};
+
+/// @param step  in the scale of the search; large enough to see through the replicates' noise,
+/// which makes the
+///              residuals only piecewise smooth. Cut at the bounds.
+Differences differentiate(Trail& trail, const Evaluation& at, const Active& active, double step);
+
+}  // namespace havers::calib

@@ -1,0 +1,48 @@
+// The simulator of havers::sim, as calibrations use it.
+#include <algorithm>
+
+#include "calib/fit/calibrate.hpp"
+#include "calib/fit/simulation_batch.hpp"
+#include "sim/simulate.hpp"
+#include "sim/simulation.hpp"
+
+namespace havers::calib {
+namespace {
+
+// A dynamic run records thousands of rows; a store keeps what a figure shows.
+constexpr std::size_t rows_kept = 1000;
+
+Response respond(const sim::Scene& scene) {
+  const sim::Simulation run = sim::simulate(scene);
+  Response response;
+  response.failed = !run.trusted();
+  response.broke = run.status == sim::SimulationStatus::broken;
+  if (response.failed) response.why = explain(run.status);
+  response.modulus = run.modulus;
+  response.strength = run.strength;
+  response.failure_strain = run.failure_strain;
+  const std::size_t stride = run.curve.size() / rows_kept + 1;
+  for (std::size_t i = 0; i < run.curve.size(); ++i) {
+    const auto& row = run.curve[i];
+    const bool last = i + 1 == run.curve.size();
+    if (i % stride != 0 && !last && row.strain != run.failure_strain) continue;
+    response.strain.push_back(row.strain);
+    response.stress.push_back(row.stress_right);
+  }
+  return response;
+}
+
+}  // namespace
+
+Simulator fibre_model() {
+  return {.run = respond, .quasi_static = [](const sim::Scene& scene) {
+            return sim::choose_regime(scene).regime == sim::Regime::quasi_static;
+          }};
+}
+
+CalibrationResult calibrate(const Study& study, EvaluationStore* store,
+                            const CalibrationObserver& observer) {
+  return calibrate_with(fibre_model(), study, store, observer);
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,134 @@
+#include "calib/fit/fit_problem.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace havers::calib {
+namespace {
+
+// Step of the scatter for the slope that weighs its standard error.
+constexpr double scatter_step = 0.05;
+
+bool searched(const FitProblem& problem, std::string_view name) {
+  return std::ranges::any_of(problem.unknowns,
+                             [&](const Unknown& u) { return u.info->name == name; });
+}
+
+sim::Scene scene_at(const FitProblem& problem, const Point& point, std::size_t specimen) {
+  const auto& model = problem.models[specimen];
+  sim::Scene scene = model.scene;
+  for (const auto& info : all_parameters())
+    if (const auto value = value_at(problem.unknowns, point, info, specimen))
+      apply(scene, info.name, *value);
+  scene.material.young *= model.modulus_factor;
+  return scene;
+}
+
+std::vector<sim::Scene> replicates_of(const FitProblem& problem, std::size_t specimen,
+                                      const sim::Scene& scene) {
+  const auto& options = problem.study.calibrate;
+  std::vector<sim::Scene> scenes(static_cast<std::size_t>(options.replicates), scene);
+  for (int i = 0; i < options.replicates; ++i)
+    scenes[static_cast<std::size_t>(i)].joints.seed =
+        replicate_seed(options.seed, problem.study.specimens[specimen].id, i);
+  return scenes;
+}
+
+// How the landmarks change with the scatter, per unit of d.
+Landmarks scatter_slope(const FitProblem& problem, SimulationBatch& batch, const Evaluation& at,
+                        std::size_t fitted) {
+  const std::size_t specimen = problem.fitted[fitted];
+  sim::Scene scene = scene_at(problem, at.point, specimen);
+  const double step = scene.joints.scatter < 1.0 ? scatter_step : -scatter_step;
+  scene.joints.scatter += step;
+  const auto moved = summarise(batch.run(replicates_of(problem, specimen, scene)));
+  if (moved.failed_point()) return Landmarks::Zero();
+  return (moved.mean - at.predictions[fitted].mean) / step;
+}
+
+}  // namespace
+
+FitProblem make_problem(const Study& study) {
+  FitProblem problem{.study = study, .unknowns = unknowns_of(study)};
+  for (std::size_t s = 0; s < study.specimens.size(); ++s) {
+    problem.models.push_back(model_of(study, s));
+    problem.targets.push_back(target_of(study.specimens[s].test));
+    if (study.specimens[s].use == Use::fit && problem.targets.back().usable)
+      problem.fitted.push_back(s);
+  }
+  return problem;
+}
+
+std::vector<sim::Scene> replicate_scenes(const FitProblem& problem, const Point& point,
+                                         std::size_t specimen) {
+  return replicates_of(problem, specimen, scene_at(problem, point, specimen));
+}
+
+std::vector<Evaluation> predict(const FitProblem& problem, SimulationBatch& batch,
+                                const std::vector<Point>& points) {
+  std::vector<sim::Scene> scenes;
+  for (const auto& point : points)
+    for (const std::size_t s : problem.fitted)
+      std::ranges::move(replicate_scenes(problem, point, s), std::back_inserter(scenes));
+  const auto responses = batch.run(scenes);
+
+  const auto replicates = static_cast<std::size_t>(problem.study.calibrate.replicates);
+  std::vector<Evaluation> evaluations(points.size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    auto& evaluation = evaluations[i];
+    evaluation.point = points[i];
+    for (std::size_t f = 0; f < problem.fitted.size(); ++f, next += replicates)
+      evaluation.predictions.push_back(summarise(std::span(responses).subspan(next, replicates)));
+    evaluation.failed = std::ranges::any_of(evaluation.predictions, &Prediction::failed_point);
+  }
+  return evaluations;
+}
+
+Landmarks difference(const Prediction& prediction, const Target& target) {
+  Landmarks result = prediction.mean - target.value;
+  if (prediction.censored) {
+    result[strength] = std::max(result[strength], 0.0);
+    result[linearity] = 0.0;
+  }
+  return result;
+}
+
+void score(const FitProblem& problem, const Weights& weights, Evaluation& evaluation) {
+  evaluation.cost = std::numeric_limits<double>::infinity();
+  if (evaluation.failed) return;
+  evaluation.residuals.resize(landmark_count * static_cast<Eigen::Index>(problem.fitted.size()));
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+    const std::size_t s = problem.fitted[f];
+    evaluation.residuals.segment<3>(landmark_count * static_cast<Eigen::Index>(f)) =
+        difference(evaluation.predictions[f], problem.targets[s]) / weights.sd[s];
+  }
+  const double cost = 0.5 * evaluation.residuals.squaredNorm();
+  evaluation.failed = !std::isfinite(cost);
+  if (!evaluation.failed) evaluation.cost = cost;
+}
+
+Weights weigh(const FitProblem& problem, SimulationBatch& batch, const Evaluation& at,
+              const Landmarks& specimen) {
+  assert(!at.failed);
+  const std::size_t count = problem.models.size();
+  Weights weights{.replicates = std::vector(count, Landmarks(Landmarks::Zero())),
+                  .scatter = std::vector(count, Landmarks(Landmarks::Zero())),
+                  .specimen = specimen,
+                  .sd = std::vector(count, Landmarks(Landmarks::Zero()))};
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+    const std::size_t s = problem.fitted[f];
+    const auto& prediction = at.predictions[f];
+    const double error = problem.models[s].scatter_standard_error;
+    weights.replicates[s] = prediction.sd * std::sqrt(1.0 + 1.0 / prediction.usable);
+    if (error > 0.0 && !searched(problem, "scatter"))
+      weights.scatter[s] = error * scatter_slope(problem, batch, at, f).abs();
+    weights.sd[s] = (problem.targets[s].noise.square() + weights.replicates[s].square() +
+                     weights.scatter[s].square() + specimen.square())
+                        .sqrt();
+  }
+  return weights;
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,65 @@
+// A study made ready for calibration, and the residuals of its specimens.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+#include "calib/fit/prediction.hpp"
+#include "calib/fit/scenes.hpp"
+#include "calib/fit/simulation_batch.hpp"
+#include "calib/fit/target.hpp"
+#include "calib/fit/unknowns.hpp"
+
+namespace havers::calib {
+
+/// All that stays the same during a calibration.
+struct FitProblem {
+  const Study& study;
+  std::vector<Unknown> unknowns;
+  std::vector<SpecimenModel> models{};  ///< One per specimen of the study.
+  std::vector<Target> targets{};        ///< One per specimen of the study.
+  std::vector<std::size_t> fitted{};    ///< Specimens that are fitted and whose test is usable.
+};
+FitProblem make_problem(const Study& study);
+
+/// The scenes of a specimen at a point, one per replicate.
+std::vector<sim::Scene> replicate_scenes(const FitProblem& problem, const Point& point,
+                                         std::size_t specimen);
+
+/// Standard deviation of each residual, by source (F6). One Landmarks per specimen of the study.
+struct Weights {
+  std::vector<Landmarks>
+      replicates;  ///< The specimen is one draw, the model's mean is of n: sd·√(1+1/n).
+  std::vector<Landmarks> scatter;          ///< By the standard error of the specimen's scatter.
+  Landmarks specimen = Landmarks::Zero();  ///< Between specimens, beyond everything else (F9).
+  std::vector<Landmarks> sd;               ///< All of them and the machine's noise together.
+};
+
+/// One point of a search.
+struct Evaluation {
+  Point point;
+  bool failed = true;                   ///< Too many simulations of a specimen failed.
+  std::vector<Prediction> predictions;  ///< One per fitted specimen.
+  Eigen::VectorXd residuals;            ///< Standardised, three per fitted specimen (F7). [-]
+  double cost = std::numeric_limits<double>::infinity();  ///< ½ Σ residual². [-]
+};
+
+/// Simulates every fitted specimen at every point, as one batch. Residuals are left to `score`.
+std::vector<Evaluation> predict(const FitProblem& problem, SimulationBatch& batch,
+                                const std::vector<Point>& points);
+
+/// Residuals and cost of an evaluation (F7).
+void score(const FitProblem& problem, const Weights& weights, Evaluation& evaluation);
+
+/// simulated − measured, as differences of logarithms; 0 where a censored strength contradicts
+/// nothing.
+Landmarks difference(const Prediction& prediction, const Target& target);
+
+/// The weights at a point (F6): the replicates' spread there, and how much its scatter's error
+/// moves a specimen.
+/// @param specimen  sd between specimens, from `specimen_effect`.
+Weights weigh(const FitProblem& problem, SimulationBatch& batch, const Evaluation& at,
+              const Landmarks& specimen);
+
+}  // namespace havers::calib

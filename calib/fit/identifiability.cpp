@@ -1,0 +1,151 @@
+#include "calib/fit/identifiability.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+namespace havers::calib {
+namespace {
+
+// A slope counts when it stands out of its replicates' noise by this many standard errors ...
+constexpr double standard_errors = 3.0;
+// ... and the 95 % interval it allows is no wider than half the bounds: a standard error of an
+// eighth.
+constexpr double part_of_bounds = 1.0 / 8.0;
+
+/// Column k of the Jacobian, split into what the other columns explain and the rest.
+struct Column {
+  Eigen::VectorXd rest;            // of the column, not explained
+  Eigen::VectorXd coefficients{};  // moving z_k by 1 does what moving the others by these does
+  double noise = 0.0;              // expected |rest|² if it were only noise
+};
+
+Column split(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& variance, Eigen::Index k,
+             const std::vector<Eigen::Index>& others) {
+  Column column{.rest = jacobian.col(k)};
+  column.noise = variance.col(k).sum();
+  if (others.empty()) return column;
+  const Eigen::MatrixXd matrix = jacobian(Eigen::all, others);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix);
+  qr.setThreshold(1e-10);
+  column.coefficients = qr.solve(jacobian.col(k));
+  column.rest -= matrix * column.coefficients;
+  for (std::size_t j = 0; j < others.size(); ++j)
+    column.noise += std::pow(column.coefficients[static_cast<Eigen::Index>(j)], 2) *
+                    variance.col(others[j]).sum();
+  return column;
+}
+
+bool informs(const Unknown& unknown, const Column& column) {
+  const double information = column.rest.squaredNorm();
+  const bool seen = information > standard_errors * standard_errors * column.noise;
+  return seen && information * std::pow(part_of_bounds * unknown.range(), 2) >= 1.0;
+}
+
+std::string no_effect(const FitProblem& problem, const Unknown& unknown,
+                      const Eigen::VectorXd& slope) {
+  const bool logarithmic = unknown.info->scale == Scale::logarithmic;
+  if (slope.cwiseAbs().maxCoeff() < 1e-3)
+    return fmt::format("nothing that the {} fitted specimens show changes with it",
+                       problem.fitted.size());
+  return fmt::format(
+      "{} moves no modulus, strength or failure strain of the {} fitted specimens by "
+      "more than {:.2g} of its standard deviation",
+      logarithmic ? "doubling it" : "changing it by 0.1", problem.fitted.size(),
+      slope.cwiseAbs().maxCoeff() * (logarithmic ? std::log(2.0) : 0.1));
+}
+
+// A combination in words: how the partner has to move to undo what the unknown does.
+std::string combination(const Unknown& unknown, const Unknown& partner, double coefficient,
+                        double position) {
+  const std::string pair = fmt::format("{} and {}", partner.label, unknown.label);
+  if (partner.info->scale != Scale::logarithmic)
+    return fmt::format("only a combination of {} is determined", pair);
+  if (unknown.info->name == "scatter") {
+    const double law = -0.5 / (1.0 - 0.5 * position);
+    if (std::abs(coefficient / law - 1.0) < 0.15)
+      return fmt::format("only {} × (1 − {}/2) is determined", partner.label, unknown.label);
+    return fmt::format("only {} × exp({:.2g} {}) is determined", partner.label, coefficient,
+                       unknown.label);
+  }
+  return fmt::format("only {} × {}^{:.2g} is determined", partner.label, unknown.label,
+                     coefficient);
+}
+
+std::string reason(const FitProblem& problem, const Point& at, const Active& active,
+                   const Differences& slopes, Eigen::Index k) {
+  const auto& unknowns = problem.unknowns;
+  const auto unknown_of = [&](Eigen::Index column) -> const Unknown& {
+    return unknowns[static_cast<std::size_t>(active[static_cast<std::size_t>(column)])];
+  };
+  const Unknown& unknown = unknown_of(k);
+  const Eigen::VectorXd slope = slopes.jacobian.col(k);
+  if (!informs(unknown, split(slopes.jacobian, slopes.variance, k, {})))
+    return no_effect(problem, unknown, slope);
+
+  Eigen::Index partner = -1;
+  double likeness = 0.0;
+  for (Eigen::Index j = 0; j < slopes.jacobian.cols(); ++j) {
+    if (j == k) continue;
+    const double cosine = std::abs(slope.dot(slopes.jacobian.col(j))) /
+                          std::max(slopes.jacobian.col(j).norm(), 1e-300);
+    if (cosine <= likeness) continue;
+    likeness = cosine;
+    partner = j;
+  }
+  if (partner < 0) return no_effect(problem, unknown, slope);
+  const auto& other = slopes.jacobian.col(partner);
+  return combination(unknown, unknown_of(partner), slope.dot(other) / other.squaredNorm(),
+                     at[active[static_cast<std::size_t>(k)]]);
+}
+
+void erase_column(Eigen::MatrixXd& matrix, Eigen::Index k) {
+  const Eigen::Index right = matrix.cols() - k - 1;
+  matrix.middleCols(k, right) = matrix.rightCols(right).eval();
+  matrix.conservativeResize(Eigen::NoChange, matrix.cols() - 1);
+}
+
+// The last column that is not informed, by itself or beside the others; −1 if all are. Those that
+// show nothing by themselves go first: as noise they would blur what the rest tells apart.
+Eigen::Index last_uninformed(const FitProblem& problem, const Active& active,
+                             const Differences& slopes) {
+  const auto last = [&](bool beside_others) {
+    for (Eigen::Index k = slopes.jacobian.cols() - 1; k >= 0; --k) {
+      std::vector<Eigen::Index> others;
+      for (Eigen::Index j = 0; beside_others && j < slopes.jacobian.cols(); ++j)
+        if (j != k) others.push_back(j);
+      const auto unknown = static_cast<std::size_t>(active[static_cast<std::size_t>(k)]);
+      if (!informs(problem.unknowns[unknown], split(slopes.jacobian, slopes.variance, k, others)))
+        return k;
+    }
+    return Eigen::Index{-1};
+  };
+  const Eigen::Index alone = last(false);
+  return alone >= 0 ? alone : last(true);
+}
+
+}  // namespace
+
+std::vector<LeftUnknown> uninformed(const FitProblem& problem, const Point& at, Active active,
+                                    const Differences& slopes) {
+  Differences rest = slopes;
+  std::vector<LeftUnknown> left;
+  for (Eigen::Index k = 0; (k = last_uninformed(problem, active, rest)) >= 0;) {
+    left.push_back({active[static_cast<std::size_t>(k)], reason(problem, at, active, rest, k)});
+    active.erase(active.begin() + k);
+    erase_column(rest.jacobian, k);
+    erase_column(rest.variance, k);
+  }
+  return left;
+}
+
+Active without(const Active& active, const std::vector<LeftUnknown>& left) {
+  Active rest;
+  for (const Eigen::Index k : active)
+    if (std::ranges::find(left, k, &LeftUnknown::unknown) == left.end()) rest.push_back(k);
+  return rest;
+}
+
+}  // namespace havers::calib

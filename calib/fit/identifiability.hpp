@@ -1,0 +1,25 @@
+// Which unknowns the specimens inform, found from how the simulated outcome changes with them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/fit/differences.hpp"
+
+namespace havers::calib {
+
+struct LeftUnknown {
+  Eigen::Index unknown = 0;
+  std::string because;  ///< Half a sentence, after "left out because".
+};
+
+/// Unknowns that the residuals' slopes do not inform (F10), the last of the documentation's order
+/// first: what is left out of a pair that only shows together is the later of the two.
+/// Precondition: !slopes.failed.
+std::vector<LeftUnknown> uninformed(const FitProblem& problem, const Point& at, Active active,
+                                    const Differences& slopes);
+
+/// The active unknowns without those left out.
+Active without(const Active& active, const std::vector<LeftUnknown>& left);
+
+}  // namespace havers::calib

@@ -1,0 +1,178 @@
+#include "calib/fit/model_checks.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "calib/fit/specimen_effect.hpp"
+
+namespace havers::calib {
+namespace {
+
+// A curve this much less straight than the model's was bent by something that the model does not
+// have.
+constexpr double bent = 0.90, slightly_bent = 0.97;
+constexpr double significance = 0.01;
+
+Check nothing_compared(const char* check) {
+  return {check, Outcome::fail, "No simulation to compare with: nothing can be said."};
+}
+
+/// Between-group and within-group squares of standardised residuals of one landmark.
+struct Grouped {
+  double between = 0.0, within = 0.0, specimens = 0.0;
+  std::map<double, std::pair<double, double>> groups;  // orientation: sum, count
+};
+
+Grouped group(const FitProblem& problem, const Answer& answer, Eigen::Index q) {
+  Grouped result;
+  std::vector<std::pair<double, double>>
+      members;  // orientation, residual without the specimen effect
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+    const std::size_t s = problem.fitted[f];
+    const double variance =
+        std::pow(answer.weights.sd[s][q], 2) - std::pow(answer.weights.specimen[q], 2);
+    const double residual =
+        difference(answer.best.predictions[f], problem.targets[s])[q] / std::sqrt(variance);
+    members.emplace_back(problem.study.specimens[s].orientation, residual);
+    auto& [sum, count] = result.groups[members.back().first];
+    sum += residual;
+    ++count;
+  }
+  for (const auto& [orientation, group] : result.groups)
+    result.between += group.first * group.first / group.second;
+  for (const auto& [orientation, residual] : members) {
+    const auto& [sum, count] = result.groups[orientation];
+    result.within += std::pow(residual - sum / count, 2);
+  }
+  result.specimens = static_cast<double>(members.size());
+  return result;
+}
+
+// (F14) Probability of a ratio between/within as large as this if only specimens differed; 1 where
+// none can be formed.
+double chance(const Grouped& grouped, double parameters) {
+  const auto groups = static_cast<double>(grouped.groups.size());
+  const double between = groups - parameters, within = grouped.specimens - groups;
+  if (between < 0.5 || within < 0.5) return 1.0;
+  const double mean_within = std::max(grouped.within / within, 1.0);
+  return gsl_cdf_fdist_Q(grouped.between / between / mean_within, between, within);
+}
+
+}  // namespace
+
+Check check_brittle(const FitProblem& problem, const Answer& answer) {
+  if (answer.best.predictions.empty()) return nothing_compared("brittle");
+  double measured = 0.0, simulated = 0.0, variance = 0.0;
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+    const auto& target = problem.targets[problem.fitted[f]];
+    measured += target.value[linearity];
+    simulated += answer.best.predictions[f].mean[linearity];
+    variance += std::pow(target.noise[linearity], 2);
+  }
+  const auto n = static_cast<double>(problem.fitted.size());
+  const double gap = (measured - simulated) / n, error = std::sqrt(variance) / n;
+  const double part = std::exp(gap);
+  const std::string numbers = fmt::format(
+      "strength / (modulus × failure strain) is {:.2f} in the tests and {:.2f} in the model",
+      std::exp(measured / n), std::exp(simulated / n));
+  const bool certain = std::abs(gap) > 3.0 * error;
+  if (certain && (part < bent || part > 1.0 / bent))
+    return {"brittle", Outcome::fail,
+            fmt::format("These curves are not brittle: {}. The model is rejected; its parameters "
+                        "describe nothing "
+                        "here.",
+                        numbers)};
+  if (certain && part < slightly_bent)
+    return {"brittle", Outcome::warn,
+            fmt::format("The curves bend before they break: {}. Strength is compared at the peak.",
+                        numbers)};
+  return {"brittle", Outcome::pass,
+          fmt::format("The curves are straight up to the break: {}.", numbers)};
+}
+
+Check check_orientations(const FitProblem& problem, const Answer& answer) {
+  constexpr const char* name = "residuals unstructured";
+  if (answer.best.failed || answer.weights.sd.empty()) return nothing_compared(name);
+  const Landmarks spent = answer.slopes.failed ? Landmarks(Landmarks::Zero())
+                                               : parameters_spent(answer.slopes.jacobian);
+  const double stiffness = chance(group(problem, answer, modulus), spent[modulus]);
+  const double breaking = chance(group(problem, answer, strength), spent[strength]);
+  if (stiffness < significance)
+    return {
+        name, Outcome::fail,
+        fmt::format("The modulus differs between orientations more than specimens do (p = {:.1g}); "
+                    "fibres of one "
+                    "modulus, bonded, do not. Set [calibrate.level] young_GPa = \"orientation\".",
+                    stiffness)};
+  if (breaking < significance)
+    return {name, Outcome::fail,
+            fmt::format("The strength's residuals differ between orientations more than specimens "
+                        "do (p = {:.1g}): "
+                        "the model is rejected as it stands. See which orientation is off.",
+                        breaking)};
+  return {name, Outcome::pass,
+          fmt::format("Residuals do not differ between orientations (p = {:.2f} for the modulus, "
+                      "{:.2f} for the "
+                      "strength).",
+                      stiffness, breaking)};
+}
+
+Check check_specimen_spread(const FitProblem& problem, const Answer& answer) {
+  constexpr const char* name = "spread between specimens";
+  if (problem.fitted.size() < 3)
+    return {name, Outcome::warn,
+            "Fewer than three specimens: how much they differ beyond noise cannot be told, and the "
+            "intervals do not "
+            "hold it. Test more."};
+  const Landmarks percent = 100.0 * answer.weights.specimen;
+  const auto text = fmt::format(
+      "Specimens differ by {:.2g} % in modulus and {:.2g} % in strength (standard deviations) "
+      "beyond noise, scatter and "
+      "the model's own randomness",
+      percent[modulus], percent[strength]);
+  if (std::max(percent[modulus], percent[strength]) > 30.0)
+    return {name, Outcome::warn, text + ": are they of one kind? The intervals hold it."};
+  return {name, Outcome::pass, text + "; the intervals hold it."};
+}
+
+Check check_validation(const CalibrationResult& result) {
+  constexpr const char* name = "held-out specimens";
+  int held_out = 0;
+  std::string off;
+  for (const auto& specimen : result.specimens) {
+    if (specimen.use != Use::validate) continue;
+    ++held_out;
+    const double worst = std::max({std::abs(specimen.residual[0]), std::abs(specimen.residual[1]),
+                                   std::abs(specimen.residual[2])});
+    if (!(worst <= 3.0))
+      off += fmt::format("{}{} ({:.1f})", off.empty() ? "" : ", ", specimen.id, worst);
+  }
+  if (held_out == 0)
+    return {name, Outcome::pass, "None was kept for validation (use = \"validate\")."};
+  if (off.empty())
+    return {
+        name, Outcome::pass,
+        fmt::format("{} held-out specimens lie within three standard deviations of the prediction.",
+                    held_out)};
+  return {name, Outcome::fail,
+          fmt::format("Held-out specimens are off by more than three standard deviations: {}. The "
+                      "parameters do not "
+                      "carry over to them.",
+                      off)};
+}
+
+Check check_censored(const FitProblem& problem, const Answer& answer) {
+  const auto censored = std::ranges::count_if(answer.best.predictions, &Prediction::censored);
+  if (censored == 0)
+    return {"simulations break", Outcome::pass, "Every specimen's simulations break."};
+  return {
+      "simulations break", Outcome::fail,
+      fmt::format("{} of {} specimens do not break in the simulations: raise loading.max_strain.",
+                  censored, problem.fitted.size())};
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,23 @@
+// Whether the model may be believed: the checks of the verdict that compare it with the tests.
+#pragma once
+
+#include "calib/fit/answer.hpp"
+
+namespace havers::calib {
+
+/// The measured curves are as straight up to the break as the model's (F13).
+Check check_brittle(const FitProblem& problem, const Answer& answer);
+
+/// The residuals do not differ between orientations (F14).
+Check check_orientations(const FitProblem& problem, const Answer& answer);
+
+/// How much the specimens differ beyond noise and the model's own randomness (F9).
+Check check_specimen_spread(const FitProblem& problem, const Answer& answer);
+
+/// Specimens kept for validation lie where the fitted ones say.
+Check check_validation(const CalibrationResult& result);
+
+/// The simulations break, so that there is a strength to compare.
+Check check_censored(const FitProblem& problem, const Answer& answer);
+
+}  // namespace havers::calib

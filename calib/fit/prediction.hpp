@@ -1,0 +1,40 @@
+// What the replicates of one specimen say together.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "calib/fit/evaluation_store.hpp"
+
+namespace havers::calib {
+
+/// The three numbers by which a simulated and a measured curve are compared, as logarithms (F4):
+/// modulus, strength, and linearity = strength / (modulus · failure strain).
+using Landmarks = Eigen::Array3d;
+enum Landmark : Eigen::Index { modulus, strength, linearity };
+inline constexpr Eigen::Index landmark_count = 3;
+
+/// Landmarks of a response. Precondition: it has not failed.
+Landmarks landmarks_of(const Response& response);
+
+/// Landmarks of one specimen over its replicates.
+struct Prediction {
+  std::vector<Landmarks>
+      replicates;  ///< NaN where a simulation failed, so that replicates pair up. [-]
+  Landmarks mean = Landmarks::Zero();
+  Landmarks sd = Landmarks::Zero();  ///< Between replicates.
+  int usable = 0;
+  bool censored = false;  ///< Most did not break: the strength is a lower bound.
+
+  [[nodiscard]] int failed() const { return static_cast<int>(replicates.size()) - usable; }
+  /// Half of the replicates must have answered.
+  [[nodiscard]] bool failed_point() const {
+    return 2 * usable < static_cast<int>(replicates.size());
+  }
+};
+
+/// Precondition: at least one response.
+Prediction summarise(std::span<const Response> responses);
+
+}  // namespace havers::calib

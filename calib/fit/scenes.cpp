@@ -1,0 +1,60 @@
+#include "calib/fit/scenes.hpp"
+
+#include <Random123/philox.h>
+
+#include <cmath>
+#include <limits>
+
+namespace havers::calib {
+namespace {
+
+// The scatter that sections or porosity give; NaN where they cannot.
+void set_scatter(SpecimenModel& model, const Specimen& specimen, const PorosityOptions& options) {
+  SpecimenPorosity porosity{.window_sd = std::numeric_limits<double>::quiet_NaN()};
+  if (specimen.porosity) porosity.porosity = *specimen.porosity;
+  if (!specimen.sections.empty()) porosity = pool_sections(specimen.sections);
+  const bool known = specimen.porosity || !specimen.sections.empty();
+  const double scatter =
+      known ? scatter_of(porosity, options) : std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite(scatter)) {
+    model.scatter_ground = options.to_scatter == ToScatter::none
+                               ? "the study's model (porosity.to_scatter = \"none\")"
+                               : "the study's model: neither sections nor porosity give it";
+    return;
+  }
+  model.scene.joints.scatter = scatter;
+  const double error = scatter_standard_error(porosity, options);
+  model.scatter_standard_error = std::isfinite(error) ? error : 0.0;
+  model.scatter_ground =
+      specimen.sections.empty() ? "the porosity given in the study" : "its sections";
+}
+
+}  // namespace
+
+SpecimenModel model_of(const Study& study, std::size_t s) {
+  const auto& specimen = study.specimens[s];
+  SpecimenModel model{.scene = study.model};
+  model.scene.assembly.orientation = specimen.orientation;
+  if (specimen.test.strain_rate > 0.0) model.scene.loading.strain_rate = specimen.test.strain_rate;
+
+  model.porosity = std::numeric_limits<double>::quiet_NaN();
+  if (specimen.porosity) model.porosity = *specimen.porosity;
+  if (!specimen.sections.empty()) model.porosity = pool_sections(specimen.sections).porosity;
+  if (std::isfinite(model.porosity))
+    model.modulus_factor = modulus_factor({.porosity = model.porosity}, study.porosity);
+  set_scatter(model, specimen, study.porosity);
+  return model;
+}
+
+std::uint64_t replicate_seed(std::uint64_t study_seed, std::string_view id, int replicate) {
+  std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a
+  for (const char c : id) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  const auto low = [](std::uint64_t x) { return static_cast<std::uint32_t>(x); };
+  const auto high = [](std::uint64_t x) { return static_cast<std::uint32_t>(x >> 32U); };
+  const r123::Philox4x32::ctr_type counter{
+      {low(hash), high(hash), static_cast<std::uint32_t>(replicate), 0U}};
+  const r123::Philox4x32::key_type key{{low(study_seed), high(study_seed)}};
+  return r123::Philox4x32()(counter, key)[0];
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,30 @@
+// From a specimen to the scenes that simulate it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calib/study/study.hpp"
+#include "sim/scene.hpp"
+
+namespace havers::calib {
+
+/// The model of one specimen, before any parameter is set.
+struct SpecimenModel {
+  sim::Scene scene;             ///< Orientation, strain rate and scatter are the specimen's.
+  double porosity = 0.0;        ///< NaN where unknown. [-]
+  double modulus_factor = 1.0;  ///< On young_GPa, by porosity (K4). [-]
+  double scatter_standard_error = 0.0;  ///< Of the scatter that the sections give (K3). [-]
+  std::string scatter_ground{};         ///< Where the scatter comes from, in words.
+};
+
+/// Porosity, scatter, rate and orientation of specimen `s` set in the study's model.
+SpecimenModel model_of(const Study& study, std::size_t s);
+
+/// Seed of a replicate: of the study's seed, the specimen's id and the replicate alone, so that a
+/// change of parameters, or one more specimen, never reshuffles the joints (common random numbers).
+std::uint64_t replicate_seed(std::uint64_t study_seed, std::string_view id, int replicate);
+
+}  // namespace havers::calib

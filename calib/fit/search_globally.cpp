@@ -1,0 +1,63 @@
+#include <gsl/gsl_qrng.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "calib/fit/search.hpp"
+
+namespace havers::calib {
+namespace {
+
+constexpr int spread_starts = 7;  // beside the study's own
+constexpr std::size_t refined_starts = 3;
+
+// The study's own start, then a Halton sequence over the box of the unknowns that move.
+std::vector<Point> starts_of(const FitProblem& problem, const Point& own, const Active& moving) {
+  std::vector<Point> starts{own};
+  const std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> sequence(
+      gsl_qrng_alloc(gsl_qrng_halton, static_cast<unsigned>(moving.size())), gsl_qrng_free);
+  std::vector<double> fractions(moving.size());
+  for (int i = 0; i < spread_starts; ++i) {
+    gsl_qrng_get(sequence.get(), fractions.data());
+    Point point = own;
+    for (std::size_t j = 0; j < moving.size(); ++j) {
+      const auto& unknown = problem.unknowns[static_cast<std::size_t>(moving[j])];
+      point[moving[j]] = unknown.lower + fractions[j] * unknown.range();
+    }
+    starts.push_back(point);
+  }
+  return starts;
+}
+
+bool cheaper(const Evaluation& a, const Evaluation& b) {
+  return a.cost < b.cost;
+}
+
+}  // namespace
+
+MultiStart search_globally(Trail& trail, const Active& active) {
+  const Point own = trail.best().point;
+  const auto split = split_by_cost(trail.problem(), trail.batch(), own, active);
+  const bool all_free = split.costly.empty();
+  trail.enter("starts");
+  auto starts =
+      trail.evaluate(starts_of(trail.problem(), own, all_free ? split.free : split.costly));
+  for (auto& start : starts)
+    if (!all_free) start = search_ceres(trail, start, split.free).best;
+  std::ranges::stable_sort(starts, cheaper);
+  std::erase_if(starts, [](const Evaluation& e) { return e.failed; });
+  starts.resize(std::min(starts.size(), refined_starts));
+
+  MultiStart result;
+  for (const auto& start : starts) {
+    trail.enter("search");
+    auto end = all_free ? search_ceres(trail, start, split.free)
+                        : search_nlopt(trail, start, split, Stride::wide);
+    result.ends.push_back(std::move(end.best));
+    result.logs.push_back(std::move(end.log));
+  }
+  std::ranges::stable_sort(result.ends, cheaper);
+  return result;
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,103 @@
+#include "calib/fit/simulation_batch.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <exception>
+#include <unordered_set>
+#include <utility>
+
+#include "calib/fit/normal_form.hpp"
+
+namespace havers::calib {
+namespace {
+
+// A simulator that throws, or answers with numbers that are none, has failed; the fit goes on
+// without it.
+Response run_safely(const Simulator& simulator, const sim::Scene& scene) {
+  Response response;
+  try {
+    response = simulator.run(scene);
+  } catch (const std::exception& error) {
+    response.why = error.what();
+    return response;
+  }
+  const auto usable = [](double x) { return x > 0.0 && x < 1e30; };
+  if (!response.failed &&
+      !(usable(response.modulus) && usable(response.strength) && usable(response.failure_strain))) {
+    response.failed = true;
+    response.why = "modulus, strength or failure strain is not a positive number";
+  }
+  return response;
+}
+
+NormalForm form_of(const Simulator& simulator, const sim::Scene& scene) {
+  return normal_form(scene, simulator.quasi_static(scene));
+}
+
+}  // namespace
+
+struct SimulationBatch::Work {
+  std::string key;
+  const sim::Scene* scene = nullptr;
+  Response response{};
+  bool simulated = false;
+};
+
+SimulationBatch::SimulationBatch(Simulator simulator, EvaluationStore* store, int threads)
+    : simulator_(std::move(simulator)), store_(store), threads_(threads) {}
+
+void SimulationBatch::settle(std::vector<Work>& work) {
+  const auto settle_one = [&](std::size_t i) {
+    auto& [key, scene, response, simulated] = work[i];
+    if (store_) {
+      if (auto found = store_->find(key)) {
+        response = std::move(*found);
+        return;
+      }
+    }
+    response = run_safely(simulator_, *scene);
+    simulated = true;
+    if (store_) store_->save(key, response);
+  };
+  tbb::task_arena arena(threads_ > 0 ? threads_ : tbb::task_arena::automatic);
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, work.size(), settle_one); });
+}
+
+std::vector<Response> SimulationBatch::run(const std::vector<sim::Scene>& scenes) {
+  std::vector<NormalForm> forms;
+  std::vector<std::string> keys;
+  forms.reserve(scenes.size());
+  for (const auto& scene : scenes) {
+    forms.push_back(form_of(simulator_, scene));
+    keys.push_back(key_of(forms.back().scene));
+  }
+
+  std::vector<Work> missing;
+  std::unordered_set<std::string> seen;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    if (!memory_.contains(keys[i]) && seen.insert(keys[i]).second)
+      missing.push_back({.key = keys[i], .scene = &forms[i].scene});
+  settle(missing);
+
+  asked_ += static_cast<long>(scenes.size());
+  for (auto& [key, scene, response, simulated] : missing) {
+    simulated_ += simulated ? 1 : 0;
+    failed_ += response.failed ? 1 : 0;
+    memory_.emplace(std::move(key), std::move(response));
+  }
+  std::vector<Response> answers;
+  answers.reserve(scenes.size());
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    answers.push_back(rescaled(memory_.at(keys[i]), forms[i]));
+  return answers;
+}
+
+std::vector<std::string> SimulationBatch::keys(const std::vector<sim::Scene>& scenes) const {
+  std::vector<std::string> keys;
+  keys.reserve(scenes.size());
+  for (const auto& scene : scenes) keys.push_back(key_of(form_of(simulator_, scene).scene));
+  return keys;
+}
+
+}  // namespace havers::calib

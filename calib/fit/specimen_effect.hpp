@@ -1,0 +1,17 @@
+// How much specimens differ beyond noise and the model's own randomness.
+#pragma once
+
+#include "calib/fit/differences.hpp"
+
+namespace havers::calib {
+
+/// Parameters spent on each landmark, by the leverage of its residuals (F9).
+Landmarks parameters_spent(const Eigen::MatrixXd& jacobian);
+
+/// Standard deviation between specimens of each log landmark (F9), by Paule and Mandel: the
+/// smallest with which the residuals of that landmark are no larger than they should be. Zero where
+/// there are too few to tell.
+Landmarks specimen_effect(const FitProblem& problem, const Weights& weights, const Evaluation& at,
+                          const Eigen::MatrixXd& jacobian);
+
+}  // namespace havers::calib

@@ -1,0 +1,40 @@
+#include "calib/fit/trail.hpp"
+
+#include <utility>
+
+namespace havers::calib {
+
+std::vector<Evaluation> Trail::evaluate(const std::vector<Point>& points) {
+  const auto& options = problem_.study.calibrate;
+  const auto sets = static_cast<long>(problem_.fitted.size()) * options.replicates;
+  budget_spent_ = budget_spent_ || batch_.distinct() >= options.budget * sets;
+  if (stopped()) return std::vector<Evaluation>(points.size());
+
+  auto evaluations = predict(problem_, batch_, points);
+  for (auto& evaluation : evaluations) {
+    score(problem_, weights_, evaluation);
+    note(evaluation);
+  }
+  return evaluations;
+}
+
+void Trail::restart(Weights weights, Evaluation from) {
+  weights_ = std::move(weights);
+  score(problem_, weights_, from);
+  best_ = std::move(from);
+}
+
+void Trail::note(const Evaluation& evaluation) {
+  ++points_;
+  if (evaluation.cost < best_.cost) best_ = evaluation;
+  if (!observer_ || cancelled_) return;
+  CalibrationProgress progress{
+      .stage = stage_, .evaluations = batch_.asked(), .best_cost = best_.cost, .best = {}};
+  for (Eigen::Index k = 0; k < best_.point.size(); ++k) {
+    const auto& unknown = problem_.unknowns[static_cast<std::size_t>(k)];
+    progress.best.emplace_back(unknown.label, from_search(*unknown.info, best_.point[k]));
+  }
+  cancelled_ = !observer_(progress);
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,55 @@
+// Every point that a calibration evaluates, and the best of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/fit/calibration.hpp"
+#include "calib/fit/fit_problem.hpp"
+
+namespace havers::calib {
+
+/// Evaluates points for the searches, keeps the best, tells the observer, and ends the searches
+/// when the budget is spent or the user has had enough. An answer is always taken from here, never
+/// from an optimiser.
+///
+/// The budget counts sets: the replicates of one specimen at one normal form (F3). A set found in
+/// the store counts like one simulated, so that a fit resumed takes the same path.
+class Trail {
+ public:
+  Trail(const FitProblem& problem, SimulationBatch& batch, const CalibrationObserver& observer)
+      : problem_(problem), batch_(batch), observer_(observer) {}
+
+  /// Scored evaluations in the order of the points; failed ones once stopped.
+  std::vector<Evaluation> evaluate(const std::vector<Point>& points);
+  Evaluation evaluate(const Point& point) { return evaluate(std::vector{point}).front(); }
+
+  /// New weights: the best so far is forgotten, and begins again with the point given.
+  void restart(Weights weights, Evaluation from);
+
+  void enter(std::string stage) { stage_ = std::move(stage); }
+  void lift_budget() { budget_lifted_ = true; }  ///< For the last look at the answer.
+
+  [[nodiscard]] const FitProblem& problem() const { return problem_; }
+  [[nodiscard]] SimulationBatch& batch() { return batch_; }
+  [[nodiscard]] const Weights& weights() const { return weights_; }
+  [[nodiscard]] const Evaluation& best() const { return best_; }
+  [[nodiscard]] int points() const { return points_; }
+  [[nodiscard]] bool cancelled() const { return cancelled_; }
+  [[nodiscard]] bool budget_spent() const { return budget_spent_; }
+  [[nodiscard]] bool stopped() const { return cancelled_ || (budget_spent_ && !budget_lifted_); }
+
+ private:
+  void note(const Evaluation& evaluation);
+
+  const FitProblem& problem_;
+  SimulationBatch& batch_;
+  const CalibrationObserver& observer_;
+  Weights weights_;
+  Evaluation best_;
+  std::string stage_;
+  int points_ = 0;
+  bool cancelled_ = false, budget_spent_ = false, budget_lifted_ = false;
+};
+
+}  // namespace havers::calib

@@ -1,0 +1,111 @@
+#include "calib/fit/unknowns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace havers::calib {
+namespace {
+
+bool searched(const CalibrateOptions& options, const ParameterInfo& info) {
+  return options.automatic ||
+         std::ranges::find(options.parameters, info.name) != options.parameters.end();
+}
+
+Level level_of(const CalibrateOptions& options, const ParameterInfo& info) {
+  const auto found = options.level.find(std::string(info.name));
+  return found == options.level.end() ? Level::shared : found->second;
+}
+
+std::string group_of(const Specimen& specimen, Level level) {
+  if (level == Level::shared) return "";
+  if (level == Level::specimen) return fmt::format("[{}]", specimen.id);
+  return fmt::format("[{:.4g} deg]", specimen.orientation * 180.0 / std::numbers::pi);
+}
+
+Unknown bounded(const Study& study, const ParameterInfo& info) {
+  const auto given = study.calibrate.bounds.find(std::string(info.name));
+  const auto bounds =
+      given == study.calibrate.bounds.end() ? std::pair(info.lower, info.upper) : given->second;
+  Unknown unknown{.info = &info, .label = std::string(info.name)};
+  unknown.lower = to_search(info, bounds.first);
+  unknown.upper = to_search(info, bounds.second);
+  unknown.start =
+      std::clamp(to_search(info, value_of(study.model, info.name)), unknown.lower, unknown.upper);
+  return unknown;
+}
+
+// Groups are those of the fitted specimens, in the order of the study.
+void add_groups(const Study& study, const ParameterInfo& info, std::vector<Unknown>& unknowns) {
+  const auto first = unknowns.size();
+  const Level level = level_of(study.calibrate, info);
+  for (std::size_t s = 0; s < study.specimens.size(); ++s) {
+    const auto& specimen = study.specimens[s];
+    const std::string label = std::string(info.name) + group_of(specimen, level);
+    auto group = std::find_if(unknowns.begin() + static_cast<std::ptrdiff_t>(first), unknowns.end(),
+                              [&](const Unknown& u) { return u.label == label; });
+    if (group == unknowns.end() && specimen.use == Use::fit) {
+      unknowns.push_back(bounded(study, info));
+      unknowns.back().label = label;
+      group = std::prev(unknowns.end());
+    }
+    if (group != unknowns.end()) group->specimens.push_back(s);
+  }
+}
+
+}  // namespace
+
+double to_search(const ParameterInfo& info, double value) {
+  return info.scale == Scale::logarithmic ? std::log(value) : value;
+}
+
+double from_search(const ParameterInfo& info, double position) {
+  return info.scale == Scale::logarithmic ? std::exp(position) : position;
+}
+
+std::vector<Unknown> unknowns_of(const Study& study) {
+  std::vector<Unknown> unknowns;
+  for (const auto& info : all_parameters())
+    if (searched(study.calibrate, info)) add_groups(study, info, unknowns);
+  return unknowns;
+}
+
+Point start_point(const std::vector<Unknown>& unknowns) {
+  Point point(static_cast<Eigen::Index>(unknowns.size()));
+  std::ranges::transform(unknowns, point.begin(), &Unknown::start);
+  return point;
+}
+
+Point middle_point(const std::vector<Unknown>& unknowns) {
+  Point point(static_cast<Eigen::Index>(unknowns.size()));
+  std::ranges::transform(unknowns, point.begin(),
+                         [](const Unknown& u) { return 0.5 * (u.lower + u.upper); });
+  return point;
+}
+
+Point inside_bounds(const std::vector<Unknown>& unknowns, Point point) {
+  std::ranges::transform(point, unknowns, point.begin(), [](double z, const Unknown& u) {
+    return std::isfinite(z) ? std::clamp(z, u.lower, u.upper) : u.start;
+  });
+  return point;
+}
+
+std::optional<double> value_at(const std::vector<Unknown>& unknowns, const Point& point,
+                               const ParameterInfo& info, std::size_t specimen) {
+  double sum = 0.0;
+  int groups = 0;
+  for (std::size_t k = 0; k < unknowns.size(); ++k) {
+    if (unknowns[k].info != &info) continue;
+    const double position = point[static_cast<Eigen::Index>(k)];
+    if (std::ranges::find(unknowns[k].specimens, specimen) != unknowns[k].specimens.end())
+      return from_search(info, position);
+    sum += position;
+    ++groups;
+  }
+  if (groups == 0) return std::nullopt;
+  return from_search(info, sum / groups);
+}
+
+}  // namespace havers::calib

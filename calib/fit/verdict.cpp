@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/fit/answer.hpp"
+#include "calib/fit/model_checks.hpp"
+
+namespace havers::calib {
+namespace {
+
+Check check_convergence(const Answer& answer) {
+  constexpr double close_enough = 0.05;  // of ½χ²: a third of a standard deviation
+  const std::string what = explain(answer.status);
+  if (answer.status == CalibrationStatus::budget_spent)
+    return {"converged", Outcome::fail,
+            what + ": raise calibrate.options.budget and run again; nothing is lost"};
+  if (answer.status != CalibrationStatus::converged)
+    return {"converged", Outcome::fail, "No answer: " + what + "."};
+  if (answer.slopes.failed)
+    return {"converged", Outcome::warn,
+            "The searches stopped, but simulations beside the answer failed, so that no interval "
+            "could be given."};
+  if (answer.uncertainty.distance > close_enough)
+    return {"converged", Outcome::warn,
+            fmt::format("The searches stopped, but the slope promises a cost lower by {:.2g}: more "
+                        "replicates make "
+                        "the simulated outcome smoother.",
+                        answer.uncertainty.distance)};
+  return {"converged", Outcome::pass,
+          fmt::format("The searches stopped at a minimum, cost {:.3g}.", answer.best.cost)};
+}
+
+// Starts agree when they end at the same cost and, where they do, at the same point within its
+// errors.
+Check check_starts(const Answer& answer) {
+  if (answer.ends.size() < 2)
+    return {"starts agree", Outcome::warn,
+            "Only one start gave an answer; nothing to compare it with."};
+  const auto& best = answer.ends.front();
+  std::size_t same_cost = 0, elsewhere = 0;
+  for (const auto& end : answer.ends) {
+    if (end.cost > best.cost + 0.5) continue;
+    ++same_cost;
+    if (answer.uncertainty.half_width.size() == 0) continue;
+    for (std::size_t i = 0; i < answer.active.size(); ++i) {
+      const Eigen::Index k = answer.active[i];
+      const double apart = std::abs(end.point[k] - best.point[k]);
+      if (apart > 2.0 * answer.uncertainty.half_width[static_cast<Eigen::Index>(i)] + 0.02) {
+        ++elsewhere;
+        break;
+      }
+    }
+  }
+  if (elsewhere > 0)
+    return {"starts agree", Outcome::fail,
+            fmt::format("{} of {} starts end at another point that fits as well: the answer is not "
+                        "unique. Narrow "
+                        "calibrate.bounds or add specimens.",
+                        elsewhere, answer.ends.size())};
+  if (same_cost < 2)
+    return {"starts agree", Outcome::warn,
+            fmt::format(
+                "Only one of {} starts reached the lowest cost; the next stopped {:.2g} above it.",
+                answer.ends.size(), answer.ends[1].cost - best.cost)};
+  return {"starts agree", Outcome::pass,
+          fmt::format("{} of {} starts came to the same point.", same_cost, answer.ends.size())};
+}
+
+Check check_bounds(const CalibrationResult& result) {
+  std::string names;
+  for (const auto& parameter : result.parameters)
+    if (parameter.at_bound)
+      names +=
+          fmt::format("{}{} = {:.4g} of [{:.4g}, {:.4g}]", names.empty() ? "" : ", ",
+                      parameter.name, parameter.value, parameter.bounds[0], parameter.bounds[1]);
+  if (names.empty()) return {"inside bounds", Outcome::pass, "No parameter lies at a bound."};
+  return {"inside bounds", Outcome::fail,
+          fmt::format("At a bound: {}. Widen calibrate.bounds if the value beyond makes sense; if "
+                      "not, the model "
+                      "does not describe these specimens.",
+                      names)};
+}
+
+Check check_identifiable(const FitProblem& problem, const Answer& answer) {
+  if (answer.left.empty())
+    return {"identifiable", Outcome::pass, "The specimens inform every parameter asked for."};
+  std::string text;
+  for (const auto& [unknown, because] : answer.left)
+    text += fmt::format("{} is left out: {}. ",
+                        problem.unknowns[static_cast<std::size_t>(unknown)].label, because);
+  const bool asked = !problem.study.calibrate.automatic;
+  return {"identifiable", asked ? Outcome::warn : Outcome::pass,
+          text +
+              "It keeps the value of [model] and has no interval; specimens at another orientation "
+              "may tell it."};
+}
+
+Check check_failures(const CalibrationResult& result, long distinct) {
+  const double share =
+      distinct > 0 ? static_cast<double>(result.failed_simulations) / static_cast<double>(distinct)
+                   : 0.0;
+  const std::string text =
+      fmt::format("{} of {} different simulations failed", result.failed_simulations, distinct);
+  if (result.failed_simulations == 0) return {"simulations", Outcome::pass, text + "."};
+  if (share <= 0.05)
+    return {"simulations", Outcome::pass,
+            text + "; the replicates that answered stand in for them."};
+  return {"simulations", share <= 0.2 ? Outcome::warn : Outcome::fail,
+          text + ": narrow calibrate.bounds to where the model can be simulated."};
+}
+
+}  // namespace
+
+std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
+                              const CalibrationResult& result) {
+  std::vector<Check> checks{check_brittle(problem, answer)};
+  checks.push_back(check_convergence(answer));
+  checks.push_back(check_starts(answer));
+  checks.push_back(check_bounds(result));
+  checks.push_back(check_identifiable(problem, answer));
+  checks.push_back(check_orientations(problem, answer));
+  checks.push_back(check_specimen_spread(problem, answer));
+  checks.push_back(check_validation(result));
+  checks.push_back(check_censored(problem, answer));
+  checks.push_back(check_failures(result, result.distinct_simulations));
+  return checks;
+}
+
+}  // namespace havers::calib

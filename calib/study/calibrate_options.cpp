@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include <set>
+
+#include "calib/study/parameter.hpp"
+#include "calib/study/study.hpp"
+
+namespace havers::calib {
+namespace {
+
+using Complaints = std::vector<std::string>;
+
+std::string known_parameters() {
+  std::string names;
+  for (const auto& info : all_parameters())
+    names += (names.empty() ? "" : ", ") + std::string(info.name);
+  return names;
+}
+
+void check_name(const std::string& name, const std::string& where, Complaints& found) {
+  if (!find_parameter(name))
+    found.push_back(
+        fmt::format("{} names \"{}\", must be one of {}", where, name, known_parameters()));
+}
+
+void check_parameters(const CalibrateOptions& options, Complaints& found) {
+  if (options.parameters.empty() && !options.automatic)
+    found.emplace_back("parameters is empty, must name at least one, or be \"auto\"");
+  std::set<std::string> seen;
+  for (const auto& name : options.parameters) {
+    check_name(name, "parameters", found);
+    if (!seen.insert(name).second)
+      found.push_back(fmt::format("parameters names \"{}\" twice", name));
+  }
+}
+
+void check_bounds(const CalibrateOptions& options, Complaints& found) {
+  for (const auto& [name, bounds] : options.bounds) {
+    const auto [lower, upper] = bounds;
+    check_name(name, "bounds", found);
+    const auto* info = find_parameter(name);
+    if (!(lower < upper))
+      found.push_back(fmt::format("bounds of {} are [{}, {}], must rise", name, lower, upper));
+    if (info && info->scale == Scale::logarithmic && !(lower > 0.0))
+      found.push_back(fmt::format("lower bound of {} is {}, must be > 0", name, lower));
+    if (name == "scatter" && !(lower >= 0.0 && upper < 2.0))
+      found.push_back(
+          fmt::format("bounds of scatter are [{}, {}], must lie in [0, 2)", lower, upper));
+  }
+}
+
+}  // namespace
+
+Complaints CalibrateOptions::problems() const {
+  Complaints found;
+  check_parameters(*this, found);
+  check_bounds(*this, found);
+  for (const auto& [name, value] : level) check_name(name, "level", found);
+  if (replicates < 2)
+    found.push_back(
+        fmt::format("replicates = {}, must be ≥ 2: their spread weighs the residuals", replicates));
+  if (budget < 1) found.push_back(fmt::format("budget = {}, must be ≥ 1", budget));
+  if (threads < 0) found.push_back(fmt::format("threads = {}, must be ≥ 0", threads));
+  return found;
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,119 @@
+// Studies whose truth is known: a simulator in closed form, and tests drawn from it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "calib/fit/simulation_batch.hpp"
+#include "calib/study/parameter.hpp"
+#include "calib/study/study.hpp"
+
+namespace havers::test {
+
+/// A brittle law with the shape of the fibre model: strength = σ₁ (1 − d/2) g(θ, r) (1 + noise by seed), modulus = E,
+/// straight up to the break. g is 1 at 0°, falls with r at 45° and does not depend on r at 90°.
+struct ClosedForm {
+  double noise = 0.003;     ///< Standard deviation of log strength from seed to seed. [-]
+  bool quasi_static = true;
+
+  [[nodiscard]] static double orientation_factor(const sim::Scene& scene) {
+    const double degrees = scene.assembly.orientation * 180.0 / std::numbers::pi;
+    const double r = sim::ratio(scene.assembly, scene.joints);
+    if (degrees < 1.0) return 1.0;
+    return degrees > 89.0 ? 0.2 : 0.4 / (1.0 + r);
+  }
+
+  calib::Response operator()(const sim::Scene& scene) const {
+    std::mt19937_64 random(scene.joints.seed);
+    std::normal_distribution<double> normal;
+    calib::Response response;
+    response.failed = false;
+    response.broke = true;
+    response.modulus = scene.material.young;
+    response.strength = scene.joints.head_tail * (1.0 - 0.5 * scene.joints.scatter) *
+                        orientation_factor(scene) * std::exp(noise * normal(random));
+    response.failure_strain = response.strength / response.modulus;
+    response.strain = {0.0, response.failure_strain, response.failure_strain};
+    response.stress = {0.0, response.strength, 0.0};
+    return response;
+  }
+
+  [[nodiscard]] calib::Simulator simulator() const {
+    const bool scales = quasi_static;
+    return {.run = *this, .quasi_static = [scales](const sim::Scene&) { return scales; }};
+  }
+};
+
+/// A measured test as straight as a ruler, with the errors given as parts of the values.
+inline calib::MeasuredTest straight_test(double modulus, double strength, double modulus_error = 1e-3,
+                                         double strength_error = 1e-3) {
+  constexpr int rows = 1000;
+  calib::MeasuredTest test;
+  test.modulus = modulus;
+  test.modulus_standard_error = modulus_error * modulus;
+  test.strength = strength;
+  test.strength_standard_error = strength_error * strength;
+  test.failure_strain = strength / modulus;
+  for (int i = 0; i <= rows; ++i) {
+    test.strain.push_back(test.failure_strain * i / rows);
+    test.stress.push_back(strength * i / rows);
+  }
+  return test;
+}
+
+/// What the specimens of a synthetic study are made of.
+struct Truth {
+  double young_GPa = 14.0, head_tail_MPa = 60.0, ratio = 2.0, scatter = 0.3;
+  double modulus_error = 2e-3, strength_error = 2e-3;  ///< Of the machine. [-]
+  double specimen_effect = 0.0;  ///< Between specimens, of log modulus and log strength. [-]
+};
+
+/// Two specimens at each orientation, broken by the closed form on seeds of their own.
+inline calib::Study synthetic_study(const std::vector<double>& degrees, const Truth& truth = {},
+                                    unsigned draw = 1, const ClosedForm& law = {}) {
+  std::mt19937_64 random(draw);
+  std::normal_distribution<double> normal;
+  calib::Study study;
+  study.name = "synthetic";
+  study.model.joints.scatter = truth.scatter;
+  study.calibrate.threads = 1;
+  for (const double angle : degrees) {
+    for (int copy = 0; copy < 2; ++copy) {
+      calib::Specimen specimen;
+      specimen.id = std::string("S").append(std::to_string(study.specimens.size() + 1));
+      specimen.orientation = angle * std::numbers::pi / 180.0;
+      sim::Scene scene;
+      scene.assembly.orientation = specimen.orientation;
+      calib::apply(scene, "young_GPa", truth.young_GPa);
+      calib::apply(scene, "head_tail_MPa", truth.head_tail_MPa);
+      calib::apply(scene, "ratio", truth.ratio);
+      calib::apply(scene, "scatter", truth.scatter);
+      scene.joints.seed = random();
+      const auto response = law(scene);
+      const auto error = [&](double machine) {
+        return std::exp(machine * normal(random) + truth.specimen_effect * normal(random));
+      };
+      const double modulus = response.modulus * error(truth.modulus_error);
+      const double strength = response.strength * error(truth.strength_error);
+      // straight_test ends on its last row; half a row is what target_of adds.
+      specimen.test = straight_test(modulus, strength * (1.0 - 0.5e-3), truth.modulus_error,
+                                    truth.strength_error);
+      study.specimens.push_back(std::move(specimen));
+    }
+  }
+  return study;
+}
+
+/// The parameter of that name; an empty one if there is none.
+template <class Result>
+auto parameter_of(const Result& result, const std::string& name) {
+  const auto found = std::find_if(result.parameters.begin(), result.parameters.end(),
+                                  [&](const auto& p) { return p.name == name; });
+  return found == result.parameters.end() ? typename std::decay_t<decltype(*found)>{} : *found;
+}
+
+}  // namespace havers::test
