@@ -100,6 +100,21 @@ double depth_left_in(const cv::Mat& cores, const cv::Mat& pores, double blur) {
   return std::max(0.5, cv::mean(blurred, cores)[0]);
 }
 
+// (I7) Blur σ pulls the half-maximum contour of a pore inwards by σ²κ/2, κ its curvature: π σ² less
+// area a pore, whatever its shape. A lower threshold gives the area back. Sets the area by grey
+// level.
+double threshold_without_blur(const cv::Mat& depth, const cv::Mat& cores, double smoothing,
+                              PoreMap& map) {
+  const cv::Mat about = dilated(map.pores, 7) & map.bone;
+  const double blur = blur_of(depth, map, about);
+  const double own_blur = std::sqrt(std::max(0.0, blur * blur - smoothing * smoothing));
+  const double full_depth = 1.0 / depth_left_in(cores, map.pores, own_blur);
+  map.area_by_grey = cv::mean(depth, about)[0] * cv::countNonZero(about) / full_depth;
+  const double lowering =
+      std::sqrt(std::numbers::pi / 2.0) * blur * map.count / perimeter(map.pores);
+  return std::max(0.3, 0.5 - lowering) * full_depth;
+}
+
 void cut(const cv::Mat& depth, bool outlined, PoreMap& map) {
   map.pores = (depth > map.threshold) & map.bone;
   if (outlined) map.pores = without_rim(map.pores, map.bone);
@@ -127,20 +142,14 @@ PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, bool outlined, Leve
   cv::Mat depth = depth_image(grey, levels);
   const double smoothing = enough_smoothing(levels);
   smooth(depth, smoothing);
-  cut(depth, outlined, map);
-  if (map.count == 0) return map;
-  const cv::Mat about = dilated(map.pores, 7) & bone;
-  const double blur = blur_of(depth, map, about);
-  const double own_blur = std::sqrt(std::max(0.0, blur * blur - smoothing * smoothing));
-  const double full_depth = 1.0 / depth_left_in(cores, map.pores, own_blur);
-  map.area_by_grey = cv::mean(depth, about)[0] * cv::countNonZero(about) / full_depth;
-
-  // (I7) Blur σ pulls the half-maximum contour of a pore inwards by σ²κ/2, κ its curvature: π σ²
-  // less area a pore, whatever its shape. A lower threshold gives the area back.
-  const double lowering =
-      std::sqrt(std::numbers::pi / 2.0) * blur * map.count / perimeter(map.pores);
-  map.threshold = std::max(0.3, 0.5 - lowering) * full_depth;
-  cut(depth, outlined, map);
+  double next = map.threshold;
+  for (int round = 0; round < 4; ++round) {
+    map.threshold = next;
+    cut(depth, outlined, map);
+    if (map.count == 0) break;
+    next = threshold_without_blur(depth, cores, smoothing, map);
+    if (std::abs(next - map.threshold) < 0.003) break;
+  }
   return map;
 }
 

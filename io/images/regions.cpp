@@ -95,41 +95,41 @@ Regions all_of(const cv::Mat& grey, const cv::Mat& mask, Pores pores) {
 }
 
 // (I4) A hole larger than a tenth of what the outline encloses is marrow; smaller ones are pores.
-// Returns the area of the largest pore.
-double cut_out_marrow(const cv::Mat& solid, cv::Mat& bone) {
+void cut_out_marrow(const cv::Mat& solid, cv::Mat& bone) {
   const double enclosed = cv::countNonZero(bone);
   std::vector<Contour> contours;
   std::vector<cv::Vec4i> family;
   cv::findContours(solid, contours, family, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
-  double largest_pore = 0.0;
   for (std::size_t i = 0; i < contours.size(); ++i) {
     if (family[i][3] < 0) continue;  // not a hole
-    const double area = cv::contourArea(contours[i]);
-    if (area > 0.1 * enclosed)
+    if (cv::contourArea(contours[i]) > 0.1 * enclosed)
       cv::drawContours(bone, contours, static_cast<int>(i), 0, cv::FILLED);
-    else
-      largest_pore = std::max(largest_pore, area);
   }
   bone |= solid;
-  return largest_pore;
 }
 
-// (I5) Pores that the surface cuts are notches of the outline: pieces of what the convex hull adds
-// that are no larger than pores are, or that have a narrow mouth. Others are the bone's own shape,
-// thinner ones the pixels' steps.
-bool is_a_cut_pore(const cv::Mat& notch, const cv::Mat& hull, double largest_pore) {
+bool is_a_machined_bar(const Contour& hull) {
+  return cv::contourArea(hull) > 0.95 * static_cast<double>(cv::minAreaRect(hull).size.area());
+}
+
+// (I5) Pores that the surface cuts are notches: what the convex hull adds to the outline, in pieces
+// with a mouth much narrower than they are wide. On a machined bar, straight by itself, every notch
+// that is not shallow is one.
+bool is_a_cut_pore(const cv::Mat& notch, const cv::Mat& hull, bool machined) {
   cv::Mat grown;
   cv::dilate(notch, grown, square(3));
   const double area = cv::countNonZero(notch), mouth = cv::countNonZero(grown & ~hull);
-  return area <= 3.0 * largest_pore || mouth * mouth < area;
+  return area > (machined ? 0.15 : 2.0) * mouth * mouth;
 }
 
-void fill_notches(const std::vector<Contour>& outlines, double largest_pore, cv::Mat& bone) {
+void fill_notches(const std::vector<Contour>& outlines, cv::Mat& bone) {
+  bool machined = true;
   cv::Mat hull = cv::Mat::zeros(bone.size(), CV_8U), filled = hull.clone();
   for (const Contour& contour : outlines) {
     Contour corners;
     cv::convexHull(contour, corners);
     cv::fillConvexPoly(hull, corners, 255);
+    machined = machined && is_a_machined_bar(corners);
   }
   cv::drawContours(filled, outlines, -1, 255, cv::FILLED);
   const cv::Mat added = hull & ~filled;
@@ -145,7 +145,7 @@ void fill_notches(const std::vector<Contour>& outlines, double largest_pore, cv:
         stats.at<int>(i, cv::CC_STAT_WIDTH) + 2, stats.at<int>(i, cv::CC_STAT_HEIGHT) + 2);
     const cv::Rect part = box & image;
     const cv::Mat notch = labels(part) == i;
-    if (is_a_cut_pore(notch, hull(part), largest_pore)) bone(part).setTo(255, notch);
+    if (is_a_cut_pore(notch, hull(part), machined)) bone(part).setTo(255, notch);
   }
 }
 
@@ -185,8 +185,8 @@ cv::Mat outline(const cv::Mat& solid) {
   cv::Mat bone = main_parts(solid);
   if (cv::countNonZero(bone) == 0) return {};
   const std::vector<Contour> outlines = outer_contours(bone);
-  const double largest_pore = cut_out_marrow(solid & bone, bone);
-  fill_notches(outlines, largest_pore, bone);
+  cut_out_marrow(solid & bone, bone);
+  fill_notches(outlines, bone);
   return bone;
 }
 
