@@ -60,8 +60,10 @@ void write_bluehill(const std::filesystem::path& file, const calib::RawTest& tes
   const std::vector<WrittenColumn> columns = columns_of(test);
   std::string text = header(test, locale);
   const auto row = [&](const auto& cell_of) {
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      text += (i == 0 ? "" : ",") + std::string(cell_of(columns[i]));
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (i > 0) text += ',';
+      text += cell_of(columns[i]);
+    }
     text += "\r\n";
   };
   row([](const WrittenColumn& column) { return column.name; });
