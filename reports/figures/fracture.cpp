@@ -114,13 +114,13 @@ double round_down(double limit) {
   return power;
 }
 
-// Stretches the largest displacement to about 6 % of the specimen; at least 1.
+// Stretches the largest displacement to about 3 % of the specimen; at least 1.
 double magnification_of(const Drawing& drawing) {
   double largest = 0.0;
   for (std::size_t node = 0; node < drawing.assembly.nodes.size(); ++node)
     largest = std::max(largest, drawing.displacement(static_cast<int>(node)).norm());
   const double size = std::max(drawing.assembly.width, drawing.assembly.height);
-  return largest > 0.0 ? std::max(1.0, round_down(0.06 * size / largest)) : 1.0;
+  return largest > 0.0 ? std::max(1.0, round_down(0.03 * size / largest)) : 1.0;
 }
 
 // Corners of the rectangle that holds every node as it is drawn. [px]
@@ -145,8 +145,8 @@ std::string legend(const Drawing& drawing, std::size_t head_tail, std::size_t fl
       "({})</text><text x=\"270\" y=\"12\">displacements × {}</text>"
       "<path class=\"ink\" d=\"M270 23v8m0-4h{:.2f}m0-4v8\"/><text x=\"{:.1f}\" y=\"32\">{} "
       "µm</text>",
-      head_tail, flank, number(drawing.magnification, 3), drawing.scale * bar,
-      278.0 + drawing.scale * bar, number(bar / in::um, 3));
+      head_tail, flank, setting(drawing.magnification), drawing.scale * bar,
+      278.0 + drawing.scale * bar, setting(bar / in::um));
 }
 
 // An arrow outwards on either side: the loading direction.
@@ -158,8 +158,9 @@ std::string arrows(double left, double right, double middle) {
 
 constexpr std::string_view style =
     "<style>.fracture .fibre{fill:#f3ead6;stroke:#a89a7c;stroke-width:.5}"
-    ".fracture .head{fill:#d55e00;stroke:#d55e00;stroke-width:1.2}"
-    ".fracture .flank{fill:#0072b2;stroke:#0072b2;stroke-width:1.2}"
+    ".fracture .gap{fill-opacity:.35;stroke-width:.8}"
+    ".fracture .head{fill:#d55e00;stroke:#d55e00}"
+    ".fracture .flank{fill:#0072b2;stroke:#0072b2}"
     ".fracture .ink{fill:none;stroke:#333;stroke-width:1.5}"
     ".fracture text{font:13px sans-serif;fill:#222}</style>";
 
@@ -185,9 +186,9 @@ std::string fracture_svg(const sim::Assembly& assembly, const sim::Simulation& s
              0.5 * (low.x() + high.x() - width), low.y() - above, width,
              high.y() - low.y() + above + below, head_tail.size(), flank.size(), style) +
          fmt::format("<path class=\"fibre\" d=\"{}\"/>\n", fibres(drawing)) +
-         fmt::format("<path class=\"flank\" d=\"{}\"/>\n", gaps(drawing, flank)) +
-         fmt::format("<path class=\"head\" d=\"{}{}\"/>\n", gaps(drawing, head_tail),
-                     diamonds(drawing, head_tail)) +
+         fmt::format("<path class=\"gap flank\" d=\"{}\"/>\n", gaps(drawing, flank)) +
+         fmt::format("<path class=\"gap head\" d=\"{}\"/>\n", gaps(drawing, head_tail)) +
+         fmt::format("<path class=\"head\" d=\"{}\"/>\n", diamonds(drawing, head_tail)) +
          arrows(low.x(), high.x(), 0.5 * (low.y() + high.y())) +
          fmt::format("<g transform=\"translate({:.1f} {:.1f})\">{}</g></svg>\n",
                      0.5 * (low.x() + high.x() - width) + side, high.y() + 18.0,

@@ -41,15 +41,23 @@ std::string panel_commands(const std::vector<Estimate>& estimates, std::size_t n
   const auto& first = *estimates.front().parameter;
   const std::string unit = first.unit.empty() ? "" : fmt::format(" ({})", plain(first.unit));
   return data + fmt::format(
-                    "EOD\nset xlabel '{0}{1}' noenhanced offset 0,0.4\n"
+                    "EOD\nset xlabel '{0}{1}' noenhanced offset 0,0.6\n"
                     "plot $panel{2} using 1:2:3:4 with xerrorbars pt 7 ps 0.9 lw 1.8 lc rgb blue\n",
                     plain(first.name), unit, number);
+}
+
+// At most 24 characters of a name, none of them cut in two.
+std::string shortened(const std::string& name) {
+  std::size_t end = 0, characters = 0;
+  for (; end < name.size() && characters <= 24; ++end)
+    if ((static_cast<unsigned char>(name[end]) & 0xc0U) != 0x80U) ++characters;
+  return characters <= 24 ? plain(name) : plain(name.substr(0, end - 1)) + "…";
 }
 
 std::string fit_names(const std::vector<FitReport>& fits) {
   std::string tics;
   for (std::size_t i = 0; i < fits.size(); ++i)
-    tics += fmt::format("{}'{}' {}", i > 0 ? ", " : "", plain(fits[i].study.name), i + 1);
+    tics += fmt::format("{}'{}' {}", i > 0 ? ", " : "", shortened(fits[i].study.name), i + 1);
   return fmt::format("set ytics noenhanced ({})\nset yrange [{}.5:0.5]\n", tics, fits.size());
 }
 
@@ -64,7 +72,8 @@ Figure intervals_figure(const std::vector<FitReport>& fits, const std::string& i
                 .height = static_cast<int>(height)};
   if (panels.empty()) return figure;
   figure.commands =
-      "set multiplot\nunset key\nset lmargin at screen 0.3\nset offsets graph 0.08, graph 0.08, 0, "
+      "set multiplot\nunset key\nset lmargin at screen 0.36\nset offsets graph 0.08, graph 0.08, "
+      "0, "
       "0\n" +
       fit_names(fits);
   for (std::size_t i = 0; i < panels.size(); ++i) {
@@ -76,18 +85,18 @@ Figure intervals_figure(const std::vector<FitReport>& fits, const std::string& i
 }
 
 std::string interval_bar(const calib::CalibratedParameter& parameter) {
-  constexpr double left = 4.0, width = 132.0;
+  constexpr double left = 4.0, width = 192.0;
   const auto [low, high] = parameter.bounds;
   if (!std::isfinite(parameter.value) || !(high > low)) return {};
   const auto at = [&](double value) {
     return left + width * std::clamp((value - low) / (high - low), 0.0, 1.0);
   };
   std::string svg = fmt::format(
-      "<svg class=\"bar\" role=\"img\" viewBox=\"0 0 140 16\" width=\"140\" "
+      "<svg class=\"bar\" role=\"img\" viewBox=\"0 0 200 16\" width=\"200\" "
       "height=\"16\"><title>interval "
       "between the bounds {} and {}</title><path d=\"M{:.1f} 8H{:.1f}M{:.1f} 4V12M{:.1f} 4V12\" "
       "stroke=\"#999\" fill=\"none\"/>",
-      number(low), number(high), left, left + width, left, left + width);
+      setting(low), setting(high), left, left + width, left, left + width);
   const auto [from, to] = parameter.interval_95;
   if (std::isfinite(from) && std::isfinite(to))
     svg +=

@@ -11,12 +11,11 @@ namespace {
 
 constexpr std::size_t most_points = 2000;
 
-constexpr std::string_view commands = R"(
+constexpr std::string_view commands = R"gnuplot(
 set multiplot
 {range}{top}
 set xtics format ''
 set ylabel 'Stress (MPa)'
-set key top left
 plot {left}$curve using ($1*100):($2*1e-6) with lines lw 1.8 lc rgb blue title '{right}'
 {middle}
 set ylabel 'Broken joints'
@@ -24,13 +23,13 @@ set yrange [0:*]
 plot $curve using ($1*100):4 with fsteps lw 1.8 lc rgb red notitle
 {bottom}
 set xtics format '%g'
-set xlabel 'Strain (%)'
+set xlabel 'Strain (%)' offset 0,0.5
 set ylabel 'Energy ({unit}J/m)'
 plot $curve using ($1*100):($5/{factor}) with lines lw 1.8 lc rgb blue title 'elastic', \
   $curve using ($1*100):($6/{factor}) with lines lw 1.8 dt 2 lc rgb red title 'dissipated', \
   $curve using ($1*100):($7/{factor}) with lines lw 1.8 dt 4 lc rgb green title 'kinetic'
 unset multiplot
-)";
+)gnuplot";
 
 constexpr std::string_view left_side =
     "$curve using ($1*100):($3*1e-6) with lines lw 1.2 lc rgb orange title 'left side', ";
@@ -76,8 +75,8 @@ Figure simulation_figure(const sim::Simulation& simulation, const std::string& i
   const Prefix prefix = prefix_for(largest_energy(simulation.curve));
   figure.commands =
       curve_data(simulation.curve) +
-      fmt::format(commands, fmt::arg("range", range), fmt::arg("top", panel(0.60, 0.98)),
-                  fmt::arg("middle", panel(0.36, 0.56)), fmt::arg("bottom", panel(0.08, 0.32)),
+      fmt::format(commands, fmt::arg("range", range), fmt::arg("top", panel(0.635, 0.955)),
+                  fmt::arg("middle", panel(0.41, 0.61)), fmt::arg("bottom", panel(0.095, 0.345)),
                   fmt::arg("left", dynamic ? left_side : ""),
                   fmt::arg("right", dynamic ? "right side" : "stress"),
                   fmt::arg("unit", prefix.symbol), fmt::arg("factor", prefix.factor));

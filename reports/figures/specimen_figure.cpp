@@ -7,29 +7,27 @@
 namespace havers::reports {
 namespace {
 
-constexpr std::string_view commands = R"(
+constexpr std::string_view commands = R"gnuplot(
 set multiplot
 {range}{top}
 set ylabel 'Stress (MPa)' offset 0.5,0
 set yrange [0:*]
 set xtics format ''
 plot $band using ($1*100):($2*1e-6):($3*1e-6) with filledcurves lc rgb band title '95 % of the replicates', \
-  $band using ($1*100):($4*1e-6) with lines lw 2 lc rgb blue title 'simulated, median', \
-  $measured using ($1*100):($2*1e-6) with points pt 7 ps 0.22 lc rgb dark title 'measured', \
+  $measured using ($1*100):($2*1e-6) with points pt 7 ps 0.28 lc rgb dark title 'measured', \
+  $band using ($1*100):($4*1e-6) with lines lw 1.6 lc rgb blue title 'simulated, median', \
   $peak using ($1*100):($2*1e-6) with points pt 12 ps 1.3 lw 1.6 lc rgb red title 'measured strength'
 {bottom}
 unset key
 set xtics format '%g'
-set xlabel 'Strain (%)' offset 0,0.3
-set ylabel 'Simulated −' offset 0.5,0
-set label 1 'measured (MPa)' at screen 0.052,0.2 center rotate
+set xlabel 'Strain (%)' offset 0,0.5
+set ylabel "Simulated −\nmeasured (MPa)" offset 0,0
 set yrange [*:*]
-set ytics autofreq
 set xzeroaxis lt 1 lw 1 lc rgb grey
 plot $residual using ($1*100):($2*1e-6) with filledcurves y1=0 lc rgb band, \
   $residual using ($1*100):($2*1e-6) with lines lw 1.5 lc rgb blue
 unset multiplot
-)";
+)gnuplot";
 
 // What a folder read back no longer holds of the raw curve, the band does.
 Points measured_points(const calib::SpecimenResult& specimen) {
@@ -56,8 +54,8 @@ Figure specimen_figure(const calib::SpecimenResult& specimen, const std::string&
       data_block("band", {band.strain, band.lower, band.upper, band.median}) +
       data_block("residual", {band.strain, band.residual}) +
       data_block("peak", {peak_strain, peak_stress}) +
-      fmt::format(commands, fmt::arg("range", range), fmt::arg("top", panel(0.37, 0.97)),
-                  fmt::arg("bottom", panel(0.12, 0.33)));
+      fmt::format(commands, fmt::arg("range", range), fmt::arg("top", panel(0.40, 0.89)),
+                  fmt::arg("bottom", panel(0.145, 0.365)));
   return figure;
 }
 

@@ -72,9 +72,10 @@ Figure strength_figure(const std::vector<calib::SpecimenResult>& specimens, cons
     plots += group_plot(number, group, shape);
     ++number;
   }
-  figure.commands = data + panel(0.13, 0.97) + R"(
-set xlabel 'Measured strength (MPa)'
+  figure.commands = data + panel(0.145, 0.97) + R"(
+set xlabel 'Measured strength (MPa)' offset 0,0.5
 set ylabel 'Simulated strength (MPa)'
+set key inside at graph 0.02, graph 0.98 left top vertical
 set offsets graph 0.08, graph 0.14, graph 0.08, graph 0.08
 plot x with lines lw 1.2 dt 2 lc rgb grey title 'equal')" +
                     plots + "\n";

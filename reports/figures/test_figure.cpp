@@ -10,16 +10,15 @@
 namespace havers::reports {
 namespace {
 
-constexpr std::string_view commands = R"(
-set xlabel 'Strain (%)'
+constexpr std::string_view commands = R"gnuplot(
+set xlabel 'Strain (%)' offset 0,0.5
 set ylabel 'Engineering stress (MPa)'
-set key bottom right
 set object 1 rectangle from first {low},graph 0 to first {high},graph 1 fc rgb '#f4efe2' fs solid noborder behind
 plot $raw using ($1*100):($2*1e-6) with lines lw 2.4 lc rgb '#c4c4c4' title 'as read', \
   $used using ($1*100):($2*1e-6) with points pt 7 ps 0.22 lc rgb blue title 'as used', \
-  $line using ($1*100):($2*1e-6) with lines lw 1.6 dt 2 lc rgb orange title 'modulus; window shaded', \
+  $line using ($1*100):($2*1e-6) with lines lw 2.2 lc rgb orange title 'modulus; window shaded', \
   $peak using ($1*100):($2*1e-6) with points pt 12 ps 1.3 lw 1.6 lc rgb red title 'strength'
-)";
+)gnuplot";
 
 // The recorded channels on the axes of a stress-strain plot; empty where one was not recorded.
 Points raw_points(const calib::RawTest& raw, double area) {
@@ -61,7 +60,7 @@ Figure test_figure(const ImportReport& report, const std::string& id) {
   const std::array<double, 1> peak_strain{test.failure_strain}, peak_stress{test.strength};
   figure.commands = data_block("raw", {raw.x, raw.y}) + data_block("used", {used.x, used.y}) +
                     data_block("line", {line.x, line.y}) +
-                    data_block("peak", {peak_strain, peak_stress}) + range + panel(0.135, 0.97) +
+                    data_block("peak", {peak_strain, peak_stress}) + range + panel(0.155, 0.89) +
                     fmt::format(commands, fmt::arg("low", 100.0 * test.window_low),
                                 fmt::arg("high", 100.0 * test.window_high));
   return figure;

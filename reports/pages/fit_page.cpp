@@ -15,7 +15,8 @@ namespace {
 std::string symbol_of(const std::string& name) {
   const std::size_t bracket = name.find('[');
   const calib::ParameterInfo* info = calib::find_parameter(name.substr(0, bracket));
-  const std::string level = bracket == std::string::npos ? "" : fmt::format(" {}", name.substr(bracket));
+  const std::string level =
+      bracket == std::string::npos ? "" : fmt::format(" {}", name.substr(bracket));
   return info == nullptr ? level : std::string(info->symbol) + level;
 }
 
@@ -30,7 +31,7 @@ mstch::map parameter_row(const calib::CalibratedParameter& p) {
           {"interval", text(held ? "held" : interval(p.interval_95[0], p.interval_95[1]))},
           {"bar", text(held ? "" : interval_bar(p))},
           {"bounds",
-           text(held ? "" : fmt::format("{} to {}", number(p.bounds[0]), number(p.bounds[1])))},
+           text(held ? "" : fmt::format("{} to {}", setting(p.bounds[0]), setting(p.bounds[1])))},
           {"note", text(note)},
           {"held", text(p.left_out_because)}};
 }
@@ -62,15 +63,17 @@ mstch::array comparison_rows(const calib::SpecimenResult& specimen) {
         {"unit", text(c.unit)},
         {"measured", text(plus_minus(c.measured / c.scale, c.measured_error / c.scale))},
         {"simulated", text(plus_minus(c.simulated.mean / c.scale, c.simulated.sd / c.scale))},
-        {"residual", text(number(c.residual, 3))}});
+        {"residual", text(number(c.residual, 2))}});
   return rows;
 }
 
-mstch::array overview_cells(const calib::SpecimenResult& s) {
-  return {text(quantity(s.measured.strength / in::MPa, "MPa")),
-          text(quantity(s.strength.mean / in::MPa, "MPa")),
-          text(quantity(s.measured.failure_strain / in::percent, "%", 3)),
-          text(quantity(s.failure_strain.mean / in::percent, "%", 3))};
+mstch::array overview_cells(const calib::SpecimenResult& specimen) {
+  mstch::array cells;
+  for (const Compared& c : compared(specimen)) {
+    cells.push_back(text(number(c.measured / c.scale)));
+    cells.push_back(text(number(c.simulated.mean / c.scale)));
+  }
+  return cells;
 }
 
 const calib::Specimen* find_specimen(const calib::Study& study, const std::string& id) {
@@ -138,7 +141,7 @@ std::string fit_page(const FitReport& report) {
       fmt::format("havers fit: {}", report.study.name), "fit",
       {{"grade", text(result.trusted() ? "good" : "bad")},
        {"sentence", text(fit_sentence(result))},
-       {"detail", text(search_sentence(report))},
+       {"detail", text(status_sentence(result))},
        {"checks", check_section(result.verdict)},
        {"parameters", mstch::node{parameters}},
        {"strength_figure", text(draw(strength_figure(result.specimens, "strength")))},

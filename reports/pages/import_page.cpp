@@ -10,17 +10,17 @@ namespace havers::reports {
 namespace {
 
 std::string length(const std::optional<double>& metres) {
-  return metres ? quantity(*metres / in::mm, "mm") : "not in the file";
+  return metres ? setting(*metres / in::mm, "mm") : "not in the file";
 }
 
 Facts facts_of(const ImportReport& report) {
   const calib::MeasuredTest& test = report.test;
   const calib::RawTest& raw = report.raw;
   return {{"Width, thickness", fmt::format("{}, {}", length(raw.width), length(raw.thickness))},
-          {"Area", quantity(test.area / in::mm2, "mm²")},
+          {"Area", setting(test.area / in::mm2, "mm²")},
           {"Gauge length", length(raw.gauge_length)},
           {"Modulus",
-           fmt::format("{} GPa, between {} % strain",
+           fmt::format("{} GPa, in the window {} %",
                        plus_minus(test.modulus / in::GPa, test.modulus_standard_error / in::GPa),
                        interval(test.window_low / in::percent, test.window_high / in::percent))},
           {"Strength", fmt::format("{} MPa", plus_minus(test.strength / in::MPa,

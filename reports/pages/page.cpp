@@ -90,13 +90,20 @@ std::string fit_sentence(const calib::CalibrationResult& result) {
                      count(static_cast<long>(result.verdict.size()), "check"), names);
 }
 
+std::string status_sentence(const calib::CalibrationResult& result) {
+  const auto used = std::count_if(result.specimens.begin(), result.specimens.end(),
+                                  [](const auto& s) { return s.use == calib::Use::fit; });
+  const auto all = static_cast<long>(result.specimens.size());
+  return fmt::format("How the search ended: {}. {} fitted, {} kept for validation.",
+                     explain(result.status), count(used, "specimen"), all - used);
+}
+
 std::string search_sentence(const FitReport& report) {
   const calib::CalibrationResult& result = report.result;
   return fmt::format(
-      "{}: {}. Cost ½ Σ residual² = {} after {} ({} run, {} taken from the store, {} failed) in {} "
-      "wall time.",
-      to_string(result.status), explain(result.status), number(result.cost),
-      count(result.evaluations, "simulation"), result.simulated,
+      "Cost ½ Σ residual² = {} after {} ({} run, {} taken from the store, {} failed) in {} wall "
+      "time.",
+      number(result.cost), count(result.evaluations, "simulation"), result.simulated,
       result.evaluations - result.simulated, result.failed_simulations,
       duration(report.wall_seconds));
 }
@@ -116,12 +123,12 @@ std::string duration(double seconds) {
   if (!std::isfinite(seconds)) return "unrecorded";
   if (seconds < 60.0) return quantity(seconds, "s", 3);
   const long whole = std::lround(seconds);
-  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
-  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+  if (whole < 3600) return fmt::format("{}\u00a0min {}\u00a0s", whole / 60, whole % 60);
+  return fmt::format("{}\u00a0h {}\u00a0min", whole / 3600, whole % 3600 / 60);
 }
 
 std::string degrees(double radians) {
-  return number(radians * 180.0 / std::numbers::pi, 3) + "°";
+  return fmt::format("{:.4g}°", radians * 180.0 / std::numbers::pi);
 }
 
 std::string base_name(const std::string& path) {

@@ -35,7 +35,10 @@ mstch::node correction_section(const std::vector<calib::Correction>& corrections
 /// reservation.
 std::string fit_sentence(const calib::CalibrationResult& result);
 
-/// How the search of a fit ended, and what it took.
+/// How the search of a fit ended, and over which specimens.
+std::string status_sentence(const calib::CalibrationResult& result);
+
+/// What the search took, its cost and its time together.
 std::string search_sentence(const FitReport& report);
 
 /// The numbers of a section below its overlay.

@@ -46,7 +46,7 @@ Facts key_numbers(const SimulationReport& report) {
       {"Broken joints", fmt::format("{} of {}", s.broken_joints, report.assembly.joints.size())},
       {"Regime", fmt::format("{}: {}", dynamic ? "dynamic" : "quasi-static", s.regime_ground)},
       {dynamic ? "Time steps" : "Events",
-       dynamic ? fmt::format("{} of {} s", s.steps, number(s.step, 3)) : std::to_string(s.steps)},
+       dynamic ? fmt::format("{} of {}", s.steps, prefixed(s.step, "s")) : std::to_string(s.steps)},
       {"Contact iterations", std::to_string(s.iterations)}};
 }
 
@@ -67,25 +67,25 @@ Facts scene_facts(const sim::Scene& scene) {
   return {
       {"Assembly",
        fmt::format("{} layers of {} fibres, {} by {}, at {}", assembly.layers, assembly.fibres,
-                   quantity(assembly.fibre_length / in::um, "µm"),
-                   quantity(assembly.fibre_height / in::um, "µm"), degrees(assembly.orientation))},
+                   setting(assembly.fibre_length / in::um, "µm"),
+                   setting(assembly.fibre_height / in::um, "µm"), degrees(assembly.orientation))},
       {"Material", fmt::format("E = {}, ν = {}, ρ = {} kg/m³, plane {}",
-                               quantity(material.young / in::GPa, "GPa"), number(material.poisson),
-                               number(material.density),
+                               setting(material.young / in::GPa, "GPa"), setting(material.poisson),
+                               setting(material.density),
                                material.plane == sim::Plane::stress ? "stress" : "strain")},
       {"Joints",
-       fmt::format("σ₁ = {}, σ₂ = {}, r = {}", quantity(joints.head_tail / in::MPa, "MPa"),
-                   quantity(joints.flank / in::MPa, "MPa"), number(ratio(assembly, joints)))},
+       fmt::format("σ₁ = {}, σ₂ = {}, r = {}", setting(joints.head_tail / in::MPa, "MPa"),
+                   setting(joints.flank / in::MPa, "MPa"), setting(ratio(assembly, joints)))},
       {"Thresholds", joints.thresholds.empty() ? fmt::format("{}, scatter d = {}, seed {}",
                                                              to_string(joints.distribution),
-                                                             number(joints.scatter), joints.seed)
+                                                             setting(joints.scatter), joints.seed)
                                                : "one per joint, given"},
       {"Loading",
-       fmt::format("{} 1/s, {} sides, {} start, up to {} strain", number(loading.strain_rate),
+       fmt::format("{} 1/s, {} sides, {} start, up to {} strain", setting(loading.strain_rate),
                    loading.lateral == sim::Lateral::periodic ? "periodic" : "free",
                    loading.start == sim::Start::uniform ? "uniform" : "rest",
-                   quantity(loading.max_strain / in::percent, "%"))},
-      {"Tolerance", number(solver.tolerance)}};
+                   setting(loading.max_strain / in::percent, "%"))},
+      {"Tolerance", setting(solver.tolerance)}};
 }
 
 }  // namespace

@@ -55,9 +55,15 @@ std::string number(double value, int digits) {
   return with_minus(text.substr(0, text.find('e'))) + " × 10" + superscript(exponent);
 }
 
+std::string setting(double value, std::string_view unit) {
+  if (!std::isfinite(value)) return std::string(unknown);
+  const std::string text = with_minus(fmt::format("{:.6g}", value));
+  return unit.empty() ? text : fmt::format("{}\u00a0{}", text, unit);
+}
+
 std::string quantity(double value, std::string_view unit, int digits) {
   if (!std::isfinite(value) || unit.empty()) return number(value, digits);
-  return fmt::format("{} {}", number(value, digits), unit);
+  return fmt::format("{}\u00a0{}", number(value, digits), unit);
 }
 
 std::string plus_minus(double value, double error) {
@@ -87,6 +93,11 @@ Prefix prefix_for(double magnitude) {
   for (const Prefix& prefix : prefixes)
     if (std::abs(magnitude) >= prefix.factor) return prefix;
   return {};
+}
+
+std::string prefixed(double value, std::string_view unit, int digits) {
+  const Prefix prefix = prefix_for(value);
+  return quantity(value / prefix.factor, fmt::format("{}{}", prefix.symbol, unit), digits);
 }
 
 std::string plain(std::string_view text) {

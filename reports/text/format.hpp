@@ -19,7 +19,11 @@ inline constexpr double GPa = 1e9;   ///< [Pa]
 /// `digits` significant digits: "38.21", "0.004100", "3.21 × 10⁻¹⁴"; "–" when not finite.
 std::string number(double value, int digits = 4);
 
-/// A number and its unit: "38.2 MPa"; "–" when not finite.
+/// A number somebody chose, as they would write it: "13", "0.33", "1e-08".
+std::string setting(double value, std::string_view unit = {});
+
+/// A number and its unit, held together by a space that does not break: "38.2 MPa"; "–" when not
+/// finite.
 std::string quantity(double value, std::string_view unit, int digits = 4);
 
 /// Value and error to two digits of the error: "13.02 ± 0.14"; the value alone when the error is
@@ -38,6 +42,9 @@ struct Prefix {
   std::string_view symbol;  ///< "k", "m", "µ", ...
 };
 Prefix prefix_for(double magnitude);
+
+/// "20.0 ns": the number brought between 1 and 1000 by a prefix of the unit.
+std::string prefixed(double value, std::string_view unit, int digits = 3);
 
 /// Characters that could end a quoted string or a line of a gnuplot script, replaced.
 std::string plain(std::string_view text);

@@ -105,8 +105,8 @@ TEST(IntervalBar, StaysBetweenItsBounds) {
   parameter.interval_95 = {-100.0, 500.0};
   parameter.bounds = {0.0, 40.0};
   const std::string bar = interval_bar(parameter);
-  EXPECT_TRUE(contains(bar, "<rect x=\"4.0\" y=\"5\" width=\"132.0\""));
-  EXPECT_TRUE(contains(bar, "M70.0 2V14"));
+  EXPECT_TRUE(contains(bar, "<rect x=\"4.0\" y=\"5\" width=\"192.0\""));
+  EXPECT_TRUE(contains(bar, "M100.0 2V14"));
   parameter.value = test::nan;
   EXPECT_EQ(interval_bar(parameter), "");
 }

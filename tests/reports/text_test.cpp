@@ -34,6 +34,12 @@ TEST(Number, IsADashWhereNothingIsKnown) {
   EXPECT_EQ(interval(nan, 2.0), "–");
 }
 
+TEST(Setting, IsWrittenAsItWasChosen) {
+  EXPECT_EQ(setting(0.33), "0.33");
+  EXPECT_EQ(setting(13.0, "GPa"), "13\u00a0GPa");
+  EXPECT_EQ(setting(nan, "GPa"), "–");
+}
+
 TEST(PlusMinus, ShowsTwoDigitsOfTheError) {
   EXPECT_EQ(plus_minus(13.1234, 0.0871), "13.123 ± 0.087");
   EXPECT_EQ(plus_minus(1234.6, 56.0), "1235 ± 56");
@@ -60,6 +66,7 @@ TEST(Prefix, BringsTheNumberAboveOne) {
   EXPECT_EQ(prefix_for(4.2e-6).symbol, "µ");
   EXPECT_EQ(prefix_for(0.5).symbol, "m");
   EXPECT_EQ(prefix_for(0.0).factor, 1.0);
+  EXPECT_EQ(prefixed(2e-8, "s"), "20.0\u00a0ns");
 }
 
 TEST(Plain, LeavesNothingThatEndsAStringOrALine) {
