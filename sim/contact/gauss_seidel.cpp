@@ -107,7 +107,7 @@ void GaussSeidelSolver::sweep(const JointStep& step, VectorXd& p) {
     const Local old = reactions_.segment<2>(row);
     const Local free = old - contact.stiffness * gap;
     const Local now = free + contact.stiffness *
-                                 solve_single_joint(contact.stiffness, free, Local::Zero(), step.laws[j]);
+                                 solve_single_joint(contact.stiffness, free, Local::Zero(), step.laws[j]).y;
     for (const Index c : {0, 1}) {
       push(contact.body_a, contact.ports[static_cast<std::size_t>(c)], old(c) - now(c), p);
       push(contact.body_b, contact.ports[static_cast<std::size_t>(2 + c)], now(c) - old(c), p);

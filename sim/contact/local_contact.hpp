@@ -30,11 +30,18 @@ struct LocalContactResult {
 /// rounding.
 JointState state_of(const Local& reaction, const Local& gap, JointState now, const JointLaw& law, double scale);
 
-/// One joint alone: y with r = `free` + S y and the law for the gap u₀ + y. [m]
-Local solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const Local& u0, const JointLaw& law);
+/// Gap and state of one joint.
+struct SingleJoint {
+  Local y;  ///< [m]
+  JointState state;
+};
 
-/// Active set started from `states`: each set is one linear solve (C2). When a set comes back, Gauss-Seidel over
-/// the joints (C3) finds the set instead, which is globally convergent in practice.
+/// One joint alone, exactly: r = `free` + S y and the law for the gap u₀ + y.
+SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const Local& u0, const JointLaw& law);
+
+/// Active set started from `states`: each set is one linear solve (C2). When a set comes back, joints change their
+/// state one at a time, each to what it would be alone (C3); when even that comes back, Gauss-Seidel over the
+/// joints (C4) finds the set.
 LocalContactResult solve_local_contact(const LocalContact& problem, std::vector<JointState> states,
                                        int max_iterations);
 

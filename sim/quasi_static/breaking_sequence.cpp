@@ -6,6 +6,7 @@
 
 #include "sim/contact/local_contact.hpp"
 #include "sim/contact/loose_joints.hpp"
+#include "sim/contact/release_path.hpp"
 #include "sim/joint/thresholds.hpp"
 #include "sim/outcome.hpp"
 #include "sim/quasi_static/intact_structure.hpp"
@@ -50,6 +51,7 @@ class BreakingRun {
   LooseJoints loose_;
   std::vector<JointState> states_;  // of the loose joints
   VectorXd y_;                      // their gaps [m per unit strain]
+  Index settled_ = 0;               // of the loose joints, those broken before this event
 
  public:
   std::vector<JointOutcome> joints;
@@ -89,7 +91,7 @@ void BreakingRun::break_joints(double event, double strain) {
     joints[j].broken = true;
     joints[j].broken_at_strain = strain;
     loose_.add(static_cast<int>(j));
-    states_.push_back(JointState::open);
+    states_.push_back(JointState::stick);
     ++broken;
   }
 }
@@ -101,7 +103,15 @@ bool BreakingRun::settle() {
   for (Index i = 0; i < n; ++i)
     contact.r0.segment<2>(2 * i) =
         intact_->reactions.segment<2>(2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)]));
-  const LocalContactResult result = solve_local_contact(contact, states_, scene_.solver.max_iterations);
+  // Only what has just broken is released; the others follow from where they are.
+  VectorXd extra = cohesion_to_stick(contact);
+  for (Index i = 0; i < n; ++i)
+    if (i < settled_) extra(i) = 0.0;
+  LocalContactResult result = follow_release(contact, states_, extra, scene_.solver.max_iterations);
+  if (getenv("DBG")) fprintf(stderr,"event n %ld path %d conv %d\n",n,result.iterations,(int)result.converged);
+  if (!result.converged) result = solve_local_contact(contact, states_, scene_.solver.max_iterations);
+  if (getenv("DBG") && result.iterations>100) fprintf(stderr,"   local %d conv %d\n",result.iterations,(int)result.converged);
+  settled_ = n;
   iterations += result.iterations;
   states_ = result.states;
   y_ = result.y;
