@@ -1,5 +1,7 @@
 #include "cli/output_folder.hpp"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <system_error>
 
@@ -33,7 +35,7 @@ void refuse_to_overwrite(const fs::path& folder, bool force) {
 
 OutputFolder::OutputFolder(const fs::path& folder, bool force)
     : folder_(without_trailing_slash(folder)),
-      staging_(folder_.parent_path() / ("." + folder_.filename().string() + ".partial")) {
+      staging_(folder_.parent_path() / fmt::format(".{}.partial", folder_.filename().string())) {
   refuse_to_overwrite(folder_, force);
   std::error_code error;
   fs::remove_all(staging_, error);

@@ -202,7 +202,7 @@ int run_synthesize(const Arguments& arguments, const CommonOptions& common) {
     fmt::print("{}\n", (output.folder() / "study.toml").string());
   }
   if (all_broke(made)) return done;
-  note(common, "not every specimen broke: raise model.loading.max_strain; truth.json says which");
+  note(common, "not every simulation ended in a break that can be trusted; truth.json says which");
   return answer_is_no;
 }
 
