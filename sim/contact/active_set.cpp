@@ -23,13 +23,17 @@ ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, int max_iterations, bool 
       detach_open_(detach_open),
       detached_(bodies.assembly().joints.size(), 0),
       structure_(bodies),
-      loose_(structure_),
+      loose_(make_loose()),
       stiffness_(joint_stiffness(bodies)) {}
+
+LooseJoints ActiveSetSolver::make_loose() const {
+  return LooseJoints(structure_.joints(), [this](int joint) { return structure_.respond_to_jump(joint); });
+}
 
 void ActiveSetSolver::rebuild(std::vector<char> detached) {
   detached_ = std::move(detached);
   structure_ = Structure(*bodies_, detached_);
-  loose_ = LooseJoints(structure_);
+  loose_ = make_loose();
 }
 
 void ActiveSetSolver::detach_opened(const JointStep& step) {
@@ -117,7 +121,7 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
   do {
     result.states = step.states;
     if (!structure_.ok()) return result;
-    StructureLoads loads{step.forces, step.prescribed, jumps(step)};
+    StructureLoads loads{step.forces, step.prescribed, jumps(step), step.force_scale};
     StructureResponse response = structure_.solve(loads);
     VectorXd y;
     result.converged = settle_loose(step, response.reactions, result, y);

@@ -16,6 +16,7 @@ class ActiveSetSolver : public JointSolver {
   JointStepResult solve(const JointStep& step) override;
 
  private:
+  [[nodiscard]] LooseJoints make_loose() const;
   void detach_opened(const JointStep& step);
   void rebuild(std::vector<char> detached);
   [[nodiscard]] Eigen::VectorXd jumps(const JointStep& step) const;

@@ -139,7 +139,7 @@ VectorXd GaussSeidelSolver::port_forces() const {
 
 VectorXd GaussSeidelSolver::displacements(const JointStep& step, const VectorXd& port_forces) const {
   const VectorXd load = step.forces + bodies_->port_forces_on_nodes(port_forces) - bodies_->shifted_times(step.prescribed);
-  VectorXd d = step.prescribed;
+  MatrixXd d = step.prescribed;
   const auto dof = [&](int body) { return bodies_->first_dof(body); };
   for (std::size_t c = 0; c < inverses_.size(); ++c) {
     const BodyClass& group = bodies_->classes()[c];

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
 
+#include "sim/contact/joint_step.hpp"
 #include "sim/contact/local_contact.hpp"
 #include "sim/contact/loose_joints.hpp"
 #include "sim/contact/release_path.hpp"
@@ -19,17 +22,13 @@ using Eigen::VectorXd;
 
 // Joints that meet their cones at strains closer than this break together, whatever their order.
 constexpr double together = 1e-9;
+// Loose joints from which on a new factor without the open ones is cheaper than dragging them along.
+constexpr std::size_t worth_detaching = 64;
 
 // The structure as it is between two events. Its answer is proportional to the strain: it is known from ε = 1.
 class BreakingRun {
  public:
-  BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact)
-      : scene_(scene),
-        intact_(std::move(intact)),
-        loose_(intact_->structure),
-        joints(initial_outcomes(draw_thresholds(scene, intact_->assembly))),
-        reactions_(intact_->reactions),
-        force_(intact_->force) {}
+  BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact);
 
   /// Strain at which the next joints meet their cones; infinite when none ever will.
   [[nodiscard]] double next_event() const;
@@ -39,42 +38,58 @@ class BreakingRun {
   bool settle();
 
   [[nodiscard]] CurvePoint point(double strain) const;
-  [[nodiscard]] VectorXd all_gaps() const;
-  /// Relative defect of ½ qᵀKq = ½ (F W ε + r·u), both sides computed apart; fills the final joints.
-  double finish(double strain, double energy_scale, Simulation& simulation);
+  /// Fills in the last row's joints and displacements, and the checks.
+  void finish(double strain, double energy_scale, Simulation& simulation) const;
 
  private:
   [[nodiscard]] double meets_cone_at(std::size_t joint) const;
+  bool settle_loose();
+  void detach(std::vector<char> detached);
+  bool detach_opened();
+  bool reattach_closed();
+  [[nodiscard]] std::vector<char> carried() const;
 
   const Scene& scene_;
   std::shared_ptr<const IntactStructure> intact_;
+  std::unique_ptr<Structure> own_;  // without the detached joints; null: the intact one
+  std::vector<char> detached_;
+  UnitAnswer base_;                 // of the structure, loose joints held at 0
+  Eigen::VectorXd base_gaps_;       // what the detached joints do in it
   LooseJoints loose_;
   std::vector<JointState> states_;  // of the loose joints
+  std::size_t settled_ = 0;         // of the loose joints, those that were loose before this event
   VectorXd y_;                      // their gaps [m per unit strain]
-  Index settled_ = 0;               // of the loose joints, those broken before this event
+  VectorXd reactions_;              // for E = 1 and ε = 1 [N/m]
+  double force_;                    // likewise
 
  public:
   std::vector<JointOutcome> joints;
   double dissipated = 0.0;  // [J/m]
-  double worst_residual = 0.0, worst_penetration = 0.0;
   long iterations = 0;
   int broken = 0;
-
- private:
-  VectorXd reactions_;  // for E = 1 and ε = 1 [N/m]
-  double force_;        // likewise
 };
+
+BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact)
+    : scene_(scene),
+      intact_(std::move(intact)),
+      detached_(intact_->assembly().joints.size(), 0),
+      base_(intact_->answer()),
+      loose_(intact_->structure().joints(), [this](int joint) { return intact_->respond_to_jump(joint); }),
+      reactions_(base_.reactions),
+      force_(base_.force),
+      joints(initial_outcomes(draw_thresholds(scene, intact_->assembly()))) {}
 
 // ε = f_N μ_c / (|r_T| − μ_c r_N), section 6.
 double BreakingRun::meets_cone_at(std::size_t joint) const {
   constexpr double never = std::numeric_limits<double>::infinity();
   if (joints[joint].broken) return never;
   const JointLaw law = intact_law(joints[joint].threshold);
-  const Local r = scene_.material.young * reactions_.segment<2>(static_cast<Index>(2 * joint));
+  const Local r = reactions_.segment<2>(static_cast<Index>(2 * joint));
   const double denominator = std::abs(r.y()) - law.friction * r.x();
   // What rounding leaves on an unloaded joint is not a load.
-  const double noise = 1e-10 * scene_.material.young * intact_->reactions.cwiseAbs().maxCoeff();
-  return denominator > noise * std::max(1.0, law.friction) ? law.cohesion * law.friction / denominator : never;
+  const double noise = 1e-10 * intact_->answer().reactions.cwiseAbs().maxCoeff();
+  if (denominator <= noise * std::max(1.0, law.friction)) return never;
+  return law.cohesion * law.friction / (scene_.material.young * denominator);
 }
 
 double BreakingRun::next_event() const {
@@ -96,67 +111,149 @@ void BreakingRun::break_joints(double event, double strain) {
   }
 }
 
-bool BreakingRun::settle() {
+// Only what has just broken is released; the others follow from where they are.
+bool BreakingRun::settle_loose() {
   const auto n = static_cast<Index>(loose_.size());
   LocalContact contact{loose_.stiffness(), VectorXd(2 * n), VectorXd::Zero(2 * n),
                        std::vector<JointLaw>(loose_.size(), broken_law(scene_.joints.friction))};
   for (Index i = 0; i < n; ++i)
     contact.r0.segment<2>(2 * i) =
-        intact_->reactions.segment<2>(2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)]));
-  // Only what has just broken is released; the others follow from where they are.
+        base_.reactions.segment<2>(2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)]));
   VectorXd extra = cohesion_to_stick(contact);
-  for (Index i = 0; i < n; ++i)
-    if (i < settled_) extra(i) = 0.0;
+  extra.head(static_cast<Index>(settled_)).setZero();
   LocalContactResult result = follow_release(contact, states_, extra, scene_.solver.max_iterations);
-  if (getenv("DBG")) fprintf(stderr,"event n %ld path %d conv %d\n",n,result.iterations,(int)result.converged);
-  if (!result.converged) result = solve_local_contact(contact, states_, scene_.solver.max_iterations);
-  if (getenv("DBG") && result.iterations>100) fprintf(stderr,"   local %d conv %d\n",result.iterations,(int)result.converged);
-  settled_ = n;
   iterations += result.iterations;
+  if (!result.converged) {
+    result = solve_local_contact(contact, result.states, scene_.solver.max_iterations);
+    iterations += result.iterations;
+  }
   states_ = result.states;
+  settled_ = loose_.size();
   y_ = result.y;
-  reactions_ = intact_->reactions + loose_.reactions_to(y_);
-  // By reciprocity the force at the end changes by r¹·y/W.
-  force_ = intact_->force + contact.r0.dot(y_) / intact_->assembly.width;
+  reactions_ = base_.reactions + loose_.reactions_to(y_);
+  // By reciprocity the force at the end changes by r⁰·y/W.
+  force_ = base_.force + contact.r0.dot(y_) / intact_->assembly().width;
   return result.converged;
 }
 
+bool BreakingRun::settle() {
+  bool solved = settle_loose();
+  if (solved && detach_opened()) solved = settle_loose();
+  while (solved && reattach_closed()) solved = settle_loose();
+  return solved;
+}
+
+// The structure without those joints. The other broken joints are loosened again, in the states that they had.
+void BreakingRun::detach(std::vector<char> detached) {
+  std::vector<int> again;
+  std::vector<JointState> states;
+  for (std::size_t j = 0; j < detached.size(); ++j) {
+    if (detached[j] != 0 || !joints[j].broken) continue;
+    const auto& known = loose_.joints();
+    const auto place = std::find(known.begin(), known.end(), static_cast<int>(j)) - known.begin();
+    again.push_back(static_cast<int>(j));
+    states.push_back(place < static_cast<long>(known.size()) ? states_[static_cast<std::size_t>(place)]
+                                                             : JointState::open);
+  }
+  detached_ = std::move(detached);
+  own_ = std::make_unique<Structure>(intact_->bodies(), detached_);
+  loose_ = LooseJoints(own_->joints(), [this](int joint) { return own_->respond_to_jump(joint); });
+  base_ = stretch(*own_, VectorXd::Zero(2 * own_->joints()), intact_->answer().reactions.norm());
+  base_gaps_ = joint_gaps(intact_->bodies(), base_.displacements);
+  for (const int joint : again) loose_.add(joint);
+  states_ = std::move(states);
+  settled_ = states_.size();
+}
+
+bool BreakingRun::detach_opened() {
+  if (loose_.size() < worth_detaching || !scene_.solver.leave_out) return false;
+  std::vector<char> detached = detached_;
+  for (std::size_t i = 0; i < loose_.size(); ++i)
+    if (states_[i] == JointState::open) detached[static_cast<std::size_t>(loose_.joints()[i])] = 1;
+  detach(std::move(detached));
+  return true;
+}
+
+// 1 for a body that bonded joints connect to an end. The position of any other is not determined without inertia.
+std::vector<char> BreakingRun::carried() const {
+  const Assembly& assembly = intact_->assembly();
+  std::vector<char> reached(assembly.bodies.size(), 0);
+  const auto mark_ends = [&](const std::vector<int>& nodes) {
+    for (std::size_t b = 0; b < assembly.bodies.size(); ++b)
+      for (const int node : nodes)
+        if (node >= assembly.bodies[b].first_node && node < assembly.bodies[b].first_node + assembly.bodies[b].nodes)
+          reached[b] = 1;
+  };
+  mark_ends(assembly.left);
+  mark_ends(assembly.right);
+  for (bool grew = true; grew;) {
+    grew = false;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j].broken) continue;
+      char& a = reached[static_cast<std::size_t>(assembly.joints[j].body_a)];
+      char& b = reached[static_cast<std::size_t>(assembly.joints[j].body_b)];
+      grew = grew || a != b;
+      a = b = static_cast<char>(a | b);
+    }
+  }
+  return reached;
+}
+
+bool BreakingRun::reattach_closed() {
+  if (!own_) return false;
+  const VectorXd gaps = base_gaps_ + loose_.gaps_to(y_);
+  std::vector<char> attached = detached_;
+  const std::vector<char> held = carried();
+  for (std::size_t j = 0; j < attached.size(); ++j) {
+    const Joint& joint = intact_->assembly().joints[j];
+    const bool both = held[static_cast<std::size_t>(joint.body_a)] != 0 && held[static_cast<std::size_t>(joint.body_b)] != 0;
+    if (attached[j] != 0 && both && gaps(static_cast<Index>(2 * j)) < 0.0) attached[j] = 0;
+  }
+  if (attached == detached_) return false;
+  detach(std::move(attached));
+  return true;
+}
+
 CurvePoint BreakingRun::point(double strain) const {
-  const double stress = scene_.material.young * force_ * strain / intact_->assembly.height;
-  const double work = 0.5 * stress * strain * intact_->assembly.width * intact_->assembly.height;
+  const Assembly& assembly = intact_->assembly();
+  const double stress = scene_.material.young * force_ * strain / assembly.height;
   return {.time = strain / scene_.loading.strain_rate,
           .strain = strain,
           .stress_right = stress,
           .stress_left = stress,
           .broken_joints = broken,
-          .elastic = work,
+          .elastic = 0.5 * stress * strain * assembly.width * assembly.height,
           .dissipated = dissipated};
 }
 
-VectorXd BreakingRun::all_gaps() const {
-  VectorXd gaps = VectorXd::Zero(2 * intact_->structure.joints());
+// One solve of the whole structure with the gaps found: what events computed by influence and reciprocity is checked
+// against ½ qᵀKq = ½ (F W ε + r·u) and the joint laws.
+void BreakingRun::finish(double strain, double energy_scale, Simulation& simulation) const {
+  VectorXd gaps = VectorXd::Zero(2 * static_cast<Index>(joints.size()));
   for (std::size_t i = 0; i < loose_.size(); ++i)
     gaps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) = y_.segment<2>(static_cast<Index>(2 * i));
-  return gaps;
-}
+  const double scale = intact_->answer().reactions.norm();
+  const UnitAnswer last = stretch(own_ ? *own_ : intact_->structure(), gaps, scale);
+  gaps = joint_gaps(intact_->bodies(), last.displacements);
 
-double BreakingRun::finish(double strain, double energy_scale, Simulation& simulation) {
-  const VectorXd gaps = all_gaps();
-  const StructureResponse response = intact_->stretch(gaps);
   const double young = scene_.material.young;
-  simulation.displacements = strain * response.displacements;
-  worst_residual = std::max(worst_residual, response.residual);
+  simulation.displacements = strain * last.displacements;
+  simulation.joints = joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const auto row = static_cast<Index>(2 * j);
-    joints[j].reaction_normal = young * strain * response.reactions(row);
-    joints[j].reaction_tangent = young * strain * response.reactions(row + 1);
-    joints[j].gap = strain * gaps(row);
-    worst_penetration = std::max(worst_penetration, -joints[j].gap);
+    JointOutcome& joint = simulation.joints[j];
+    joint.reaction_normal = young * strain * last.reactions(row);
+    joint.reaction_tangent = young * strain * last.reactions(row + 1);
+    joint.gap = strain * gaps(row);
+    if (detached_[j] == 0) simulation.worst_penetration = std::max(simulation.worst_penetration, -joint.gap);
   }
-  const VectorXd& q = response.displacements;
-  const double elastic = 0.5 * q.dot(intact_->bodies.stiffness_times(q));
-  const double work = 0.5 * (force_ * intact_->assembly.width + response.reactions.dot(gaps));
-  return energy_scale > 0.0 ? young * strain * strain * std::abs(elastic - work) / energy_scale : 0.0;
+  const VectorXd& q = last.displacements;
+  const double elastic = 0.5 * q.dot(VectorXd(intact_->bodies().stiffness_times(q)));
+  const double work = 0.5 * (force_ * intact_->assembly().width + last.reactions.dot(gaps));
+  if (energy_scale > 0.0)
+    simulation.energy_defect = young * strain * strain * std::abs(elastic - work) / energy_scale;
+  simulation.worst_residual = std::max(last.residual, (last.reactions - reactions_).norm() / scale);
+  simulation.iterations = iterations;
 }
 
 }  // namespace
@@ -165,7 +262,7 @@ Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
   Simulation simulation;
   simulation.regime = Regime::quasi_static;
   const std::shared_ptr<const IntactStructure> intact = intact_structure(scene);
-  if (!intact->structure.ok()) return simulation;
+  if (!intact->structure().ok()) return simulation;
   BreakingRun run(scene, intact);
   simulation.curve.push_back(run.point(0.0));
   double strain = 0.0, largest_energy = 0.0;
@@ -203,11 +300,7 @@ Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
     }
   }
   largest_energy = std::max(largest_energy, simulation.curve.back().elastic);
-  simulation.energy_defect = run.finish(strain, largest_energy, simulation);
-  simulation.joints = run.joints;
-  simulation.iterations = run.iterations;
-  simulation.worst_residual = run.worst_residual;
-  simulation.worst_penetration = run.worst_penetration;
+  run.finish(strain, largest_energy, simulation);
   return simulation;
 }
 

@@ -12,6 +12,7 @@ namespace havers::sim {
 namespace {
 
 constexpr std::size_t kept = 8;
+constexpr std::size_t remembered_bytes = std::size_t{128} << 20U;  // of influence columns, for each structure
 
 // A trace of inertia, that of h c/L = 1e6, holds what hangs on a single joint or floats, and nothing else feels it.
 Shift quasi_static_shift(const AssemblyOptions& options) {
@@ -27,28 +28,41 @@ Material unit_material(const Material& material) {
 
 }  // namespace
 
+UnitAnswer stretch(const Structure& structure, const Eigen::VectorXd& gaps, double force_scale) {
+  const Bodies& bodies = structure.bodies();
+  const Assembly& assembly = bodies.assembly();
+  StructureLoads loads{Eigen::VectorXd::Zero(bodies.dofs()), Eigen::VectorXd::Zero(bodies.dofs()), gaps, force_scale};
+  for (const int node : assembly.right) loads.prescribed(2 * node) = assembly.width;
+  const StructureResponse response = structure.solve(loads);
+
+  UnitAnswer answer{response.displacements, response.reactions, 0.0, response.residual};
+  const Eigen::VectorXd forces =
+      bodies.stiffness_times(answer.displacements) - joint_forces_on_nodes(bodies, answer.reactions);
+  for (const int node : assembly.right) answer.force += forces(2 * node);
+  return answer;
+}
+
 IntactStructure::IntactStructure(const AssemblyOptions& options, const Loading& loading, const Material& material,
                                  bool share)
-    : assembly(build_assembly(options, loading.lateral)),
-      bodies(assembly, unit_material(material), quasi_static_shift(options), share),
-      structure(bodies) {
-  if (!structure.ok()) return;
-  const StructureResponse response = stretch(Eigen::VectorXd::Zero(2 * structure.joints()));
-  reactions = response.reactions;
-  force = end_force(response.displacements, reactions);
+    : assembly_(build_assembly(options, loading.lateral)),
+      bodies_(assembly_, unit_material(material), quasi_static_shift(options), share),
+      structure_(bodies_) {
+  if (structure_.ok()) answer_ = stretch(structure_, Eigen::VectorXd::Zero(2 * structure_.joints()), 0.0);
 }
 
-StructureResponse IntactStructure::stretch(const Eigen::VectorXd& gaps) const {
-  StructureLoads loads{Eigen::VectorXd::Zero(bodies.dofs()), Eigen::VectorXd::Zero(bodies.dofs()), gaps};
-  for (const int node : assembly.right) loads.prescribed(2 * node) = assembly.width;
-  return structure.solve(loads);
-}
-
-double IntactStructure::end_force(const Eigen::VectorXd& q, const Eigen::VectorXd& r) const {
-  const Eigen::VectorXd forces = bodies.stiffness_times(q) - joint_forces_on_nodes(bodies, r);
-  double sum = 0.0;
-  for (const int node : assembly.right) sum += forces(2 * node);
-  return sum;
+JumpResponse IntactStructure::respond_to_jump(int joint) const {
+  Eigen::MatrixX2d gaps = Eigen::MatrixX2d::Zero(2 * structure_.joints(), 2);
+  gaps.middleRows<2>(2 * static_cast<Eigen::Index>(joint)).setIdentity();
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto known = reactions_to_jump_.find(joint);
+    if (known != reactions_to_jump_.end()) return {known->second, std::move(gaps)};
+  }
+  JumpResponse response = structure_.respond_to_jump(joint);
+  const std::scoped_lock lock(mutex_);
+  const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(response.reactions.size());
+  if ((reactions_to_jump_.size() + 1) * bytes <= remembered_bytes) reactions_to_jump_.emplace(joint, response.reactions);
+  return response;
 }
 
 std::shared_ptr<const IntactStructure> intact_structure(const Scene& scene) {

@@ -1,30 +1,46 @@
 // The factorised intact assembly: the part of a quasi-static run that no seed, threshold or modulus changes.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <mutex>
 
 #include "sim/structure/structure.hpp"
 
 namespace havers::sim {
 
-/// An assembly of Young's modulus 1 and its answer to the strain 1. Everything scales with E and ε.
-struct IntactStructure {
+/// Answer of a structure of Young's modulus 1 to the strain 1, all loose joints held. Everything scales with E and ε.
+struct UnitAnswer {
+  Eigen::VectorXd displacements;  ///< [m]
+  Eigen::VectorXd reactions;      ///< Of all joints. [N/m]
+  double force = 0.0;             ///< Of the machine. [N/m]
+  double residual = 0.0;          ///< Of the solve. [-]
+};
+
+/// Stretches a structure by the strain 1, with given gaps at the joints that are not detached.
+UnitAnswer stretch(const Structure& structure, const Eigen::VectorXd& gaps, double force_scale);
+
+/// An assembly of Young's modulus 1, factorised, and its answers: to the strain 1, and to jumps as they are asked for.
+class IntactStructure {
+ public:
   IntactStructure(const AssemblyOptions& options, const Loading& loading, const Material& material, bool share);
-  IntactStructure(const IntactStructure&) = delete;
-  IntactStructure& operator=(const IntactStructure&) = delete;
-  ~IntactStructure() = default;
 
-  /// The answer to the strain 1 and given gaps of all joints.
-  [[nodiscard]] StructureResponse stretch(const Eigen::VectorXd& gaps) const;
+  [[nodiscard]] const Assembly& assembly() const { return assembly_; }
+  [[nodiscard]] const Bodies& bodies() const { return bodies_; }
+  [[nodiscard]] const Structure& structure() const { return structure_; }
+  [[nodiscard]] const UnitAnswer& answer() const { return answer_; }
 
-  /// Force of the machine for displacements q and reactions r. [N/m, for E = 1]
-  [[nodiscard]] double end_force(const Eigen::VectorXd& q, const Eigen::VectorXd& reactions) const;
+  /// Structure::respond_to_jump, remembered for later runs as long as memory allows. May be called by several
+  /// threads.
+  [[nodiscard]] JumpResponse respond_to_jump(int joint) const;
 
-  Assembly assembly;
-  Bodies bodies;
-  Structure structure;
-  Eigen::VectorXd reactions;  ///< Of all joints, nothing broken. [N/m, for E = 1 and ε = 1]
-  double force = 0.0;         ///< Of the machine. [N/m, likewise]
+ private:
+  Assembly assembly_;
+  Bodies bodies_;
+  Structure structure_;
+  UnitAnswer answer_;
+  mutable std::mutex mutex_;
+  mutable std::map<int, Eigen::MatrixX2d> reactions_to_jump_;
 };
 
 /// The one for a scene, made once and shared between runs and threads; the last few are kept.

@@ -124,8 +124,8 @@ namespace {
 
 // y = A x body by body, A being one of the operator's matrices.
 template <class Matrix, class From, class To>
-void apply(const std::vector<BodyClass>& classes, const Matrix& matrix, const VectorXd& x,
-           const From& from, const To& to, VectorXd& y) {
+void apply(const std::vector<BodyClass>& classes, const Matrix& matrix, const MatrixXd& x,
+           const From& from, const To& to, MatrixXd& y) {
   for (const BodyClass& bodies : classes) {
     const auto& A = matrix(bodies.op);
     scatter(A * gather(x, bodies, A.cols(), from), bodies, to, y);
@@ -134,8 +134,8 @@ void apply(const std::vector<BodyClass>& classes, const Matrix& matrix, const Ve
 
 }  // namespace
 
-VectorXd Bodies::stiffness_times(const VectorXd& q) const {
-  VectorXd y(dofs());
+MatrixXd Bodies::stiffness_times(const MatrixXd& q) const {
+  MatrixXd y(dofs(), q.cols());
   const auto dof = [&](int b) { return first_dof(b); };
   apply(
       classes_, [](const BodyOperator& op) -> const MatrixXd& { return op.matrices.stiffness; }, q,
@@ -143,8 +143,8 @@ VectorXd Bodies::stiffness_times(const VectorXd& q) const {
   return y;
 }
 
-VectorXd Bodies::shifted_times(const VectorXd& q) const {
-  VectorXd y(dofs());
+MatrixXd Bodies::shifted_times(const MatrixXd& q) const {
+  MatrixXd y(dofs(), q.cols());
   const auto dof = [&](int b) { return first_dof(b); };
   apply(
       classes_, [](const BodyOperator& op) -> const MatrixXd& { return op.shifted; }, q, dof, dof,
@@ -152,24 +152,24 @@ VectorXd Bodies::shifted_times(const VectorXd& q) const {
   return y;
 }
 
-VectorXd Bodies::port_displacements(const VectorXd& q) const {
-  VectorXd y(static_cast<Index>(ports_.size()));
+MatrixXd Bodies::port_displacements(const MatrixXd& q) const {
+  MatrixXd y(static_cast<Index>(ports_.size()), q.cols());
   apply(
       classes_, [](const BodyOperator& op) -> const MatrixXd& { return op.ports; }, q,
       [&](int b) { return first_dof(b); }, [&](int b) { return first_port(b); }, y);
   return y;
 }
 
-VectorXd Bodies::port_forces_on_nodes(const VectorXd& t) const {
-  VectorXd y(dofs());
+MatrixXd Bodies::port_forces_on_nodes(const MatrixXd& t) const {
+  MatrixXd y(dofs(), t.cols());
   apply(
       classes_, [](const BodyOperator& op) { return op.ports.transpose(); }, t,
       [&](int b) { return first_port(b); }, [&](int b) { return first_dof(b); }, y);
   return y;
 }
 
-VectorXd Bodies::incompatibility(const VectorXd& p) const {
-  VectorXd y(compatibilities_);
+MatrixXd Bodies::incompatibility(const MatrixXd& p) const {
+  MatrixXd y(compatibilities_, p.cols());
   apply(
       classes_, [](const BodyOperator& op) -> const MatrixXd& { return op.compatibility; }, p,
       [&](int b) { return first_port(b); },
@@ -177,8 +177,8 @@ VectorXd Bodies::incompatibility(const VectorXd& p) const {
   return y;
 }
 
-VectorXd Bodies::compatibility_forces(const VectorXd& a) const {
-  VectorXd y(static_cast<Index>(ports_.size()));
+MatrixXd Bodies::compatibility_forces(const MatrixXd& a) const {
+  MatrixXd y(static_cast<Index>(ports_.size()), a.cols());
   apply(
       classes_, [](const BodyOperator& op) { return op.compatibility.transpose(); }, a,
       [&](int b) { return first_compatibility_[static_cast<std::size_t>(b)]; },
@@ -186,8 +186,8 @@ VectorXd Bodies::compatibility_forces(const VectorXd& a) const {
   return y;
 }
 
-VectorXd Bodies::port_forces(const VectorXd& p, const VectorXd& a) const {
-  VectorXd y(p.size());
+MatrixXd Bodies::port_forces(const MatrixXd& p, const MatrixXd& a) const {
+  MatrixXd y(p.rows(), p.cols());
   const auto port = [&](int b) { return first_port(b); };
   apply(
       classes_, [](const BodyOperator& op) -> const MatrixXd& { return op.impedance; }, p, port,

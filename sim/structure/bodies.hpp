@@ -23,7 +23,7 @@ struct BodyClass {
   std::vector<int> bodies;
 };
 
-/// Vectors over the degrees of freedom have x and y of every node of the assembly; vectors over the
+/// Matrices hold one case a column. Vectors over the degrees of freedom have x and y of every node of the assembly; vectors over the
 /// ports have each body's ports in order.
 class Bodies {
  public:
@@ -41,20 +41,20 @@ class Bodies {
   }
 
   [[nodiscard]] const Eigen::VectorXd& mass() const { return mass_; }             ///< M. [kg/m]
-  [[nodiscard]] Eigen::VectorXd stiffness_times(const Eigen::VectorXd& q) const;  ///< K q. [N/m]
-  [[nodiscard]] Eigen::VectorXd shifted_times(const Eigen::VectorXd& q) const;    ///< Ā q. [N/m]
+  [[nodiscard]] Eigen::MatrixXd stiffness_times(const Eigen::MatrixXd& q) const;  ///< K q. [N/m]
+  [[nodiscard]] Eigen::MatrixXd shifted_times(const Eigen::MatrixXd& q) const;    ///< Ā q. [N/m]
   /// Z p + Nᵀ a at the ports (S4). [N/m]
-  [[nodiscard]] Eigen::VectorXd port_forces(const Eigen::VectorXd& p,
-                                            const Eigen::VectorXd& a) const;
-  [[nodiscard]] Eigen::VectorXd incompatibility(const Eigen::VectorXd& p) const;  ///< N p. [m]
-  [[nodiscard]] Eigen::VectorXd compatibility_forces(
-      const Eigen::VectorXd& a) const;  ///< Nᵀ a. [N/m]
+  [[nodiscard]] Eigen::MatrixXd port_forces(const Eigen::MatrixXd& p,
+                                            const Eigen::MatrixXd& a) const;
+  [[nodiscard]] Eigen::MatrixXd incompatibility(const Eigen::MatrixXd& p) const;  ///< N p. [m]
+  [[nodiscard]] Eigen::MatrixXd compatibility_forces(
+      const Eigen::MatrixXd& a) const;  ///< Nᵀ a. [N/m]
   [[nodiscard]] Eigen::Index compatibilities() const {
     return compatibilities_;
   }  ///< Rows of all N.
-  [[nodiscard]] Eigen::VectorXd port_displacements(const Eigen::VectorXd& q) const;  ///< B q. [m]
-  [[nodiscard]] Eigen::VectorXd port_forces_on_nodes(
-      const Eigen::VectorXd& t) const;  ///< Bᵀ t. [N/m]
+  [[nodiscard]] Eigen::MatrixXd port_displacements(const Eigen::MatrixXd& q) const;  ///< B q. [m]
+  [[nodiscard]] Eigen::MatrixXd port_forces_on_nodes(
+      const Eigen::MatrixXd& t) const;  ///< Bᵀ t. [N/m]
 
  private:
   const Assembly* assembly_;
@@ -67,22 +67,23 @@ class Bodies {
   Eigen::VectorXd mass_;
 };
 
-/// Columns of the result: the segment [starts(body), + rows) of `values` for each body of a class,
-/// and back.
+/// Columns of the result: the segment [starts(body), + rows) of `values` for each body of a class, and back. With
+/// several columns of values, all bodies of the first come first.
 template <class Starts>
-Eigen::MatrixXd gather(const Eigen::VectorXd& values, const BodyClass& bodies, Eigen::Index rows,
+Eigen::MatrixXd gather(const Eigen::MatrixXd& values, const BodyClass& group, Eigen::Index rows,
                        const Starts& starts) {
-  Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(bodies.bodies.size()));
-  for (Eigen::Index i = 0; i < columns.cols(); ++i)
-    columns.col(i) = values.segment(starts(bodies.bodies[static_cast<std::size_t>(i)]), rows);
+  Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(group.bodies.size()) * values.cols());
+  Eigen::Index to = 0;
+  for (Eigen::Index c = 0; c < values.cols(); ++c)
+    for (const int body : group.bodies) columns.col(to++) = values.col(c).segment(starts(body), rows);
   return columns;
 }
 template <class Starts>
-void scatter(const Eigen::MatrixXd& columns, const BodyClass& bodies, const Starts& starts,
-             Eigen::VectorXd& values) {
-  for (Eigen::Index i = 0; i < columns.cols(); ++i)
-    values.segment(starts(bodies.bodies[static_cast<std::size_t>(i)]), columns.rows()) =
-        columns.col(i);
+void scatter(const Eigen::MatrixXd& columns, const BodyClass& group, const Starts& starts, Eigen::MatrixXd& values) {
+  Eigen::Index from = 0;
+  for (Eigen::Index c = 0; c < values.cols(); ++c)
+    for (const int body : group.bodies)
+      values.col(c).segment(starts(body), columns.rows()) = columns.col(from++);
 }
 
 }  // namespace havers::sim

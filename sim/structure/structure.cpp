@@ -22,9 +22,9 @@ constexpr int max_solves = 8;
 
 // Displacements, forces and compatibility multipliers at the ports of all bodies.
 struct Structure::PortState {
-  VectorXd displacements;  // p, offsets included
-  VectorXd forces;         // t, on the bodies
-  VectorXd multipliers;    // a
+  MatrixXd displacements;  // p, offsets included; a case a column
+  MatrixXd forces;         // t, on the bodies
+  MatrixXd multipliers;    // a
   int solves = 0;
   double correction = 0.0;
 };
@@ -88,50 +88,47 @@ void Structure::assemble() {
   factor_.emplace(matrix);
 }
 
-VectorXd Structure::unknowns_to_ports(const VectorXd& unknowns) const {
-  VectorXd p(static_cast<Index>(unknown_of_port_.size()));
-  for (std::size_t i = 0; i < unknown_of_port_.size(); ++i) {
-    p(static_cast<Index>(i)) = unknowns(unknown_of_port_[i]);
-    if (tie_top_[i] != 0) p(static_cast<Index>(i)) += unknowns(unknowns_ - 1);
-  }
+MatrixXd Structure::unknowns_to_ports(const MatrixXd& unknowns) const {
+  MatrixXd p(static_cast<Index>(unknown_of_port_.size()), unknowns.cols());
+  for (Index c = 0; c < p.cols(); ++c)
+    for (std::size_t i = 0; i < unknown_of_port_.size(); ++i)
+      p(static_cast<Index>(i), c) =
+          unknowns(unknown_of_port_[i], c) + (tie_top_[i] != 0 ? unknowns(unknowns_ - 1, c) : 0.0);
   return p;
 }
 
-VectorXd Structure::ports_to_unknowns(const VectorXd& forces) const {
-  VectorXd f = VectorXd::Zero(unknowns_);
-  for (std::size_t i = 0; i < unknown_of_port_.size(); ++i) {
-    f(unknown_of_port_[i]) += forces(static_cast<Index>(i));
-    if (tie_top_[i] != 0) f(unknowns_ - 1) += forces(static_cast<Index>(i));
-  }
+MatrixXd Structure::ports_to_unknowns(const MatrixXd& forces) const {
+  MatrixXd f = MatrixXd::Zero(unknowns_, forces.cols());
+  for (Index c = 0; c < f.cols(); ++c)
+    for (std::size_t i = 0; i < unknown_of_port_.size(); ++i) {
+      f(unknown_of_port_[i], c) += forces(static_cast<Index>(i), c);
+      if (tie_top_[i] != 0) f(unknowns_ - 1, c) += forces(static_cast<Index>(i), c);
+    }
   return f;
 }
 
-// Corrections of the mixed system (S6) with the factor of its penalised form (S7): the residuals
-// are those of the mixed system itself, so its accuracy is reached and not the penalty's.
-Structure::PortState Structure::solve_ports(const VectorXd& port_loads,
-                                            const VectorXd& offsets) const {
-  PortState state;
-  state.displacements = offsets;
-  state.multipliers = VectorXd::Zero(bodies_->compatibilities());
-  const auto forces = [&] {
-    return VectorXd(bodies_->port_forces(state.displacements, state.multipliers) - port_loads);
+// Corrections of the mixed system (S6) with the factor of its penalised form (S7): the residuals are those of the
+// mixed system itself, so its accuracy is reached and not the penalty's.
+Structure::PortState Structure::solve_ports(const MatrixXd& port_loads, const MatrixXd& offsets,
+                                            double force_scale) const {
+  PortState state{offsets, {}, MatrixXd::Zero(bodies_->compatibilities(), offsets.cols()), 0, 0.0};
+  const auto forces = [&]() -> MatrixXd {
+    return bodies_->port_forces(state.displacements, state.multipliers) - port_loads;
   };
-
   state.forces = forces();
   double before = 1.0;
   while (state.solves < max_solves) {
-    const VectorXd gap = bodies_->incompatibility(state.displacements);
-    const VectorXd imbalance = state.forces + penalty_ * bodies_->compatibility_forces(gap);
-    const VectorXd change = unknowns_to_ports(factor_->solve(ports_to_unknowns(-imbalance)));
+    const MatrixXd gap = bodies_->incompatibility(state.displacements);
+    const MatrixXd imbalance = state.forces + penalty_ * bodies_->compatibility_forces(gap);
+    const MatrixXd change = unknowns_to_ports(factor_->solve(ports_to_unknowns(-imbalance)));
     ++state.solves;
-    const VectorXd old = state.forces;
+    const MatrixXd old = state.forces;
     state.displacements += change;
     state.multipliers += penalty_ * (gap + bodies_->incompatibility(change));
     state.forces = forces();
-    const double scale = state.forces.norm();
+    const double scale = std::max(force_scale, state.forces.norm());
     state.correction = scale > 0.0 ? (state.forces - old).norm() / scale : 0.0;
-    // The next correction is expected to shrink as this one did, but not by more than half of a
-    // double's digits.
+    // The next correction is expected to shrink as this one did, but not by more than part of a double's digits.
     const double shrinkage = std::max(state.correction / before, 1e-6);
     if (!(state.correction * std::min(shrinkage, 1.0) > accuracy)) break;
     if (state.solves > 3 && shrinkage > 0.5) break;
@@ -140,57 +137,61 @@ Structure::PortState Structure::solve_ports(const VectorXd& port_loads,
   return state;
 }
 
-VectorXd Structure::joint_reactions(const VectorXd& port_forces) const {
-  VectorXd r = VectorXd::Zero(2 * joints() + static_cast<Index>(bodies_->assembly().ties.size()));
+// Forces on the b sides of joints, then of ties.
+MatrixXd Structure::reactions_of(const MatrixXd& port_forces) const {
+  MatrixXd r = MatrixXd::Zero(2 * joints() + static_cast<Index>(bodies_->assembly().ties.size()), port_forces.cols());
   const std::vector<Port>& ports = bodies_->ports();
   for (std::size_t i = 0; i < ports.size(); ++i)
-    if (ports[i].side == PortSide::b) r(ports[i].unknown) = port_forces(static_cast<Index>(i));
-  for (Index j = 0; j < joints(); ++j)
-    if (detached(static_cast<int>(j))) r.segment<2>(2 * j).setZero();
+    if (ports[i].side == PortSide::b && !(ports[i].unknown < 2 * joints() && detached(ports[i].unknown / 2)))
+      r.row(ports[i].unknown) = port_forces.row(static_cast<Index>(i));
   return r;
 }
 
 StructureResponse Structure::solve(const StructureLoads& loads) const {
   const auto dof = [&](int body) { return bodies_->first_dof(body); };
   const auto port = [&](int body) { return bodies_->first_port(body); };
-  const Index ports = static_cast<Index>(unknown_of_port_.size());
-  VectorXd offsets(ports), port_loads(ports), displacements(bodies_->dofs());
+  const auto ports = static_cast<Index>(unknown_of_port_.size());
+  MatrixXd offsets(ports, 1), port_loads(ports, 1), displacements(bodies_->dofs(), 1);
 
-  for (const BodyClass& bodies : bodies_->classes()) {  // (S3): condense the loads
-    const BodyOperator& op = bodies.op;
-    const MatrixXd given = gather(loads.prescribed, bodies, op.shifted.rows(), dof);
-    const MatrixXd forces =
-        gather(loads.forces, bodies, op.shifted.rows(), dof) - op.shifted * given;
-    scatter(op.recovery.transpose() * forces, bodies, port, port_loads);
-    scatter(-op.ports * given, bodies, port, offsets);
-    scatter(op.compliance * forces + given, bodies, dof, displacements);
+  for (const BodyClass& group : bodies_->classes()) {  // (S3): condense the loads
+    const BodyOperator& op = group.op;
+    const MatrixXd given = gather(loads.prescribed, group, op.shifted.rows(), dof);
+    const MatrixXd forces = gather(loads.forces, group, op.shifted.rows(), dof) - op.shifted * given;
+    scatter(op.recovery.transpose() * forces, group, port, port_loads);
+    scatter(-op.ports * given, group, port, offsets);
+    scatter(op.compliance * forces + given, group, dof, displacements);
   }
   const std::vector<Port>& all = bodies_->ports();
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (all[i].side == PortSide::b && all[i].unknown < 2 * joints() &&
-        !detached(all[i].unknown / 2))
+    if (all[i].side == PortSide::b && all[i].unknown < 2 * joints() && !detached(all[i].unknown / 2))
       offsets(static_cast<Index>(i)) += loads.jumps(all[i].unknown);
 
-  const PortState state = solve_ports(port_loads, offsets);
-  for (const BodyClass& bodies : bodies_->classes()) {  // (S4): recover the displacements
-    const MatrixXd& T = bodies.op.recovery;
-    scatter(gather(displacements, bodies, T.rows(), dof) +
-                T * gather(state.displacements, bodies, T.cols(), port),
-            bodies, dof, displacements);
+  const PortState state = solve_ports(port_loads, offsets, loads.force_scale);
+  for (const BodyClass& group : bodies_->classes()) {  // (S4): recover the displacements
+    const MatrixXd& T = group.op.recovery;
+    scatter(gather(displacements, group, T.rows(), dof) + T * gather(state.displacements, group, T.cols(), port),
+            group, dof, displacements);
   }
-  const VectorXd reactions = joint_reactions(state.forces);
-  return {displacements, reactions.head(2 * joints()),
-          reactions.tail(reactions.size() - 2 * joints()), state.solves, state.correction};
+  const MatrixXd reactions = reactions_of(state.forces);
+  return {displacements, reactions.topRows(2 * joints()), reactions.bottomRows(reactions.rows() - 2 * joints()),
+          state.solves, state.correction};
 }
 
-VectorXd Structure::reactions_to_jump(int joint, int component) const {
-  VectorXd offsets = VectorXd::Zero(static_cast<Index>(unknown_of_port_.size()));
-  const std::vector<Port>& all = bodies_->ports();
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (all[i].side == PortSide::b && all[i].unknown == 2 * joint + component)
-      offsets(static_cast<Index>(i)) = 1.0;
-  return joint_reactions(solve_ports(VectorXd::Zero(offsets.size()), offsets).forces)
-      .head(2 * joints());
+JumpResponse Structure::respond_to_jump(int joint) const {
+  MatrixXd offsets = MatrixXd::Zero(static_cast<Index>(unknown_of_port_.size()), 2);
+  const std::vector<Port>& ports = bodies_->ports();
+  for (std::size_t i = 0; i < ports.size(); ++i)
+    if (ports[i].side == PortSide::b && ports[i].unknown / 2 == joint)
+      offsets(static_cast<Index>(i), ports[i].unknown % 2) = 1.0;
+  const PortState state = solve_ports(MatrixXd::Zero(offsets.rows(), 2), offsets, 0.0);
+
+  JumpResponse response{reactions_of(state.forces).topRows(2 * joints()), MatrixXd::Zero(2 * joints(), 2)};
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    if (ports[i].unknown >= 2 * joints()) continue;
+    const double sign = ports[i].side == PortSide::b ? 1.0 : -1.0;
+    response.gaps.row(ports[i].unknown) += sign * state.displacements.row(static_cast<Index>(i));
+  }
+  return response;
 }
 
 }  // namespace havers::sim

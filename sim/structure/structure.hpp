@@ -17,6 +17,7 @@ struct StructureLoads {
   Eigen::VectorXd
       prescribed;         ///< Displacements of the held degrees of freedom, zero elsewhere. [m]
   Eigen::VectorXd jumps;  ///< u_b − u_a imposed at every joint that is not detached. [m]
+  double force_scale = 0.0;    ///< Port forces below 1e-12 of this norm are rounding. [N/m]
 };
 
 struct StructureResponse {
@@ -25,6 +26,12 @@ struct StructureResponse {
   Eigen::VectorXd tie_forces;     ///< Of every tie, pushing its top point up. [N/m]
   int solves = 0;                 ///< Triangular solves spent.
   double residual = 0.0;          ///< Relative size of the last correction of the port forces. [-]
+};
+
+/// Answers of all joints to unit jumps at one joint: a column for the normal, one for the tangential jump.
+struct JumpResponse {
+  Eigen::MatrixX2d reactions;  ///< [N/m²]
+  Eigen::MatrixX2d gaps;       ///< u_b − u_a; those of detached joints follow the structure. [-]
 };
 
 /// Factor of the structure in which all joints hold but the detached ones (S5)-(S7),
@@ -45,17 +52,15 @@ class Structure {
 
   [[nodiscard]] StructureResponse solve(const StructureLoads& loads) const;
 
-  /// Reactions of all joints to a unit jump at one joint, component 0 (normal) or 1 (tangential).
-  /// [N/m²]
-  [[nodiscard]] Eigen::VectorXd reactions_to_jump(int joint, int component) const;
+  [[nodiscard]] JumpResponse respond_to_jump(int joint) const;
 
  private:
   struct PortState;
-  [[nodiscard]] PortState solve_ports(const Eigen::VectorXd& port_loads,
-                                      const Eigen::VectorXd& offsets) const;
-  [[nodiscard]] Eigen::VectorXd unknowns_to_ports(const Eigen::VectorXd& unknowns) const;
-  [[nodiscard]] Eigen::VectorXd ports_to_unknowns(const Eigen::VectorXd& forces) const;
-  [[nodiscard]] Eigen::VectorXd joint_reactions(const Eigen::VectorXd& port_forces) const;
+  [[nodiscard]] PortState solve_ports(const Eigen::MatrixXd& port_loads, const Eigen::MatrixXd& offsets,
+                                      double force_scale) const;
+  [[nodiscard]] Eigen::MatrixXd unknowns_to_ports(const Eigen::MatrixXd& unknowns) const;
+  [[nodiscard]] Eigen::MatrixXd ports_to_unknowns(const Eigen::MatrixXd& forces) const;
+  [[nodiscard]] Eigen::MatrixXd reactions_of(const Eigen::MatrixXd& port_forces) const;
   void assemble();
 
   const Bodies* bodies_;
