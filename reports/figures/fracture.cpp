@@ -106,14 +106,6 @@ std::string diamonds(const Drawing& drawing, const std::vector<sim::Joint>& join
   return path;
 }
 
-// 1, 2 or 5 times a power of ten, not above `limit`.
-double round_down(double limit) {
-  const double power = std::pow(10.0, std::floor(std::log10(limit)));
-  for (const double step : {5.0, 2.0})
-    if (step * power <= limit) return step * power;
-  return power;
-}
-
 // Stretches the largest displacement to about 3 % of the specimen; at least 1.
 double magnification_of(const Drawing& drawing) {
   double largest = 0.0;
@@ -137,22 +129,23 @@ std::pair<Point, Point> extent(const Drawing& drawing) {
 // What stands below the specimen: the two kinds of joint, the magnification, the scale bar.
 std::string legend(const Drawing& drawing, std::size_t head_tail, std::size_t flank) {
   const double bar = round_down(0.25 * drawing.assembly.width);
-  return fmt::format(
-      "<path class=\"head\" d=\"M10 4l3 3-3 3-3-3z\"/><text x=\"26\" y=\"12\">head-tail joint, "
-      "broken "
-      "({})</text><path class=\"flank\" d=\"M2 27h16\"/><text x=\"26\" y=\"32\">flank joint, "
-      "broken "
-      "({})</text><text x=\"270\" y=\"12\">displacements × {}</text>"
-      "<path class=\"ink\" d=\"M270 23v8m0-4h{:.2f}m0-4v8\"/><text x=\"{:.1f}\" y=\"32\">{} "
-      "µm</text>",
-      head_tail, flank, setting(drawing.magnification), drawing.scale * bar,
-      278.0 + drawing.scale * bar, setting(bar / in::um));
+  return fmt::format(R"(<path class="head" d="M10 4l3 3-3 3-3-3z"/>
+<text x="26" y="12">head-tail joint, broken ({})</text>
+<path class="flank" d="M2 27h16"/><text x="26" y="32">flank joint, broken ({})</text>
+<text x="270" y="12">displacements × {}</text>
+<path class="ink" d="M270 23v8m0-4h{:.2f}m0-4v8"/><text x="{:.1f}" y="32">{} µm</text>)",
+                     head_tail, flank, setting(drawing.magnification), drawing.scale * bar,
+                     278.0 + drawing.scale * bar, setting(bar / in::um));
+}
+
+std::string path(std::string_view name, const std::string& data) {
+  return fmt::format("<path class=\"{}\" d=\"{}\"/>\n", name, data);
 }
 
 // An arrow outwards on either side: the loading direction.
 std::string arrows(double left, double right, double middle) {
   return fmt::format(
-      "<path class=\"ink\" d=\"M{:.1f} {:.1f}h-34m7-6l-7 6 7 6M{:.1f} {:.1f}h34m-7-6l7 6-7 6\"/>",
+      R"(<path class="ink" d="M{:.1f} {:.1f}h-34m7-6l-7 6 7 6M{:.1f} {:.1f}h34m-7-6l7 6-7 6"/>)",
       left - 10.0, middle, right + 10.0, middle);
 }
 
@@ -177,22 +170,19 @@ std::string fracture_svg(const sim::Assembly& assembly, const sim::Simulation& s
   const auto [low, high] = extent(drawing);
   constexpr double side = 54.0, above = 8.0, below = 60.0;
   const double width = std::max(high.x() - low.x() + 2.0 * side, 600.0);
+  const double x = 0.5 * (low.x() + high.x() - width);
   return fmt::format(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"fracture\" role=\"img\" "
-             "width=\"100%\" "
-             "viewBox=\"{:.1f} {:.1f} {:.1f} {:.1f}\"><title>The broken assembly: {} head-tail and "
-             "{} flank "
-             "joints broken, loaded along the horizontal</title>{}",
-             0.5 * (low.x() + high.x() - width), low.y() - above, width,
-             high.y() - low.y() + above + below, head_tail.size(), flank.size(), style) +
-         fmt::format("<path class=\"fibre\" d=\"{}\"/>\n", fibres(drawing)) +
-         fmt::format("<path class=\"gap flank\" d=\"{}\"/>\n", gaps(drawing, flank)) +
-         fmt::format("<path class=\"gap head\" d=\"{}\"/>\n", gaps(drawing, head_tail)) +
-         fmt::format("<path class=\"head\" d=\"{}\"/>\n", diamonds(drawing, head_tail)) +
+             R"(<svg xmlns="http://www.w3.org/2000/svg" class="fracture" role="img" width="100%"
+ viewBox="{:.1f} {:.1f} {:.1f} {:.1f}">
+<title>The broken assembly: {} head-tail and {} flank joints broken, loaded along the horizontal</title>
+{})",
+             x, low.y() - above, width, high.y() - low.y() + above + below, head_tail.size(),
+             flank.size(), style) +
+         path("fibre", fibres(drawing)) + path("gap flank", gaps(drawing, flank)) +
+         path("gap head", gaps(drawing, head_tail)) + path("head", diamonds(drawing, head_tail)) +
          arrows(low.x(), high.x(), 0.5 * (low.y() + high.y())) +
-         fmt::format("<g transform=\"translate({:.1f} {:.1f})\">{}</g></svg>\n",
-                     0.5 * (low.x() + high.x() - width) + side, high.y() + 18.0,
-                     legend(drawing, head_tail.size(), flank.size()));
+         fmt::format("<g transform=\"translate({:.1f} {:.1f})\">{}</g></svg>\n", x + side,
+                     high.y() + 18.0, legend(drawing, head_tail.size(), flank.size()));
 }
 
 }  // namespace havers::reports

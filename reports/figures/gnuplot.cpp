@@ -71,10 +71,9 @@ std::string last_line(std::string text) {
 
 std::string sentence_svg(std::string_view sentence) {
   return fmt::format(
-      "<svg role=\"img\" width=\"100%\" viewBox=\"0 0 640 40\" "
-      "xmlns=\"http://www.w3.org/2000/svg\">"
-      "<text x=\"8\" y=\"25\" font-family=\"sans-serif\" font-size=\"13\" "
-      "fill=\"#a03000\">{}</text></svg>\n",
+      R"(<svg role="img" width="100%" viewBox="0 0 640 40" xmlns="http://www.w3.org/2000/svg">
+<text x="8" y="25" font-family="sans-serif" font-size="13" fill="#a03000">{}</text></svg>
+)",
       escaped(std::string(sentence)));
 }
 

@@ -86,23 +86,21 @@ Figure intervals_figure(const std::vector<FitReport>& fits, const std::string& i
 
 std::string interval_bar(const calib::CalibratedParameter& parameter) {
   constexpr double left = 4.0, width = 192.0;
-  const auto [low, high] = parameter.bounds;
+  const double low = parameter.bounds[0], high = parameter.bounds[1];
   if (!std::isfinite(parameter.value) || !(high > low)) return {};
   const auto at = [&](double value) {
     return left + width * std::clamp((value - low) / (high - low), 0.0, 1.0);
   };
   std::string svg = fmt::format(
-      "<svg class=\"bar\" role=\"img\" viewBox=\"0 0 200 16\" width=\"200\" "
-      "height=\"16\"><title>interval "
-      "between the bounds {} and {}</title><path d=\"M{:.1f} 8H{:.1f}M{:.1f} 4V12M{:.1f} 4V12\" "
-      "stroke=\"#999\" fill=\"none\"/>",
+      R"(<svg class="bar" role="img" viewBox="0 0 200 16" width="200" height="16"><title>interval between )"
+      R"(the bounds {} and {}</title><path d="M{:.1f} 8H{:.1f}M{:.1f} 4V12M{:.1f} 4V12" stroke="#999" )"
+      R"(fill="none"/>)",
       setting(low), setting(high), left, left + width, left, left + width);
   const auto [from, to] = parameter.interval_95;
   if (std::isfinite(from) && std::isfinite(to))
-    svg +=
-        fmt::format("<rect x=\"{:.1f}\" y=\"5\" width=\"{:.1f}\" height=\"6\" fill=\"#56a0cf\"/>",
-                    at(from), std::max(2.0, at(to) - at(from)));
-  return svg + fmt::format("<path d=\"M{:.1f} 2V14\" stroke=\"#003a5d\" stroke-width=\"2\"/></svg>",
+    svg += fmt::format(R"(<rect x="{:.1f}" y="5" width="{:.1f}" height="6" fill="#56a0cf"/>)",
+                       at(from), std::max(2.0, at(to) - at(from)));
+  return svg + fmt::format(R"(<path d="M{:.1f} 2V14" stroke="#003a5d" stroke-width="2"/></svg>)",
                            at(parameter.value));
 }
 

@@ -61,6 +61,7 @@ ProcessResult run_process(std::vector<std::string> command, const std::string& i
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), write, 0600);
 
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (std::string& argument : command) arguments.push_back(argument.data());
   arguments.push_back(nullptr);
   pid_t pid = 0;

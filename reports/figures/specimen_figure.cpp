@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "reports/figures/figures.hpp"
 #include "reports/figures/thin.hpp"
 #include "reports/text/format.hpp"
@@ -22,7 +25,7 @@ unset key
 set xtics format '%g'
 set xlabel 'Strain (%)' offset 0,0.5
 set ylabel "Simulated −\nmeasured (MPa)" offset 0,0
-set yrange [*:*]
+{tics}set yrange [*:*]
 set xzeroaxis lt 1 lw 1 lc rgb grey
 plot $residual using ($1*100):($2*1e-6) with filledcurves y1=0 lc rgb band, \
   $residual using ($1*100):($2*1e-6) with lines lw 1.5 lc rgb blue
@@ -34,6 +37,17 @@ Points measured_points(const calib::SpecimenResult& specimen) {
   if (!specimen.measured.strain.empty())
     return thin(specimen.measured.strain, specimen.measured.stress);
   return thin(specimen.band.strain, specimen.band.measured);
+}
+
+// Few enough tics for a low panel.
+std::string residual_tics(const std::vector<double>& residual) {
+  double low = 0.0, high = 0.0;
+  for (const double value : residual) {
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value / in::MPa);
+    high = std::max(high, value / in::MPa);
+  }
+  return high > low ? fmt::format("set ytics {}\n", round_down((high - low) / 2.5)) : "";
 }
 
 }  // namespace
@@ -55,6 +69,7 @@ Figure specimen_figure(const calib::SpecimenResult& specimen, const std::string&
       data_block("residual", {band.strain, band.residual}) +
       data_block("peak", {peak_strain, peak_stress}) +
       fmt::format(commands, fmt::arg("range", range), fmt::arg("top", panel(0.40, 0.89)),
+                  fmt::arg("tics", residual_tics(band.residual)),
                   fmt::arg("bottom", panel(0.145, 0.365)));
   return figure;
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -41,7 +42,8 @@ std::string group_data(int number, const std::vector<const calib::SpecimenResult
 
 // Filled symbols were fitted, open ones only validated; the shape tells the orientation.
 std::string group_plot(int number, const Group& group, int shape) {
-  constexpr std::string_view colours[] = {"blue", "red", "green", "purple", "orange"};
+  constexpr std::array<std::string_view, 5> colours{"blue", "red", "green", "purple", "orange"};
+  const auto style = static_cast<std::size_t>(shape) % colours.size();
   const bool fitted = group.second == calib::Use::fit;
   return fmt::format(
       ", $group{0} using ($1*1e-6):($2*1e-6):($3*1e-6):($4*1e-6) with xyerrorbars pt {1} ps 1.2 lw "
@@ -49,7 +51,7 @@ std::string group_plot(int number, const Group& group, int shape) {
       "lc rgb {2} title '{3}°{4}', "
       "$group{0} using ($1*1e-6):($2*1e-6):5 with labels noenhanced left offset 0.9,-0.7 "
       "font ',11' tc rgb '#555555' notitle",
-      number, 5 + 2 * (shape % 5) - (fitted ? 0 : 1), colours[shape % 5], group.first,
+      number, 5 + 2 * style - (fitted ? 0 : 1), colours.at(style), group.first,
       fitted ? "" : ", validation");
 }
 

@@ -19,7 +19,7 @@ Points finite_points(std::span<const double> x, std::span<const double> y) {
 }  // namespace
 
 Points thin(std::span<const double> x, std::span<const double> y, std::size_t limit) {
-  const Points all = finite_points(x, y);
+  Points all = finite_points(x, y);
   if (all.x.size() <= limit) return all;
   Points kept;
   const auto keep = [&](std::size_t i) {

@@ -100,6 +100,13 @@ std::string prefixed(double value, std::string_view unit, int digits) {
   return quantity(value / prefix.factor, fmt::format("{}{}", prefix.symbol, unit), digits);
 }
 
+double round_down(double limit) {
+  const double power = std::pow(10.0, std::floor(std::log10(limit)));
+  for (const double step : {5.0, 2.0})
+    if (step * power <= limit) return step * power;
+  return power;
+}
+
 std::string plain(std::string_view text) {
   std::string result;
   for (const char c : text) {

@@ -46,6 +46,9 @@ Prefix prefix_for(double magnitude);
 /// "20.0 ns": the number brought between 1 and 1000 by a prefix of the unit.
 std::string prefixed(double value, std::string_view unit, int digits = 3);
 
+/// 1, 2 or 5 times a power of ten, not above `limit` > 0.
+double round_down(double limit);
+
 /// Characters that could end a quoted string or a line of a gnuplot script, replaced.
 std::string plain(std::string_view text);
 

@@ -69,6 +69,12 @@ TEST(Prefix, BringsTheNumberAboveOne) {
   EXPECT_EQ(prefixed(2e-8, "s"), "20.0\u00a0ns");
 }
 
+TEST(RoundDown, FindsOneTwoOrFiveTimesAPowerOfTen) {
+  EXPECT_DOUBLE_EQ(round_down(7.5), 5.0);
+  EXPECT_DOUBLE_EQ(round_down(0.0499), 0.02);
+  EXPECT_DOUBLE_EQ(round_down(199.0), 100.0);
+}
+
 TEST(Plain, LeavesNothingThatEndsAStringOrALine) {
   EXPECT_EQ(plain("a'b\"c`d\\e\nEOD"), "a_b_c_d_e EOD");
   EXPECT_EQ(plain("Fémur A"), "Fémur A");
