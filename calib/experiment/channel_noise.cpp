@@ -18,8 +18,10 @@ double median(std::vector<double> values) {
 // and jumps.
 double noise_of(std::span<const double> values) {
   std::vector<double> differences;
-  for (std::size_t i = 1; i + 1 < values.size(); ++i)
-    differences.push_back(std::abs(values[i - 1] - 2.0 * values[i] + values[i + 1]));
+  for (std::size_t i = 1; i + 1 < values.size(); ++i) {
+    const double difference = std::abs(values[i - 1] - 2.0 * values[i] + values[i + 1]);
+    if (std::isfinite(difference)) differences.push_back(difference);
+  }
   constexpr double normal_sd_per_median = 1.4826;
   return normal_sd_per_median * median(std::move(differences)) / std::sqrt(6.0);
 }

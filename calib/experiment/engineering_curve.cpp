@@ -34,8 +34,26 @@ void take_stress(const RawTest& raw, EngineeringCurve& curve) {
   }
 }
 
-// (X2)
-void take_strain(const RawTest& raw, EngineeringCurve& curve) {
+// (X2) The crosshead's extension over the gauge length, less what the machine gives way.
+void take_crosshead(const RawTest& raw, double machine_compliance, EngineeringCurve& curve) {
+  const bool corrected = machine_compliance > 0.0 && !raw.force.empty();
+  curve.strain.reserve(raw.extension.size());
+  for (std::size_t i = 0; i < raw.extension.size(); ++i) {
+    const double machine = corrected ? machine_compliance * raw.force[i] : 0.0;
+    curve.strain.push_back((raw.extension[i] - machine) / *raw.gauge_length);
+  }
+  if (corrected)
+    curve.corrections.push_back(
+        {"machine compliance",
+         fmt::format("{:.4g} mm per kN of force taken off the crosshead's extension",
+                     machine_compliance * 1e6)});
+  else
+    curve.warnings.emplace_back(
+        "no gauge: strain is the crosshead's extension over the gauge length, which contains the "
+        "compliance of the machine; the modulus is too low by it");
+}
+
+void take_strain(const RawTest& raw, double machine_compliance, EngineeringCurve& curve) {
   if (!raw.strain.empty()) {
     curve.strain = raw.strain;
   } else if (raw.extension.empty()) {
@@ -45,13 +63,7 @@ void take_strain(const RawTest& raw, EngineeringCurve& curve) {
         "no strain was recorded, and the gauge length that would turn extension into strain is "
         "unknown");
   } else {
-    curve.strain.reserve(raw.extension.size());
-    for (const double extension : raw.extension)
-      curve.strain.push_back(extension / *raw.gauge_length);
-    curve.warnings.emplace_back(
-        "no gauge: strain is the crosshead's extension over the gauge length, which contains the "
-        "compliance "
-        "of the machine; the modulus is too low by it");
+    take_crosshead(raw, machine_compliance, curve);
   }
 }
 
@@ -61,13 +73,13 @@ bool all_finite(const std::vector<double>& values) {
 
 }  // namespace
 
-EngineeringCurve engineering_curve(const RawTest& raw) {
+EngineeringCurve engineering_curve(const RawTest& raw, double machine_compliance) {
   assert(raw.force.empty() || raw.stress.empty() || raw.force.size() == raw.stress.size());
   assert(raw.strain.empty() || raw.strain.size() == raw.rows());
   assert(raw.extension.empty() || raw.extension.size() == raw.rows());
   EngineeringCurve curve;
   take_stress(raw, curve);
-  take_strain(raw, curve);
+  take_strain(raw, machine_compliance, curve);
   if (!curve.problems.empty()) return curve;
   if (raw.rows() < fewest_rows)
     curve.problems.push_back(fmt::format("{} rows are too few", raw.rows()));

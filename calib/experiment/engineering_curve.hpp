@@ -13,12 +13,13 @@ struct EngineeringCurve {
   std::vector<double> strain;  ///< [-]
   std::vector<double> stress;  ///< [Pa]
   double area = 0.0;           ///< 0 where unknown. [m²]
+  std::vector<Correction> corrections;
   std::vector<std::string> warnings;
   std::vector<std::string> problems;
 };
 
 /// (X1) stress from force and area, else the machine's; (X2) strain from the gauge, else from the
-/// crosshead.
-EngineeringCurve engineering_curve(const RawTest& raw);
+/// crosshead less what the machine gives way (`machine_compliance` [m/N]).
+EngineeringCurve engineering_curve(const RawTest& raw, double machine_compliance = 0.0);
 
 }  // namespace havers::calib

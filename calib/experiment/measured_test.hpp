@@ -8,7 +8,8 @@
 
 namespace havers::calib {
 
-/// How a raw test is reduced. Equations (X1)... in calib/experiment/README.md.
+/// How a raw test is reduced. Equations (X1)... in calib/experiment/README.md. Every correction has
+/// a switch.
 struct ReductionOptions {
   double window_low = 0.1;     ///< Modulus window, lower end, part of the strength. [-]
   double window_high = 0.4;    ///< Modulus window, upper end, part of the strength. [-]
@@ -19,12 +20,13 @@ struct ReductionOptions {
   bool cut_after_break = true;  ///< Drop the rows after the specimen has parted.
   double break_part =
       0.5;  ///< Stress after the maximum that counts as parted, part of the strength. [-]
-};
-
-/// A correction that was applied, for the report: what, and by how much.
-struct Correction {
-  std::string what;    ///< "toe", "preload", "cut after break", ...
-  std::string detail;  ///< With number and unit.
+  bool remove_spikes = true;  ///< Replace single rows that stand out of force or strain (X11).
+  bool spread_repeated_times = true;  ///< Give rows that share a time times of their own (X12).
+  bool mend_slips = true;  ///< Take back the jumps of a slipping extensometer (X13), (X14).
+  double machine_compliance = 0.0;     ///< Taken off the crosshead where there is no gauge. [m/N]
+  bool quality_control = true;         ///< Reject a test whose numbers mean little (X16).
+  double largest_modulus_error = 0.2;  ///< Standard error, part of the modulus (X16). [-]
+  double largest_noise = 0.05;         ///< Of the stress, part of the strength (X16). [-]
 };
 
 /// Stress against strain, corrected, and what follows from it. Engineering stress throughout.
@@ -43,17 +45,19 @@ struct MeasuredTest {
   double strength_standard_error = 0.0;  ///< From the noise of the force channel. [Pa]
   double failure_strain = 0.0;           ///< Corrected strain at the strength. [-]
   double strain_rate = 0.0;  ///< Median over the loading; 0 where time was not recorded. [1/s]
+  double energy_to_failure = 0.0;  ///< ∫ σ dε up to the strength (X15). [J/m³]
   double linearity = 1.0;  ///< Strength / (modulus · failure strain): 1 when linear to failure. [-]
   std::vector<Correction> corrections;
   std::vector<std::string> warnings;  ///< A sentence each.
 };
 
 /// Reduces a test. A test that cannot be reduced (no rows, no strain, no area) says why in
-/// `problems` and leaves the numbers at zero.
+/// `problems` and leaves the numbers at zero; one that quality control rejects says why and keeps
+/// them.
 struct Reduction {
   MeasuredTest test;
   std::vector<std::string> problems;
 };
-Reduction reduce_test(const RawTest& raw, const ReductionOptions& options = {});
+Reduction reduce_test(const RawTest& recorded, const ReductionOptions& options = {});
 
 }  // namespace havers::calib

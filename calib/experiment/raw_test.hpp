@@ -7,6 +7,12 @@
 
 namespace havers::calib {
 
+/// A correction that was applied, for the report: what, and by how much.
+struct Correction {
+  std::string what;    ///< "toe", "preload", "cut after break", ...
+  std::string detail;  ///< With number and unit.
+};
+
 /// Channels of equal length; an empty one was not recorded.
 struct RawTest {
   std::string specimen_id;        ///< As the file names it; may be empty.
@@ -16,12 +22,16 @@ struct RawTest {
   std::vector<double> strain;     ///< Gauge or extensometer. [-]
   std::vector<double>
       stress;  ///< As the machine computed it; used only where force or area is unknown. [Pa]
+  std::vector<double> volts;  ///< Of a gauge or load cell whose factor is not known yet. [V]
   std::optional<double> width, thickness;  ///< Of the specimen. [m]
   std::optional<double> area;              ///< Used where width or thickness is unknown. [m²]
   std::optional<double> gauge_length;      ///< [m]
+  std::vector<Correction> corrections;     ///< What was done before the reduction.
   std::vector<std::string> warnings;       ///< What the reader noticed, a sentence each.
 
-  [[nodiscard]] std::size_t rows() const { return force.empty() ? stress.size() : force.size(); }
+  [[nodiscard]] std::size_t rows() const {
+    return force.empty() ? (stress.empty() ? time.size() : stress.size()) : force.size();
+  }
 };
 
 }  // namespace havers::calib

@@ -5,9 +5,12 @@
 #include <cmath>
 
 #include "calib/experiment/channel_noise.hpp"
+#include "calib/experiment/clean_channels.hpp"
 #include "calib/experiment/engineering_curve.hpp"
+#include "calib/experiment/gauge_slip.hpp"
 #include "calib/experiment/measured_test.hpp"
 #include "calib/experiment/modulus.hpp"
+#include "calib/experiment/quality.hpp"
 
 namespace havers::calib {
 namespace {
@@ -96,40 +99,83 @@ void remove_toe(MeasuredTest& test, const Line& line) {
   test.corrections.push_back({"toe", detail});
 }
 
-}  // namespace
+// (X15) Trapezia up to the strength, from the origin, which the first row may lie above.
+double energy_to(const MeasuredTest& test, std::size_t peak) {
+  double energy = 0.5 * test.stress.front() * test.strain.front();
+  for (std::size_t i = 1; i <= peak; ++i)
+    energy += 0.5 * (test.stress[i] + test.stress[i - 1]) * (test.strain[i] - test.strain[i - 1]);
+  return energy;
+}
 
-Reduction reduce_test(const RawTest& raw, const ReductionOptions& options) {
-  assert(raw.time.empty() || raw.time.size() == raw.rows());
-  EngineeringCurve curve = engineering_curve(raw);
-  Reduction reduction;
-  reduction.problems = std::move(curve.problems);
-  if (!reduction.problems.empty()) return reduction;
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
 
+MeasuredTest uncorrected(const RawTest& raw, EngineeringCurve curve) {
   MeasuredTest test;
   test.strain = std::move(curve.strain);
   test.stress = std::move(curve.stress);
   test.time = raw.time;
   test.area = curve.area;
+  test.corrections = raw.corrections;
+  append(test.corrections, curve.corrections);
   test.warnings = raw.warnings;
-  test.warnings.insert(test.warnings.end(), curve.warnings.begin(), curve.warnings.end());
+  append(test.warnings, curve.warnings);
+  return test;
+}
 
-  find_strength(raw, test);
-  note_preload(test);
-  if (options.cut_after_break) cut_after_break(test, options.break_part);
-  ModulusFit fit;
-  if (std::string problem = take_modulus(test, options, fit); !problem.empty()) {
-    reduction.problems.push_back(std::move(problem));
-    return reduction;
-  }
-  if (options.remove_toe) remove_toe(test, fit.line);
+// Only a gauge slips: a crosshead does not.
+std::string mend_gauge(const RawTest& raw, const ReductionOptions& options, MeasuredTest& test) {
+  if (!options.mend_slips || raw.strain.empty()) return {};
+  const SlipRepair repair = mend_slips(test.strain, test.stress, raw.extension);
+  append(test.corrections, repair.corrections);
+  append(test.warnings, repair.warnings);
+  return repair.problem;
+}
 
+// A machine that is stopped by hand leaves a record without a break.
+void note_missing_break(MeasuredTest& test) {
+  if (row_of_strength(test) + 1 < test.stress.size()) return;
+  test.warnings.emplace_back(
+      "the record ends at its largest stress: no break was seen, and the strength is a lower "
+      "bound if the test was stopped");
+}
+
+void take_failure(MeasuredTest& test) {
   const std::size_t peak = row_of_strength(test);
   test.failure_strain = test.strain[peak];
+  test.energy_to_failure = energy_to(test, peak);
   if (!test.time.empty())
     test.strain_rate =
         median_rate(std::span(test.strain).first(peak + 1), std::span(test.time).first(peak + 1));
   test.linearity = test.strength / (test.modulus * test.failure_strain);  // (X10)
-  reduction.test = std::move(test);
+}
+
+}  // namespace
+
+Reduction reduce_test(const RawTest& recorded, const ReductionOptions& options) {
+  assert(recorded.time.empty() || recorded.time.size() == recorded.rows());
+  RawTest raw = recorded;
+  clean_channels(raw, options);
+  EngineeringCurve curve = engineering_curve(raw, options.machine_compliance);
+  if (!curve.problems.empty()) return {{}, std::move(curve.problems)};
+
+  MeasuredTest test = uncorrected(raw, std::move(curve));
+  find_strength(raw, test);
+  note_preload(test);
+  note_missing_break(test);
+  if (std::string problem = mend_gauge(raw, options, test); !problem.empty())
+    return {{}, {std::move(problem)}};
+  if (options.cut_after_break) cut_after_break(test, options.break_part);
+  ModulusFit fit;
+  if (std::string problem = take_modulus(test, options, fit); !problem.empty())
+    return {{}, {std::move(problem)}};
+  if (options.remove_toe) remove_toe(test, fit.line);
+  take_failure(test);
+
+  Reduction reduction{std::move(test), {}};
+  if (options.quality_control) reduction.problems = rejections(reduction.test, options);
   return reduction;
 }
 

@@ -1,0 +1,119 @@
+#include "calib/experiment/gauge_slip.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/experiment/channel_noise.hpp"
+
+namespace havers::calib {
+namespace {
+
+constexpr std::size_t rows_before = 20;  // that tell how the specimen was going on
+constexpr double falling = 0.02;         // of the strength: load that a row may lose by noise
+constexpr double following = 0.2;        // of the strain to be expected that a sound gauge shows
+
+struct Record {
+  std::vector<double>& strain;
+  std::span<const double> stress;
+  std::size_t peak;
+  double smallest_jump;  // [-]
+
+  // Compliance of the specimen just before a row. [1/Pa]
+  [[nodiscard]] double compliance(std::size_t row) const {
+    const std::size_t first = row > rows_before ? row - rows_before : 0;
+    const double rise = stress[row] - stress[first];
+    return rise > 0.0 ? std::max(0.0, (strain[row] - strain[first]) / rise) : 0.0;
+  }
+  // (X13) The strain jumps back from this row to the next, the load does not.
+  [[nodiscard]] bool jumps(std::size_t row) const {
+    return strain[row] - strain[row + 1] > smallest_jump &&
+           stress[row + 1] > stress[row] - falling * stress[peak];
+  }
+};
+
+Record record_of(std::vector<double>& strain, std::span<const double> stress) {
+  const auto peak = static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin());
+  std::vector<double> steps;
+  for (std::size_t i = 1; i <= peak; ++i) steps.push_back(std::abs(strain[i] - strain[i - 1]));
+  const auto [low, high] =
+      std::minmax_element(strain.begin(), strain.begin() + static_cast<std::ptrdiff_t>(peak) + 1);
+  const double smallest =
+      std::max({10.0 * noise_of(strain), 5.0 * median(std::move(steps)), 0.01 * (*high - *low)});
+  return {strain, stress, peak, smallest};
+}
+
+// Whether the strain goes on after the jump as the load does.
+bool fell_off(const Record& record, std::size_t before, std::size_t after) {
+  const double load = record.stress[record.peak] - record.stress[after];
+  const double expected = load * record.compliance(before);
+  if (expected < record.smallest_jump) return false;
+  return record.strain[record.peak] - record.strain[after] < following * expected;
+}
+
+std::string place(const Record& record, std::size_t row) {
+  return fmt::format("at {:.4g} MPa, {:.0f} % of the strength", record.stress[row] * 1e-6,
+                     100.0 * record.stress[row] / record.stress[record.peak]);
+}
+
+// (X14)
+void continue_with_crosshead(Record& record, std::span<const double> extension, std::size_t row,
+                             SlipRepair& repair) {
+  const std::size_t first = row > rows_before ? row - rows_before : 0;
+  const double travel = extension.empty() ? 0.0 : extension[row] - extension[first];
+  if (travel <= 0.0 || record.strain[row] <= record.strain[first]) {
+    repair.problem = fmt::format(
+        "the gauge fell off {}, and no crosshead tells the strain after it: the failure strain is "
+        "unknown",
+        place(record, row));
+    return;
+  }
+  const double ratio = (record.strain[row] - record.strain[first]) / travel;
+  for (std::size_t i = row + 1; i < record.strain.size(); ++i)
+    record.strain[i] = record.strain[row] + ratio * (extension[i] - extension[row]);
+  repair.corrections.push_back(
+      {"gauge fell off", fmt::format("{}; from there the strain is the crosshead's, {:.4g} per mm "
+                                     "as just before",
+                                     place(record, row), ratio * 1e-3)});
+  repair.warnings.push_back(fmt::format(
+      "the gauge fell off {}: the failure strain rests on the crosshead", place(record, row)));
+}
+
+void take_back(Record& record, std::size_t before, std::size_t after, SlipRepair& repair) {
+  const double rise = record.stress[after] - record.stress[before];
+  const double jump = record.strain[before] - record.strain[after] +
+                      std::max(0.0, rise) * record.compliance(before);
+  for (std::size_t i = after; i < record.strain.size(); ++i) record.strain[i] += jump;
+  repair.corrections.push_back(
+      {"gauge slip",
+       fmt::format("{}: the strain jumped back by {:.5f} % while the load went on; the rows after "
+                   "it are shifted",
+                   place(record, before), jump * 100.0)});
+}
+
+}  // namespace
+
+SlipRepair mend_slips(std::vector<double>& strain, std::span<const double> stress,
+                      std::span<const double> extension) {
+  SlipRepair repair;
+  Record record = record_of(strain, stress);
+  for (std::size_t row = 0; row < record.peak; ++row) {
+    if (!record.jumps(row)) continue;
+    std::size_t after = row + 1;  // a jump may take several rows
+    while (after < record.peak && record.jumps(after)) ++after;
+    if (fell_off(record, row, after)) {
+      continue_with_crosshead(record, extension, row, repair);
+      break;
+    }
+    take_back(record, row, after, repair);
+    row = after;
+  }
+  if (!repair.corrections.empty() && repair.warnings.empty())
+    repair.warnings.push_back(
+        fmt::format("the gauge slipped {} times: strains after that are uncertain by the jumps",
+                    repair.corrections.size()));
+  return repair;
+}
+
+}  // namespace havers::calib

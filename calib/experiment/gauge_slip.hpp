@@ -1,0 +1,25 @@
+// An extensometer that slips on the specimen, or falls off it.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "calib/experiment/measured_test.hpp"
+
+namespace havers::calib {
+
+/// What was done about it.
+struct SlipRepair {
+  std::vector<Correction> corrections;
+  std::vector<std::string> warnings;
+  std::string problem;  ///< Not empty: the gauge fell off and nothing tells the strain after it.
+};
+
+/// Takes back the jumps of the strain (X13) up to the largest stress; after a gauge that fell off,
+/// the strain goes on with the crosshead (X14). `extension` is empty where it was not recorded.
+/// Strain [-], stress [Pa], extension [m].
+SlipRepair mend_slips(std::vector<double>& strain, std::span<const double> stress,
+                      std::span<const double> extension);
+
+}  // namespace havers::calib
