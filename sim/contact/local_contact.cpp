@@ -87,12 +87,6 @@ int gauss_seidel(const LocalContact& p, VectorXd& y, States& states, int max_swe
   return max_sweeps;
 }
 
-VectorXd cohesions(const LocalContact& p) {
-  VectorXd c(static_cast<Index>(p.laws.size()));
-  for (Index i = 0; i < c.size(); ++i) c(i) = p.laws[static_cast<std::size_t>(i)].cohesion;
-  return c;
-}
-
 // Sets tried one after the other until one is right or comes back.
 LocalContactResult try_sets(const LocalContact& p, States states, int max_iterations) {
   LocalContactResult result;

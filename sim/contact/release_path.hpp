@@ -12,6 +12,9 @@ namespace havers::sim {
 LocalContactResult follow_release(const LocalContact& problem, std::vector<JointState> states,
                                   const Eigen::VectorXd& extra, int max_changes);
 
+/// c of every joint, n. [N/m]
+Eigen::VectorXd cohesions(const LocalContact& problem);
+
 /// e that lets every joint stick in the answer to y = −u₀: where a path can start when nothing better is known. [N/m]
 Eigen::VectorXd cohesion_to_stick(const LocalContact& problem);
 

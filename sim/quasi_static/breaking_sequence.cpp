@@ -6,7 +6,6 @@
 #include <memory>
 #include <utility>
 
-#include "sim/contact/joint_step.hpp"
 #include "sim/contact/local_contact.hpp"
 #include "sim/contact/loose_joints.hpp"
 #include "sim/contact/release_path.hpp"
@@ -22,8 +21,6 @@ using Eigen::VectorXd;
 
 // Joints that meet their cones at strains closer than this break together, whatever their order.
 constexpr double together = 1e-9;
-// Loose joints from which on a new factor without the open ones is cheaper than dragging them along.
-constexpr std::size_t worth_detaching = 64;
 
 // The structure as it is between two events. Its answer is proportional to the strain: it is known from ε = 1.
 class BreakingRun {
@@ -43,18 +40,9 @@ class BreakingRun {
 
  private:
   [[nodiscard]] double meets_cone_at(std::size_t joint) const;
-  bool settle_loose();
-  void detach(std::vector<char> detached);
-  bool detach_opened();
-  bool reattach_closed();
-  [[nodiscard]] std::vector<char> carried() const;
 
   const Scene& scene_;
   std::shared_ptr<const IntactStructure> intact_;
-  std::unique_ptr<Structure> own_;  // without the detached joints; null: the intact one
-  std::vector<char> detached_;
-  UnitAnswer base_;                 // of the structure, loose joints held at 0
-  Eigen::VectorXd base_gaps_;       // what the detached joints do in it
   LooseJoints loose_;
   std::vector<JointState> states_;  // of the loose joints
   std::size_t settled_ = 0;         // of the loose joints, those that were loose before this event
@@ -72,11 +60,9 @@ class BreakingRun {
 BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact)
     : scene_(scene),
       intact_(std::move(intact)),
-      detached_(intact_->assembly().joints.size(), 0),
-      base_(intact_->answer()),
       loose_(intact_->structure().joints(), [this](int joint) { return intact_->respond_to_jump(joint); }),
-      reactions_(base_.reactions),
-      force_(base_.force),
+      reactions_(intact_->answer().reactions),
+      force_(intact_->answer().force),
       joints(initial_outcomes(draw_thresholds(scene, intact_->assembly()))) {}
 
 // ε = f_N μ_c / (|r_T| − μ_c r_N), section 6.
@@ -112,13 +98,13 @@ void BreakingRun::break_joints(double event, double strain) {
 }
 
 // Only what has just broken is released; the others follow from where they are.
-bool BreakingRun::settle_loose() {
+bool BreakingRun::settle() {
   const auto n = static_cast<Index>(loose_.size());
   LocalContact contact{loose_.stiffness(), VectorXd(2 * n), VectorXd::Zero(2 * n),
                        std::vector<JointLaw>(loose_.size(), broken_law(scene_.joints.friction))};
   for (Index i = 0; i < n; ++i)
     contact.r0.segment<2>(2 * i) =
-        base_.reactions.segment<2>(2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)]));
+        intact_->answer().reactions.segment<2>(2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)]));
   VectorXd extra = cohesion_to_stick(contact);
   extra.head(static_cast<Index>(settled_)).setZero();
   LocalContactResult result = follow_release(contact, states_, extra, scene_.solver.max_iterations);
@@ -130,88 +116,10 @@ bool BreakingRun::settle_loose() {
   states_ = result.states;
   settled_ = loose_.size();
   y_ = result.y;
-  reactions_ = base_.reactions + loose_.reactions_to(y_);
+  reactions_ = intact_->answer().reactions + loose_.reactions_to(y_);
   // By reciprocity the force at the end changes by r⁰·y/W.
-  force_ = base_.force + contact.r0.dot(y_) / intact_->assembly().width;
+  force_ = intact_->answer().force + contact.r0.dot(y_) / intact_->assembly().width;
   return result.converged;
-}
-
-bool BreakingRun::settle() {
-  bool solved = settle_loose();
-  if (solved && detach_opened()) solved = settle_loose();
-  while (solved && reattach_closed()) solved = settle_loose();
-  return solved;
-}
-
-// The structure without those joints. The other broken joints are loosened again, in the states that they had.
-void BreakingRun::detach(std::vector<char> detached) {
-  std::vector<int> again;
-  std::vector<JointState> states;
-  for (std::size_t j = 0; j < detached.size(); ++j) {
-    if (detached[j] != 0 || !joints[j].broken) continue;
-    const auto& known = loose_.joints();
-    const auto place = std::find(known.begin(), known.end(), static_cast<int>(j)) - known.begin();
-    again.push_back(static_cast<int>(j));
-    states.push_back(place < static_cast<long>(known.size()) ? states_[static_cast<std::size_t>(place)]
-                                                             : JointState::open);
-  }
-  detached_ = std::move(detached);
-  own_ = std::make_unique<Structure>(intact_->bodies(), detached_);
-  loose_ = LooseJoints(own_->joints(), [this](int joint) { return own_->respond_to_jump(joint); });
-  base_ = stretch(*own_, VectorXd::Zero(2 * own_->joints()), intact_->answer().reactions.norm());
-  base_gaps_ = joint_gaps(intact_->bodies(), base_.displacements);
-  for (const int joint : again) loose_.add(joint);
-  states_ = std::move(states);
-  settled_ = states_.size();
-}
-
-bool BreakingRun::detach_opened() {
-  if (loose_.size() < worth_detaching || !scene_.solver.leave_out) return false;
-  std::vector<char> detached = detached_;
-  for (std::size_t i = 0; i < loose_.size(); ++i)
-    if (states_[i] == JointState::open) detached[static_cast<std::size_t>(loose_.joints()[i])] = 1;
-  detach(std::move(detached));
-  return true;
-}
-
-// 1 for a body that bonded joints connect to an end. The position of any other is not determined without inertia.
-std::vector<char> BreakingRun::carried() const {
-  const Assembly& assembly = intact_->assembly();
-  std::vector<char> reached(assembly.bodies.size(), 0);
-  const auto mark_ends = [&](const std::vector<int>& nodes) {
-    for (std::size_t b = 0; b < assembly.bodies.size(); ++b)
-      for (const int node : nodes)
-        if (node >= assembly.bodies[b].first_node && node < assembly.bodies[b].first_node + assembly.bodies[b].nodes)
-          reached[b] = 1;
-  };
-  mark_ends(assembly.left);
-  mark_ends(assembly.right);
-  for (bool grew = true; grew;) {
-    grew = false;
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      if (joints[j].broken) continue;
-      char& a = reached[static_cast<std::size_t>(assembly.joints[j].body_a)];
-      char& b = reached[static_cast<std::size_t>(assembly.joints[j].body_b)];
-      grew = grew || a != b;
-      a = b = static_cast<char>(a | b);
-    }
-  }
-  return reached;
-}
-
-bool BreakingRun::reattach_closed() {
-  if (!own_) return false;
-  const VectorXd gaps = base_gaps_ + loose_.gaps_to(y_);
-  std::vector<char> attached = detached_;
-  const std::vector<char> held = carried();
-  for (std::size_t j = 0; j < attached.size(); ++j) {
-    const Joint& joint = intact_->assembly().joints[j];
-    const bool both = held[static_cast<std::size_t>(joint.body_a)] != 0 && held[static_cast<std::size_t>(joint.body_b)] != 0;
-    if (attached[j] != 0 && both && gaps(static_cast<Index>(2 * j)) < 0.0) attached[j] = 0;
-  }
-  if (attached == detached_) return false;
-  detach(std::move(attached));
-  return true;
 }
 
 CurvePoint BreakingRun::point(double strain) const {
@@ -233,8 +141,7 @@ void BreakingRun::finish(double strain, double energy_scale, Simulation& simulat
   for (std::size_t i = 0; i < loose_.size(); ++i)
     gaps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) = y_.segment<2>(static_cast<Index>(2 * i));
   const double scale = intact_->answer().reactions.norm();
-  const UnitAnswer last = stretch(own_ ? *own_ : intact_->structure(), gaps, scale);
-  gaps = joint_gaps(intact_->bodies(), last.displacements);
+  const UnitAnswer last = stretch(intact_->structure(), gaps, scale);
 
   const double young = scene_.material.young;
   simulation.displacements = strain * last.displacements;
@@ -245,7 +152,7 @@ void BreakingRun::finish(double strain, double energy_scale, Simulation& simulat
     joint.reaction_normal = young * strain * last.reactions(row);
     joint.reaction_tangent = young * strain * last.reactions(row + 1);
     joint.gap = strain * gaps(row);
-    if (detached_[j] == 0) simulation.worst_penetration = std::max(simulation.worst_penetration, -joint.gap);
+    simulation.worst_penetration = std::max(simulation.worst_penetration, -joint.gap);
   }
   const VectorXd& q = last.displacements;
   const double elastic = 0.5 * q.dot(VectorXd(intact_->bodies().stiffness_times(q)));
