@@ -2,22 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "io/input_error.hpp"
+#include "io/read_text.hpp"
 
 namespace havers::io {
 namespace {
 
 toml::table parse_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || std::filesystem::is_directory(file) || !(text << stream.rdbuf()))
-    throw InputError(file.string(), "cannot be read", "a TOML file is expected there");
+  const std::string text = read_text(file, "a TOML file is expected there");
   try {
-    return toml::parse(text.str(), file.string());
+    return toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
     throw InputError(fmt::format("{}:{}:{}", file.string(), at.line, at.column),

@@ -212,7 +212,6 @@ TableReader TableReader::table(std::string_view name) {
 std::vector<TableReader> TableReader::tables(std::string_view name) {
   const toml::node* node = ask(name);
   if (node == nullptr) return {};
-  file_->asked_[full(name)];
   const toml::array* list = node->as_array();
   const auto is_table = [](const toml::node& item) { return item.is_table(); };
   if (list == nullptr || !std::all_of(list->begin(), list->end(), is_table)) {
@@ -220,6 +219,7 @@ std::vector<TableReader> TableReader::tables(std::string_view name) {
              fmt::format("write [[{}]]", name));
     return {};
   }
+  file_->asked_[full(name)];
   std::vector<TableReader> readers;
   for (const toml::node& item : *list) readers.emplace_back(*file_, item.as_table(), full(name));
   return readers;

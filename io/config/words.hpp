@@ -6,6 +6,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "calib/fit/calibration.hpp"
 #include "calib/study/study.hpp"
 #include "sim/scene.hpp"
 
@@ -43,6 +44,13 @@ constexpr Words<3> words(calib::ToScatter) {
 }
 constexpr Words<2> words(calib::ToModulus) {
   return {"none", "power"};
+}
+
+constexpr Words<3> words(calib::Outcome) {
+  return {"pass", "warn", "fail"};
+}
+constexpr Words<5> words(calib::CalibrationStatus) {
+  return {"converged", "budget_spent", "all_failed", "nothing_to_fit", "cancelled"};
 }
 
 /// An enumeration that has words.

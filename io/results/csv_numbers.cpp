@@ -6,24 +6,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "io/input_error.hpp"
 #include "io/machine/csv_rows.hpp"
+#include "io/read_text.hpp"
 
 namespace havers::io {
 namespace {
-
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || std::filesystem::is_directory(file) || !(text << stream.rdbuf()))
-    throw InputError(file.string(), "cannot be read",
-                     "a CSV file with a header row is expected there");
-  return text.str();
-}
 
 // Takes rows one by one: the header first, then numbers.
 class Columns {
@@ -100,7 +90,7 @@ std::vector<CsvNumbers> read_csv_numbers(const std::filesystem::path& file,
                                          const std::vector<std::string>& names) {
   Columns columns(file.string(), names);
   CsvRows rows(',', [&](const Row& row) { return columns.take(row); });
-  rows.feed(read_text(file));
+  rows.feed(read_text(file, "a CSV file with a header row is expected there"));
   rows.finish();
   return columns.finish();
 }

@@ -39,7 +39,8 @@ nlohmann::json porosity_json(const calib::SectionPorosity& section, double scatt
 /// A scene in the keys of a scene file. Thresholds given joint by joint are named as the file
 /// joints.csv.
 nlohmann::json scene_json(const sim::Scene& scene);
-/// The same as a scene file, which read_scene takes back to an equal scene.
+/// The same as a scene file. read_scene gives the same scene back, to the last bit where its values
+/// came from keys, else to one rounding.
 std::string scene_toml(const sim::Scene& scene);
 
 /// curve.csv and joints.csv of a simulation.

@@ -9,13 +9,6 @@
 
 namespace havers::io {
 
-constexpr Words<3> words(calib::Outcome) {
-  return {"pass", "warn", "fail"};
-}
-constexpr Words<5> words(calib::CalibrationStatus) {
-  return {"converged", "budget_spent", "all_failed", "nothing_to_fit", "cancelled"};
-}
-
 template <class Table>
 void keys(Table& table, sim::Scene& scene) {
   table.key("assembly", scene.assembly);

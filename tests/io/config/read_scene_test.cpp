@@ -205,10 +205,10 @@ TEST_F(ReadScene, BlamesTheCommandLineForWhatItOverrides) {
   EXPECT_THAT(
       complaints("[joints]\nscatter = 0.3\n",
                  {"joints.scatter=3", "joints.frction=1", "solver.regime=fast"}),
-      ElementsAre("--set joints.scatter: is 3, must be at least 0 and below 2 (the length of the "
-                  "interval of threshold factors)",
-                  "--set solver.regime: is \"fast\", must be one of: auto, dynamic, quasi-static "
+      ElementsAre("--set solver.regime: is \"fast\", must be one of: auto, dynamic, quasi-static "
                   "(did you mean auto?)",
+                  "--set joints.scatter: is 3, must be at least 0 and below 2 (the length of the "
+                  "interval of threshold factors)",
                   "--set joints.frction: is not a known key (did you mean friction?)"));
   EXPECT_THAT(complaints("", {"joints.scatter", "=3"}),
               ElementsAre("--set joints.scatter: has no value (write --set joints.scatter=0.3)",

@@ -43,7 +43,8 @@ test::FitSample sample() {
 TEST(FitFolder, GivesBackTheWholeResult) {
   const test::ScratchFolder folder;
   const test::FitSample fit = sample();
-  Provenance provenance{.command = "havers fit study.toml -o r"};
+  Provenance provenance;
+  provenance.command = "havers fit study.toml -o r";
   provenance.havers = "9.9.9";
   provenance.inputs = {{"study.toml", "abcd"}};
   provenance.wall_seconds = 4.5;
@@ -94,7 +95,8 @@ TEST(FitFolder, GivesBackTheCurves) {
 
 TEST(CalibrationJson, HoldsTheKeysOfTheContract) {
   const test::FitSample fit = sample();
-  Provenance provenance{.command = "havers fit"};
+  Provenance provenance;
+  provenance.command = "havers fit";
   provenance.wall_seconds = 4.5;
   const nlohmann::json json = calibration_json(fit.study, fit.result, provenance);
   EXPECT_EQ(json["status"], "converged");

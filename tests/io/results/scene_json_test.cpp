@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "io/config/key_unit.hpp"
 #include "io/config/read_scene.hpp"
 #include "io/results/result_files.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -15,18 +15,18 @@ sim::Scene unusual_scene() {
   sim::Scene scene;
   scene.assembly = {.layers = 7,
                     .fibres = 5,
-                    .fibre_length = 123.456789e-6,
-                    .fibre_height = 7.1e-6,
-                    .orientation = 33.3 * std::numbers::pi / 180.0};
-  scene.material = {.young = 13.123456789012345e9,
+                    .fibre_length = to_si(123.456789, micrometre),
+                    .fibre_height = to_si(7.1, micrometre),
+                    .orientation = to_si(33.3, degree)};
+  scene.material = {.young = to_si(13.123456789012345, gigapascal),
                     .poisson = 1.0 / 3.0,
                     .density = 1987.6,
                     .plane = sim::Plane::strain,
                     .viscosity = 1e-7 / 3.0};
-  scene.joints.head_tail = 52.41e6;
-  scene.joints.flank = 9.87654321e6;
-  scene.joints.head_tail_shear = 33.3e6;
-  scene.joints.flank_tension = 21.7e6;
+  scene.joints.head_tail = to_si(52.41, megapascal);
+  scene.joints.flank = to_si(9.87654321, megapascal);
+  scene.joints.head_tail_shear = to_si(33.3, megapascal);
+  scene.joints.flank_tension = to_si(21.7, megapascal);
   scene.joints.scatter = 0.123;
   scene.joints.distribution = sim::Distribution::lognormal;
   scene.joints.friction = 0.17;

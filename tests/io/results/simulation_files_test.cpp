@@ -90,7 +90,8 @@ TEST(SimulationJson, HoldsTheKeysOfTheContract) {
       test::simulation_sample(build_assembly(scene.assembly, scene.loading.lateral));
   simulation.first_break_strain = test::nan;
   simulation.worst_penetration = std::numeric_limits<double>::infinity();
-  Provenance provenance{.command = "havers simulate s.toml -o r"};
+  Provenance provenance;
+  provenance.command = "havers simulate s.toml -o r";
   provenance.inputs = {{"s.toml", "abcd"}};
   provenance.wall_seconds = 1.5;
   provenance.cpu_seconds = 2.5;

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace havers::io {
+
+/// All of a file. @throws InputError with the hint when it cannot be read.
+std::string read_text(const std::filesystem::path& file, const std::string& hint);
+
+}  // namespace havers::io
