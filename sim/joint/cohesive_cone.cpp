@@ -1,16 +1,24 @@
 #include "sim/joint/cohesive_cone.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
 namespace havers::sim {
 
+namespace {
+
+// A cone without width leaves to rounding which way its joint slides.
+constexpr double least_friction = 1e-3;
+
+}  // namespace
+
 JointLaw intact_law(const Threshold& threshold) {
   assert(threshold.normal > 0.0);
-  return {threshold.normal, threshold.tangent / threshold.normal};
+  return {threshold.normal, std::max(threshold.tangent / threshold.normal, least_friction)};
 }
 
-JointLaw broken_law(double friction) { return {0.0, friction}; }
+JointLaw broken_law(double friction) { return {0.0, std::max(friction, least_friction)}; }
 
 double cone_margin(const Local& reaction, const JointLaw& law) {
   return law.friction * (reaction.x() + law.cohesion) - std::abs(reaction.y());

@@ -16,6 +16,7 @@ struct JointLaw {
   double friction = 0.0;  ///< μ. [-]
 };
 
+/// Friction below 0.001 counts as 0.001.
 JointLaw intact_law(const Threshold& threshold);
 JointLaw broken_law(double friction);
 
