@@ -47,7 +47,7 @@ std::string residual_tics(const std::vector<double>& residual) {
     low = std::min(low, value / in::MPa);
     high = std::max(high, value / in::MPa);
   }
-  return high > low ? fmt::format("set ytics {}\n", round_down((high - low) / 2.5)) : "";
+  return high > low ? fmt::format("set ytics {}\n", round_down((high - low) / 2.0)) : "";
 }
 
 }  // namespace
