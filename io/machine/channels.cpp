@@ -27,6 +27,8 @@ bool fits(Quantity quantity, Dimension dimension) {
       return dimension == Dimension::strain || dimension == Dimension::length;
     case Quantity::stress:
       return dimension == Dimension::stress;
+    case Quantity::volts:
+      return dimension == Dimension::voltage;
     case Quantity::other:
       return false;
   }
@@ -38,22 +40,25 @@ Quantity quantity_of_unit(const std::string& unit) {
   const std::optional<Unit> known = find_unit(unit);
   if (!known) return Quantity::other;
   for (const Quantity quantity :
-       {Quantity::time, Quantity::force, Quantity::extension, Quantity::stress})
+       {Quantity::time, Quantity::force, Quantity::extension, Quantity::stress, Quantity::volts})
     if (fits(quantity, known->dimension)) return quantity;
   return Quantity::other;
 }
 
+// What a column may be; the smaller the rank, the sooner it is taken.
 struct Candidate {
   Quantity quantity = Quantity::other;
-  bool named = false;
+  int rank = 0;
 };
+enum Rank { by_name, by_name_but_absolute, by_unit, ranks };
 
 Candidate classify(const Column& column) {
   const Quantity named = quantity_of_name(column.name);
   const std::optional<Unit> unit = find_unit(column.unit);
-  if (named != Quantity::other && column.unit.empty()) return {named, true};
-  if (named != Quantity::other && unit && fits(named, unit->dimension)) return {named, true};
-  return {quantity_of_unit(column.unit), false};
+  const Rank rank = is_absolute(column.name) ? by_name_but_absolute : by_name;
+  if (named != Quantity::other && column.unit.empty()) return {named, rank};
+  if (named != Quantity::other && unit && fits(named, unit->dimension)) return {named, rank};
+  return {quantity_of_unit(column.unit), by_unit};
 }
 
 // The user's word for a column: its name in the file, or its number from 1.
@@ -87,6 +92,8 @@ std::pair<double, const char*> unwritten_unit(Quantity quantity) {
       return {1.0, "s"};
     case Quantity::force:
       return {1.0, "N"};
+    case Quantity::volts:
+      return {1.0, "V"};
     case Quantity::strain:
     case Quantity::other:
       break;
@@ -137,12 +144,12 @@ Chosen take_hints(TestFile& file, const std::string& where, const ReadOptions& o
 
 // Named columns first; a second column of a quantity is not used, and that is said.
 void choose(TestFile& file, const std::vector<Candidate>& candidates, Chosen& chosen) {
-  for (const bool named : {true, false}) {
+  for (int rank = by_name; rank < ranks; ++rank) {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       Column& column = file.columns[i];
       const bool hinted =
           std::ranges::any_of(chosen, [&](const auto& entry) { return entry.second == i; });
-      if (hinted || candidates[i].named != named) continue;
+      if (hinted || candidates[i].rank != rank) continue;
       column.quantity = candidates[i].quantity;
       if (column.quantity == Quantity::other) continue;
       if (!is_usable(column, file.test)) {
@@ -158,6 +165,36 @@ void choose(TestFile& file, const std::vector<Candidate>& candidates, Chosen& ch
   }
 }
 
+constexpr const char* volt_hint =
+    "say what a volt is in [specimen.columns], as in force_unit = \"500 N/V\"";
+
+// A signal in volts is of use only to a logger, whose factor can be fitted.
+void need_load(TestFile& file, const std::string& where, Chosen& chosen) {
+  const auto volts = chosen.find(Quantity::volts);
+  const bool loaded = chosen.contains(Quantity::force) || chosen.contains(Quantity::stress);
+  if (volts != chosen.end()) {
+    const std::string what =
+        fmt::format("column \"{}\" is in volts", file.columns[volts->second].name);
+    if (!loaded) throw InputError(where, what, volt_hint);
+    file.test.warnings.push_back(fmt::format("{}: not used ({})", what, volt_hint));
+    chosen.erase(volts);
+  }
+  if (!loaded)
+    throw InputError(
+        where, "no column holds a force or a stress",
+        "the columns are " + list_of(file.columns) + "; name it in [specimen.columns]");
+}
+
+void need_gauge(const TestFile& file, const std::string& where, const Chosen& chosen) {
+  const bool measures = std::ranges::any_of(chosen, [](const auto& entry) {
+    return entry.first != Quantity::time && entry.first != Quantity::stress;
+  });
+  if (chosen.contains(Quantity::time) && measures) return;
+  throw InputError(
+      where, "a logger's file needs a time and a gauge",
+      "the columns are " + list_of(file.columns) + "; name them in [specimen.gauge_columns]");
+}
+
 }  // namespace
 
 std::vector<Channel> find_channels(TestFile& file, const Table& table, const ReadOptions& options) {
@@ -169,13 +206,14 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   }
   Chosen chosen = take_hints(file, where, options);
   choose(file, candidates, chosen);
-  if (!chosen.contains(Quantity::force) && !chosen.contains(Quantity::stress))
-    throw InputError(
-        where, "no column holds a force or a stress",
-        "the columns are " + list_of(file.columns) + "; name it in [specimen.columns]");
+  if (options.logger)
+    need_gauge(file, where, chosen);
+  else
+    need_load(file, where, chosen);
   std::vector<Channel> channels;
   for (const auto& [quantity, column] : chosen)
-    channels.push_back({quantity, column, factor(file.columns[column], file.test)});
+    channels.push_back(
+        {quantity, table.first_column + column, column, factor(file.columns[column], file.test)});
   return channels;
 }
 

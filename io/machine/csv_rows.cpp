@@ -35,7 +35,8 @@ void hand_on(State& state) {
   }
   const bool blank = state.text.empty() && state.ends.size() <= 1;
   if (state.wanted && !blank) state.wanted = state.take({state.line, state.cells});
-  state.line += static_cast<std::size_t>(std::ranges::count(state.text, state.line_end));
+  if (state.text.find(state.line_end) != std::string::npos)  // rarely: a quote spans lines
+    state.line += static_cast<std::size_t>(std::ranges::count(state.text, state.line_end));
   state.text.clear();
   state.ends.clear();
 }
@@ -85,6 +86,19 @@ std::size_t CsvRows::open_quote_line() const {
   const State& state = *state_;
   if (state.parser.quoted == 0 || state.parser.pstate != inside_cell) return 0;
   return state.line + static_cast<std::size_t>(std::ranges::count(state.text, state.line_end));
+}
+
+std::function<bool(const Row&)> requoted(char delimiter, std::function<bool(const Row&)> take) {
+  return [delimiter, take = std::move(take)](const Row& line) {
+    bool wanted = true;
+    CsvRows inner(delimiter, [&](const Row& row) {
+      wanted = take({line.line, row.cells});
+      return wanted;
+    });
+    inner.feed(line.cells[0]);
+    inner.finish();
+    return wanted;
+  };
 }
 
 }  // namespace havers::io

@@ -40,4 +40,9 @@ class CsvRows {
   std::unique_ptr<State> state_;
 };
 
+/// A `take` for lines that a spreadsheet has quoted as a whole, `"a,""1.0"",mm"`: cut them with
+/// `no_delimiter`, and this cuts them again.
+std::function<bool(const Row&)> requoted(char delimiter, std::function<bool(const Row&)> take);
+inline constexpr char no_delimiter = '\x1F';
+
 }  // namespace havers::io

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "io/machine/number.hpp"
 #include "io/machine/units.hpp"
@@ -19,6 +21,35 @@ HeaderLine header_line(const PreviewRow& row) {
   auto [key, unit] = split_unit(row.cells[0]);
   if (row.cells.size() > 2 && !row.cells[2].empty()) unit = without_brackets(row.cells[2]);
   return {key, row.cells[1], unit};
+}
+
+// "Width: 4.00 mm" in a single cell, as MTS writes its header.
+HeaderLine header_line(std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos) return {};
+  std::string_view value = text.substr(colon + 1);
+  while (value.starts_with(' ') || value.starts_with('\t')) value.remove_prefix(1);
+  const std::size_t blank = value.rfind(' ');
+  if (blank == std::string_view::npos || !find_unit(value.substr(blank + 1)))
+    return {std::string(text.substr(0, colon)), std::string(value), {}};
+  return {std::string(text.substr(0, colon)), std::string(value.substr(0, blank)),
+          std::string(value.substr(blank + 1))};
+}
+
+// A row is a line, or, where it is one cell, as many as the cell has.
+std::vector<HeaderLine> header_lines(const PreviewRow& row) {
+  const std::string& cell = row.cells[0];
+  const bool several = cell.find_first_of("\r\n") != std::string::npos;
+  const bool alone = std::ranges::all_of(std::span(row.cells).subspan(1),
+                                         [](const auto& other) { return other.empty(); });
+  if (!several && !alone) return {header_line(row)};
+  std::vector<HeaderLine> lines;
+  for (std::string_view rest = cell; !rest.empty();) {
+    const std::size_t length = std::min(rest.find_first_of("\r\n"), rest.size());
+    lines.push_back(header_line(rest.substr(0, length)));
+    rest.remove_prefix(std::min(length + 1, rest.size()));
+  }
+  return lines;
 }
 
 std::optional<double>& dimension_of(Fact fact, calib::RawTest& test) {
@@ -50,24 +81,25 @@ std::optional<double> size_of(const HeaderLine& line, Fact fact, char decimal,
   return number.value * unit->to_si;
 }
 
+void take_fact(const HeaderLine& line, std::size_t number, char decimal, calib::RawTest& test) {
+  const std::optional<Fact> fact = fact_of_key(line.key);
+  if (!fact || line.value.empty()) return;
+  if (*fact == Fact::specimen_id) {
+    if (test.specimen_id.empty()) test.specimen_id = line.value;
+    return;
+  }
+  std::string warning;
+  std::optional<double>& size = dimension_of(*fact, test);
+  if (!size) size = size_of(line, *fact, decimal, warning);
+  if (!warning.empty())
+    test.warnings.push_back(fmt::format("line {}, {}: {}", number, line.key, warning));
+}
+
 }  // namespace
 
 void read_facts(std::span<const PreviewRow> header, char decimal, calib::RawTest& test) {
-  for (const PreviewRow& row : header) {
-    if (row.cells.size() < 2) continue;
-    const HeaderLine line = header_line(row);
-    const std::optional<Fact> fact = fact_of_key(line.key);
-    if (!fact || line.value.empty()) continue;
-    if (*fact == Fact::specimen_id) {
-      if (test.specimen_id.empty()) test.specimen_id = line.value;
-      continue;
-    }
-    std::string warning;
-    std::optional<double>& size = dimension_of(*fact, test);
-    if (!size) size = size_of(line, *fact, decimal, warning);
-    if (!warning.empty())
-      test.warnings.push_back(fmt::format("line {}, {}: {}", row.line, line.key, warning));
-  }
+  for (const PreviewRow& row : header)
+    for (const HeaderLine& line : header_lines(row)) take_fact(line, row.line, decimal, test);
 }
 
 }  // namespace havers::io

@@ -5,17 +5,19 @@
 
 #include "io/machine/number.hpp"
 #include "io/machine/units.hpp"
+#include "io/machine/vocabulary.hpp"
 
 namespace havers::io {
 namespace {
 
 constexpr std::array<Recognise, 2> layouts{recognise_bluehill, recognise_any_table};
 
-// The first row of numbers that is followed by another of the same length, or by nothing.
-std::optional<std::size_t> first_number_row(const Preview& preview) {
+// The first row of numbers from `begin` that is followed by another of the same length, or by
+// nothing.
+std::optional<std::size_t> first_number_row(const Preview& preview, std::size_t begin) {
   const auto& rows = preview.rows;
   const char decimal = preview.dialect.decimal;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  for (std::size_t i = begin; i < rows.size(); ++i) {
     if (!is_number_row(rows[i], decimal)) continue;
     if (i + 1 == rows.size() || rows[i + 1].cells.size() == rows[i].cells.size()) return i;
   }
@@ -43,7 +45,9 @@ bool may_name(const PreviewRow& row, std::size_t columns, char decimal) {
 }
 
 void take_names(Table& table, const PreviewRow& names, const PreviewRow* units) {
-  for (const std::string& cell : names.cells) {
+  for (std::string cell : names.cells) {
+    std::ranges::replace_if(
+        cell, [](char c) { return c == '\n' || c == '\r'; }, ' ');
     NameAndUnit column = split_unit(cell);
     const std::size_t i = table.names.size();
     if (units != nullptr && i < units->cells.size())
@@ -53,32 +57,24 @@ void take_names(Table& table, const PreviewRow& names, const PreviewRow* units) 
   }
 }
 
-}  // namespace
-
-std::optional<Table> recognise_table(const Preview& preview) {
-  for (const Recognise recognise : layouts)
-    if (std::optional<Table> table = recognise(preview)) return table;
-  return std::nullopt;
-}
-
-std::optional<Table> recognise_any_table(const Preview& preview) {
-  const std::optional<std::size_t> numbers = first_number_row(preview);
-  if (!numbers) return std::nullopt;
+// The table whose numbers begin at this row.
+Table table_at(const Preview& preview, std::size_t numbers) {
   const auto& rows = preview.rows;
-  const std::size_t columns = rows[*numbers].cells.size();
+  const std::size_t columns = rows[numbers].cells.size();
   const char decimal = preview.dialect.decimal;
 
   Table table;
   table.layout = "table";
-  table.header_rows = *numbers;
-  table.first_line = rows[*numbers].line;
-  std::size_t above = *numbers;
+  table.header_rows = numbers;
+  table.first_line = rows[numbers].line;
+  std::size_t above = numbers;
   const PreviewRow* units = nullptr;
   if (above >= 2 && is_unit_row(rows[above - 1]) && may_name(rows[above - 2], columns, decimal))
     units = &rows[--above];
   if (above >= 1 && may_name(rows[above - 1], columns, decimal)) {
     take_names(table, rows[above - 1], units);
     table.header_rows = above - 1;
+    if (above >= 2) table.titles = rows[above - 2].cells;
   }
   table.units_in_round_brackets =
       units != nullptr && std::ranges::all_of(units->cells, [](const auto& c) {
@@ -87,9 +83,90 @@ std::optional<Table> recognise_any_table(const Preview& preview) {
   return table;
 }
 
+// One row per specimen, several results in it, and no time.
+bool holds_results(const Table& table) {
+  const auto times = std::ranges::count(table.names, Quantity::time, quantity_of_name);
+  return times == 0 && std::ranges::count_if(table.names, is_result) >= 2;
+}
+
+// The smallest number of columns after which names and units repeat.
+std::size_t period_of(const Table& table, std::size_t columns) {
+  for (std::size_t period = 2; period <= columns / 2; ++period) {
+    bool repeats = columns % period == 0;
+    for (std::size_t i = period; repeats && i < columns; ++i)
+      repeats =
+          table.names[i] == table.names[i - period] && table.units[i] == table.units[i - period];
+    if (repeats) return period;
+  }
+  return columns;
+}
+
+// Whether the row above the names has cells above each specimen's first column and nowhere else.
+bool has_titles(const Table& table, std::size_t period) {
+  std::size_t named = 0;
+  for (std::size_t i = 0; i < table.titles.size(); ++i) {
+    if (table.titles[i].empty()) continue;
+    if (i % period != 0) return false;
+    ++named;
+  }
+  return named > 0;
+}
+
+}  // namespace
+
+std::vector<Table> side_by_side(const Table& table) {
+  std::size_t columns = table.names.size();
+  while (columns > 0 && table.names[columns - 1].empty()) --columns;
+  const std::size_t period = period_of(table, columns);
+  // A single specimen's title is all that stands above its names; else it is a line of facts.
+  const bool titled = has_titles(table, std::max<std::size_t>(period, 1)) &&
+                      (period < columns || (table.header_rows == 1 && table.titles.size() >= 2));
+  if (period == columns) {
+    Table whole = table;
+    if (titled) whole.title = table.titles[0];
+    return {whole};
+  }
+  std::vector<Table> parts;
+  for (std::size_t first = 0; first < columns; first += period) {
+    Table part = table;
+    const auto from = static_cast<std::ptrdiff_t>(first);
+    const auto to = static_cast<std::ptrdiff_t>(first + period);
+    part.names = {table.names.begin() + from, table.names.begin() + to};
+    part.units = {table.units.begin() + from, table.units.begin() + to};
+    part.first_column = first;
+    if (titled && first < table.titles.size()) part.title = table.titles[first];
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+std::optional<Table> recognise_table(const Preview& preview) {
+  for (const Recognise recognise : layouts)
+    if (std::optional<Table> table = recognise(preview)) return table;
+  return std::nullopt;
+}
+
+std::optional<Table> recognise_any_table(const Preview& preview) {
+  std::optional<Table> results;
+  std::size_t begin = 0;
+  while (const std::optional<std::size_t> numbers = first_number_row(preview, begin)) {
+    Table table = table_at(preview, *numbers);
+    if (!holds_results(table)) return table;
+    table.layout = results_layout;
+    if (!results) results = std::move(table);
+    begin = *numbers + 1;
+    while (begin < preview.rows.size() &&
+           is_number_row(preview.rows[begin], preview.dialect.decimal))
+      ++begin;
+  }
+  return results;
+}
+
 std::optional<Table> recognise_bluehill(const Preview& preview) {
   std::optional<Table> table = recognise_any_table(preview);
-  if (!table || table->header_rows == 0 || !table->units_in_round_brackets) return std::nullopt;
+  if (!table || table->layout == results_layout || table->header_rows == 0 ||
+      !table->units_in_round_brackets)
+    return std::nullopt;
   table->layout = "Bluehill raw data";
   return table;
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/machine/preview.hpp"
@@ -14,10 +15,20 @@ namespace havers::io {
 struct Table {
   std::string layout;
   std::vector<std::string> names, units;  ///< `names` is empty where the file has none.
-  std::size_t header_rows = 0;  ///< Rows of the preview above the names: facts of the specimen.
-  std::size_t first_line = 0;   ///< Of the numbers, from 1.
+  std::size_t header_rows = 0;      ///< Rows of the preview above the names: facts of the specimen.
+  std::size_t first_line = 0;       ///< Of the numbers, from 1.
+  std::size_t first_column = 0;     ///< Of `names`, where specimens stand side by side.
+  std::string title;                ///< Name of the specimen, from the row above the names.
+  std::vector<std::string> titles;  ///< That row.
   bool units_in_round_brackets = false;  ///< In a row of their own below the names.
 };
+
+/// The layout of a table with one row per specimen: results, not raw data.
+inline constexpr std::string_view results_layout = "results";
+
+/// The tables of specimens that stand side by side under the same names; the table itself where
+/// there is one.
+std::vector<Table> side_by_side(const Table& table);
 
 /// A recogniser answers only for its own layout. A further layout is one function and one line in
 /// `layouts`.
@@ -26,7 +37,8 @@ using Recognise = std::optional<Table> (*)(const Preview&);
 /// Asks every recogniser in turn, the most particular first.
 std::optional<Table> recognise_table(const Preview& preview);
 
-/// Any table of numbers: names above it or not, units in a row, in the names, or absent.
+/// Any table of numbers: names above it or not, units in a row, in the names, or absent. A table of
+/// results only where no other follows.
 std::optional<Table> recognise_any_table(const Preview& preview);
 
 /// INSTRON Bluehill's raw data: key,"value",unit lines, a blank line, names, units in round

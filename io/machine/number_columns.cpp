@@ -5,79 +5,70 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/machine/number.hpp"
-
 namespace havers::io {
 namespace {
 
-// A file that is wrong in every row need not say so in every row.
-constexpr std::size_t enough_problems = 5;
+std::string place(const TestFile& file, std::size_t line) {
+  return fmt::format("{}:{}", file.file, line);
+}
+
+bool has_ended(const Row& row, const SpecimenColumns& specimen) {
+  return std::ranges::all_of(specimen.channels, [&](const Channel& channel) {
+    return channel.column >= row.cells.size() || row.cells[channel.column].empty();
+  });
+}
+
+void check_time(const Row& row, const SpecimenColumns& specimen, std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < specimen.channels.size(); ++i) {
+    const std::vector<double>& values = specimen.values[i];
+    if (specimen.channels[i].quantity != Quantity::time || values.size() < 2) continue;
+    const double before = values[values.size() - 2], now = values.back();
+    if (now < before)
+      problems.push_back({place(specimen.file, row.line),
+                          fmt::format("time goes back from {:.6g} s to {:.6g} s", before, now),
+                          "one table holds one test"});
+  }
+}
+
+bool take_cells(const Row& row, char decimal, SpecimenColumns& specimen,
+                std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < specimen.channels.size(); ++i) {
+    const Channel& channel = specimen.channels[i];
+    if (channel.column >= row.cells.size()) {
+      problems.push_back({place(specimen.file, row.line),
+                          fmt::format("the row ends after {} of {} columns", row.cells.size(),
+                                      specimen.file.columns.size()),
+                          "the file may be cut off here"});
+      return false;
+    }
+    const std::string_view cell = row.cells[channel.column];
+    const Number number = parse_number(cell, decimal);
+    if (number.fault != NumberFault::none) {
+      problems.push_back(bad_cell(specimen.file, row.line, specimen.file.columns[channel.in_file],
+                                  cell, number.fault));
+      return false;
+    }
+    specimen.values[i].push_back(number.value * channel.to_si);
+  }
+  return true;
+}
 
 }  // namespace
 
-InputError open_quote(const std::string& file, std::size_t line) {
-  return {fmt::format("{}:{}", file, line), "a quote is opened and never closed",
-          "the file may be cut off or damaged here"};
-}
-
-NumberColumns::NumberColumns(const TestFile& file, std::size_t first_line, const Dialect& dialect,
-                             const std::vector<Channel>& channels)
-    : file_(file),
-      first_line_(first_line),
-      dialect_(dialect),
-      channels_(channels),
-      values_(channels.size()) {}
-
-void NumberColumns::read(std::string_view beginning, TextSource& source) {
-  CsvRows rows(dialect_.delimiter, [this](const Row& row) { return take_row(row); });
-  for (std::string_view block = beginning; !block.empty(); block = source.next())
-    if (!rows.feed(block)) break;
-  if (const std::size_t line = rows.open_quote_line(); line > 0 && problems_.empty())
-    throw open_quote(file_.file, line);
-  rows.finish();
-  if (!problems_.empty()) throw InputError(std::move(problems_));
-}
-
-bool NumberColumns::take_row(const Row& row) {
-  if (row.line < first_line_) return true;
-  const bool empty = std::ranges::all_of(row.cells, [](auto cell) { return cell.empty(); });
-  if (!empty) take_cells(row);
-  return problems_.size() < enough_problems;
-}
-
-void NumberColumns::take_cells(const Row& row) {
-  for (std::size_t i = 0; i < channels_.size(); ++i) {
-    const Channel& channel = channels_[i];
-    if (channel.column >= row.cells.size())
-      return complain(row,
-                      fmt::format("the row ends after {} of {} columns", row.cells.size(),
-                                  file_.columns.size()),
-                      "the file may be cut off here");
-    const std::string_view cell = row.cells[channel.column];
-    const Number number = parse_number(cell, dialect_.decimal);
-    if (number.fault != NumberFault::none)
-      return complain(
-          row, fmt::format(R"(column "{}": "{}" {})", file_.columns[channel.column].name, cell,
-                           to_string(number.fault)));
-    values_[i].push_back(number.value * channel.to_si);
-  }
-  check_time(row);
-}
-
-void NumberColumns::check_time(const Row& row) {
-  for (std::size_t i = 0; i < channels_.size(); ++i) {
-    const std::vector<double>& values = values_[i];
-    if (channels_[i].quantity != Quantity::time || values.size() < 2) continue;
-    const double before = values[values.size() - 2], now = values.back();
-    if (now < before)
-      complain(row, fmt::format("time goes back from {:.6g} s to {:.6g} s", before, now),
-               "one file holds one test");
+void take_numbers(const Row& row, char decimal, std::span<SpecimenColumns> side_by_side,
+                  std::vector<Problem>& problems) {
+  for (SpecimenColumns& specimen : side_by_side) {
+    if (side_by_side.size() > 1 && has_ended(row, specimen)) continue;
+    if (!take_cells(row, decimal, specimen, problems)) return;
+    check_time(row, specimen, problems);
   }
 }
 
-void NumberColumns::complain(const Row& row, std::string what, std::string hint) {
-  problems_.push_back(
-      {fmt::format("{}:{}", file_.file, row.line), std::move(what), std::move(hint)});
+Problem bad_cell(const TestFile& file, std::size_t line, const Column& column,
+                 std::string_view cell, NumberFault fault) {
+  return {place(file, line),
+          fmt::format(R"(column "{}": "{}" {})", column.name, cell, to_string(fault)),
+          {}};
 }
 
 }  // namespace havers::io

@@ -1,9 +1,8 @@
 #include "io/machine/preview.hpp"
 
 #include <algorithm>
-#include <array>
+#include <utility>
 
-#include "io/machine/csv_rows.hpp"
 #include "io/machine/number.hpp"
 
 namespace havers::io {
@@ -18,13 +17,14 @@ std::string_view whole_lines(std::string_view text) {
   return end == std::string_view::npos ? text : text.substr(0, end + 1);
 }
 
-Preview cut(std::string_view text, char delimiter) {
+Preview cut(std::string_view text, const Dialect& dialect) {
   Preview preview;
-  preview.dialect.delimiter = delimiter;
-  CsvRows rows(delimiter, [&](const Row& row) {
+  preview.dialect = dialect;
+  const auto take = [&](const Row& row) {
     preview.rows.push_back({row.line, {row.cells.begin(), row.cells.end()}});
     return true;
-  });
+  };
+  CsvRows rows = rows_of(dialect, take);
   rows.feed(text);
   preview.open_quote_line = rows.open_quote_line();
   rows.finish();
@@ -62,19 +62,27 @@ bool is_number_row(const PreviewRow& row, char decimal) {
   return numbers >= 2;
 }
 
+CsvRows rows_of(const Dialect& dialect, std::function<bool(const Row&)> take) {
+  if (dialect.requoted) return {no_delimiter, requoted(dialect.delimiter, std::move(take))};
+  return {dialect.delimiter, std::move(take)};
+}
+
 Preview make_preview(std::string_view text) {
   text = whole_lines(text);
   Preview best;
   std::ptrdiff_t most = -1;
-  for (const char delimiter : {',', ';', '\t'}) {
-    Preview preview = cut(text, delimiter);
-    const char preferred = preferred_decimal(preview);
-    for (const char decimal : {preferred, preferred == '.' ? ',' : '.'}) {
-      const std::ptrdiff_t count = number_rows(preview, decimal);
-      if (count <= most) continue;
-      most = count;
-      preview.dialect.decimal = decimal;
-      best = preview;
+  for (const bool quoted_again : {false, true}) {
+    if (most > 1) break;
+    for (const char delimiter : {',', ';', '\t'}) {
+      Preview preview = cut(text, {.delimiter = delimiter, .requoted = quoted_again});
+      const char preferred = preferred_decimal(preview);
+      for (const char decimal : {preferred, preferred == '.' ? ',' : '.'}) {
+        const std::ptrdiff_t count = number_rows(preview, decimal);
+        if (count <= most) continue;
+        most = count;
+        preview.dialect.decimal = decimal;
+        best = preview;
+      }
     }
   }
   return best;

@@ -6,12 +6,15 @@
 #include <string_view>
 #include <vector>
 
+#include "io/machine/csv_rows.hpp"
+
 namespace havers::io {
 
 /// How the cells of a file are separated and its numbers written.
 struct Dialect {
   char delimiter = ',';
   char decimal = '.';
+  bool requoted = false;  ///< A spreadsheet has quoted whole lines.
 };
 
 struct PreviewRow {
@@ -24,6 +27,9 @@ struct Preview {
   std::vector<PreviewRow> rows;     ///< Without the blank ones.
   std::size_t open_quote_line = 0;  ///< Of a quote that is never closed; 0 where there is none.
 };
+
+/// Rows as the dialect cuts them, handed to `take`.
+CsvRows rows_of(const Dialect& dialect, std::function<bool(const Row&)> take);
 
 /// Cuts the first lines of `text` with the delimiter and decimal mark that make the most rows of
 /// numbers.

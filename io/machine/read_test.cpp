@@ -3,23 +3,37 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <span>
 
 #include "io/input_error.hpp"
-#include "io/machine/channels.hpp"
-#include "io/machine/facts.hpp"
 #include "io/machine/guess.hpp"
 #include "io/machine/layout.hpp"
-#include "io/machine/number_columns.hpp"
+#include "io/machine/specimen_tables.hpp"
 #include "io/machine/text_source.hpp"
+#include "io/machine/vocabulary.hpp"
 
 namespace havers::io {
 namespace {
 
+constexpr std::size_t most_columns = 10'000;
+
+// Results with a label in the first column are no rows of numbers; their names tell.
+bool names_results(const PreviewRow& row) {
+  return std::ranges::count_if(row.cells, is_result) >= 2;
+}
+
 Table find_table(const std::string& name, const Preview& preview) {
-  if (std::optional<Table> table = recognise_table(preview)) return *table;
+  for (const PreviewRow& row : preview.rows)
+    if (row.cells.size() > most_columns)
+      throw InputError(fmt::format("{}:{}", name, row.line),
+                       fmt::format("has more than {} columns", most_columns),
+                       "a test has a row for each time and a column for each channel");
+  std::optional<Table> table = recognise_table(preview);
+  if (table && table->layout != results_layout) return *table;
+  if (table || std::ranges::any_of(preview.rows, names_results))
+    throw InputError(name, "is a table of results, a row for each specimen",
+                     "export the raw data: time, force and extension row by row");
   if (preview.open_quote_line > 0) throw open_quote(name, preview.open_quote_line);
   throw InputError(name, "no rows of numbers were found in it",
                    "a test file has a row of column names and rows of two numbers or more");
@@ -40,41 +54,21 @@ void name_columns(Table& table, const std::string& name, const Preview& preview,
   }
 }
 
-std::vector<double>& channel_of(calib::RawTest& test, Quantity quantity) {
-  switch (quantity) {
-    case Quantity::time:
-      return test.time;
-    case Quantity::extension:
-      return test.extension;
-    case Quantity::strain:
-      return test.strain;
-    case Quantity::stress:
-      return test.stress;
-    case Quantity::force:
-    case Quantity::other:
-      break;
-  }
-  return test.force;
+std::string list_of(const std::vector<TestFile>& tests) {
+  std::string text;
+  for (std::size_t i = 0; i < tests.size(); ++i)
+    text += fmt::format("{}{} \"{}\"", i == 0 ? "" : ", ", i + 1, tests[i].test.specimen_id);
+  return text;
 }
 
-// The machine's stress must be force over the area that the file states, or one of the three is
-// wrong.
-void check_stress(calib::RawTest& test) {
-  if (test.force.empty() || test.stress.empty() || !test.width || !test.thickness) return;
-  const double area = *test.width * *test.thickness;
-  double largest_stress = 0.0, largest_difference = 0.0;
-  for (std::size_t i = 0; i < test.force.size(); ++i) {
-    largest_stress = std::max(largest_stress, std::abs(test.stress[i]));
-    largest_difference =
-        std::max(largest_difference, std::abs(test.force[i] / area - test.stress[i]));
-  }
-  constexpr double tolerance = 0.01;
-  if (largest_difference > tolerance * largest_stress)
-    test.warnings.push_back(
-        fmt::format("the stress column differs from force / (width × thickness) by up to {:.3g} "
-                    "MPa of {:.4g} MPa: "
-                    "the force is used, check width and thickness",
-                    largest_difference * 1e-6, largest_stress * 1e-6));
+// The specimen of that name or number.
+TestFile chosen_of(std::vector<TestFile> tests, const std::string& specimen) {
+  for (std::size_t i = 0; i < tests.size(); ++i)
+    if (tests[i].test.specimen_id == specimen) return std::move(tests[i]);
+  for (std::size_t i = 0; i < tests.size(); ++i)
+    if (std::to_string(i + 1) == specimen) return std::move(tests[i]);
+  throw InputError(tests.front().file, fmt::format("holds no specimen \"{}\"", specimen),
+                   "it holds " + list_of(tests));
 }
 
 }  // namespace
@@ -91,36 +85,43 @@ std::string to_string(Quantity quantity) {
       return "strain";
     case Quantity::stress:
       return "stress";
+    case Quantity::volts:
+      return "volts";
     case Quantity::other:
       return "other";
   }
   return "unknown";
 }
 
-TestFile read_test(const std::filesystem::path& file, const ReadOptions& options) {
+std::vector<TestFile> read_tests(const std::filesystem::path& file, const ReadOptions& options) {
   TextSource source(file);
   const std::string beginning(source.next());
   const Preview preview = make_preview(beginning);
 
-  TestFile result;
-  result.file = file.string();
-  result.encoding = source.encoding();
-  result.delimiter = preview.dialect.delimiter;
-  result.decimal = preview.dialect.decimal;
-  Table table = find_table(result.file, preview);
-  result.layout = table.layout;
-  name_columns(table, result.file, preview, options);
-  read_facts(std::span(preview.rows).first(table.header_rows), preview.dialect.decimal,
-             result.test);
+  TestFile common;
+  common.file = file.string();
+  common.encoding = source.encoding();
+  common.delimiter = preview.dialect.delimiter;
+  common.decimal = preview.dialect.decimal;
+  Table table = find_table(common.file, preview);
+  name_columns(table, common.file, preview, options);
 
-  const std::vector<Channel> channels = find_channels(result, table, options);
-  NumberColumns numbers(result, table.first_line, preview.dialect, channels);
-  numbers.read(beginning, source);
-  for (std::size_t i = 0; i < channels.size(); ++i)
-    channel_of(result.test, channels[i].quantity) = numbers.take(i);
-  result.rows = result.test.rows();
-  check_stress(result.test);
-  return result;
+  SpecimenTables specimens(std::move(common), preview.dialect, options);
+  specimens.begin(table, std::span(preview.rows).first(table.header_rows));
+  specimens.read(beginning, source);
+  std::vector<TestFile> tests = specimens.take();
+  if (options.specimen.empty()) return tests;
+  std::vector<TestFile> chosen;
+  chosen.push_back(chosen_of(std::move(tests), options.specimen));
+  return chosen;
+}
+
+TestFile read_test(const std::filesystem::path& file, const ReadOptions& options) {
+  std::vector<TestFile> tests = read_tests(file, options);
+  if (tests.size() > 1)
+    throw InputError(file.string(), fmt::format("holds {} specimens", tests.size()),
+                     fmt::format("say which, by name or number: {}", list_of(tests)));
+  return std::move(tests.front());
 }
 
 }  // namespace havers::io

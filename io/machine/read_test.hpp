@@ -11,7 +11,7 @@
 namespace havers::io {
 
 /// What a column holds.
-enum class Quantity { time, force, extension, strain, stress, other };
+enum class Quantity { time, force, extension, strain, stress, volts, other };
 std::string to_string(Quantity quantity);
 
 struct Column {
@@ -32,7 +32,7 @@ struct TestFile {
 };
 
 /// A column by its name in the file or its number from 1, and its unit where the file's is missing
-/// or wrong.
+/// or wrong. A signal in volts takes its factor as unit: "500 N/V".
 struct ColumnHint {
   std::string column, unit;
 };
@@ -40,12 +40,20 @@ struct ColumnHint {
 /// What the user knows better than the file. The keys are quantities; those without a hint are
 /// found by name, by unit and by content, in that order.
 struct ReadOptions {
-  std::map<Quantity, ColumnHint> columns;
+  std::map<Quantity, ColumnHint> columns{};
+  std::string specimen{};  ///< Its name in a file of several, or its number from 1.
+  bool logger = false;     ///< The file of a second logger: time and a gauge, no force.
 };
 
 /// Reads one export, whatever its encoding, delimiter and decimal mark; io/machine/README.md says
-/// what is recognised and how. @throws InputError naming file and line.
+/// what is recognised and how. @throws InputError naming file and line, also where the file holds
+/// several specimens and `options` names none.
 TestFile read_test(const std::filesystem::path& file, const ReadOptions& options = {});
+
+/// Reads every specimen of an export, whether they are stacked or side by side; of
+/// `options.specimen` alone where it is given. @throws InputError naming file and line.
+std::vector<TestFile> read_tests(const std::filesystem::path& file,
+                                 const ReadOptions& options = {});
 
 /// Writes a test in the Bluehill layout that read_test reads; for `synthesize` and tests. Five
 /// decimals of s, mm, N and % of strain, four of MPa: strain is kept to 1e-7. @throws InputError

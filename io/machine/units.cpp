@@ -4,6 +4,8 @@
 #include <array>
 #include <cctype>
 
+#include "io/machine/number.hpp"
+
 namespace havers::io {
 namespace {
 
@@ -73,6 +75,8 @@ constexpr std::array units{
     NamedUnit{"µε", {strain, 1e-6}},
     NamedUnit{"με", {strain, 1e-6}},
     NamedUnit{"ue", {strain, 1e-6}},
+    NamedUnit{"V", {voltage, 1.0}},
+    NamedUnit{"mV", {voltage, 1e-3}},
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -88,6 +92,19 @@ bool equal_but_case(std::string_view a, std::string_view b) {
   });
 }
 
+// "500 N/V", "0.001 mm/mm/V": what a volt stands for.
+std::optional<Unit> calibration(std::string_view text) {
+  if (!text.ends_with("/V")) return std::nullopt;
+  text.remove_suffix(2);
+  const std::size_t blank = text.find(' ');
+  if (blank == std::string_view::npos) return std::nullopt;
+  const Number factor = parse_number(text.substr(0, blank));
+  std::optional<Unit> unit = find_unit(text.substr(blank + 1));
+  if (factor.fault != NumberFault::none || factor.value == 0.0 || !unit) return std::nullopt;
+  unit->to_si *= factor.value;
+  return unit;
+}
+
 }  // namespace
 
 std::string_view without_brackets(std::string_view text) {
@@ -100,6 +117,7 @@ std::string_view without_brackets(std::string_view text) {
 
 std::optional<Unit> find_unit(std::string_view text) {
   const std::string_view name = without_brackets(text);
+  if (const std::optional<Unit> factor = calibration(name)) return factor;
   const auto* found = std::ranges::find(units, name, &NamedUnit::name);
   if (found == units.end())
     found = std::ranges::find_if(

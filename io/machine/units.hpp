@@ -7,15 +7,15 @@
 
 namespace havers::io {
 
-enum class Dimension { time, force, length, area, stress, strain };
+enum class Dimension { time, force, length, area, stress, strain, voltage };
 
 struct Unit {
   Dimension dimension = Dimension::strain;
-  double to_si = 1.0;  ///< Factor to s, N, m, m², Pa or 1.
+  double to_si = 1.0;  ///< Factor to s, N, m, m², Pa, 1 or V.
 };
 
 /// The unit a text names: "kN", "(mm)", "[ MPa ]", "sec"; upper and lower case as in the table
-/// first, then any.
+/// first, then any. A calibration factor is a unit too: "500 N/V" is a force.
 std::optional<Unit> find_unit(std::string_view text);
 
 /// Text without the blanks and one pair of brackets around it.

@@ -113,6 +113,13 @@ constexpr std::array quantity_words{
     QuantityWord{"位移", extension},
 };
 
+// One number a test, in any of the languages.
+constexpr std::array<std::string_view, 26> result_words{
+    "maximum",      "maximal",    "max.",        "modulus",  "module",      "modul",      "módulo",
+    "modulo",       "moduł",      "strength",    "at break", "at yield",    "at peak",    "rupture",
+    "à la rup",     "festigkeit", "bruch",       "rotura",   "resistencia", "resistenza", "rottura",
+    "wytrzymałość", "zerwani",    "resistência", "模量",     "强度"};
+
 struct FactWord {
   std::string_view key;
   Fact fact;
@@ -177,6 +184,16 @@ Quantity quantity_of_name(std::string_view name) {
   for (const QuantityWord& known : quantity_words)
     if (contains(text, known.word, known.match)) return known.quantity;
   return other;
+}
+
+bool is_absolute(std::string_view name) {
+  return contains(lower(name), "absol", Match::anywhere);
+}
+
+bool is_result(std::string_view name) {
+  const std::string text = lower(name);
+  return std::ranges::any_of(
+      result_words, [&](std::string_view word) { return contains(text, word, Match::anywhere); });
 }
 
 std::optional<Fact> fact_of_key(std::string_view key) {

@@ -12,6 +12,12 @@ namespace havers::io {
 /// The quantity a column's name speaks of; `other` where it names none that is known.
 Quantity quantity_of_name(std::string_view name);
 
+/// Whether the name is that of an absolute position, which is no extension where there is another.
+bool is_absolute(std::string_view name);
+
+/// Whether the name is that of a result of a whole test: "Maximum load", "Tensile strength", ...
+bool is_result(std::string_view name);
+
 /// What a header line may tell of the specimen.
 enum class Fact { specimen_id, width, thickness, gauge_length, area };
 

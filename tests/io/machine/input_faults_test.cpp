@@ -73,7 +73,7 @@ TEST(InputFaults, NamesNumbersThatAreNone) {
 
 TEST(InputFaults, NamesTimeThatGoesBack) {
   EXPECT_EQ(complaint_of(header + "\n0.5,3,4\n"),
-            "test.csv:5: time goes back from 1 s to 0.5 s (one file holds one test)");
+            "test.csv:5: time goes back from 1 s to 0.5 s (one table holds one test)");
 }
 
 TEST(InputFaults, NamesAFileWithoutForce) {

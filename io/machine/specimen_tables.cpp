@@ -1,0 +1,166 @@
+#include "io/machine/specimen_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "io/machine/facts.hpp"
+#include "io/machine/number.hpp"
+
+namespace havers::io {
+namespace {
+
+// A file that is wrong in every row need not say so in every row.
+constexpr std::size_t enough_problems = 5;
+constexpr std::size_t longest_header = 500;
+
+std::vector<double>& channel_of(calib::RawTest& test, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::time:
+      return test.time;
+    case Quantity::extension:
+      return test.extension;
+    case Quantity::strain:
+      return test.strain;
+    case Quantity::stress:
+      return test.stress;
+    case Quantity::volts:
+      return test.volts;
+    case Quantity::force:
+    case Quantity::other:
+      break;
+  }
+  return test.force;
+}
+
+// The machine's stress must be force over the area that the file states, or one of the three is
+// wrong.
+void check_stress(calib::RawTest& test) {
+  if (test.force.empty() || test.stress.empty() || !test.width || !test.thickness) return;
+  const double area = *test.width * *test.thickness;
+  double largest_stress = 0.0, largest_difference = 0.0;
+  for (std::size_t i = 0; i < test.force.size(); ++i) {
+    largest_stress = std::max(largest_stress, std::abs(test.stress[i]));
+    largest_difference =
+        std::max(largest_difference, std::abs(test.force[i] / area - test.stress[i]));
+  }
+  constexpr double tolerance = 0.01;
+  if (largest_difference > tolerance * largest_stress)
+    test.warnings.push_back(
+        fmt::format("the stress column differs from force / (width × thickness) by up to {:.3g} "
+                    "MPa of {:.4g} MPa: "
+                    "the force is used, check width and thickness",
+                    largest_difference * 1e-6, largest_stress * 1e-6));
+}
+
+}  // namespace
+
+InputError open_quote(const std::string& file, std::size_t line) {
+  return {fmt::format("{}:{}", file, line), "a quote is opened and never closed",
+          "the file may be cut off or damaged here"};
+}
+
+SpecimenTables::SpecimenTables(TestFile common, const Dialect& dialect, const ReadOptions& options)
+    : common_(std::move(common)), dialect_(dialect), options_(options) {}
+
+void SpecimenTables::begin(const Table& table, std::span<const PreviewRow> header) {
+  current_ = specimens_.size();
+  first_line_ = table.first_line;
+  for (const Table& part : side_by_side(table)) {
+    SpecimenColumns& specimen = specimens_.emplace_back();
+    specimen.file = common_;
+    specimen.file.layout = table.layout;
+    read_facts(header, dialect_.decimal, specimen.file.test);
+    if (!part.title.empty()) specimen.file.test.specimen_id = part.title;
+    specimen.channels = find_channels(specimen.file, part, options_);
+    specimen.values.resize(specimen.channels.size());
+  }
+}
+
+void SpecimenTables::read(std::string_view beginning, TextSource& source) {
+  CsvRows rows = rows_of(dialect_, [this](const Row& row) { return take_row(row); });
+  for (std::string_view block = beginning; !block.empty(); block = source.next())
+    if (!rows.feed(block)) break;
+  if (const std::size_t line = rows.open_quote_line(); line > 0 && problems_.empty())
+    throw open_quote(common_.file, line);
+  rows.finish();
+  if (!header_.empty()) end_header();
+  if (!problems_.empty()) throw InputError(std::move(problems_));
+}
+
+bool SpecimenTables::take_row(const Row& row) {
+  if (row.line < first_line_) return true;
+  const bool empty = row.cells[0].empty() &&
+                     std::ranges::all_of(row.cells, [](auto cell) { return cell.empty(); });
+  if (empty) return true;
+  if (!header_.empty() || begins_header(row))
+    take_header_row(row);
+  else
+    take_numbers(row, dialect_.decimal, std::span(specimens_).subspan(current_), problems_);
+  return problems_.size() < enough_problems;
+}
+
+// Text where the first channel should be: the header of a further specimen, if a table follows.
+bool SpecimenTables::begins_header(const Row& row) const {
+  const std::size_t column = specimens_[current_].channels.front().column;
+  const std::string_view cell = row.cells[std::min(column, row.cells.size() - 1)];
+  if (cell.empty() || (cell.front() >= '0' && cell.front() <= '9')) return false;
+  return parse_number(cell, dialect_.decimal).fault == NumberFault::text;
+}
+
+void SpecimenTables::take_header_row(const Row& row) {
+  header_.push_back({row.line, {row.cells.begin(), row.cells.end()}});
+  const auto is_numbers = [&](std::size_t from_end) {
+    return header_.size() > from_end &&
+           is_number_row(header_[header_.size() - from_end], dialect_.decimal);
+  };
+  const bool two_rows = is_numbers(1) && is_numbers(2) &&
+                        header_.end()[-1].cells.size() == header_.end()[-2].cells.size();
+  if (two_rows || header_.size() >= longest_header) end_header();
+}
+
+// A header that leads to no table with names was a row of text among the numbers.
+void SpecimenTables::end_header() {
+  const Preview preview{dialect_, std::exchange(header_, {})};
+  const std::optional<Table> table = recognise_table(preview);
+  if (!table || table->names.empty() || table->layout == results_layout) {
+    const SpecimenColumns& specimen = specimens_[current_];
+    const Channel& channel = specimen.channels.front();
+    const PreviewRow& row = preview.rows.front();
+    problems_.push_back(bad_cell(specimen.file, row.line, specimen.file.columns[channel.in_file],
+                                 row.cells[std::min(channel.column, row.cells.size() - 1)],
+                                 NumberFault::text));
+    return;
+  }
+  begin(*table, std::span(preview.rows).first(table->header_rows));
+  take_held_back_numbers(preview.rows, table->first_line);
+}
+
+void SpecimenTables::take_held_back_numbers(const std::vector<PreviewRow>& rows,
+                                            std::size_t first_line) {
+  for (const PreviewRow& row : rows) {
+    if (row.line < first_line) continue;
+    const std::vector<std::string_view> cells(row.cells.begin(), row.cells.end());
+    take_numbers({row.line, cells}, dialect_.decimal, std::span(specimens_).subspan(current_),
+                 problems_);
+  }
+}
+
+std::vector<TestFile> SpecimenTables::take() {
+  std::vector<TestFile> files;
+  for (SpecimenColumns& specimen : specimens_) {
+    TestFile& file = specimen.file;
+    for (std::size_t i = 0; i < specimen.channels.size(); ++i)
+      channel_of(file.test, specimen.channels[i].quantity) = std::move(specimen.values[i]);
+    file.rows = file.test.rows();
+    if (specimens_.size() > 1 && file.test.specimen_id.empty())
+      file.test.specimen_id = std::to_string(files.size() + 1);
+    check_stress(file.test);
+    files.push_back(std::move(file));
+  }
+  return files;
+}
+
+}  // namespace havers::io

@@ -1,0 +1,51 @@
+// The specimens of a test file, read in one pass.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/input_error.hpp"
+#include "io/machine/number_columns.hpp"
+#include "io/machine/preview.hpp"
+#include "io/machine/text_source.hpp"
+
+namespace havers::io {
+
+/// The complaint about a quote that is never closed.
+InputError open_quote(const std::string& file, std::size_t line);
+
+/// Reads the tables of a file, each with one specimen or several side by side; where a row of text
+/// follows the numbers, the next table is looked for. Memory is that of the numbers kept.
+class SpecimenTables {
+ public:
+  /// `common` says what all specimens share: file, encoding, delimiter, decimal mark.
+  SpecimenTables(TestFile common, const Dialect& dialect, const ReadOptions& options);
+
+  /// The next table begins, below the header's rows.
+  void begin(const Table& table, std::span<const PreviewRow> header);
+  /// Reads `beginning`, then the rest of the source. @throws InputError with the first few
+  /// problems.
+  void read(std::string_view beginning, TextSource& source);
+  /// The specimens, moved out.
+  std::vector<TestFile> take();
+
+ private:
+  bool take_row(const Row& row);
+  [[nodiscard]] bool begins_header(const Row& row) const;
+  void take_header_row(const Row& row);
+  void end_header();
+  void take_held_back_numbers(const std::vector<PreviewRow>& rows, std::size_t first_line);
+
+  TestFile common_;
+  Dialect dialect_;
+  const ReadOptions& options_;
+  std::vector<SpecimenColumns> specimens_;
+  std::size_t current_ = 0;     // the first specimen of the table that is being read
+  std::size_t first_line_ = 0;  // of its numbers
+  std::vector<PreviewRow> header_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace havers::io
