@@ -106,7 +106,7 @@ bool has_titles(const Table& table, std::size_t period) {
   std::size_t named = 0;
   for (std::size_t i = 0; i < table.titles.size(); ++i) {
     if (table.titles[i].empty()) continue;
-    if (i % period != 0) return false;
+    if (i % period != 0 || table.titles[i].find('\n') != std::string::npos) return false;
     ++named;
   }
   return named > 0;

@@ -1,0 +1,126 @@
+// Files in the shape of every layout, written for this test, each with the quantities it must give
+// or the sentence that refuses it: tests/fixtures/machine/expected.csv.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+#include "io/input_error.hpp"
+#include "io/machine/csv_rows.hpp"
+#include "io/machine/number.hpp"
+#include "io/machine/read_test.hpp"
+
+namespace havers::io {
+namespace {
+
+const std::filesystem::path folder =
+    std::filesystem::path(HAVERS_SOURCE_DIR) / "tests/fixtures/machine";
+
+enum Field {
+  file,
+  specimen,
+  rows,
+  width,
+  thickness,
+  gauge_length,
+  last_time,
+  force,
+  extension,
+  strain,
+  refused,
+  fields
+};
+using Expected = std::vector<std::string>;
+
+std::vector<Expected> expected_rows() {
+  std::ifstream stream(folder / "expected.csv");
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  std::vector<Expected> all;
+  CsvRows rows_of_table(',', [&](const Row& row) {
+    if (row.line > 1) all.emplace_back(row.cells.begin(), row.cells.end());
+    return true;
+  });
+  rows_of_table.feed(text);
+  rows_of_table.finish();
+  return all;
+}
+
+// An empty cell of the table means that the file does not tell.
+void expect_size(const std::optional<double>& metres, const std::string& cell_mm) {
+  EXPECT_EQ(metres.has_value(), !cell_mm.empty());
+  EXPECT_NEAR(metres.value_or(0.0), 1e-3 * parse_number(cell_mm).value, 1e-12);
+}
+
+void expect_largest(const std::vector<double>& values, const std::string& cell, double unit) {
+  EXPECT_EQ(values.empty(), cell.empty());
+  if (values.empty()) return;
+  const double largest = parse_number(cell).value * unit;
+  EXPECT_NEAR(std::ranges::max(values), largest, 1e-6 * largest);
+}
+
+void expect_test(const TestFile& read, const Expected& expected) {
+  EXPECT_EQ(read.test.specimen_id, expected[specimen]);
+  EXPECT_EQ(std::to_string(read.rows), expected[rows]);
+  expect_size(read.test.width, expected[width]);
+  expect_size(read.test.thickness, expected[thickness]);
+  expect_size(read.test.gauge_length, expected[gauge_length]);
+  expect_largest(read.test.time, expected[last_time], 1.0);
+  expect_largest(read.test.force, expected[force], 1.0);
+  expect_largest(read.test.extension, expected[extension], 1e-3);
+  expect_largest(read.test.strain, expected[strain], 1.0);
+}
+
+TEST(Fixtures, GiveTheQuantitiesOrTheSentenceOfTheirTable) {
+  const std::vector<Expected> table = expected_rows();
+  ASSERT_GT(table.size(), 20U);
+  for (std::size_t i = 0; i < table.size();) {
+    const Expected& first = table[i];
+    ASSERT_EQ(first.size(), static_cast<std::size_t>(fields));
+    SCOPED_TRACE(first[file]);
+    try {
+      const std::vector<TestFile> tests = read_tests(folder / first[file]);
+      EXPECT_EQ(first[refused], "");
+      for (const TestFile& test : tests) {
+        ASSERT_LT(i, table.size());
+        ASSERT_EQ(table[i][file], first[file]);
+        expect_test(test, table[i++]);
+      }
+    } catch (const InputError& error) {
+      const Problem& problem = error.problems().front();
+      EXPECT_EQ(to_string(Problem{"", problem.what, problem.hint}), ": " + first[refused]);
+      ++i;
+    }
+  }
+}
+
+TEST(Fixtures, AreAllInTheTable) {
+  std::set<std::string> named, there;
+  for (const Expected& row : expected_rows()) named.insert(row[file]);
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().filename() != "expected.csv") there.insert(entry.path().filename().string());
+  EXPECT_EQ(named, there);
+}
+
+TEST(Fixtures, OneOfSeveralSpecimensIsChosenByNameOrNumber) {
+  ReadOptions options;
+  for (const char* second : {"South", "2"}) {
+    options.specimen = second;
+    EXPECT_EQ(read_test(folder / "side_by_side.csv", options).rows, 21U);
+  }
+  const auto complaint = [&](const ReadOptions& chosen) -> std::string {
+    try {
+      read_test(folder / "side_by_side.csv", chosen);
+    } catch (const InputError& error) {
+      return error.problems()[0].what + "; " + error.problems()[0].hint;
+    }
+    return "none";
+  };
+  EXPECT_EQ(complaint({}),
+            "holds 2 specimens; say which, by name or number: 1 \"North\", 2 \"South\"");
+  options.specimen = "West";
+  EXPECT_EQ(complaint(options), "holds no specimen \"West\"; it holds 1 \"North\", 2 \"South\"");
+}
+
+}  // namespace
+}  // namespace havers::io
