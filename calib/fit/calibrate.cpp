@@ -10,20 +10,24 @@
 namespace havers::calib {
 namespace {
 
-// Steps of the derivatives by which unknowns are judged: wider than those of the search, to see
-// through the replicates' noise.
-constexpr double screening_step = 0.2, answer_step = 0.05;
+// Step of the derivatives by which unknowns are screened: wide, because few replicates are noisy.
+constexpr double screening_step = 0.2;
+// Replicates that are enough to find the neighbourhood of the answer.
+constexpr int scouting_replicates = 3;
 constexpr int most_rounds = 8;
 // Cost that a search may leave on the table: a tenth of a standard deviation (½·0.1²).
 constexpr double close_enough = 0.005;
 
 // The first of the study's start and the middle of the bounds where the simulations answer.
 bool begin(const FitProblem& problem, Trail& trail) {
-  for (auto& evaluation :
-       predict(problem, trail.batch(),
-               {start_point(problem.unknowns), middle_point(problem.unknowns)})) {
+  trail.set_replicates(std::min(scouting_replicates, problem.study.calibrate.replicates));
+  const auto both =
+      predict(problem, trail.batch(),
+              {start_point(problem.unknowns), middle_point(problem.unknowns)}, trail.replicates());
+  for (const auto& evaluation : both) {
     if (evaluation.failed) continue;
-    trail.restart(weigh(problem, trail.batch(), evaluation, Landmarks::Zero()), evaluation);
+    auto scatter = scatter_errors(problem, trail.batch(), evaluation);
+    trail.restart(weigh(problem, evaluation, std::move(scatter), Landmarks::Zero()), evaluation);
     return true;
   }
   return false;
@@ -72,13 +76,28 @@ bool settled(const Landmarks& before, const Landmarks& now) {
   return ((now - before).abs() <= 0.02 * now + 1e-4).all();
 }
 
+void reweigh(Trail& trail, const Landmarks& effect) {
+  trail.restart(weigh(trail.problem(), trail.best(), trail.weights().scatter, effect),
+                trail.best());
+}
+
+// All replicates from here on, at the best point of the scouts.
+bool settle_down(const FitProblem& problem, Trail& trail) {
+  trail.set_replicates(problem.study.calibrate.replicates);
+  auto here = predict(problem, trail.batch(), {trail.best().point}, trail.replicates()).front();
+  if (here.failed) return false;
+  trail.restart(trail.weights(), std::move(here));
+  return true;
+}
+
 // Search, weigh anew, search again, until weights and answer agree.
 void refine(Trail& trail, Answer& answer) {
   Landmarks effect = Landmarks::Zero();
+  bool rough = false;
   for (int round = 0; round < most_rounds && !trail.stopped(); ++round) {
-    trail.restart(weigh(trail.problem(), trail.batch(), trail.best(), effect), trail.best());
-    search(trail, answer.active, round == 0, answer);
-    const auto slopes = differentiate(trail, trail.best(), answer.active, answer_step);
+    reweigh(trail, effect);
+    search(trail, answer.active, rough, answer);
+    const auto slopes = differentiate(trail, trail.best(), answer.active, slope_step);
     if (slopes.failed) continue;
     const auto left = uninformed(trail.problem(), trail.best().point, answer.active, slopes);
     if (!left.empty()) {
@@ -90,7 +109,8 @@ void refine(Trail& trail, Answer& answer) {
     effect = specimen_effect(trail.problem(), trail.weights(), trail.best(), slopes.jacobian);
     const auto error = uncertainty_of(trail.problem(), trail.weights(), trail.best(), answer.active,
                                       slopes.jacobian);
-    if (settled(before, effect) && error.distance < close_enough) return;
+    rough = error.distance >= close_enough;
+    if (!rough && settled(before, effect)) return;
   }
 }
 
@@ -100,7 +120,7 @@ void look_back(Trail& trail, Answer& answer) {
   if (trail.cancelled() || answer.active.empty()) return;
   trail.lift_budget();
   trail.enter("uncertainty");
-  answer.slopes = differentiate(trail, answer.best, answer.active, answer_step);
+  answer.slopes = differentiate(trail, answer.best, answer.active, slope_step);
   answer.best = trail.best();
   if (!answer.slopes.failed)
     answer.uncertainty = uncertainty_of(trail.problem(), answer.weights, answer.best, answer.active,
@@ -132,7 +152,7 @@ Answer solve(const FitProblem& problem, Trail& trail) {
     auto [ends, logs] = search_globally(trail, answer.active);
     answer.ends = std::move(ends);
     answer.stages = std::move(logs);
-    refine(trail, answer);
+    if (settle_down(problem, trail)) refine(trail, answer);
   }
   look_back(trail, answer);
   answer.status = status_of(trail, answer);
@@ -153,7 +173,7 @@ CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
   result.specimens = specimens_of(problem, batch, answer);
   result.left_out = left_out_of(problem, batch, answer);
   if (!problem.fitted.empty())
-    result.scene = replicate_scenes(problem, answer.best.point, problem.fitted.front()).front();
+    result.scene = replicate_scenes(problem, answer.best.point, problem.fitted.front(), 1).front();
   result.cost = answer.best.cost;
   result.specimen_effect = {answer.weights.specimen[0], answer.weights.specimen[1],
                             answer.weights.specimen[2]};

@@ -7,6 +7,10 @@
 
 namespace havers::calib {
 
+/// Step of the searches' derivatives: 5 % of a parameter. Large enough to see through the
+/// replicates' noise, which makes the residuals only piecewise smooth.
+inline constexpr double slope_step = 0.05;
+
 /// How the residuals change with the active unknowns (F8). Rows as Evaluation::residuals.
 struct Differences {
   bool failed = true;

@@ -26,12 +26,11 @@ sim::Scene scene_at(const FitProblem& problem, const Point& point, std::size_t s
 }
 
 std::vector<sim::Scene> replicates_of(const FitProblem& problem, std::size_t specimen,
-                                      const sim::Scene& scene) {
-  const auto& options = problem.study.calibrate;
-  std::vector<sim::Scene> scenes(static_cast<std::size_t>(options.replicates), scene);
-  for (int i = 0; i < options.replicates; ++i)
+                                      const sim::Scene& scene, int replicates) {
+  std::vector<sim::Scene> scenes(static_cast<std::size_t>(replicates), scene);
+  for (int i = 0; i < replicates; ++i)
     scenes[static_cast<std::size_t>(i)].joints.seed =
-        replicate_seed(options.seed, problem.study.specimens[specimen].id, i);
+        replicate_seed(problem.study.calibrate.seed, problem.study.specimens[specimen].id, i);
   return scenes;
 }
 
@@ -39,12 +38,14 @@ std::vector<sim::Scene> replicates_of(const FitProblem& problem, std::size_t spe
 Landmarks scatter_slope(const FitProblem& problem, SimulationBatch& batch, const Evaluation& at,
                         std::size_t fitted) {
   const std::size_t specimen = problem.fitted[fitted];
+  const auto& here = at.predictions[fitted];
   sim::Scene scene = scene_at(problem, at.point, specimen);
   const double step = scene.joints.scatter < 1.0 ? scatter_step : -scatter_step;
   scene.joints.scatter += step;
-  const auto moved = summarise(batch.run(replicates_of(problem, specimen, scene)));
+  const auto replicates = static_cast<int>(here.replicates.size());
+  const auto moved = summarise(batch.run(replicates_of(problem, specimen, scene, replicates)));
   if (moved.failed_point()) return Landmarks::Zero();
-  return (moved.mean - at.predictions[fitted].mean) / step;
+  return (moved.mean - here.mean) / step;
 }
 
 }  // namespace
@@ -61,26 +62,27 @@ FitProblem make_problem(const Study& study) {
 }
 
 std::vector<sim::Scene> replicate_scenes(const FitProblem& problem, const Point& point,
-                                         std::size_t specimen) {
-  return replicates_of(problem, specimen, scene_at(problem, point, specimen));
+                                         std::size_t specimen, int replicates) {
+  return replicates_of(problem, specimen, scene_at(problem, point, specimen), replicates);
 }
 
 std::vector<Evaluation> predict(const FitProblem& problem, SimulationBatch& batch,
-                                const std::vector<Point>& points) {
+                                const std::vector<Point>& points, int replicates) {
   std::vector<sim::Scene> scenes;
   for (const auto& point : points)
     for (const std::size_t s : problem.fitted)
-      std::ranges::move(replicate_scenes(problem, point, s), std::back_inserter(scenes));
+      std::ranges::move(replicate_scenes(problem, point, s, replicates),
+                        std::back_inserter(scenes));
   const auto responses = batch.run(scenes);
 
-  const auto replicates = static_cast<std::size_t>(problem.study.calibrate.replicates);
+  const auto count = static_cast<std::size_t>(replicates);
   std::vector<Evaluation> evaluations(points.size());
   std::size_t next = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     auto& evaluation = evaluations[i];
     evaluation.point = points[i];
-    for (std::size_t f = 0; f < problem.fitted.size(); ++f, next += replicates)
-      evaluation.predictions.push_back(summarise(std::span(responses).subspan(next, replicates)));
+    for (std::size_t f = 0; f < problem.fitted.size(); ++f, next += count)
+      evaluation.predictions.push_back(summarise(std::span(responses).subspan(next, count)));
     evaluation.failed = std::ranges::any_of(evaluation.predictions, &Prediction::failed_point);
   }
   return evaluations;
@@ -109,21 +111,28 @@ void score(const FitProblem& problem, const Weights& weights, Evaluation& evalua
   if (!evaluation.failed) evaluation.cost = cost;
 }
 
-Weights weigh(const FitProblem& problem, SimulationBatch& batch, const Evaluation& at,
+std::vector<Landmarks> scatter_errors(const FitProblem& problem, SimulationBatch& batch,
+                                      const Evaluation& at) {
+  std::vector<Landmarks> errors(problem.models.size(), Landmarks(Landmarks::Zero()));
+  if (searched(problem, "scatter")) return errors;
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+    const std::size_t s = problem.fitted[f];
+    const double error = problem.models[s].scatter_standard_error;
+    if (error > 0.0) errors[s] = error * scatter_slope(problem, batch, at, f).abs();
+  }
+  return errors;
+}
+
+Weights weigh(const FitProblem& problem, const Evaluation& at, std::vector<Landmarks> scatter,
               const Landmarks& specimen) {
   assert(!at.failed);
-  const std::size_t count = problem.models.size();
-  Weights weights{.replicates = std::vector(count, Landmarks(Landmarks::Zero())),
-                  .scatter = std::vector(count, Landmarks(Landmarks::Zero())),
-                  .specimen = specimen,
-                  .sd = std::vector(count, Landmarks(Landmarks::Zero()))};
+  const std::vector<Landmarks> zero(problem.models.size(), Landmarks(Landmarks::Zero()));
+  Weights weights{
+      .replicates = zero, .scatter = std::move(scatter), .specimen = specimen, .sd = zero};
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
     const auto& prediction = at.predictions[f];
-    const double error = problem.models[s].scatter_standard_error;
     weights.replicates[s] = prediction.sd * std::sqrt(1.0 + 1.0 / prediction.usable);
-    if (error > 0.0 && !searched(problem, "scatter"))
-      weights.scatter[s] = error * scatter_slope(problem, batch, at, f).abs();
     weights.sd[s] = (problem.targets[s].noise.square() + weights.replicates[s].square() +
                      weights.scatter[s].square() + specimen.square())
                         .sqrt();

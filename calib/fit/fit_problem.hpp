@@ -25,7 +25,7 @@ FitProblem make_problem(const Study& study);
 
 /// The scenes of a specimen at a point, one per replicate.
 std::vector<sim::Scene> replicate_scenes(const FitProblem& problem, const Point& point,
-                                         std::size_t specimen);
+                                         std::size_t specimen, int replicates);
 
 /// Standard deviation of each residual, by source (F6). One Landmarks per specimen of the study.
 struct Weights {
@@ -47,7 +47,7 @@ struct Evaluation {
 
 /// Simulates every fitted specimen at every point, as one batch. Residuals are left to `score`.
 std::vector<Evaluation> predict(const FitProblem& problem, SimulationBatch& batch,
-                                const std::vector<Point>& points);
+                                const std::vector<Point>& points, int replicates);
 
 /// Residuals and cost of an evaluation (F7).
 void score(const FitProblem& problem, const Weights& weights, Evaluation& evaluation);
@@ -56,10 +56,15 @@ void score(const FitProblem& problem, const Weights& weights, Evaluation& evalua
 /// nothing.
 Landmarks difference(const Prediction& prediction, const Target& target);
 
-/// The weights at a point (F6): the replicates' spread there, and how much its scatter's error
-/// moves a specimen.
+/// How much the standard error of its scatter moves each specimen (F6), by simulation at another
+/// scatter. One per specimen of the study; zero where the scatter is searched or known exactly.
+std::vector<Landmarks> scatter_errors(const FitProblem& problem, SimulationBatch& batch,
+                                      const Evaluation& at);
+
+/// The weights (F6), with the replicates' spread at a point.
+/// @param scatter   from `scatter_errors`.
 /// @param specimen  sd between specimens, from `specimen_effect`.
-Weights weigh(const FitProblem& problem, SimulationBatch& batch, const Evaluation& at,
+Weights weigh(const FitProblem& problem, const Evaluation& at, std::vector<Landmarks> scatter,
               const Landmarks& specimen);
 
 }  // namespace havers::calib

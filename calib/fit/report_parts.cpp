@@ -113,7 +113,8 @@ std::vector<SpecimenResult> specimens_of(const FitProblem& problem, SimulationBa
                                          const Answer& answer) {
   std::vector<SpecimenResult> results;
   for (std::size_t s = 0; s < problem.study.specimens.size(); ++s) {
-    const auto responses = batch.run(replicate_scenes(problem, answer.best.point, s));
+    const auto responses = batch.run(
+        replicate_scenes(problem, answer.best.point, s, problem.study.calibrate.replicates));
     results.push_back(result_of(problem, answer, s, responses));
   }
   return results;

@@ -8,9 +8,6 @@
 namespace havers::calib {
 namespace {
 
-// Of the logarithm of a parameter: 2 %.
-constexpr double step = 0.02;
-
 // Ceres' own numeric derivatives leave the bounds and run one point at a time; these do neither.
 class Residuals final : public ceres::CostFunction {
  public:
@@ -26,7 +23,7 @@ class Residuals final : public ceres::CostFunction {
     if (at_.failed) return false;
     std::ranges::copy(at_.residuals, residuals);
     if (!jacobians || !jacobians[0]) return true;
-    const auto slopes = differentiate(trail_, at_, active_, step);
+    const auto slopes = differentiate(trail_, at_, active_, slope_step);
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
         jacobians[0], slopes.jacobian.rows(), slopes.jacobian.cols()) = slopes.jacobian;
     return !slopes.failed;
@@ -74,8 +71,8 @@ SearchResult search_ceres(Trail& trail, const Evaluation& start, const Active& a
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = 30;
-  options.function_tolerance = 1e-8;
-  options.parameter_tolerance = 1e-8;
+  options.function_tolerance = 1e-4;
+  options.parameter_tolerance = 1e-4;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
 

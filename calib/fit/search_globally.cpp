@@ -9,7 +9,7 @@ namespace havers::calib {
 namespace {
 
 constexpr int spread_starts = 7;  // beside the study's own
-constexpr std::size_t refined_starts = 3;
+constexpr std::size_t refined_starts = 2;
 
 // The study's own start, then a Halton sequence over the box of the unknowns that move.
 std::vector<Point> starts_of(const FitProblem& problem, const Point& own, const Active& moving) {
@@ -53,8 +53,13 @@ MultiStart search_globally(Trail& trail, const Active& active) {
     trail.enter("search");
     auto end = all_free ? search_ceres(trail, start, split.free)
                         : search_nlopt(trail, start, split, Stride::wide);
+    result.logs.push_back(end.log);
+    // Several costly unknowns: the derivative-free search stops in the valley, not at its bottom.
+    if (split.costly.size() > 1) {
+      end = search_ceres(trail, end.best, active);
+      result.logs.push_back(end.log);
+    }
     result.ends.push_back(std::move(end.best));
-    result.logs.push_back(std::move(end.log));
   }
   std::ranges::stable_sort(result.ends, cheaper);
   return result;

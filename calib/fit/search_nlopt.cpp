@@ -71,7 +71,8 @@ Split split_by_cost(const FitProblem& problem, const SimulationBatch& batch, con
   const auto keys = [&](const Point& point) {
     std::vector<std::string> all;
     for (const std::size_t s : problem.fitted)
-      std::ranges::move(batch.keys(replicate_scenes(problem, point, s)), std::back_inserter(all));
+      std::ranges::move(batch.keys(replicate_scenes(problem, point, s, 1)),
+                        std::back_inserter(all));
     return all;
   };
   const auto here = keys(at);

@@ -10,7 +10,7 @@ std::vector<Evaluation> Trail::evaluate(const std::vector<Point>& points) {
   budget_spent_ = budget_spent_ || batch_.distinct() >= options.budget * sets;
   if (stopped()) return std::vector<Evaluation>(points.size());
 
-  auto evaluations = predict(problem_, batch_, points);
+  auto evaluations = predict(problem_, batch_, points, replicates_);
   for (auto& evaluation : evaluations) {
     score(problem_, weights_, evaluation);
     note(evaluation);

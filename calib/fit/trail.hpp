@@ -18,7 +18,10 @@ namespace havers::calib {
 class Trail {
  public:
   Trail(const FitProblem& problem, SimulationBatch& batch, const CalibrationObserver& observer)
-      : problem_(problem), batch_(batch), observer_(observer) {}
+      : problem_(problem),
+        batch_(batch),
+        observer_(observer),
+        replicates_(problem.study.calibrate.replicates) {}
 
   /// Scored evaluations in the order of the points; failed ones once stopped.
   std::vector<Evaluation> evaluate(const std::vector<Point>& points);
@@ -28,12 +31,14 @@ class Trail {
   void restart(Weights weights, Evaluation from);
 
   void enter(std::string stage) { stage_ = std::move(stage); }
+  void set_replicates(int replicates) { replicates_ = replicates; }
   void lift_budget() { budget_lifted_ = true; }  ///< For the last look at the answer.
 
   [[nodiscard]] const FitProblem& problem() const { return problem_; }
   [[nodiscard]] SimulationBatch& batch() { return batch_; }
   [[nodiscard]] const Weights& weights() const { return weights_; }
   [[nodiscard]] const Evaluation& best() const { return best_; }
+  [[nodiscard]] int replicates() const { return replicates_; }
   [[nodiscard]] int points() const { return points_; }
   [[nodiscard]] bool cancelled() const { return cancelled_; }
   [[nodiscard]] bool budget_spent() const { return budget_spent_; }
@@ -48,6 +53,7 @@ class Trail {
   Weights weights_;
   Evaluation best_;
   std::string stage_;
+  int replicates_ = 1;
   int points_ = 0;
   bool cancelled_ = false, budget_spent_ = false, budget_lifted_ = false;
 };
