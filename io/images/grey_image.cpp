@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -52,10 +54,8 @@ cv::Mat without_alpha(const cv::Mat& image) {
 // (I1): projection on the first principal axis of the colours, which is grey itself for a grey
 // image and the stain's colour for a stained one. Its sign follows brightness.
 cv::Mat along_main_colour(const cv::Mat& colour) {
-  const double step = std::sqrt(static_cast<double>(colour.total()) / 1e4);
   cv::Mat few;
-  cv::resize(colour, few, {}, 1.0 / std::max(1.0, step), 1.0 / std::max(1.0, step),
-             cv::INTER_NEAREST);
+  cv::resize(colour, few, fitted(colour.size(), 100), 0.0, 0.0, cv::INTER_NEAREST);
   few.convertTo(few, CV_32F);
   const cv::PCA axes(few.reshape(1, static_cast<int>(few.total())), cv::noArray(),
                      cv::PCA::DATA_AS_ROW, 1);
@@ -95,6 +95,11 @@ cv::Mat read_mask(const std::filesystem::path& file, cv::Size size) {
   if (highest == 0.0)
     throw InputError(file.string(), "the mask marks nothing", "paint the bone white");
   return mask > 0.5 * highest;
+}
+
+cv::Size fitted(cv::Size size, int side) {
+  const double scale = std::min(1.0, static_cast<double>(side) / std::max(size.width, size.height));
+  return {std::max(1, cvRound(scale * size.width)), std::max(1, cvRound(scale * size.height))};
 }
 
 }  // namespace havers::io

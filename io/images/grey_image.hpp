@@ -15,4 +15,7 @@ cv::Mat read_grey(const std::filesystem::path& file);
 /// @throws InputError when it cannot be read, is of another size, or marks nothing.
 cv::Mat read_mask(const std::filesystem::path& file, cv::Size size);
 
+/// Size of a copy whose longer side is at most `side` pixels.
+cv::Size fitted(cv::Size size, int side);
+
 }  // namespace havers::io

@@ -22,7 +22,7 @@ double noise_at(const cv::Mat& grey, const cv::Mat& mask) {
     for (int x = 0; x < grey.cols; ++x)
       if (wanted[x] != 0) found.push_back(std::abs(values[x]));
   }
-  return found.empty() ? 0.0 : median(found) / 0.6745 / 6.0;
+  return found.empty() ? 0.0 : quantile(found, 0.5) / 0.6745 / 6.0;
 }
 
 }  // namespace

@@ -15,10 +15,11 @@ namespace havers::io {
 enum class Pores { found, dark, bright };
 
 struct SectionOptions {
-  std::optional<double> pixel_size;           ///< [m]
-  double window_length = 100e-6;              ///< L of the fibre whose window spreads porosity. [m]
-  double window_height = 10e-6;               ///< l. [m]
-  std::optional<std::filesystem::path> mask;  ///< White where the bone is; default: found.
+  std::optional<double> pixel_size = std::nullopt;  ///< [m]
+  double window_length = 100e-6;  ///< L of the fibre whose window spreads porosity. [m]
+  double window_height = 10e-6;   ///< l. [m]
+  std::optional<std::filesystem::path> mask =
+      std::nullopt;  ///< White where the bone is; default: found.
   Pores pores = Pores::found;
 };
 

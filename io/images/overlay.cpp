@@ -1,17 +1,17 @@
 #include "io/images/overlay.hpp"
 
-#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "io/images/grey_image.hpp"
 
 namespace havers::io {
 
 // Few grey levels and a little smoothing, or noise would make a report of many sections megabytes
 // long.
 std::vector<std::uint8_t> draw_overlay(const cv::Mat& grey, const PoreMap& map) {
-  const double scale = std::min(1.0, 640.0 / std::max(grey.cols, grey.rows));
   cv::Mat small, pores, bone, colour;
-  cv::resize(grey, small, {}, scale, scale, cv::INTER_AREA);
+  cv::resize(grey, small, fitted(grey.size(), 640), 0.0, 0.0, cv::INTER_AREA);
   cv::normalize(small, small, 0, 15, cv::NORM_MINMAX, CV_8U);
   cv::medianBlur(small, small, 3);
   cv::cvtColor(small * 16, colour, cv::COLOR_GRAY2BGR);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
@@ -26,21 +27,32 @@ cv::Mat dilated(const cv::Mat& mask, int side) {
   return result;
 }
 
-// As much smoothing as brings the noise to a tenth of the contrast, where a false pore of four
-// pixels is out of the question. White noise falls by 1/(2√π σ).
-double enough_smoothing(const Levels& levels) {
+double relative_noise(const Levels& levels) {
   const double contrast = std::abs(levels.contrast(levels.bone.coefficients[0]));
-  const double sigma = std::min(3.0, 2.8 * levels.noise / std::max(contrast, 1e-300));
-  return sigma < 0.4 ? 0.0 : sigma;
+  return levels.noise / std::max(contrast, 1e-300);
 }
 
-// Spread about the bone level of a depth image: robust, so that pores do not widen it.
-double bone_spread(const cv::Mat& depth, const cv::Mat& bone) {
+// Smoothing σ divides white noise by 2√π σ. As much as brings it to a tenth of the contrast, where
+// a false pore of four pixels is out of the question, and half a pixel from 0.07 on, where
+// it begins to fray the pores' edges. [px]
+const double noise_divisor = 2.0 * std::sqrt(std::numbers::pi);
+double enough_smoothing(const Levels& levels) {
+  const double noise = relative_noise(levels);
+  return noise < 0.07 ? 0.0 : std::clamp(10.0 / noise_divisor * noise, 0.5, 3.0);
+}
+
+// Where bone lies in a depth image, and how far about. From the shallow side, where no pore is: up
+// to a third of pores moves neither by more than a tenth of the spread.
+struct BoneDepth {
+  double middle = 0.0, spread = 0.0;
+};
+BoneDepth bone_depth(const cv::Mat& depth, const cv::Mat& bone) {
   std::vector<float> values;
   for (const Sample& s : sample(depth, bone, 20000)) values.push_back(s.value);
-  const auto middle = static_cast<float>(median(values));
-  for (float& value : values) value = std::abs(value - middle);
-  return 1.4826 * median(values);
+  const double upper = quantile(values, 0.30), lower = quantile(values, 0.05);
+  const double spread =
+      (upper - lower) / (1.645 - 0.524);  // Their places in a normal distribution.
+  return {upper + 0.524 * spread, spread};
 }
 
 // Where pores are deepest, by erosion that leaves enough of them.
@@ -53,20 +65,42 @@ cv::Mat cores_of(const cv::Mat& pores) {
   return cv::countNonZero(cores) > 0 ? cores : pores;
 }
 
-// The test for a second level, and the level: patches of three by three pixels all five deviations
-// deep are no chance. Refits the bone level away from pores. Returns the pores' cores; empty: one
-// level.
+// The test for a second level: patches of three by three pixels, all five deviations deep, are no
+// chance. Small pores show under little smoothing, strong noise needs more. The half-way depth
+// between bone and such patches; infinite: one level.
+double rough_threshold(cv::Mat& depth, const cv::Mat& bone, double noise) {
+  depth.setTo(0.0, ~bone);  // Or background would be smoothed into the bone.
+  for (int round = 0; round < 2; ++round) {
+    if (noise > 0.0) smooth(depth, round == 0 ? 1.0 : 2.0);
+    const BoneDepth solid = bone_depth(depth, bone);
+    const double least = solid.middle + std::max(5.0 * solid.spread, 0.01 * noise);
+    const cv::Mat seeds = eroded((depth > least) & bone, 3) & bone;
+    if (cv::countNonZero(seeds) > 0) return 0.5 * (solid.middle + cv::mean(depth, seeds)[0]);
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+// The bone as far from pores as a fiftieth of it is, beyond the reach of their blur.
+cv::Mat clean_bone(const cv::Mat& solid) {
+  const int enough = cv::countNonZero(solid) / 50;
+  cv::Mat clean;
+  for (const int side : {13, 11, 9, 7}) {
+    clean = eroded(solid, side);
+    if (cv::countNonZero(clean) >= enough) break;
+  }
+  return clean;
+}
+
+// Sets the pores' level and refits that of the bone away from pores. Returns the pores' cores;
+// empty: none.
 cv::Mat find_pore_level(const cv::Mat& grey, const cv::Mat& bone, Levels& levels) {
   levels.offset = 1.0, levels.slope = 0.0;
   cv::Mat depth = depth_image(grey, levels);
-  smooth(depth, levels.noise > 0.0 ? 1.0 : 0.0);
-  const double least = std::max(5.0 * bone_spread(depth, bone), 0.01 * levels.noise);
-  const cv::Mat seeds = eroded((depth > least) & bone, 3) & bone;
-  if (cv::countNonZero(seeds) == 0) return {};
+  const double threshold = rough_threshold(depth, bone, levels.noise);
+  const cv::Mat pores = (depth > threshold) & bone;
+  if (cv::countNonZero(pores) == 0) return {};
 
-  const cv::Mat pores = (depth > 0.5 * cv::mean(depth, seeds)[0]) & bone;
-  const cv::Mat clean = eroded(bone & ~pores, 7);
-  const std::vector<Sample> samples = sample(grey, clean, 20000);
+  const std::vector<Sample> samples = sample(grey, clean_bone(bone & ~pores), 20000);
   if (samples.size() >= 500) levels.bone = fit_surface(samples, grey.size(), 4);
   const cv::Mat cores = cores_of(pores);
   fit_contrast(grey, cores, levels);
@@ -79,6 +113,7 @@ cv::Mat without_rim(const cv::Mat& pores, const cv::Mat& bone) {
   return pores & dilated(pores & eroded(bone, 5), 5);
 }
 
+// Crossings along rows and columns [Cauchy-Crofton].
 double perimeter(const cv::Mat& mask) {
   const cv::Mat across = mask.colRange(1, mask.cols) != mask.colRange(0, mask.cols - 1);
   const cv::Mat down = mask.rowRange(1, mask.rows) != mask.rowRange(0, mask.rows - 1);
@@ -101,17 +136,20 @@ double depth_left_in(const cv::Mat& cores, const cv::Mat& pores, double blur) {
 }
 
 // (I7) Blur σ pulls the half-maximum contour of a pore inwards by σ²κ/2, κ its curvature: π σ² less
-// area a pore, whatever its shape. A lower threshold gives the area back. Sets the area by grey
-// level.
-double threshold_without_blur(const cv::Mat& depth, const cv::Mat& cores, double smoothing,
+// area a pore, whatever its shape. Noise s lets the contour tremble by √(2π) σ s, which adds the
+// share 2π s² of that again. A lower threshold gives the rest back. Sets the area by grey level.
+double threshold_without_blur(const cv::Mat& depth, const cv::Mat& cores, const Levels& levels,
                               PoreMap& map) {
+  const double smoothing = enough_smoothing(levels);
+  const double noise = relative_noise(levels) / std::max(1.0, noise_divisor * smoothing);
   const cv::Mat about = dilated(map.pores, 7) & map.bone;
   const double blur = blur_of(depth, map, about);
   const double own_blur = std::sqrt(std::max(0.0, blur * blur - smoothing * smoothing));
   const double full_depth = 1.0 / depth_left_in(cores, map.pores, own_blur);
   map.area_by_grey = cv::mean(depth, about)[0] * cv::countNonZero(about) / full_depth;
+  const double share = 1.0 - 2.0 * std::numbers::pi * noise * noise;
   const double lowering =
-      std::sqrt(std::numbers::pi / 2.0) * blur * map.count / perimeter(map.pores);
+      share * std::sqrt(std::numbers::pi / 2.0) * blur * map.count / perimeter(map.pores);
   return std::max(0.3, 0.5 - lowering) * full_depth;
 }
 
@@ -140,14 +178,13 @@ PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, bool outlined, Leve
   if (cores.empty()) return map;
 
   cv::Mat depth = depth_image(grey, levels);
-  const double smoothing = enough_smoothing(levels);
-  smooth(depth, smoothing);
+  smooth(depth, enough_smoothing(levels));
   double next = map.threshold;
   for (int round = 0; round < 4; ++round) {
     map.threshold = next;
     cut(depth, outlined, map);
     if (map.count == 0) break;
-    next = threshold_without_blur(depth, cores, smoothing, map);
+    next = threshold_without_blur(depth, cores, levels, map);
     if (std::abs(next - map.threshold) < 0.003) break;
   }
   return map;

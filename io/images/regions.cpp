@@ -5,13 +5,13 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "io/images/grey_image.hpp"
 #include "io/images/two_levels.hpp"
 
 namespace havers::io {
 namespace {
 
 using Contour = std::vector<cv::Point>;
-constexpr int small_side = 128;
 
 cv::Mat square(int side) {
   return cv::Mat::ones(side, side, CV_8U);
@@ -19,10 +19,8 @@ cv::Mat square(int side) {
 
 // A small, quiet copy with levels from 0 to 1.
 cv::Mat small_copy(const cv::Mat& grey) {
-  const double scale =
-      std::min(1.0, static_cast<double>(small_side) / std::max(grey.cols, grey.rows));
   cv::Mat copy;
-  cv::resize(grey, copy, {}, scale, scale, cv::INTER_AREA);
+  cv::resize(grey, copy, fitted(grey.size(), 128), 0.0, 0.0, cv::INTER_AREA);
   copy.convertTo(copy, CV_32F);
   cv::medianBlur(copy, copy, 5);
   cv::normalize(copy, copy, 0.0, 1.0, cv::NORM_MINMAX);

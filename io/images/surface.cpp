@@ -76,11 +76,11 @@ Surface fit_majority(const std::vector<Sample>& samples, cv::Size size) {
     for (std::size_t i = 0; i < samples.size(); ++i)
       residual[i] = samples[i].value - static_cast<float>(surface.at(samples[i].x, samples[i].y));
     deviation = residual;
-    const double middle = median(deviation);
+    const double middle = quantile(deviation, 0.5);
     for (std::size_t i = 0; i < samples.size(); ++i)
       deviation[i] = std::abs(residual[i] - static_cast<float>(middle));
     std::vector<float> sorted = deviation;
-    const double reach = 2.5 * 1.4826 * median(sorted);
+    const double reach = 2.5 * 1.4826 * quantile(sorted, 0.5);
     std::vector<Sample> kept;
     for (std::size_t i = 0; i < samples.size(); ++i)
       if (deviation[i] <= reach) kept.push_back(samples[i]);
@@ -105,11 +105,11 @@ std::vector<Sample> sample(const cv::Mat& image, const cv::Mat& mask, int count)
   return samples;
 }
 
-double median(std::vector<float>& values) {
+double quantile(std::vector<float>& values, double share) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + place, values.end());
+  return values[static_cast<std::size_t>(place)];
 }
 
 }  // namespace havers::io

@@ -31,7 +31,7 @@ Surface fit_majority(const std::vector<Sample>& samples, cv::Size size);
 /// About `count` pixels of a one-channel image where `mask` is set, on a square grid.
 std::vector<Sample> sample(const cv::Mat& image, const cv::Mat& mask, int count);
 
-/// Median of values (reordered); NaN without any.
-double median(std::vector<float>& values);
+/// Quantile of values (reordered), share from 0 to 1; NaN without any.
+double quantile(std::vector<float>& values, double share);
 
 }  // namespace havers::io
