@@ -15,7 +15,8 @@ std::vector<JointOutcome> initial_outcomes(const std::vector<Threshold>& thresho
   std::vector<JointOutcome> joints;
   joints.reserve(thresholds.size());
   for (const Threshold& threshold : thresholds)
-    joints.push_back({.threshold = threshold, .broken_at_strain = std::numeric_limits<double>::quiet_NaN()});
+    joints.push_back(
+        {.threshold = threshold, .broken_at_strain = std::numeric_limits<double>::quiet_NaN()});
   return joints;
 }
 
@@ -45,9 +46,9 @@ double stress_at(const std::vector<CurvePoint>& curve, double strain) {
 void summarise(Simulation& simulation) {
   const std::vector<CurvePoint>& curve = simulation.curve;
   if (curve.empty()) return;
-  const auto strongest = std::max_element(curve.begin(), curve.end(), [](const CurvePoint& a, const CurvePoint& b) {
-    return a.stress_right < b.stress_right;
-  });
+  const auto strongest = std::max_element(
+      curve.begin(), curve.end(),
+      [](const CurvePoint& a, const CurvePoint& b) { return a.stress_right < b.stress_right; });
   simulation.strength = strongest->stress_right;
   simulation.failure_strain = strongest->strain;
   simulation.broken_joints = curve.back().broken_joints;
@@ -55,7 +56,8 @@ void summarise(Simulation& simulation) {
   for (const JointOutcome& joint : simulation.joints)
     if (joint.broken && !(simulation.first_break_strain <= joint.broken_at_strain))
       simulation.first_break_strain = joint.broken_at_strain;
-  const double end = std::isnan(simulation.first_break_strain) ? curve.back().strain : simulation.first_break_strain;
+  const double end = std::isnan(simulation.first_break_strain) ? curve.back().strain
+                                                               : simulation.first_break_strain;
   simulation.modulus = end > 0.0 ? stress_at(curve, 0.5 * end) / (0.5 * end) : 0.0;
 }
 

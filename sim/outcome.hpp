@@ -5,13 +5,15 @@
 
 namespace havers::sim {
 
-/// ν of the lateral strain −ν ε under uniaxial stress in the plane: ν, or ν/(1−ν) in plane strain. [-]
+/// ν of the lateral strain −ν ε under uniaxial stress in the plane: ν, or ν/(1−ν) in plane strain.
+/// [-]
 double lateral_contraction(const Material& material);
 
 /// All joints intact, with their thresholds.
 std::vector<JointOutcome> initial_outcomes(const std::vector<Threshold>& thresholds);
 
-/// Whether both sides have dropped below the end fraction of the strength after a break. Keeps the strength so far.
+/// Whether both sides have dropped below the end fraction of the strength after a break. Keeps the
+/// strength so far.
 bool has_failed(Simulation& simulation, double end_fraction);
 
 /// Strength, failure strain, modulus, first break and counts from the curve and the joints.

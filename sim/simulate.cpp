@@ -16,20 +16,23 @@ RegimeChoice choose_regime(const Scene& scene) {
   const double wave = std::sqrt(scene.material.young / scene.material.density);
   const double transit = scene.assembly.width() / wave;
   RegimeChoice choice;
-  choice.inertia_number = scene.loading.strain_rate * transit * scene.material.young / scene.joints.head_tail;
+  choice.inertia_number =
+      scene.loading.strain_rate * transit * scene.material.young / scene.joints.head_tail;
   if (scene.solver.regime != Regime::automatic) {
     choice.regime = scene.solver.regime;
-    choice.ground = fmt::format("asked for by the scene; inertia number {:.2g}", choice.inertia_number);
+    choice.ground =
+        fmt::format("asked for by the scene; inertia number {:.2g}", choice.inertia_number);
     return choice;
   }
   // Viscosity, a shock and a given time step have no meaning without time.
-  const bool needs_time = scene.material.viscosity > 0.0 || scene.loading.start == Start::rest || scene.solver.step ||
-                          scene.solver.contact == ContactMethod::gauss_seidel;
+  const bool needs_time = scene.material.viscosity > 0.0 || scene.loading.start == Start::rest ||
+                          scene.solver.step || scene.solver.contact == ContactMethod::gauss_seidel;
   const bool slow = choice.inertia_number < quasi_static_below;
   choice.regime = slow && !needs_time ? Regime::quasi_static : Regime::dynamic;
   choice.ground =
-      fmt::format("inertia number {:.2g} is {} {:g}{}", choice.inertia_number, slow ? "below" : "not below",
-                  quasi_static_below, slow && needs_time ? ", but the scene asks for something that needs time" : "");
+      fmt::format("inertia number {:.2g} is {} {:g}{}", choice.inertia_number,
+                  slow ? "below" : "not below", quasi_static_below,
+                  slow && needs_time ? ", but the scene asks for something that needs time" : "");
   return choice;
 }
 
@@ -39,16 +42,21 @@ namespace {
 std::vector<LeftOut> left_out(const Scene& scene, const Simulation& simulation) {
   std::vector<LeftOut> list;
   if (scene.material.viscosity == 0.0) list.push_back({"viscosity", "viscosity_s is 0"});
-  if (scene.loading.lateral == Lateral::free) list.push_back({"periodic ties", "the sides are free"});
+  if (scene.loading.lateral == Lateral::free)
+    list.push_back({"periodic ties", "the sides are free"});
   if (!scene.solver.leave_out) return list;
   list.push_back({"one operator for each body", "equal bodies share theirs"});
   if (simulation.regime == Regime::quasi_static) {
     list.push_back({"inertia and time steps", simulation.regime_ground});
+    list.push_back({"contact of pieces that no bonded joint connects to an end",
+                    "they carry nothing, and without inertia their position is not determined"});
     return list;
   }
   if (scene.solver.contact == ContactMethod::gauss_seidel) return list;
-  list.push_back({"the friction problem of joints inside their cone", "they hold, which is a linear condition"});
-  list.push_back({"contact of joints that opened", "checked each step, and taken up again when they close"});
+  list.push_back({"the friction problem of joints inside their cone",
+                  "they hold, which is a linear condition"});
+  list.push_back(
+      {"contact of joints that opened", "checked each step, and taken up again when they close"});
   return list;
 }
 
@@ -57,8 +65,9 @@ std::vector<LeftOut> left_out(const Scene& scene, const Simulation& simulation) 
 Simulation simulate(const Scene& scene, const Observer& observer) {
   assert(scene.problems().empty());
   const RegimeChoice choice = choose_regime(scene);
-  Simulation simulation = choice.regime == Regime::quasi_static ? simulate_quasi_static(scene, observer)
-                                                                : simulate_dynamic(scene, observer);
+  Simulation simulation = choice.regime == Regime::quasi_static
+                              ? simulate_quasi_static(scene, observer)
+                              : simulate_dynamic(scene, observer);
   simulation.regime_ground = choice.ground;
   summarise(simulation);
   simulation.left_out = left_out(scene, simulation);

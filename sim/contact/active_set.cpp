@@ -13,7 +13,9 @@ namespace {
 // A new factor costs about as much as the columns of this many joints.
 constexpr int worth_detaching = 24;
 
-Local at(const VectorXd& values, int joint) { return values.segment<2>(2 * static_cast<Index>(joint)); }
+Local at(const VectorXd& values, int joint) {
+  return values.segment<2>(2 * static_cast<Index>(joint));
+}
 
 }  // namespace
 
@@ -27,7 +29,8 @@ ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, int max_iterations, bool 
       stiffness_(joint_stiffness(bodies)) {}
 
 LooseJoints ActiveSetSolver::make_loose() const {
-  return LooseJoints(structure_.joints(), [this](int joint) { return structure_.respond_to_jump(joint); });
+  return LooseJoints(structure_.joints(),
+                     [this](int joint) { return structure_.respond_to_jump(joint); });
 }
 
 void ActiveSetSolver::rebuild(std::vector<char> detached) {
@@ -52,16 +55,17 @@ void ActiveSetSolver::detach_opened(const JointStep& step) {
 // Jumps that bring every joint to where it is held, the loose ones to where they are now.
 VectorXd ActiveSetSolver::jumps(const JointStep& step) const {
   VectorXd target = VectorXd::Zero(step.gaps.size());
-  for (const int joint : loose_.joints()) target.segment<2>(2 * static_cast<Index>(joint)) = at(step.gaps, joint);
+  for (const int joint : loose_.joints())
+    target.segment<2>(2 * static_cast<Index>(joint)) = at(step.gaps, joint);
   return target - step.predicted;
 }
 
 // The loose joints among themselves, and again with those that the answer overloads, until none is.
-bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded_reactions, JointStepResult& result,
-                                   VectorXd& y) {
+bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded_reactions,
+                                   JointStepResult& result, VectorXd& y) {
   for (;;) {
     const auto n = static_cast<Index>(loose_.size());
-    LocalContact contact{loose_.stiffness(), VectorXd(2 * n), VectorXd(2 * n), {}};
+    LocalContact contact{loose_.stiffness(), VectorXd(2 * n), VectorXd(2 * n), {}, {}};
     std::vector<JointState> states;
     for (Index i = 0; i < n; ++i) {
       const int joint = loose_.joints()[static_cast<std::size_t>(i)];
@@ -70,7 +74,8 @@ bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded
       contact.laws.push_back(step.laws[static_cast<std::size_t>(joint)]);
       states.push_back(result.states[static_cast<std::size_t>(joint)]);
     }
-    const LocalContactResult local = solve_local_contact(contact, std::move(states), max_iterations_);
+    const LocalContactResult local =
+        solve_local_contact(contact, std::move(states), max_iterations_);
     result.iterations += local.iterations;
     y = local.y;
     if (!local.converged) return false;
@@ -81,13 +86,15 @@ bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded
   }
 }
 
-bool ActiveSetSolver::loosen_violated(const JointStep& step, const VectorXd& reactions, JointStepResult& result) {
+bool ActiveSetSolver::loosen_violated(const JointStep& step, const VectorXd& reactions,
+                                      JointStepResult& result) {
   const double scale = reactions.cwiseAbs().maxCoeff();
   std::vector<int> violated;
   for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint) {
     const auto j = static_cast<std::size_t>(joint);
     if (structure_.detached(joint) || loose_.contains(joint)) continue;
-    const JointState state = state_of(at(reactions, joint), Local::Zero(), JointState::stick, step.laws[j], scale);
+    const JointState state =
+        state_of(at(reactions, joint), Local::Zero(), JointState::stick, step.laws[j], scale);
     if (state == JointState::stick) continue;
     result.states[j] = state;
     violated.push_back(joint);
@@ -114,7 +121,8 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
   detach_opened(step);
   // What is broken and not detached may move; after a rebuild it has to be said again.
   for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint)
-    if (step.broken[static_cast<std::size_t>(joint)] != 0 && !structure_.detached(joint) && !loose_.contains(joint))
+    if (step.broken[static_cast<std::size_t>(joint)] != 0 && !structure_.detached(joint) &&
+        !loose_.contains(joint))
       loose_.add(joint);
 
   JointStepResult result;
@@ -127,7 +135,8 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
     result.converged = settle_loose(step, response.reactions, result, y);
     if (y.size() > 0 && !y.isZero(0.0)) {
       for (std::size_t i = 0; i < loose_.size(); ++i)
-        loads.jumps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) += y.segment<2>(2 * static_cast<Index>(i));
+        loads.jumps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) +=
+            y.segment<2>(2 * static_cast<Index>(i));
       response = structure_.solve(loads);
     }
     result.iterations += response.solves;

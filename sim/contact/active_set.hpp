@@ -6,12 +6,13 @@
 
 namespace havers::sim {
 
-/// Everything bonded is one triangular solve (S5); joints that leave the bonded state are loosened one by one and
-/// solved among themselves (C1); joints that opened for good are detached from the factor. The answer does not
-/// depend on what is loose or detached, only its cost does.
+/// Everything bonded is one triangular solve (S5); joints that leave the bonded state are loosened
+/// one by one and solved among themselves (C1); joints that opened for good are detached from the
+/// factor. The answer does not depend on what is loose or detached, only its cost does.
 class ActiveSetSolver : public JointSolver {
  public:
-  /// @param detach_open  false: broken joints stay in the factor for good (section 7, for comparison).
+  /// @param detach_open  false: broken joints stay in the factor for good (section 7, for
+  /// comparison).
   ActiveSetSolver(const Bodies& bodies, int max_iterations, bool detach_open = true);
   JointStepResult solve(const JointStep& step) override;
 
@@ -20,9 +21,10 @@ class ActiveSetSolver : public JointSolver {
   void detach_opened(const JointStep& step);
   void rebuild(std::vector<char> detached);
   [[nodiscard]] Eigen::VectorXd jumps(const JointStep& step) const;
-  bool settle_loose(const JointStep& step, const Eigen::VectorXd& bonded_reactions, JointStepResult& result,
-                    Eigen::VectorXd& y);
-  bool loosen_violated(const JointStep& step, const Eigen::VectorXd& reactions, JointStepResult& result);
+  bool settle_loose(const JointStep& step, const Eigen::VectorXd& bonded_reactions,
+                    JointStepResult& result, Eigen::VectorXd& y);
+  bool loosen_violated(const JointStep& step, const Eigen::VectorXd& reactions,
+                       JointStepResult& result);
   bool reattach_closed(const JointStepResult& result);
 
   const Bodies* bodies_;

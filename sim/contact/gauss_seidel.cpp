@@ -14,7 +14,8 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr int sweeps_between_checks = 10;
-constexpr std::array<double, 4> tie_signs{1.0, -1.0, -1.0, 1.0};  // top, bottom, next top, next bottom
+constexpr std::array<double, 4> tie_signs{1.0, -1.0, -1.0,
+                                          1.0};  // top, bottom, next top, next bottom
 
 MatrixXd inverse_of_free_part(const BodyOperator& op, const std::vector<char>& held, Index first) {
   std::vector<Index> free;
@@ -39,7 +40,8 @@ GaussSeidelSolver::GaussSeidelSolver(const Bodies& bodies, double tolerance, int
       stiffness_(joint_stiffness(bodies)) {
   for (std::size_t c = 0; c < bodies.classes().size(); ++c) {
     const BodyClass& group = bodies.classes()[c];
-    inverses_.push_back(inverse_of_free_part(group.op, bodies.held(), bodies.first_dof(group.bodies.front())));
+    inverses_.push_back(
+        inverse_of_free_part(group.op, bodies.held(), bodies.first_dof(group.bodies.front())));
     port_answers_.push_back(group.op.ports * inverses_.back() * group.op.ports.transpose());
     for (const int body : group.bodies) class_of_[static_cast<std::size_t>(body)] = c;
   }
@@ -80,14 +82,15 @@ void GaussSeidelSolver::find_contacts() {
   }
   for (std::size_t i = 0; i + 1 < tie_ports.size(); ++i) {
     const Tie &tie = assembly.ties[i], &next = assembly.ties[i + 1];
-    TieEquation equation{{tie_ports[i][0], tie_ports[i][1], tie_ports[i + 1][0], tie_ports[i + 1][1]},
-                         {tie.body_top, tie.body_bottom, next.body_top, next.body_bottom},
-                         0.0};
+    TieEquation equation{
+        {tie_ports[i][0], tie_ports[i][1], tie_ports[i + 1][0], tie_ports[i + 1][1]},
+        {tie.body_top, tie.body_bottom, next.body_top, next.body_bottom},
+        0.0};
     for (std::size_t a = 0; a < 4; ++a)
       for (std::size_t b = 0; b < 4; ++b)
         if (equation.bodies[a] == equation.bodies[b])
-          equation.compliance +=
-              tie_signs[a] * tie_signs[b] * answer(equation.bodies[a], equation.ports[a], equation.ports[b]);
+          equation.compliance += tie_signs[a] * tie_signs[b] *
+                                 answer(equation.bodies[a], equation.ports[a], equation.ports[b]);
     ties_.push_back(equation);
   }
 }
@@ -102,12 +105,14 @@ void GaussSeidelSolver::sweep(const JointStep& step, VectorXd& p) {
   for (std::size_t j = 0; j < contacts_.size(); ++j) {
     const Contact& contact = contacts_[j];
     const auto row = static_cast<Index>(2 * j);
-    const Local gap = step.predicted.segment<2>(row) - step.held_at.segment<2>(row) +
-                      Local(p(contact.ports[2]) - p(contact.ports[0]), p(contact.ports[3]) - p(contact.ports[1]));
+    const Local gap =
+        step.predicted.segment<2>(row) - step.held_at.segment<2>(row) +
+        Local(p(contact.ports[2]) - p(contact.ports[0]), p(contact.ports[3]) - p(contact.ports[1]));
     const Local old = reactions_.segment<2>(row);
     const Local free = old - contact.stiffness * gap;
-    const Local now = free + contact.stiffness *
-                                 solve_single_joint(contact.stiffness, free, Local::Zero(), step.laws[j]).y;
+    const Local now =
+        free + contact.stiffness *
+                   solve_single_joint(contact.stiffness, free, Local::Zero(), step.laws[j]).y;
     for (const Index c : {0, 1}) {
       push(contact.body_a, contact.ports[static_cast<std::size_t>(c)], old(c) - now(c), p);
       push(contact.body_b, contact.ports[static_cast<std::size_t>(2 + c)], now(c) - old(c), p);
@@ -133,18 +138,22 @@ VectorXd GaussSeidelSolver::port_forces() const {
       t(contacts_[j].ports[2 + c]) = r;
     }
   for (std::size_t i = 0; i < ties_.size(); ++i)
-    for (std::size_t k = 0; k < 4; ++k) t(ties_[i].ports[k]) += tie_signs[k] * tie_forces_(static_cast<Index>(i));
+    for (std::size_t k = 0; k < 4; ++k)
+      t(ties_[i].ports[k]) += tie_signs[k] * tie_forces_(static_cast<Index>(i));
   return t;
 }
 
-VectorXd GaussSeidelSolver::displacements(const JointStep& step, const VectorXd& port_forces) const {
-  const VectorXd load = step.forces + bodies_->port_forces_on_nodes(port_forces) - bodies_->shifted_times(step.prescribed);
+VectorXd GaussSeidelSolver::displacements(const JointStep& step,
+                                          const VectorXd& port_forces) const {
+  const VectorXd load = step.forces + bodies_->port_forces_on_nodes(port_forces) -
+                        bodies_->shifted_times(step.prescribed);
   MatrixXd d = step.prescribed;
   const auto dof = [&](int body) { return bodies_->first_dof(body); };
   for (std::size_t c = 0; c < inverses_.size(); ++c) {
     const BodyClass& group = bodies_->classes()[c];
     const Index rows = inverses_[c].rows();
-    scatter(gather(d, group, rows, dof) + inverses_[c] * gather(load, group, rows, dof), group, dof, d);
+    scatter(gather(d, group, rows, dof) + inverses_[c] * gather(load, group, rows, dof), group, dof,
+            d);
   }
   return d;
 }
@@ -168,9 +177,11 @@ JointStepResult GaussSeidelSolver::solve(const JointStep& step) {
     result.gaps = step.predicted;
     for (std::size_t j = 0; j < contacts_.size(); ++j)
       for (const std::size_t c : {0U, 1U})
-        result.gaps(static_cast<Index>(2 * j + c)) += p(contacts_[j].ports[2 + c]) - p(contacts_[j].ports[c]);
+        result.gaps(static_cast<Index>(2 * j + c)) +=
+            p(contacts_[j].ports[2 + c]) - p(contacts_[j].ports[c]);
     const double scale = std::max(step.force_scale, reactions_.norm());
-    result.residual = joint_residual(step, result, stiffness_) + (scale > 0.0 ? tie_error(p) / scale : 0.0);
+    result.residual =
+        joint_residual(step, result, stiffness_) + (scale > 0.0 ? tie_error(p) / scale : 0.0);
     result.converged = result.residual <= tolerance_;
   };
   for (measure(); !result.converged && result.iterations < max_sweeps_; ++result.iterations) {

@@ -1,4 +1,5 @@
-// Non-smooth Gauss-Seidel over all joints, bonded or not: what other codes do, for comparison and for small steps.
+// Non-smooth Gauss-Seidel over all joints, bonded or not: what other codes do, for comparison and
+// for small steps.
 #pragma once
 
 #include <array>
@@ -7,8 +8,9 @@
 
 namespace havers::sim {
 
-/// One joint at a time, the others held [Jean99]. Wins below h c/L = 0.1; needs very many sweeps above 1 (M10).
-/// The ties are n − 1 equations between neighbouring ones, solved in turn like the joints.
+/// One joint at a time, the others held [Jean99]. Wins below h c/L = 0.1; needs very many sweeps
+/// above 1 (M10). The ties are n − 1 equations between neighbouring ones, solved in turn like the
+/// joints.
 class GaussSeidelSolver : public JointSolver {
  public:
   GaussSeidelSolver(const Bodies& bodies, double tolerance, int max_sweeps);
@@ -31,7 +33,8 @@ class GaussSeidelSolver : public JointSolver {
   void find_contacts();
   void sweep(const JointStep& step, Eigen::VectorXd& p);
   void push(int body, Eigen::Index port, double force, Eigen::VectorXd& p) const;
-  [[nodiscard]] Eigen::VectorXd displacements(const JointStep& step, const Eigen::VectorXd& port_forces) const;
+  [[nodiscard]] Eigen::VectorXd displacements(const JointStep& step,
+                                              const Eigen::VectorXd& port_forces) const;
   [[nodiscard]] Eigen::VectorXd port_forces() const;
   [[nodiscard]] double tie_error(const Eigen::VectorXd& p) const;
 

@@ -15,7 +15,8 @@ VectorXd joint_gaps(const Bodies& bodies, const VectorXd& q) {
   VectorXd gaps = VectorXd::Zero(rows);
   for (std::size_t i = 0; i < ports.size(); ++i)
     if (ports[i].unknown < rows)
-      gaps(ports[i].unknown) += ports[i].side == PortSide::b ? p(static_cast<Index>(i)) : -p(static_cast<Index>(i));
+      gaps(ports[i].unknown) +=
+          ports[i].side == PortSide::b ? p(static_cast<Index>(i)) : -p(static_cast<Index>(i));
   return gaps;
 }
 
@@ -24,7 +25,8 @@ VectorXd joint_forces_on_nodes(const Bodies& bodies, const VectorXd& reactions) 
   VectorXd t = VectorXd::Zero(static_cast<Index>(ports.size()));
   for (std::size_t i = 0; i < ports.size(); ++i)
     if (ports[i].unknown < reactions.size())
-      t(static_cast<Index>(i)) = ports[i].side == PortSide::b ? reactions(ports[i].unknown) : -reactions(ports[i].unknown);
+      t(static_cast<Index>(i)) =
+          ports[i].side == PortSide::b ? reactions(ports[i].unknown) : -reactions(ports[i].unknown);
   return bodies.port_forces_on_nodes(t);
 }
 
@@ -33,20 +35,23 @@ VectorXd joint_stiffness(const Bodies& bodies) {
   for (const BodyClass& group : bodies.classes())
     for (const int body : group.bodies)
       for (Index i = 0; i < group.op.impedance.rows(); ++i) {
-        const int unknown = bodies.ports()[static_cast<std::size_t>(bodies.first_port(body) + i)].unknown;
+        const int unknown =
+            bodies.ports()[static_cast<std::size_t>(bodies.first_port(body) + i)].unknown;
         if (unknown < 2 * stiffness.size())
           stiffness(unknown / 2) = std::max(stiffness(unknown / 2), group.op.impedance(i, i));
       }
   return stiffness;
 }
 
-double joint_residual(const JointStep& step, const JointStepResult& result, const VectorXd& stiffness) {
+double joint_residual(const JointStep& step, const JointStepResult& result,
+                      const VectorXd& stiffness) {
   double squared = 0.0;
   for (std::size_t j = 0; j < step.laws.size(); ++j) {
     const auto row = static_cast<Index>(2 * j);
     const Local reaction = result.reactions.segment<2>(row);
     const Local gap = result.gaps.segment<2>(row) - step.held_at.segment<2>(row);
-    squared += law_residual(reaction, gap, step.laws[j], stiffness(static_cast<Index>(j))).squaredNorm();
+    squared +=
+        law_residual(reaction, gap, step.laws[j], stiffness(static_cast<Index>(j))).squaredNorm();
   }
   const double scale = std::max(step.force_scale, result.reactions.norm());
   return squared == 0.0 ? 0.0 : std::sqrt(squared) / std::max(scale, 1e-300);

@@ -9,28 +9,29 @@
 
 namespace havers::sim {
 
-/// Find δ with Ā δ = g + Hᵀ r, the given displacements on the sides, the ties, and every joint's law for the
-/// gaps H(q + h v) + H δ. Vectors over joints hold (normal, tangential) of each.
+/// Find δ with Ā δ = g + Hᵀ r, the given displacements on the sides, the ties, and every joint's
+/// law for the gaps H(q + h v) + H δ. Vectors over joints hold (normal, tangential) of each.
 struct JointStep {
-  Eigen::VectorXd forces;           ///< g. [N/m]
-  Eigen::VectorXd prescribed;       ///< δ of the held degrees of freedom. [m]
-  Eigen::VectorXd predicted;        ///< H(q + h v). [m]
-  Eigen::VectorXd gaps;             ///< At the last step. [m]
-  Eigen::VectorXd held_at;          ///< Gap and slip at which a sticking joint is held: (0, slip when it last held). [m]
+  Eigen::VectorXd forces;      ///< g. [N/m]
+  Eigen::VectorXd prescribed;  ///< δ of the held degrees of freedom. [m]
+  Eigen::VectorXd predicted;   ///< H(q + h v). [m]
+  Eigen::VectorXd gaps;        ///< At the last step. [m]
+  Eigen::VectorXd held_at;     ///< Gap and slip at which a sticking joint is held: (0, slip when it
+                               ///< last held). [m]
   std::vector<JointLaw> laws;
-  std::vector<char> broken;         ///< 1 for a joint whose cohesion is gone.
-  std::vector<JointState> states;   ///< Of the last step: where a solver starts.
-  double force_scale = 0.0;         ///< Largest norm of the reactions so far. [N/m]
+  std::vector<char> broken;        ///< 1 for a joint whose cohesion is gone.
+  std::vector<JointState> states;  ///< Of the last step: where a solver starts.
+  double force_scale = 0.0;        ///< Largest norm of the reactions so far. [N/m]
 };
 
 struct JointStepResult {
   bool converged = false;
-  Eigen::VectorXd displacements;   ///< δ. [m]
-  Eigen::VectorXd reactions;       ///< r. [N/m]
-  Eigen::VectorXd gaps;            ///< Total, at the end of the step. [m]
+  Eigen::VectorXd displacements;  ///< δ. [m]
+  Eigen::VectorXd reactions;      ///< r. [N/m]
+  Eigen::VectorXd gaps;           ///< Total, at the end of the step. [m]
   std::vector<JointState> states;
   long iterations = 0;
-  double residual = 0.0;           ///< (M11). [-]
+  double residual = 0.0;  ///< (M11). [-]
 };
 
 /// A way to solve the joints' problem. Keeps what it can reuse from step to step.
@@ -49,11 +50,13 @@ Eigen::VectorXd joint_gaps(const Bodies& bodies, const Eigen::VectorXd& q);
 /// Hᵀ r. [N/m]
 Eigen::VectorXd joint_forces_on_nodes(const Bodies& bodies, const Eigen::VectorXd& reactions);
 
-/// A stiffness for each joint: the force that a unit error of its gap would cause in its two bodies. [N/m²]
+/// A stiffness for each joint: the force that a unit error of its gap would cause in its two
+/// bodies. [N/m²]
 Eigen::VectorXd joint_stiffness(const Bodies& bodies);
 
-/// (M11): norm of the law's natural-map residual over the joints, relative to the reactions. Unit-invariant, and
-/// judged by force: a gap that is wrong counts by the force it would cause. [-]
-double joint_residual(const JointStep& step, const JointStepResult& result, const Eigen::VectorXd& stiffness);
+/// (M11): norm of the law's natural-map residual over the joints, relative to the reactions.
+/// Unit-invariant, and judged by force: a gap that is wrong counts by the force it would cause. [-]
+double joint_residual(const JointStep& step, const JointStepResult& result,
+                      const Eigen::VectorXd& stiffness);
 
 }  // namespace havers::sim

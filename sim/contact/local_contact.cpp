@@ -18,6 +18,7 @@ using States = std::vector<JointState>;
 
 constexpr double rounding = 1e-12;
 constexpr int worth_trying = 20;  // sets, before a safer way is taken
+constexpr int worth_sweeping = 1000;
 
 double sign_of(JointState state) {
   return state == JointState::slip_forward ? 1.0 : state == JointState::slip_backward ? -1.0 : 0.0;
@@ -30,14 +31,17 @@ States states_of(const LocalContact& p, const VectorXd& y, const States& now) {
   for (std::size_t i = 0; i < now.size(); ++i) {
     const auto row = static_cast<Index>(2 * i);
     const double stiffness = p.S(row, row);
-    states[i] = state_of(r.segment<2>(row), stiffness * u.segment<2>(row), now[i], p.laws[i], scale);
+    states[i] = p.is_apart(i) ? JointState::open
+                              : state_of(r.segment<2>(row), stiffness * u.segment<2>(row), now[i],
+                                         p.laws[i], scale);
   }
   return states;
 }
 
 }  // namespace
 
-JointState state_of(const Local& reaction, const Local& gap, JointState now, const JointLaw& law, double scale) {
+JointState state_of(const Local& reaction, const Local& gap, JointState now, const JointLaw& law,
+                    double scale) {
   const double tolerance = rounding * scale;
   if (now == JointState::open) return gap.x() < -tolerance ? JointState::stick : JointState::open;
   if (reaction.x() + law.cohesion < -tolerance) return JointState::open;
@@ -48,7 +52,8 @@ JointState state_of(const Local& reaction, const Local& gap, JointState now, con
   return sign_of(now) * gap.y() < -tolerance ? JointState::stick : now;
 }
 
-SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const Local& u0, const JointLaw& law) {
+SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const Local& u0,
+                               const JointLaw& law) {
   const Local stuck = -u0;
   if (cone_margin(free + S * stuck, law) >= 0.0) return {stuck, JointState::stick};
   const Local opened = -(S.inverse() * (free + Local(law.cohesion, 0.0)));
@@ -71,6 +76,7 @@ int gauss_seidel(const LocalContact& p, VectorXd& y, States& states, int max_swe
   for (int sweep = 1; sweep <= max_sweeps; ++sweep) {
     double change = 0.0, size = 0.0;
     for (std::size_t i = 0; i < p.laws.size(); ++i) {
+      if (p.is_apart(i)) continue;
       const auto row = static_cast<Index>(2 * i);
       const Eigen::Matrix2d S = p.S.block<2, 2>(row, row);
       const Local old = y.segment<2>(row);
@@ -106,17 +112,22 @@ LocalContactResult try_sets(const LocalContact& p, States states, int max_iterat
 
 }  // namespace
 
-LocalContactResult solve_local_contact(const LocalContact& problem, States states, int max_iterations) {
+LocalContactResult solve_local_contact(const LocalContact& problem, States states,
+                                       int max_iterations) {
   if (states.empty()) return {.converged = true, .y = {}, .states = {}, .iterations = 0};
-  LocalContactResult result = try_sets(problem, std::move(states), std::min(max_iterations, worth_trying));
+  LocalContactResult result =
+      try_sets(problem, std::move(states), std::min(max_iterations, worth_trying));
   if (result.converged) return result;
   int spent = result.iterations;
 
-  const States stuck(problem.laws.size(), JointState::stick);
-  LocalContactResult released = follow_release(problem, stuck, cohesion_to_stick(problem), max_iterations);
+  States stuck(problem.laws.size(), JointState::stick);
+  for (std::size_t i = 0; i < stuck.size(); ++i)
+    if (problem.is_apart(i)) stuck[i] = JointState::open;
+  LocalContactResult released = follow_release(problem, stuck, cohesion_to_stick(problem));
   spent += released.iterations;
   if (!released.converged) {
-    spent += gauss_seidel(problem, released.y, released.states, max_iterations);
+    spent += gauss_seidel(problem, released.y, released.states,
+                          std::min(max_iterations, worth_sweeping));
     released = try_sets(problem, std::move(released.states), worth_trying);
     spent += released.iterations;
   }

@@ -1,4 +1,5 @@
-// The few joints that may move, after everything bonded has been condensed: a small dense contact problem.
+// The few joints that may move, after everything bonded has been condensed: a small dense contact
+// problem.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,12 +12,19 @@ namespace havers::sim {
 /// What a joint does in the solution of a step.
 enum class JointState { stick, slip_forward, slip_backward, open };
 
-/// Find y with r = r₀ + S y and the joint law at every joint, gaps being u = u₀ + y (C1), sim/contact/README.md.
+/// Find y with r = r₀ + S y and the joint law at every joint, gaps being u = u₀ + y (C1),
+/// sim/contact/README.md.
 struct LocalContact {
   Eigen::MatrixXd S;           ///< Reactions to unit gaps, 2n × 2n, symmetric ≥ 0. [N/m²]
   Eigen::VectorXd r0;          ///< Reactions at y = 0, 2n. [N/m]
   Eigen::VectorXd u0;          ///< Gap, and slip since the joint last held, at y = 0, 2n. [m]
   std::vector<JointLaw> laws;  ///< n.
+  std::vector<char>
+      apart{};  ///< 1 for a joint that stays open whatever its gap; n, or empty for none.
+
+  [[nodiscard]] bool is_apart(std::size_t joint) const {
+    return !apart.empty() && apart[joint] != 0;
+  }
 };
 
 struct LocalContactResult {
@@ -26,9 +34,10 @@ struct LocalContactResult {
   int iterations = 0;              ///< Sets tried, and sweeps of the fallback.
 };
 
-/// Which state a joint with that reaction and gap belongs in. `scale` is a force: less than 1e-12 of it is
-/// rounding.
-JointState state_of(const Local& reaction, const Local& gap, JointState now, const JointLaw& law, double scale);
+/// Which state a joint with that reaction and gap belongs in. `scale` is a force: less than 1e-12
+/// of it is rounding.
+JointState state_of(const Local& reaction, const Local& gap, JointState now, const JointLaw& law,
+                    double scale);
 
 /// Gap and state of one joint.
 struct SingleJoint {
@@ -37,11 +46,12 @@ struct SingleJoint {
 };
 
 /// One joint alone, exactly: r = `free` + S y and the law for the gap u₀ + y.
-SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const Local& u0, const JointLaw& law);
+SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const Local& u0,
+                               const JointLaw& law);
 
-/// Active set started from `states`: each set is one linear solve (C2). When a set comes back, joints change their
-/// state one at a time, each to what it would be alone (C3); when even that comes back, Gauss-Seidel over the
-/// joints (C4) finds the set.
+/// Active set started from `states`: each set is one linear solve (C2). When a set comes back,
+/// joints change their state one at a time, each to what it would be alone (C3); when even that
+/// comes back, Gauss-Seidel over the joints (C4) finds the set.
 LocalContactResult solve_local_contact(const LocalContact& problem, std::vector<JointState> states,
                                        int max_iterations);
 

@@ -1,7 +1,10 @@
 #include "sim/contact/release_path.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "sim/contact/state_system.hpp"
 
@@ -14,9 +17,10 @@ using Eigen::RowVector2d;
 using Eigen::VectorXd;
 using States = std::vector<JointState>;
 
-// Part of the largest free reaction below which a force, or a gap times its stiffness, is nothing. Pieces that carry
-// nothing must not change their minds about contacts without a force.
-constexpr double nothing = 1e-10;
+// Part of the largest free reaction below which a force, or a gap times its stiffness, is nothing.
+// Pieces that carry nothing must not change their minds about contacts without a force: where they
+// do, the next larger part is taken.
+constexpr std::array<double, 3> nothing{1e-10, 1e-8, 1e-6};
 
 // The solution for given states: value at λ = 0 (column 0) and slope (column 1).
 struct Branch {
@@ -24,10 +28,11 @@ struct Branch {
   double force_tolerance = 0.0;  // [N/m]
 };
 
-Branch solve_branch(const LocalContact& p, const States& states, const VectorXd& extra) {
+Branch solve_branch(const LocalContact& p, const States& states, const VectorXd& extra,
+                    double part) {
   const auto n = static_cast<Index>(p.laws.size());
   const StateSystem system(p, states);
-  Branch branch{MatrixXd(2 * n, 2), MatrixXd(2 * n, 2), {}, nothing * p.r0.cwiseAbs().maxCoeff()};
+  Branch branch{MatrixXd(2 * n, 2), MatrixXd(2 * n, 2), {}, part * p.r0.cwiseAbs().maxCoeff()};
   branch.y.col(0) = system.solve(p.r0, -p.u0, cohesions(p));
   branch.y.col(1) = system.solve(VectorXd::Zero(2 * n), VectorXd::Zero(2 * n), extra);
   branch.r = p.S * branch.y;
@@ -43,10 +48,10 @@ struct Change {
   JointState to = JointState::open;
 };
 
-// The next change of one joint on the way down from λ. Each state's conditions are those of the law (M5), (M7),
-// written as forces ≥ 0.
-Change next_change(const LocalContact& p, const Branch& branch, std::size_t joint, JointState state, double extra,
-                   double from) {
+// The next change of one joint on the way down from λ. Each state's conditions are those of the law
+// (M5), (M7), written as forces ≥ 0.
+Change next_change(const LocalContact& p, const Branch& branch, std::size_t joint, JointState state,
+                   double extra, double from) {
   const auto row = static_cast<Index>(2 * joint);
   const JointLaw& law = p.laws[joint];
   const RowVector2d push = branch.r.row(row) + RowVector2d(law.cohesion, extra);
@@ -54,6 +59,7 @@ Change next_change(const LocalContact& p, const Branch& branch, std::size_t join
   const RowVector2d opening = p.S(row, row) * branch.u.row(row);
   const RowVector2d slip = p.S(row + 1, row + 1) * branch.u.row(row + 1);
   Change first{.joint = joint};
+  if (p.is_apart(joint)) return first;
   const auto consider = [&](const RowVector2d& condition, JointState to) {
     const double last = condition(0) + branch.force_tolerance;
     if (!(condition(1) > 0.0) || last >= 0.0) return;
@@ -94,35 +100,55 @@ VectorXd cohesion_to_stick(const LocalContact& p) {
   VectorXd extra(static_cast<Index>(p.laws.size()));
   for (Index i = 0; i < extra.size(); ++i) {
     const JointLaw& law = p.laws[static_cast<std::size_t>(i)];
-    const double need = std::abs(r(2 * i + 1)) / std::max(law.friction, 1e-3) - r(2 * i) - law.cohesion;
+    const double need =
+        std::abs(r(2 * i + 1)) / std::max(law.friction, 1e-3) - r(2 * i) - law.cohesion;
     extra(i) = std::max(0.0, 1.01 * need);
   }
   return extra;
 }
 
-LocalContactResult follow_release(const LocalContact& problem, States states, const VectorXd& extra,
-                                  int max_changes) {
+namespace {
+
+LocalContactResult follow(const LocalContact& problem, States states, const VectorXd& extra,
+                          double part) {
   LocalContactResult result;
   double lambda = 1.0;
-  Change last{.at = 2.0, .joint = states.size(), .to = JointState::open};  // where the last one came from
-  for (; result.iterations < max_changes; ++result.iterations) {
-    const Branch branch = solve_branch(problem, states, extra);
+  std::set<States> met;  // at this λ
+  for (;;) {
+    ++result.iterations;
+    const Branch branch = solve_branch(problem, states, extra, part);
     if (!branch.y.allFinite()) break;
     result.y = branch.y.col(0);
     Change next;
     for (std::size_t j = 0; j < states.size(); ++j) {
-      const Change change = next_change(problem, branch, j, states[j], extra(static_cast<Index>(j)), lambda);
+      const Change change =
+          next_change(problem, branch, j, states[j], extra(static_cast<Index>(j)), lambda);
       if (change.at > next.at) next = change;
     }
     result.converged = next.at < 0.0;
     if (result.converged) break;
-    // Back to where it came from without having moved: the path turns back.
-    if (next.joint == last.joint && next.to == last.to && next.at == last.at) break;
-    last = {next.at, next.joint, states[next.joint]};
+    if (next.at < lambda) met.clear();
+    if (!met.insert(states).second)
+      break;  // the same states again without having moved: the path turns back
     lambda = next.at;
     states[next.joint] = next.to;
   }
   result.states = std::move(states);
+  return result;
+}
+
+}  // namespace
+
+LocalContactResult follow_release(const LocalContact& problem, const States& states,
+                                  const VectorXd& extra) {
+  LocalContactResult result;
+  int spent = 0;
+  for (const double part : nothing) {
+    result = follow(problem, states, extra, part);
+    spent += result.iterations;
+    if (result.converged) break;
+  }
+  result.iterations = spent;
   return result;
 }
 

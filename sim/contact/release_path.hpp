@@ -5,17 +5,19 @@
 
 namespace havers::sim {
 
-/// Follows the solution of `problem` with cohesions c + λ e from λ = 1, where `states` hold, to λ = 0 (C5). For given
-/// states the solution is linear in λ; one joint changes its state at a time, where its condition says so.
-/// Not converged when the path turns back, which friction allows.
+/// Follows the solution of `problem` with cohesions c + λ e from λ = 1, where `states` hold, to λ =
+/// 0 (C5). For given states the solution is linear in λ; one joint changes its state at a time,
+/// where its condition says so. Not converged when the path turns back, which friction allows.
 /// @param extra  e of each joint, n. [N/m]
-LocalContactResult follow_release(const LocalContact& problem, std::vector<JointState> states,
-                                  const Eigen::VectorXd& extra, int max_changes);
+LocalContactResult follow_release(const LocalContact& problem,
+                                  const std::vector<JointState>& states,
+                                  const Eigen::VectorXd& extra);
 
 /// c of every joint, n. [N/m]
 Eigen::VectorXd cohesions(const LocalContact& problem);
 
-/// e that lets every joint stick in the answer to y = −u₀: where a path can start when nothing better is known. [N/m]
+/// e that lets every joint stick in the answer to y = −u₀: where a path can start when nothing
+/// better is known. [N/m]
 Eigen::VectorXd cohesion_to_stick(const LocalContact& problem);
 
 }  // namespace havers::sim

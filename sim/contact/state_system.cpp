@@ -8,8 +8,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-// A piece that hangs on nothing leaves the equations singular: a trace of their diagonal holds it, and a few
-// corrections take the trace's effect on everything else away.
+// A piece that hangs on nothing leaves the equations singular: a trace of their diagonal holds it,
+// and a few corrections take the trace's effect on everything else away.
 constexpr double trace = 1e-8;
 constexpr int corrections = 3;
 
@@ -21,7 +21,8 @@ double friction_slope(JointState state, const JointLaw& law) {
 
 }  // namespace
 
-StateSystem::StateSystem(const LocalContact& problem, const std::vector<JointState>& states) : problem_(&problem) {
+StateSystem::StateSystem(const LocalContact& problem, const std::vector<JointState>& states)
+    : problem_(&problem) {
   for (std::size_t i = 0; i < states.size(); ++i) {
     const auto row = static_cast<Index>(2 * i);
     if (states[i] == JointState::open) {
@@ -47,7 +48,8 @@ StateSystem::StateSystem(const LocalContact& problem, const std::vector<JointSta
   factor_.compute(held);
 }
 
-VectorXd StateSystem::solve(const VectorXd& r0, const VectorXd& held, const VectorXd& cohesion) const {
+VectorXd StateSystem::solve(const VectorXd& r0, const VectorXd& held,
+                            const VectorXd& cohesion) const {
   VectorXd y = held;
   if (unknown_.empty()) return y;
   for (const Index row : unknown_) y(row) = 0.0;

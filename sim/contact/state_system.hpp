@@ -7,8 +7,9 @@
 
 namespace havers::sim {
 
-/// (C2): gaps are held where a joint sticks, along the normal also where it slips; for each other gap one equation,
-/// no force beyond −c where open, friction on the cone where slipping. Factorised once for several loads.
+/// (C2): gaps are held where a joint sticks, along the normal also where it slips; for each other
+/// gap one equation, no force beyond −c where open, friction on the cone where slipping. Factorised
+/// once for several loads.
 class StateSystem {
  public:
   StateSystem(const LocalContact& problem, const std::vector<JointState>& states);

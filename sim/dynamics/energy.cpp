@@ -18,21 +18,25 @@ void EnergyBalance::start(const Motion& motion, const Eigen::VectorXd& mass) {
   external = largest_ = kinetic + elastic;
 }
 
-void EnergyBalance::add(const Step& step, const Motion& before, const Motion& after, const Eigen::VectorXd& mass) {
+void EnergyBalance::add(const Step& step, const Motion& before, const Motion& after,
+                        const Eigen::VectorXd& mass) {
   const double h = step.time;
   const double kinetic_change = kinetic_energy(after.v, mass) - kinetic;
   const double elastic_change = 0.5 * after.q.dot(after.Kq) - elastic;
   const double viscous_step = h * step.viscosity * after.v.dot(after.Kv);
-  const double numerical_step = kinetic_energy(after.v - before.v, mass) + 0.5 * h * h * after.v.dot(after.Kv);
-  const double defect = step.external_work - (kinetic_change + elastic_change + step.joint_dissipation +
-                                              viscous_step + numerical_step);
+  const double numerical_step =
+      kinetic_energy(after.v - before.v, mass) + 0.5 * h * h * after.v.dot(after.Kv);
+  const double defect =
+      step.external_work -
+      (kinetic_change + elastic_change + step.joint_dissipation + viscous_step + numerical_step);
   kinetic += kinetic_change;
   elastic += elastic_change;
   external += step.external_work;
   joints += step.joint_dissipation;
   viscous += viscous_step;
   numerical += numerical_step;
-  largest_ = std::max({largest_, kinetic + elastic, std::abs(external), std::abs(step.external_work)});
+  largest_ =
+      std::max({largest_, kinetic + elastic, std::abs(external), std::abs(step.external_work)});
   if (largest_ > 0.0) relative_defect = std::max(relative_defect, std::abs(defect) / largest_);
 }
 

@@ -17,13 +17,13 @@ struct Motion {
 
 /// Sums since the start, per unit thickness.
 struct EnergyBalance {
-  double kinetic = 0.0;           ///< T. [J/m]
-  double elastic = 0.0;           ///< U. [J/m]
-  double external = 0.0;          ///< W_ext, with the initial energies. [J/m]
-  double joints = 0.0;            ///< D_joint. [J/m]
-  double viscous = 0.0;           ///< D_visc. [J/m]
-  double numerical = 0.0;         ///< Taken by implicit Euler. [J/m]
-  double relative_defect = 0.0;   ///< Largest so far, relative to the largest energy so far. [-]
+  double kinetic = 0.0;          ///< T. [J/m]
+  double elastic = 0.0;          ///< U. [J/m]
+  double external = 0.0;         ///< W_ext, with the initial energies. [J/m]
+  double joints = 0.0;           ///< D_joint. [J/m]
+  double viscous = 0.0;          ///< D_visc. [J/m]
+  double numerical = 0.0;        ///< Taken by implicit Euler. [J/m]
+  double relative_defect = 0.0;  ///< Largest so far, relative to the largest energy so far. [-]
 
   /// Starts the account with the energies of the initial state.
   void start(const Motion& motion, const Eigen::VectorXd& mass);
@@ -35,7 +35,8 @@ struct EnergyBalance {
     double external_work = 0.0;      ///< [J/m]
     double joint_dissipation = 0.0;  ///< −r·Δgap. [J/m]
   };
-  void add(const Step& step, const Motion& before, const Motion& after, const Eigen::VectorXd& mass);
+  void add(const Step& step, const Motion& before, const Motion& after,
+           const Eigen::VectorXd& mass);
 
  private:
   double largest_ = 0.0;

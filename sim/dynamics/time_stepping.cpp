@@ -65,7 +65,8 @@ DynamicRun::DynamicRun(const Scene& scene, const Assembly& assembly, double h)
     : scene_(scene),
       assembly_(assembly),
       h_(h),
-      bodies_(assembly, scene.material, {1.0 / (h * h), 1.0 + scene.material.viscosity / h}, scene.solver.leave_out),
+      bodies_(assembly, scene.material, {1.0 / (h * h), 1.0 + scene.material.viscosity / h},
+              scene.solver.leave_out),
       solver_(make_solver(scene.solver, bodies_)) {
   start();
 }
@@ -99,7 +100,8 @@ void DynamicRun::prepare() {
   step_.prescribed = VectorXd::Zero(bodies_.dofs());
   for (const int node : assembly_.left) step_.prescribed(2 * node) = -h_ * motion_.v(2 * node);
   for (const int node : assembly_.right)
-    step_.prescribed(2 * node) = h_ * (scene_.loading.strain_rate * assembly_.width - motion_.v(2 * node));
+    step_.prescribed(2 * node) =
+        h_ * (scene_.loading.strain_rate * assembly_.width - motion_.v(2 * node));
 }
 
 void DynamicRun::move(const JointStepResult& result) {
@@ -112,7 +114,8 @@ void DynamicRun::move(const JointStepResult& result) {
 // Forces of the machine, from the momentum balance of the held nodes, and the energies.
 void DynamicRun::account(const JointStepResult& result, const Motion& before) {
   const VectorXd reaction = bodies_.mass().cwiseProduct(motion_.v - before.v) / h_ + motion_.Kq +
-                            scene_.material.viscosity * motion_.Kv - joint_forces_on_nodes(bodies_, result.reactions);
+                            scene_.material.viscosity * motion_.Kv -
+                            joint_forces_on_nodes(bodies_, result.reactions);
   const auto along_x = [&](const std::vector<int>& nodes) {
     double sum = 0.0;
     for (const int node : nodes) sum += reaction(2 * node);
@@ -147,7 +150,8 @@ void DynamicRun::break_joints(const JointStepResult& result) {
   }
   step_.states = result.states;
   step_.gaps = result.gaps;
-  for (std::size_t j = 0; j < joints.size(); ++j)  // a bonded joint has no gap: no drift from rounding
+  for (std::size_t j = 0; j < joints.size();
+       ++j)  // a bonded joint has no gap: no drift from rounding
     if (!joints[j].broken) step_.gaps.segment<2>(static_cast<Index>(2 * j)).setZero();
 }
 

@@ -1,4 +1,5 @@
-// The joint law: Signorini-Coulomb with the cone's tip moved by the cohesion. Section 3 of sim/README.md.
+// The joint law: Signorini-Coulomb with the cone's tip moved by the cohesion. Section 3 of
+// sim/README.md.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +11,8 @@ namespace havers::sim {
 /// A vector in a joint's frame: (normal, tangential).
 using Local = Eigen::Vector2d;
 
-/// |R_T| ≤ μ (R_N + c): (M5) with c = f_N and μ = f_T/f_N while intact, (M7) with c = 0 and μ = μ_f when broken.
+/// |R_T| ≤ μ (R_N + c): (M5) with c = f_N and μ = f_T/f_N while intact, (M7) with c = 0 and μ = μ_f
+/// when broken.
 struct JointLaw {
   double cohesion = 0.0;  ///< c. [N/m]
   double friction = 0.0;  ///< μ. [-]
@@ -32,7 +34,8 @@ Local project_on_cone(const Local& reaction, const JointLaw& law);
 ///
 /// @param reaction   r. [N/m]
 /// @param gap        u: gap along the normal and slip since the joint last held. [m]
-/// @param stiffness  k > 0, makes the two comparable: the force that a wrong gap would cause. [N/m²]
+/// @param stiffness  k > 0, makes the two comparable: the force that a wrong gap would cause.
+/// [N/m²]
 Local law_residual(const Local& reaction, const Local& gap, const JointLaw& law, double stiffness);
 
 }  // namespace havers::sim

@@ -22,14 +22,16 @@ using Eigen::VectorXd;
 // Joints that meet their cones at strains closer than this break together, whatever their order.
 constexpr double together = 1e-9;
 
-// The structure as it is between two events. Its answer is proportional to the strain: it is known from ε = 1.
+// The structure as it is between two events. Its answer is proportional to the strain: it is known
+// from ε = 1.
 class BreakingRun {
  public:
   BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact);
 
   /// Strain at which the next joints meet their cones; infinite when none ever will.
   [[nodiscard]] double next_event() const;
-  /// Breaks all joints that have met their cones at `event`; `strain` is that of the specimen by then.
+  /// Breaks all joints that have met their cones at `event`; `strain` is that of the specimen by
+  /// then.
   void break_joints(double event, double strain);
   /// Solves the changed structure for ε = 1, broken joints pressed together included (M7).
   bool settle();
@@ -40,6 +42,7 @@ class BreakingRun {
 
  private:
   [[nodiscard]] double meets_cone_at(std::size_t joint) const;
+  [[nodiscard]] std::vector<char> apart() const;
 
   const Scene& scene_;
   std::shared_ptr<const IntactStructure> intact_;
@@ -60,7 +63,8 @@ class BreakingRun {
 BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact)
     : scene_(scene),
       intact_(std::move(intact)),
-      loose_(intact_->structure().joints(), [this](int joint) { return intact_->respond_to_jump(joint); }),
+      loose_(intact_->structure().joints(),
+             [this](int joint) { return intact_->respond_to_jump(joint); }),
       reactions_(intact_->answer().reactions),
       force_(intact_->answer().force),
       joints(initial_outcomes(draw_thresholds(scene, intact_->assembly()))) {}
@@ -97,17 +101,56 @@ void BreakingRun::break_joints(double event, double strain) {
   }
 }
 
+// Loose joints at a body that no chain of bonded joints connects to an end: 1. Such a body carries
+// nothing, and without inertia its position is not determined, so neither is what it touches.
+std::vector<char> BreakingRun::apart() const {
+  const Assembly& assembly = intact_->assembly();
+  std::vector<char> carried(assembly.bodies.size(), 0);
+  const auto touches = [](const Body& body, const std::vector<int>& side) {
+    return std::any_of(side.begin(), side.end(), [&](int node) {
+      return node >= body.first_node && node < body.first_node + body.nodes;
+    });
+  };
+  for (std::size_t b = 0; b < carried.size(); ++b)
+    carried[b] =
+        touches(assembly.bodies[b], assembly.left) || touches(assembly.bodies[b], assembly.right)
+            ? 1
+            : 0;
+  for (bool grew = true; grew;) {
+    grew = false;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j].broken) continue;
+      char& a = carried[static_cast<std::size_t>(assembly.joints[j].body_a)];
+      char& b = carried[static_cast<std::size_t>(assembly.joints[j].body_b)];
+      if (a == b) continue;
+      a = b = 1;
+      grew = true;
+    }
+  }
+  std::vector<char> apart(loose_.size(), 0);
+  for (std::size_t i = 0; i < apart.size(); ++i) {
+    const Joint& joint = assembly.joints[static_cast<std::size_t>(loose_.joints()[i])];
+    const bool both = carried[static_cast<std::size_t>(joint.body_a)] != 0 &&
+                      carried[static_cast<std::size_t>(joint.body_b)] != 0;
+    apart[i] = both ? 0 : 1;
+  }
+  return apart;
+}
+
 // Only what has just broken is released; the others follow from where they are.
 bool BreakingRun::settle() {
   const auto n = static_cast<Index>(loose_.size());
   LocalContact contact{loose_.stiffness(), VectorXd(2 * n), VectorXd::Zero(2 * n),
-                       std::vector<JointLaw>(loose_.size(), broken_law(scene_.joints.friction))};
+                       std::vector<JointLaw>(loose_.size(), broken_law(scene_.joints.friction)),
+                       apart()};
   for (Index i = 0; i < n; ++i)
-    contact.r0.segment<2>(2 * i) =
-        intact_->answer().reactions.segment<2>(2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)]));
+    contact.r0.segment<2>(2 * i) = intact_->answer().reactions.segment<2>(
+        2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)]));
+  for (std::size_t i = 0; i < loose_.size(); ++i)
+    if (contact.apart[i] != 0) states_[i] = JointState::open;
   VectorXd extra = cohesion_to_stick(contact);
   extra.head(static_cast<Index>(settled_)).setZero();
-  LocalContactResult result = follow_release(contact, states_, extra, scene_.solver.max_iterations);
+  LocalContactResult result = follow_release(contact, states_, extra);
   iterations += result.iterations;
   if (!result.converged) {
     result = solve_local_contact(contact, result.states, scene_.solver.max_iterations);
@@ -134,12 +177,13 @@ CurvePoint BreakingRun::point(double strain) const {
           .dissipated = dissipated};
 }
 
-// One solve of the whole structure with the gaps found: what events computed by influence and reciprocity is checked
-// against ½ qᵀKq = ½ (F W ε + r·u) and the joint laws.
+// One solve of the whole structure with the gaps found: what events computed by influence and
+// reciprocity is checked against ½ qᵀĀq = ½ (F W ε + r·u) and the joint laws.
 void BreakingRun::finish(double strain, double energy_scale, Simulation& simulation) const {
   VectorXd gaps = VectorXd::Zero(2 * static_cast<Index>(joints.size()));
   for (std::size_t i = 0; i < loose_.size(); ++i)
-    gaps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) = y_.segment<2>(static_cast<Index>(2 * i));
+    gaps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) =
+        y_.segment<2>(static_cast<Index>(2 * i));
   const double scale = intact_->answer().reactions.norm();
   const UnitAnswer last = stretch(intact_->structure(), gaps, scale);
 
@@ -155,7 +199,7 @@ void BreakingRun::finish(double strain, double energy_scale, Simulation& simulat
     simulation.worst_penetration = std::max(simulation.worst_penetration, -joint.gap);
   }
   const VectorXd& q = last.displacements;
-  const double elastic = 0.5 * q.dot(VectorXd(intact_->bodies().stiffness_times(q)));
+  const double elastic = 0.5 * q.dot(VectorXd(intact_->bodies().shifted_times(q)));
   const double work = 0.5 * (force_ * intact_->assembly().width + last.reactions.dot(gaps));
   if (energy_scale > 0.0)
     simulation.energy_defect = young * strain * strain * std::abs(elastic - work) / energy_scale;

@@ -1,4 +1,5 @@
-// The quasi-static limit: the breaking sequence, event by event, without time steps. Section 6 of sim/README.md.
+// The quasi-static limit: the breaking sequence, event by event, without time steps. Section 6 of
+// sim/README.md.
 #pragma once
 
 #include "sim/simulation.hpp"

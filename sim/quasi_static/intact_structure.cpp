@@ -12,11 +12,13 @@ namespace havers::sim {
 namespace {
 
 constexpr std::size_t kept = 8;
-constexpr std::size_t remembered_bytes = std::size_t{128} << 20U;  // of influence columns, for each structure
+constexpr std::size_t remembered_bytes = std::size_t{128}
+                                         << 20U;  // of influence columns, for each structure
 
-// A trace of inertia, that of h c/L = 1e6, holds what hangs on a single joint or floats, and nothing else feels it.
+// A trace of inertia, that of h c/L = 3e6, holds what hangs on a single joint or floats, and
+// nothing else feels it.
 Shift quasi_static_shift(const AssemblyOptions& options) {
-  return {1e-12 / (options.fibre_length * options.fibre_length), 1.0};
+  return {1e-13 / (options.fibre_length * options.fibre_length), 1.0};
 }
 
 Material unit_material(const Material& material) {
@@ -31,23 +33,25 @@ Material unit_material(const Material& material) {
 UnitAnswer stretch(const Structure& structure, const Eigen::VectorXd& gaps, double force_scale) {
   const Bodies& bodies = structure.bodies();
   const Assembly& assembly = bodies.assembly();
-  StructureLoads loads{Eigen::VectorXd::Zero(bodies.dofs()), Eigen::VectorXd::Zero(bodies.dofs()), gaps, force_scale};
+  StructureLoads loads{Eigen::VectorXd::Zero(bodies.dofs()), Eigen::VectorXd::Zero(bodies.dofs()),
+                       gaps, force_scale};
   for (const int node : assembly.right) loads.prescribed(2 * node) = assembly.width;
   const StructureResponse response = structure.solve(loads);
 
   UnitAnswer answer{response.displacements, response.reactions, 0.0, response.residual};
   const Eigen::VectorXd forces =
-      bodies.stiffness_times(answer.displacements) - joint_forces_on_nodes(bodies, answer.reactions);
+      bodies.shifted_times(answer.displacements) - joint_forces_on_nodes(bodies, answer.reactions);
   for (const int node : assembly.right) answer.force += forces(2 * node);
   return answer;
 }
 
-IntactStructure::IntactStructure(const AssemblyOptions& options, const Loading& loading, const Material& material,
-                                 bool share)
+IntactStructure::IntactStructure(const AssemblyOptions& options, const Loading& loading,
+                                 const Material& material, bool share)
     : assembly_(build_assembly(options, loading.lateral)),
       bodies_(assembly_, unit_material(material), quasi_static_shift(options), share),
       structure_(bodies_) {
-  if (structure_.ok()) answer_ = stretch(structure_, Eigen::VectorXd::Zero(2 * structure_.joints()), 0.0);
+  if (structure_.ok())
+    answer_ = stretch(structure_, Eigen::VectorXd::Zero(2 * structure_.joints()), 0.0);
 }
 
 JumpResponse IntactStructure::respond_to_jump(int joint) const {
@@ -61,15 +65,23 @@ JumpResponse IntactStructure::respond_to_jump(int joint) const {
   JumpResponse response = structure_.respond_to_jump(joint);
   const std::scoped_lock lock(mutex_);
   const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(response.reactions.size());
-  if ((reactions_to_jump_.size() + 1) * bytes <= remembered_bytes) reactions_to_jump_.emplace(joint, response.reactions);
+  if ((reactions_to_jump_.size() + 1) * bytes <= remembered_bytes)
+    reactions_to_jump_.emplace(joint, response.reactions);
   return response;
 }
 
 std::shared_ptr<const IntactStructure> intact_structure(const Scene& scene) {
   const AssemblyOptions& a = scene.assembly;
   using Key = std::tuple<int, int, double, double, double, Lateral, double, Plane, bool>;
-  const Key key{a.layers, a.fibres, a.fibre_length, a.fibre_height, a.orientation, scene.loading.lateral,
-                scene.material.poisson, scene.material.plane, scene.solver.leave_out};
+  const Key key{a.layers,
+                a.fibres,
+                a.fibre_length,
+                a.fibre_height,
+                a.orientation,
+                scene.loading.lateral,
+                scene.material.poisson,
+                scene.material.plane,
+                scene.solver.leave_out};
   static std::mutex mutex;
   static std::list<std::pair<Key, std::shared_ptr<const IntactStructure>>> recent;
 
@@ -79,8 +91,8 @@ std::shared_ptr<const IntactStructure> intact_structure(const Scene& scene) {
       recent.splice(recent.begin(), recent, entry);
       return entry->second;
     }
-  recent.emplace_front(
-      key, std::make_shared<IntactStructure>(a, scene.loading, scene.material, scene.solver.leave_out));
+  recent.emplace_front(key, std::make_shared<IntactStructure>(a, scene.loading, scene.material,
+                                                              scene.solver.leave_out));
   if (recent.size() > kept) recent.pop_back();
   return recent.front().second;
 }

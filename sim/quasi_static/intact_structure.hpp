@@ -1,4 +1,5 @@
-// The factorised intact assembly: the part of a quasi-static run that no seed, threshold or modulus changes.
+// The factorised intact assembly: the part of a quasi-static run that no seed, threshold or modulus
+// changes.
 #pragma once
 
 #include <map>
@@ -9,7 +10,8 @@
 
 namespace havers::sim {
 
-/// Answer of a structure of Young's modulus 1 to the strain 1, all loose joints held. Everything scales with E and ε.
+/// Answer of a structure of Young's modulus 1 to the strain 1, all loose joints held. Everything
+/// scales with E and ε.
 struct UnitAnswer {
   Eigen::VectorXd displacements;  ///< [m]
   Eigen::VectorXd reactions;      ///< Of all joints. [N/m]
@@ -20,18 +22,20 @@ struct UnitAnswer {
 /// Stretches a structure by the strain 1, with given gaps at the joints that are not detached.
 UnitAnswer stretch(const Structure& structure, const Eigen::VectorXd& gaps, double force_scale);
 
-/// An assembly of Young's modulus 1, factorised, and its answers: to the strain 1, and to jumps as they are asked for.
+/// An assembly of Young's modulus 1, factorised, and its answers: to the strain 1, and to jumps as
+/// they are asked for.
 class IntactStructure {
  public:
-  IntactStructure(const AssemblyOptions& options, const Loading& loading, const Material& material, bool share);
+  IntactStructure(const AssemblyOptions& options, const Loading& loading, const Material& material,
+                  bool share);
 
   [[nodiscard]] const Assembly& assembly() const { return assembly_; }
   [[nodiscard]] const Bodies& bodies() const { return bodies_; }
   [[nodiscard]] const Structure& structure() const { return structure_; }
   [[nodiscard]] const UnitAnswer& answer() const { return answer_; }
 
-  /// Structure::respond_to_jump, remembered for later runs as long as memory allows. May be called by several
-  /// threads.
+  /// Structure::respond_to_jump, remembered for later runs as long as memory allows. May be called
+  /// by several threads.
   [[nodiscard]] JumpResponse respond_to_jump(int joint) const;
 
  private:

@@ -23,8 +23,8 @@ struct BodyClass {
   std::vector<int> bodies;
 };
 
-/// Matrices hold one case a column. Vectors over the degrees of freedom have x and y of every node of the assembly; vectors over the
-/// ports have each body's ports in order.
+/// Matrices hold one case a column. Vectors over the degrees of freedom have x and y of every node
+/// of the assembly; vectors over the ports have each body's ports in order.
 class Bodies {
  public:
   /// @param share  false: one operator per body, for comparison (section 7).
@@ -67,19 +67,21 @@ class Bodies {
   Eigen::VectorXd mass_;
 };
 
-/// Columns of the result: the segment [starts(body), + rows) of `values` for each body of a class, and back. With
-/// several columns of values, all bodies of the first come first.
+/// Columns of the result: the segment [starts(body), + rows) of `values` for each body of a class,
+/// and back. With several columns of values, all bodies of the first come first.
 template <class Starts>
 Eigen::MatrixXd gather(const Eigen::MatrixXd& values, const BodyClass& group, Eigen::Index rows,
                        const Starts& starts) {
   Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(group.bodies.size()) * values.cols());
   Eigen::Index to = 0;
   for (Eigen::Index c = 0; c < values.cols(); ++c)
-    for (const int body : group.bodies) columns.col(to++) = values.col(c).segment(starts(body), rows);
+    for (const int body : group.bodies)
+      columns.col(to++) = values.col(c).segment(starts(body), rows);
   return columns;
 }
 template <class Starts>
-void scatter(const Eigen::MatrixXd& columns, const BodyClass& group, const Starts& starts, Eigen::MatrixXd& values) {
+void scatter(const Eigen::MatrixXd& columns, const BodyClass& group, const Starts& starts,
+             Eigen::MatrixXd& values) {
   Eigen::Index from = 0;
   for (Eigen::Index c = 0; c < values.cols(); ++c)
     for (const int body : group.bodies)

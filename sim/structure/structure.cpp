@@ -107,8 +107,8 @@ MatrixXd Structure::ports_to_unknowns(const MatrixXd& forces) const {
   return f;
 }
 
-// Corrections of the mixed system (S6) with the factor of its penalised form (S7): the residuals are those of the
-// mixed system itself, so its accuracy is reached and not the penalty's.
+// Corrections of the mixed system (S6) with the factor of its penalised form (S7): the residuals
+// are those of the mixed system itself, so its accuracy is reached and not the penalty's.
 Structure::PortState Structure::solve_ports(const MatrixXd& port_loads, const MatrixXd& offsets,
                                             double force_scale) const {
   PortState state{offsets, {}, MatrixXd::Zero(bodies_->compatibilities(), offsets.cols()), 0, 0.0};
@@ -128,7 +128,8 @@ Structure::PortState Structure::solve_ports(const MatrixXd& port_loads, const Ma
     state.forces = forces();
     const double scale = std::max(force_scale, state.forces.norm());
     state.correction = scale > 0.0 ? (state.forces - old).norm() / scale : 0.0;
-    // The next correction is expected to shrink as this one did, but not by more than part of a double's digits.
+    // The next correction is expected to shrink as this one did, but not by more than part of a
+    // double's digits.
     const double shrinkage = std::max(state.correction / before, 1e-6);
     if (!(state.correction * std::min(shrinkage, 1.0) > accuracy)) break;
     if (state.solves > 3 && shrinkage > 0.5) break;
@@ -139,10 +140,12 @@ Structure::PortState Structure::solve_ports(const MatrixXd& port_loads, const Ma
 
 // Forces on the b sides of joints, then of ties.
 MatrixXd Structure::reactions_of(const MatrixXd& port_forces) const {
-  MatrixXd r = MatrixXd::Zero(2 * joints() + static_cast<Index>(bodies_->assembly().ties.size()), port_forces.cols());
+  MatrixXd r = MatrixXd::Zero(2 * joints() + static_cast<Index>(bodies_->assembly().ties.size()),
+                              port_forces.cols());
   const std::vector<Port>& ports = bodies_->ports();
   for (std::size_t i = 0; i < ports.size(); ++i)
-    if (ports[i].side == PortSide::b && !(ports[i].unknown < 2 * joints() && detached(ports[i].unknown / 2)))
+    if (ports[i].side == PortSide::b &&
+        !(ports[i].unknown < 2 * joints() && detached(ports[i].unknown / 2)))
       r.row(ports[i].unknown) = port_forces.row(static_cast<Index>(i));
   return r;
 }
@@ -156,25 +159,28 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
   for (const BodyClass& group : bodies_->classes()) {  // (S3): condense the loads
     const BodyOperator& op = group.op;
     const MatrixXd given = gather(loads.prescribed, group, op.shifted.rows(), dof);
-    const MatrixXd forces = gather(loads.forces, group, op.shifted.rows(), dof) - op.shifted * given;
+    const MatrixXd forces =
+        gather(loads.forces, group, op.shifted.rows(), dof) - op.shifted * given;
     scatter(op.recovery.transpose() * forces, group, port, port_loads);
     scatter(-op.ports * given, group, port, offsets);
     scatter(op.compliance * forces + given, group, dof, displacements);
   }
   const std::vector<Port>& all = bodies_->ports();
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (all[i].side == PortSide::b && all[i].unknown < 2 * joints() && !detached(all[i].unknown / 2))
+    if (all[i].side == PortSide::b && all[i].unknown < 2 * joints() &&
+        !detached(all[i].unknown / 2))
       offsets(static_cast<Index>(i)) += loads.jumps(all[i].unknown);
 
   const PortState state = solve_ports(port_loads, offsets, loads.force_scale);
   for (const BodyClass& group : bodies_->classes()) {  // (S4): recover the displacements
     const MatrixXd& T = group.op.recovery;
-    scatter(gather(displacements, group, T.rows(), dof) + T * gather(state.displacements, group, T.cols(), port),
+    scatter(gather(displacements, group, T.rows(), dof) +
+                T * gather(state.displacements, group, T.cols(), port),
             group, dof, displacements);
   }
   const MatrixXd reactions = reactions_of(state.forces);
-  return {displacements, reactions.topRows(2 * joints()), reactions.bottomRows(reactions.rows() - 2 * joints()),
-          state.solves, state.correction};
+  return {displacements, reactions.topRows(2 * joints()),
+          reactions.bottomRows(reactions.rows() - 2 * joints()), state.solves, state.correction};
 }
 
 JumpResponse Structure::respond_to_jump(int joint) const {
@@ -185,7 +191,8 @@ JumpResponse Structure::respond_to_jump(int joint) const {
       offsets(static_cast<Index>(i), ports[i].unknown % 2) = 1.0;
   const PortState state = solve_ports(MatrixXd::Zero(offsets.rows(), 2), offsets, 0.0);
 
-  JumpResponse response{reactions_of(state.forces).topRows(2 * joints()), MatrixXd::Zero(2 * joints(), 2)};
+  JumpResponse response{reactions_of(state.forces).topRows(2 * joints()),
+                        MatrixXd::Zero(2 * joints(), 2)};
   for (std::size_t i = 0; i < ports.size(); ++i) {
     if (ports[i].unknown >= 2 * joints()) continue;
     const double sign = ports[i].side == PortSide::b ? 1.0 : -1.0;

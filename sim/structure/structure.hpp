@@ -15,9 +15,9 @@ namespace havers::sim {
 struct StructureLoads {
   Eigen::VectorXd forces;  ///< g, at every degree of freedom. [N/m]
   Eigen::VectorXd
-      prescribed;         ///< Displacements of the held degrees of freedom, zero elsewhere. [m]
-  Eigen::VectorXd jumps;  ///< u_b − u_a imposed at every joint that is not detached. [m]
-  double force_scale = 0.0;    ///< Port forces below 1e-12 of this norm are rounding. [N/m]
+      prescribed;            ///< Displacements of the held degrees of freedom, zero elsewhere. [m]
+  Eigen::VectorXd jumps;     ///< u_b − u_a imposed at every joint that is not detached. [m]
+  double force_scale = 0.0;  ///< Port forces below 1e-12 of this norm are rounding. [N/m]
 };
 
 struct StructureResponse {
@@ -28,7 +28,8 @@ struct StructureResponse {
   double residual = 0.0;          ///< Relative size of the last correction of the port forces. [-]
 };
 
-/// Answers of all joints to unit jumps at one joint: a column for the normal, one for the tangential jump.
+/// Answers of all joints to unit jumps at one joint: a column for the normal, one for the
+/// tangential jump.
 struct JumpResponse {
   Eigen::MatrixX2d reactions;  ///< [N/m²]
   Eigen::MatrixX2d gaps;       ///< u_b − u_a; those of detached joints follow the structure. [-]
@@ -56,8 +57,8 @@ class Structure {
 
  private:
   struct PortState;
-  [[nodiscard]] PortState solve_ports(const Eigen::MatrixXd& port_loads, const Eigen::MatrixXd& offsets,
-                                      double force_scale) const;
+  [[nodiscard]] PortState solve_ports(const Eigen::MatrixXd& port_loads,
+                                      const Eigen::MatrixXd& offsets, double force_scale) const;
   [[nodiscard]] Eigen::MatrixXd unknowns_to_ports(const Eigen::MatrixXd& unknowns) const;
   [[nodiscard]] Eigen::MatrixXd ports_to_unknowns(const Eigen::MatrixXd& forces) const;
   [[nodiscard]] Eigen::MatrixXd reactions_of(const Eigen::MatrixXd& port_forces) const;
