@@ -41,13 +41,20 @@ toml::table parse_override(const std::string& text) {
   }
 }
 
-void merge(toml::table& into, toml::table&& from) {
-  for (auto&& [key, node] : from) {
-    toml::node* const present = into.get(key);
-    if (node.is_table() && present != nullptr && present->is_table())
-      merge(*present->as_table(), std::move(*node.as_table()));
-    else  // moved, not copied: only a move keeps the source
-      node.visit([&, &name = key](auto& value) { into.insert_or_assign(name, std::move(value)); });
+void merge(toml::table& top, toml::table&& overrides) {
+  std::vector<std::pair<toml::table*, toml::table*>> pairs{{&top, &overrides}};
+  while (!pairs.empty()) {
+    const auto [into, from] = pairs.back();
+    pairs.pop_back();
+    for (auto&& [key, node] : *from) {
+      toml::node* const present = into->get(key);
+      if (node.is_table() && present != nullptr && present->is_table())
+        pairs.emplace_back(present->as_table(), node.as_table());
+      else  // moved, not copied: only a move keeps the source
+        node.visit([table = into, &name = key](auto& value) {
+          table->insert_or_assign(name, std::move(value));
+        });
+    }
   }
 }
 

@@ -38,11 +38,15 @@ std::string join(const std::string& path, std::string_view name) {
 
 // What a dotted key names, or the innermost table on the way that is there.
 const toml::node& innermost(const toml::table& table, std::string_view key) {
-  const std::size_t end = std::min(key.find('.'), key.size());
-  const toml::node* node = table.get(key.substr(0, end));
-  if (node == nullptr) return table;
-  return end < key.size() && node->is_table() ? innermost(*node->as_table(), key.substr(end + 1))
-                                              : *node;
+  const toml::node* node = &table;
+  while (!key.empty() && node->is_table()) {
+    const std::size_t end = std::min(key.find('.'), key.size());
+    const toml::node* inner = node->as_table()->get(key.substr(0, end));
+    if (inner == nullptr) break;
+    node = inner;
+    key.remove_prefix(std::min(end + 1, key.size()));
+  }
+  return *node;
 }
 
 std::filesystem::path beside(const std::filesystem::path& file, const std::string& name) {
@@ -109,11 +113,12 @@ std::optional<std::int64_t> TableReader::whole_number(std::string_view name) {
 }
 
 bool TableReader::key(std::string_view name, int& value) {
-  constexpr std::numeric_limits<int> range;
+  using Range = std::numeric_limits<int>;
   const std::optional<std::int64_t> number = whole_number(name);
   if (!number) return false;
-  if (*number < range.min() || *number > range.max()) {
-    complain(name, fmt::format("is {}, must be from {} to {}", *number, range.min(), range.max()));
+  if (*number < Range::min() || *number > Range::max()) {
+    complain(name,
+             fmt::format("is {}, must be from {} to {}", *number, Range::min(), Range::max()));
     return false;
   }
   value = static_cast<int>(*number);
@@ -243,25 +248,28 @@ std::string ConfigFile::where(const toml::node& node, const std::string& key) co
   return fmt::format("{}:{}: {}", file_.string(), source.begin.line, key);
 }
 
-void ConfigFile::find_unknown(const toml::table& table, const std::string& path) {
-  const auto& known = asked_[path];
-  for (auto&& [key, node] : table) {
-    const std::string name = join(path, key.str());
-    if (!known.contains(key.str()))
-      complain({where(node, name), "is not a known key",
-                fmt::format("did you mean {}?", nearest(key.str(), known))});
-    else if (!asked_.contains(name))
-      continue;  // a value, judged where it was read
-    else if (const toml::table* inner = node.as_table())
-      find_unknown(*inner, name);
-    else if (const toml::array* list = node.as_array())
-      for (const toml::node& item : *list)
-        if (const toml::table* entry = item.as_table()) find_unknown(*entry, name);
+void ConfigFile::find_unknown() {
+  std::vector<std::pair<const toml::table*, std::string>> open{{top_.get(), ""}};
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const auto [table, path] = open[i];
+    const auto& known = asked_[path];
+    for (auto&& [key, node] : *table) {
+      const std::string name = join(path, key.str());
+      if (!known.contains(key.str()))
+        complain({where(node, name), "is not a known key",
+                  fmt::format("did you mean {}?", nearest(key.str(), known))});
+      else if (!asked_.contains(name))
+        continue;  // a value, judged where it was read
+      else if (const toml::table* inner = node.as_table())
+        open.emplace_back(inner, name);
+      else if (const toml::array* list = node.as_array())
+        for (const toml::node& item : *list) open.emplace_back(item.as_table(), name);
+    }
   }
 }
 
 void ConfigFile::finish() {
-  find_unknown(*top_, "");
+  find_unknown();
   if (!problems_.empty()) throw InputError(problems_);
 }
 

@@ -52,8 +52,7 @@ class TableReader {
 
   template <Worded E>
   bool key(std::string_view name, E& value) {
-    const auto known = words(value);
-    const std::optional<std::size_t> index = word_index(name, {known.begin(), known.end()});
+    const std::optional<std::size_t> index = word_index(name, {words<E>.begin(), words<E>.end()});
     if (index) value = static_cast<E>(*index);
     return index.has_value();
   }
@@ -109,7 +108,7 @@ class ConfigFile {
  private:
   friend class TableReader;
   [[nodiscard]] std::string where(const toml::node& node, const std::string& key) const;
-  void find_unknown(const toml::table& table, const std::string& path);
+  void find_unknown();
 
   std::filesystem::path file_;
   std::unique_ptr<toml::table> top_;

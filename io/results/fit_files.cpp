@@ -46,7 +46,7 @@ nlohmann::json read_json(const std::filesystem::path& file) {
   return json;
 }
 
-FitFolder fit_of(nlohmann::json json) {
+FitFolder fit_of(const nlohmann::json& json) {
   FitFolder fit;
   JsonReader table(json);
   keys(table, fit.result);

@@ -36,27 +36,7 @@ concept List = requires(T& value) {
 
 /// JSON of a value given in SI units. A number that is not finite becomes null.
 template <class T>
-nlohmann::json json_of(T& value, KeyUnit unit = {}) {
-  nlohmann::json json;
-  if constexpr (std::is_same_v<T, double>) {
-    if (std::isfinite(value)) json = from_si(value, unit);
-  } else if constexpr (Worded<T>) {
-    json = word(value);
-  } else if constexpr (TextMap<T>) {
-    json = nlohmann::json::object();
-    for (auto& [name, item] : value) json[name] = json_of(item, unit);
-  } else if constexpr (List<T>) {
-    json = nlohmann::json::array();
-    for (auto& item : value) json.push_back(json_of(item, unit));
-  } else if constexpr (Keyed<T>) {
-    json = nlohmann::json::object();
-    JsonWriter table(json);
-    keys(table, value);
-  } else {
-    json = value;
-  }
-  return json;
-}
+nlohmann::json json_of(T& value, KeyUnit unit = {});
 
 /// Writes keys into a JSON object.
 class JsonWriter {
@@ -81,6 +61,29 @@ class JsonWriter {
  private:
   nlohmann::json* object_;
 };
+
+template <class T>
+nlohmann::json json_of(T& value, KeyUnit unit) {
+  nlohmann::json json;
+  if constexpr (std::is_same_v<T, double>) {
+    if (std::isfinite(value)) json = from_si(value, unit);
+  } else if constexpr (Worded<T>) {
+    json = word(value);
+  } else if constexpr (TextMap<T>) {
+    json = nlohmann::json::object();
+    for (auto& [name, item] : value) json[name] = json_of(item, unit);
+  } else if constexpr (List<T>) {
+    json = nlohmann::json::array();
+    for (auto& item : value) json.push_back(json_of(item, unit));
+  } else if constexpr (Keyed<T>) {
+    json = nlohmann::json::object();
+    JsonWriter table(json);
+    keys(table, value);
+  } else {
+    json = value;
+  }
+  return json;
+}
 
 /// Reads keys from a JSON object; an absent key leaves its value as it is.
 class JsonReader {
@@ -109,9 +112,8 @@ class JsonReader {
       value = json.is_null() ? std::numeric_limits<double>::quiet_NaN()
                              : to_si(json.get<double>(), unit);
     } else if constexpr (Worded<T>) {
-      const auto known = words(value);
-      for (std::size_t i = 0; i < known.size(); ++i)
-        if (known.at(i) == json.get<std::string>()) value = static_cast<T>(i);
+      for (std::size_t i = 0; i < words<T>.size(); ++i)
+        if (words<T>.at(i) == json.get<std::string>()) value = static_cast<T>(i);
     } else if constexpr (TextMap<T>) {
       for (const auto& [name, item] : json.items()) read(item, value[name], unit);
     } else if constexpr (List<T>) {
