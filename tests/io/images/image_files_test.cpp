@@ -1,0 +1,117 @@
+// Formats, and every way an image file can be wrong.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "io/images/measure_section.hpp"
+#include "io/input_error.hpp"
+#include "tests/support/sections.hpp"
+
+namespace havers::io {
+namespace {
+
+std::string complaint(const std::filesystem::path& file, const SectionOptions& options = {}) {
+  try {
+    measure_section(file, options);
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().size(), 1U);
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+void expect_contains(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+std::filesystem::path write_text(const std::string& name, const std::string& text) {
+  auto file = test::write(cv::Mat::zeros(1, 1, CV_8U), "folder.png").parent_path() / name;
+  std::ofstream(file) << text;
+  return file;
+}
+
+TEST(ImageFile, OfEveryFormatGivesTheSame) {
+  EXPECT_TRUE(images_available());
+  const auto drawn = test::draw({.largest_radius = 10.0, .blur = 1.0});
+  for (const char* name : {"a.png", "a.tif", "a.tiff", "a.bmp", "a.jpg"}) {
+    const auto measured = measure_section(test::write(drawn.image, name), {}).porosity;
+    EXPECT_NEAR(100.0 * measured.porosity, 100.0 * drawn.porosity, 0.1) << name;
+    EXPECT_EQ(std::filesystem::path(measured.file).filename(), name);
+  }
+}
+
+TEST(ImageFile, OfSixteenBitsKeepsThem) {
+  // All within one step of 8 bits.
+  const auto drawn = test::draw(
+      {.bone = 0.502, .pore = 0.4995, .background = 0.4995, .noise = 0.1, .blur = 1.0, .bits = 16});
+  for (const char* name : {"deep.png", "deep.tif"}) {
+    const auto measured = measure_section(test::write(drawn.image, name), {}).porosity;
+    EXPECT_NEAR(100.0 * measured.porosity, 100.0 * drawn.porosity, 0.3) << name;
+  }
+}
+
+TEST(ImageFile, WithTransparentBackgroundHasNoBoneThere) {
+  const auto drawn = test::draw({.background = 0.8, .blur = 0.7});  // Invisible but for its alpha.
+  cv::Mat alpha, colour;
+  drawn.bone.convertTo(alpha, CV_8U, 255.0);
+  cv::merge(std::vector<cv::Mat>{drawn.image, drawn.image, drawn.image, alpha}, colour);
+  const auto measured =
+      measure_section(test::write(colour, "alpha.png"), {.pixel_size = 1e-6}).porosity;
+  EXPECT_NEAR(100.0 * measured.porosity, 100.0 * drawn.porosity, 0.2);
+  EXPECT_NEAR(measured.bone_area * 1e12, cv::sum(drawn.bone)[0], 0.01 * cv::sum(drawn.bone)[0]);
+}
+
+TEST(ImageFile, ThatIsMissingIsNamed) {
+  expect_contains(complaint("nowhere/section.png"), "nowhere/section.png: there is no such file");
+}
+
+TEST(ImageFile, ThatIsAFolderIsNamed) {
+  expect_contains(complaint(std::filesystem::temp_directory_path()), "is a folder, not an image");
+}
+
+TEST(ImageFile, ThatIsEmptyIsNamed) {
+  expect_contains(complaint(write_text("nothing.png", "")), "is an empty file");
+}
+
+TEST(ImageFile, ThatIsNoImageIsNamed) {
+  expect_contains(complaint(write_text("words.png", "this is text")),
+                  "is not a readable image (use PNG, TIFF, JPEG or BMP)");
+}
+
+TEST(ImageFile, OfOneGreyLevelIsNamed) {
+  const auto file = test::write(cv::Mat(50, 50, CV_8U, cv::Scalar(9)), "flat.png");
+  expect_contains(complaint(file), "every pixel has the same value (9)");
+}
+
+TEST(ImageFile, WithAnImplausiblePixelSizeIsNamed) {
+  for (const double size : {0.05e-6, 201e-6, -1e-6, 0.0})
+    expect_contains(complaint("unread.png", {.pixel_size = size}), "is outside 0.1 to 200 µm");
+}
+
+TEST(Mask, ThatIsWrongIsNamed) {
+  const auto image = test::write(test::draw({}).image, "whole.png");
+  const auto other = test::write(cv::Mat(10, 20, CV_8U, cv::Scalar(255)), "small_mask.png");
+  expect_contains(complaint(image, {.mask = other}),
+                  "the mask is 20 × 10 pixels, its image 700 × 600");
+  const auto black = test::write(cv::Mat::zeros(600, 700, CV_8U), "black_mask.png");
+  expect_contains(complaint(image, {.mask = black}), "the mask marks nothing");
+  expect_contains(complaint(image, {.mask = "no_mask.png"}), "no_mask.png: there is no such file");
+}
+
+// Nothing to measure, but nothing to fall over either.
+TEST(ImageFile, OfAFewPixelsIsMeasuredOrRefused) {
+  for (const cv::Size size : {cv::Size(2, 1), cv::Size(3, 3), cv::Size(1, 400), cv::Size(9, 7)}) {
+    cv::Mat image = cv::Mat::zeros(size, CV_8U);
+    image.at<std::uint8_t>(0, 0) = 200;
+    const auto file = test::write(image, "tiny.png");
+    try {
+      const double porosity = measure_section(file, {.pixel_size = 1e-6}).porosity.porosity;
+      EXPECT_TRUE(porosity >= 0.0 && porosity < 1.0);
+    } catch (const InputError& error) {
+      expect_contains(error.what(), "tiny.png");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace havers::io

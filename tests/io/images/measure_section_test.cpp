@@ -1,0 +1,234 @@
+// Sections of known porosity, through every hardship that a laboratory's images have.
+#include "io/images/measure_section.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "io/images/windows.hpp"
+#include "tests/support/sections.hpp"
+
+namespace havers::io {
+namespace {
+
+using test::Outline;
+using test::SectionCase;
+constexpr double pixel = 2e-6;
+
+calib::SectionPorosity measure(const test::DrawnSection& section, const std::string& name,
+                               SectionOptions options = {.pixel_size = pixel}) {
+  return measure_section(test::write(section.image, name), options).porosity;
+}
+
+struct Hardship {
+  const char* name;
+  SectionCase section;
+};
+
+const std::vector<Hardship>& hardships() {
+  static const std::vector<Hardship> all{
+      {"Blur", {.noise = 0.05, .blur = 1.5}},
+      {"Noise", {.noise = 0.25, .blur = 0.7}},
+      {"Cupping", {.noise = 0.05, .blur = 1.0, .cupping = 0.4}},
+      {"LowContrastUnderCupping",
+       {.pore = 0.55, .background = 0.55, .noise = 0.1, .blur = 1.0, .cupping = 0.4}},
+      {"NegativeUnderCupping", {.noise = 0.1, .blur = 0.8, .cupping = 0.4, .bright_pores = true}},
+      {"SixteenBitNarrow",
+       {.bone = 0.3, .pore = 0.28, .background = 0.28, .noise = 0.1, .blur = 1.2, .bits = 16}},
+      {"Stain", {.noise = 0.1, .blur = 1.0, .cupping = 0.2, .colour = true}},
+      {"BackgroundDarkerThanPores",
+       {.pore = 0.3, .background = 0.05, .noise = 0.1, .blur = 1.0, .cupping = 0.3}},
+  };
+  return all;
+}
+
+class UnderHardship : public testing::TestWithParam<Hardship> {};
+INSTANTIATE_TEST_SUITE_P(, UnderHardship, testing::ValuesIn(hardships()),
+                         [](const auto& hardship) { return hardship.param.name; });
+
+void expect_porosity_within(double points, SectionCase section, const std::string& name) {
+  const test::DrawnSection drawn = test::draw(section);
+  const calib::SectionPorosity measured = measure(drawn, name + ".png");
+  EXPECT_NEAR(100.0 * measured.porosity, 100.0 * drawn.porosity, points)
+      << "outline " << static_cast<int>(section.outline) << ", radius " << section.smallest_radius
+      << " to " << section.largest_radius;
+}
+
+TEST_P(UnderHardship, PorosityIsRightToThreeTenthsOfAPoint) {
+  unsigned seed = 0;
+  for (const Outline outline : {Outline::filled, Outline::bar, Outline::tilted_bar, Outline::ring})
+    for (const double porosity : {0.01, 0.05, 0.2}) {
+      SectionCase section = GetParam().section;
+      section.width = 520, section.height = 440;
+      section.outline = outline;
+      section.porosity = porosity;
+      section.seed = ++seed;
+      section.largest_radius = seed % 2 == 0 ? 4.0 : 20.0;
+      expect_porosity_within(0.3, section, GetParam().name);
+    }
+}
+
+TEST_P(UnderHardship, ASectionWithoutPoresHasNone) {
+  for (const Outline outline :
+       {Outline::filled, Outline::bar, Outline::tilted_bar, Outline::ring}) {
+    SectionCase section = GetParam().section;
+    section.outline = outline;
+    section.porosity = 0.0;
+    expect_porosity_within(0.05, section, GetParam().name);
+  }
+}
+
+TEST(Section, CountsPoresAndAreas) {
+  const auto drawn = test::draw({.largest_radius = 12.0, .noise = 0.05, .blur = 0.8});
+  const auto measured = measure(drawn, "counts.png");
+  EXPECT_EQ(measured.pore_count, drawn.pore_count);
+  const double bone = cv::sum(drawn.bone)[0] * pixel * pixel;
+  EXPECT_NEAR(measured.bone_area, bone, 2e-3 * bone);
+  EXPECT_NEAR(measured.pore_area, measured.porosity * measured.bone_area, 1e-9 * bone);
+  EXPECT_GT(measured.threshold, 0.4);
+  EXPECT_LT(measured.threshold, 0.6);
+}
+
+// A third of a ring's inside is marrow: were it taken for a pore, porosity would be a third.
+TEST(Section, LeavesOutTheMarrowCavity) {
+  const auto drawn = test::draw({.outline = Outline::ring, .blur = 1.0});
+  const auto measured = measure(drawn, "marrow.png");
+  const double bone = cv::sum(drawn.bone)[0] * pixel * pixel;
+  EXPECT_NEAR(measured.bone_area, bone, 5e-3 * bone);
+  EXPECT_NEAR(measured.porosity, drawn.porosity, 1e-3);
+}
+
+// A saw goes through pores; what is left of them is porosity, not outline.
+TEST(Section, ClosesPoresThatTheSurfaceOfABarCuts) {
+  auto drawn =
+      test::draw({.porosity = 0.05, .smallest_radius = 15.0, .largest_radius = 15.0, .blur = 0.7});
+  const double truth =
+      drawn.porosity + 2.0 * 0.5 * std::numbers::pi * 20.0 * 20.0 / cv::sum(drawn.bone)[0];
+  cv::circle(drawn.image, {200, 96}, 20, 51, cv::FILLED);
+  cv::circle(drawn.image, {500, 504}, 20, 51, cv::FILLED);
+  EXPECT_NEAR(100.0 * measure(drawn, "cut.png").porosity, 100.0 * truth, 0.15);
+}
+
+TEST(Section, IgnoresTextAndScaleBarsOutsideTheBone) {
+  auto drawn = test::draw({.blur = 0.7});
+  cv::rectangle(drawn.image, cv::Rect(520, 560, 150, 12), 255, cv::FILLED);
+  cv::putText(drawn.image, "500 um", {30, 580}, cv::FONT_HERSHEY_SIMPLEX, 1.0, 255, 2);
+  EXPECT_NEAR(100.0 * measure(drawn, "text.png").porosity, 100.0 * drawn.porosity, 0.1);
+}
+
+TEST(Section, ObeysAMask) {
+  const auto drawn = test::draw({.porosity = 0.1, .blur = 0.7});
+  cv::Mat mask = cv::Mat::zeros(drawn.image.size(), CV_8U);
+  const cv::Rect part(200, 180, 250, 200);
+  mask(part).setTo(255);
+  const auto file = test::write(mask, "mask.png");
+  const auto measured = measure(drawn, "masked.png", {.pixel_size = pixel, .mask = file});
+  const double truth = cv::sum(drawn.pores(part))[0] / part.area();
+  EXPECT_NEAR(100.0 * measured.porosity, 100.0 * truth, 0.2);
+  EXPECT_NEAR(measured.bone_area, part.area() * pixel * pixel, 1e-18);
+}
+
+TEST(Section, TakesAGivenPolarity) {
+  // Half dark, half bright: only the user knows which is bone.
+  const auto drawn = test::draw({.outline = Outline::ring, .blur = 0.7});
+  const auto options = [](Pores pores) {
+    return SectionOptions{.pixel_size = pixel, .pores = pores};
+  };
+  EXPECT_NEAR(measure(drawn, "polarity.png", options(Pores::dark)).porosity, drawn.porosity, 2e-3);
+  EXPECT_GT(std::abs(measure(drawn, "polarity.png", options(Pores::bright)).bone_area -
+                     cv::sum(drawn.bone)[0] * pixel * pixel),
+            0.1 * cv::sum(drawn.bone)[0] * pixel * pixel);
+}
+
+TEST(Section, LeavesOutSpecksAndSaysSo) {
+  auto drawn = test::draw({.largest_radius = 8.0});
+  for (int i = 0; i < 7; ++i) drawn.image(cv::Rect(250 + 40 * i, 300, 1, 1)).setTo(51);
+  const auto without = measure(test::draw({.largest_radius = 8.0}), "no_specks.png");
+  const auto measured = measure(drawn, "specks.png");
+  EXPECT_LE(measured.pore_count, without.pore_count);
+  EXPECT_LE(measured.porosity, without.porosity);
+  ASSERT_FALSE(measured.warnings.empty());
+  EXPECT_NE(measured.warnings.front().find("below 4 pixels were left out"), std::string::npos);
+}
+
+// The interval must hold the drawn porosity in nineteen of twenty sections.
+TEST(Section, StandardErrorCoversTheTruth) {
+  int covered = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const auto drawn = test::draw({.width = 350,
+                                   .height = 300,
+                                   .largest_radius = 8.0,
+                                   .noise = 0.1,
+                                   .blur = 1.0,
+                                   .seed = seed});
+    const auto measured = measure(drawn, "covered.png");
+    EXPECT_GT(measured.porosity_standard_error, 0.0);
+    if (std::abs(measured.porosity - drawn.porosity) <= 1.96 * measured.porosity_standard_error)
+      ++covered;
+  }
+  EXPECT_GE(covered, 18);
+}
+
+TEST(Section, MeasuresTheWindowSpreadOfTheDrawnPores) {
+  const auto drawn = test::draw({.largest_radius = 15.0, .noise = 0.1, .blur = 1.0});
+  const auto measured = measure(drawn, "windows.png");
+  const auto truth = window_spread(drawn.bone >= 0.5, drawn.pores >= 0.5, 50.0, 5.0);
+  EXPECT_NEAR(measured.window_sd, truth.sd, 0.03 * truth.sd);
+  EXPECT_GT(measured.window_sd_standard_error, 0.0);
+  EXPECT_LT(measured.window_sd_standard_error, 0.3 * measured.window_sd);
+}
+
+TEST(Section, WithoutAPixelSizeHasPorosityButNoWindows) {
+  const auto measured = measure(test::draw({}), "unscaled.png", {});
+  EXPECT_GT(measured.porosity, 0.04);
+  EXPECT_TRUE(std::isnan(measured.window_sd));
+  EXPECT_TRUE(std::isnan(measured.bone_area));
+  ASSERT_FALSE(measured.warnings.empty());
+  EXPECT_NE(measured.warnings.front().find("no pixel size is given"), std::string::npos);
+}
+
+TEST(Section, WarnsWhereItsPixelsAreCoarserThanTheFibre) {
+  const auto measured = measure(test::draw({}), "coarse.png", {.pixel_size = 30e-6});
+  ASSERT_FALSE(measured.warnings.empty());
+  EXPECT_NE(measured.warnings.front().find("larger than the fibre's height"), std::string::npos);
+}
+
+TEST(Section, WarnsOfAPoreThatMayBeMarrow) {
+  auto drawn = test::draw({.porosity = 0.0});
+  cv::circle(drawn.image, {350, 300}, 70, 51, cv::FILLED);
+  const auto measured = measure(drawn, "big_pore.png");
+  EXPECT_NEAR(measured.porosity, std::numbers::pi * 4900.0 / cv::sum(drawn.bone)[0], 2e-3);
+  ASSERT_FALSE(measured.warnings.empty());
+  EXPECT_NE(measured.warnings.front().find("marrow cavity"), std::string::npos);
+}
+
+// Bright fringes, as phase contrast leaves them, weigh against the pores in the grey levels only.
+TEST(Section, WarnsWhereGreyLevelsAndThresholdDisagree) {
+  auto drawn = test::draw({.porosity = 0.0});
+  for (int i = 0; i < 24; ++i) {
+    const cv::Point middle(120 + 80 * (i % 6), 130 + 90 * (i / 6));
+    cv::circle(drawn.image, middle, 19, 250, cv::FILLED);
+    cv::circle(drawn.image, middle, 16, 51, cv::FILLED);
+  }
+  const auto measured = measure(drawn, "disagree.png");
+  ASSERT_FALSE(measured.warnings.empty());
+  EXPECT_NE(measured.warnings.back().find("differs by more than one point"), std::string::npos);
+}
+
+TEST(Section, DrawsWhatItFoundInASmallPicture) {
+  const auto drawn =
+      test::draw({.width = 1400, .height = 900, .largest_radius = 20.0, .noise = 0.1});
+  const auto png =
+      measure_section(test::write(drawn.image, "overlay.png"), {.pixel_size = pixel}).overlay_png;
+  const cv::Mat overlay = cv::imdecode(png, cv::IMREAD_COLOR);
+  ASSERT_EQ(overlay.cols, 640);
+  EXPECT_LT(png.size(), 200000U);
+  cv::Mat red;
+  cv::inRange(overlay, cv::Scalar(48, 48, 224), cv::Scalar(48, 48, 224), red);
+  const double scale = 640.0 / 1400.0;
+  EXPECT_NEAR(cv::countNonZero(red), scale * scale * cv::sum(drawn.pores)[0],
+              0.1 * cv::countNonZero(red));
+}
+
+}  // namespace
+}  // namespace havers::io
