@@ -1,0 +1,45 @@
+// Two recorders with a clock each: what one clock shows when the other shows a time.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace havers::calib {
+
+/// A recorded signal. Times [s] do not decrease.
+struct Signal {
+  std::span<const double> time, value;
+};
+
+/// What counts as a match (X18).
+struct ClockOptions {
+  double smallest_correlation = 0.7;  ///< Of the rates, at the best offset. [-]
+  double closest_rival =
+      0.95;  ///< Correlation elsewhere that leaves it open, part of the best. [-]
+  double largest_rate_error = 0.01;  ///< Beyond it the clocks' rates are taken as equal. [-]
+  double largest_shift = 0.05;       ///< What the offset's error may move, part of the range. [-]
+};
+
+/// Machine's time = offset + rate · (logger's time − reference) (X17).
+struct ClockFit {
+  double reference = 0.0;              ///< Logger's time, in the middle of what both saw. [s]
+  double offset = 0.0;                 ///< Machine's time at it. [s]
+  double offset_standard_error = 0.0;  ///< [s]
+  double rate = 1.0;                   ///< Of the machine's clock by the logger's. [-]
+  double rate_standard_error = 0.0;    ///< 0 where it was not fitted. [-]
+  bool rate_fitted = false;            ///< False: the signals do not tell it, and it is taken as 1.
+  double correlation = 0.0;            ///< Of the rates at the fit. [-]
+  std::vector<double> time;            ///< For the figure: the machine's clock. [s]
+  std::vector<double> machine, logger;  ///< And the signals' rates, logger's scaled. [unit / s]
+  std::string problem;                  ///< Not empty: the signals do not determine the clocks.
+
+  [[nodiscard]] double logger_time(double machine_time) const {
+    return reference + (machine_time - offset) / rate;
+  }
+};
+
+/// Estimates offset and rate from signals that rise and fall together: loading, holds, the break.
+ClockFit fit_clocks(const Signal& machine, const Signal& logger, const ClockOptions& options = {});
+
+}  // namespace havers::calib

@@ -1,0 +1,25 @@
+// A test with the gauge of a second logger.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/experiment/clocks.hpp"
+#include "calib/experiment/raw_test.hpp"
+
+namespace havers::calib {
+
+/// The test on the machine's clock, and how the clocks were matched.
+struct JoinedTest {
+  RawTest test;
+  ClockFit clocks;
+  std::vector<std::string> problems;
+};
+
+/// Matches the clocks by the force (or the machine's stress or extension) and the logger's force,
+/// strain or volts; then the strain of the test is the logger's, at the machine's rows that the
+/// logger saw too. Volts become strain by a line fitted to the test's own strain (X19).
+JoinedTest join_logger(const RawTest& machine, const RawTest& logger,
+                       const ClockOptions& options = {});
+
+}  // namespace havers::calib

@@ -1,0 +1,154 @@
+// A known specimen recorded by two machines with a clock each, whose offset and rate are known.
+#include "calib/experiment/clocks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "calib/experiment/join_logger.hpp"
+#include "calib/experiment/measured_test.hpp"
+#include "calib/experiment/signal_rates.hpp"
+#include "tests/support/machine_files.hpp"
+
+namespace havers::calib {
+namespace {
+
+struct Clocks {
+  double offset = 7.3;  // machine's time when the logger's shows 0 [s]
+  double rate = 1.0005;
+};
+
+// Idle, loading with a hold, the break, idle: what both recorders see. [s], [-]
+double strain_at(double time) {
+  if (time < 10.0 || time > 60.0) return 0.0;
+  if (time < 30.0) return 1e-4 * (time - 10.0);
+  if (time < 35.0) return 2e-3;
+  return 2e-3 + 1e-4 * (time - 35.0);
+}
+
+constexpr double young = 13e9, area = 8e-6;
+
+RawTest machine_record(unsigned seed, double noise = 0.3) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0.0, noise);
+  RawTest raw;
+  raw.area = area;
+  for (int i = 0; i < 700; ++i) {
+    raw.time.push_back(0.1 * i);
+    raw.force.push_back(young * area * strain_at(raw.time.back()) + normal(random));
+  }
+  return raw;
+}
+
+RawTest logger_record(const Clocks& clocks, unsigned seed, double from = -5.0, double to = 68.0) {
+  std::mt19937 random(seed + 1000);
+  std::normal_distribution<double> normal(0.0, 2e-6);
+  RawTest raw;
+  const int rows = static_cast<int>((to - from) / 0.073);
+  for (int i = 0; i < rows; ++i) {
+    const double machine_time = from + 0.073 * i;
+    raw.time.push_back((machine_time - clocks.offset) / clocks.rate);
+    raw.strain.push_back(strain_at(machine_time) + normal(random));
+  }
+  return raw;
+}
+
+ClockFit fitted(const RawTest& machine, const RawTest& logger) {
+  return fit_clocks({machine.time, machine.force}, {logger.time, logger.strain});
+}
+
+TEST(Clocks, RecoversOffsetAndRateWithinTheErrorItStates) {
+  const Clocks truth;
+  int within_two = 0, rate_within_two = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const ClockFit fit = fitted(machine_record(seed), logger_record(truth, seed));
+    ASSERT_EQ(fit.problem, "");
+    ASSERT_TRUE(fit.rate_fitted);
+    const double expected = truth.offset + truth.rate * fit.reference;
+    EXPECT_NEAR(fit.offset, expected, 0.05) << seed;
+    EXPECT_NEAR(fit.rate, truth.rate, 0.002) << seed;
+    EXPECT_GT(fit.correlation, 0.8);
+    within_two += std::abs(fit.offset - expected) < 2.0 * fit.offset_standard_error ? 1 : 0;
+    rate_within_two += std::abs(fit.rate - truth.rate) < 2.0 * fit.rate_standard_error ? 1 : 0;
+  }
+  EXPECT_GE(within_two, 34);
+  EXPECT_GE(rate_within_two, 34);
+}
+
+TEST(Clocks, GivesTheFigureItsCurves) {
+  const ClockFit fit = fitted(machine_record(1), logger_record({}, 1));
+  ASSERT_EQ(fit.time.size(), fit.machine.size());
+  ASSERT_EQ(fit.time.size(), fit.logger.size());
+  EXPECT_GT(fit.time.size(), 50U);
+}
+
+// Only the break is in both records: it sets the offset, not the rate.
+TEST(Clocks, TakesTheRatesAsEqualWhereOnlyTheBreakIsSeen) {
+  const Clocks truth{.offset = -3.0, .rate = 1.0};
+  const ClockFit fit = fitted(machine_record(1), logger_record(truth, 1, 52.0, 68.0));
+  ASSERT_EQ(fit.problem, "");
+  EXPECT_FALSE(fit.rate_fitted);
+  EXPECT_EQ(fit.rate, 1.0);
+  EXPECT_NEAR(fit.offset, truth.offset + fit.reference, 3.0 * fit.offset_standard_error);
+  EXPECT_LT(fit.offset_standard_error, 0.5);
+}
+
+TEST(Clocks, RefusesSignalsThatDoNotDetermineThem) {
+  const RawTest machine = machine_record(1);
+  const auto problem = [&](const RawTest& logger) { return fitted(machine, logger).problem; };
+  EXPECT_NE(problem(logger_record({}, 1, 36.0, 58.0)).find("do not determine the two clocks"),
+            std::string::npos);  // steady loading, from any time as from any other
+  RawTest noise = logger_record({}, 1, 61.0, 68.0);
+  EXPECT_NE(problem(noise).find("do not determine the two clocks"), std::string::npos);
+  EXPECT_NE(problem({}).find("too few rows"), std::string::npos);
+}
+
+TEST(Clocks, RefusesCyclesThatFitAnywhere) {
+  RawTest machine, logger;
+  for (int i = 0; i < 1000; ++i) {
+    machine.time.push_back(0.1 * i);
+    machine.force.push_back(std::sin(0.1 * i));
+    if (i > 600) continue;
+    logger.time.push_back(0.1 * i);
+    logger.strain.push_back(std::sin(0.1 * i + 1.0));
+  }
+  EXPECT_NE(fitted(machine, logger).problem.find("several offsets fit alike"), std::string::npos);
+}
+
+TEST(JoinLogger, GivesTheTestTheLoggersStrain) {
+  const JoinedTest joined = join_logger(machine_record(2), logger_record({}, 2));
+  ASSERT_TRUE(joined.problems.empty()) << joined.problems[0];
+  EXPECT_EQ(joined.test.strain.size(), joined.test.force.size());
+  EXPECT_EQ(joined.test.corrections.at(0).what, "two clocks");
+  const Reduction reduction = reduce_test(joined.test);
+  ASSERT_TRUE(reduction.problems.empty()) << reduction.problems[0];
+  EXPECT_NEAR(reduction.test.modulus, young, 0.02 * young);
+  EXPECT_NEAR(reduction.test.failure_strain, 4.5e-3, 0.02 * 4.5e-3);
+}
+
+TEST(JoinLogger, FitsWhatAVoltIs) {
+  RawTest machine = machine_record(3);
+  for (const double time : machine.time) machine.strain.push_back(strain_at(time));
+  RawTest logger = logger_record({}, 3);
+  logger.volts = logger.strain;
+  for (double& volts : logger.volts) volts = 0.2 + 500.0 * volts;
+  logger.strain.clear();
+  const JoinedTest joined = join_logger(machine, logger);
+  ASSERT_TRUE(joined.problems.empty()) << joined.problems[0];
+  EXPECT_EQ(joined.test.corrections.at(0).what, "gauge factor");
+  EXPECT_TRUE(joined.test.corrections[0].detail.starts_with("a volt is a strain of 0."))
+      << joined.test.corrections[0].detail;
+  machine.strain.clear();
+  EXPECT_NE(join_logger(machine, logger).problems.at(0).find("what a volt is"), std::string::npos);
+}
+
+TEST(JoinLogger, SaysWhatIsMissing) {
+  RawTest machine = machine_record(1);
+  machine.time.clear();
+  EXPECT_NE(join_logger(machine, logger_record({}, 1)).problems.at(0).find("needs time and force"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace havers::calib
