@@ -33,8 +33,7 @@ void override_size(std::optional<double>& size, const std::optional<double>& giv
   if (given_mm) size = 1e-3 * *given_mm;
 }
 
-Imported import_one(const std::filesystem::path& path, const Arguments& arguments) {
-  io::TestFile file = io::read_test(path);
+Imported reduce_one(io::TestFile file, const Arguments& arguments) {
   override_size(file.test.width, arguments.width_mm);
   override_size(file.test.thickness, arguments.thickness_mm);
   override_size(file.test.gauge_length, arguments.gauge_length_mm);
@@ -47,9 +46,11 @@ std::vector<Imported> import_all(const Arguments& arguments, std::vector<io::Pro
   std::vector<Imported> tests;
   for (const auto& path : arguments.files) {
     try {
-      tests.push_back(import_one(path, arguments));
-      for (const std::string& problem : tests.back().reduction.problems)
-        problems.push_back({path.string(), problem, ""});
+      for (io::TestFile& file : io::read_tests(path)) {
+        tests.push_back(reduce_one(std::move(file), arguments));
+        for (const std::string& problem : tests.back().reduction.problems)
+          problems.push_back({path.string(), problem, ""});
+      }
     } catch (const io::InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -71,6 +72,8 @@ void print_test(const Imported& imported) {
     fmt::print(
         "  strength {:.3f} MPa at a strain of {:.4f} %, largest force {:.2f} N on {:.4f} mm2\n",
         1e-6 * test.strength, 100.0 * test.failure_strain, test.max_force, 1e6 * test.area);
+    fmt::print("  energy to failure {:.4f} MJ/m3, strain rate {:.4g} 1/s\n",
+               1e-6 * test.energy_to_failure, test.strain_rate);
     fmt::print("  modulus {:.3f} +- {:.3f} GPa between strains of {:.4f} and {:.4f} %\n",
                1e-9 * test.modulus, 1e-9 * test.modulus_standard_error, 100.0 * test.window_low,
                100.0 * test.window_high);
@@ -88,6 +91,18 @@ nlohmann::json json_of(const std::vector<Imported>& tests) {
   return {{"files", all}};
 }
 
+// One figure per file; per specimen, with its number, where a file holds several.
+std::string figure_name(const std::vector<Imported>& tests, std::size_t i) {
+  std::size_t before = 0, all = 0;
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    if (tests[k].file.file != tests[i].file.file) continue;
+    ++all;
+    before += k < i ? 1 : 0;
+  }
+  const std::string stem = std::filesystem::path(tests[i].file.file).stem().string();
+  return all == 1 ? stem + ".svg" : fmt::format("{}_{}.svg", stem, before + 1);
+}
+
 void write_page(const Arguments& arguments, const std::vector<Imported>& tests,
                 const CommonOptions& common, const Stopwatch& watch) {
   OutputFolder output(arguments.folder, common.force);
@@ -97,8 +112,7 @@ void write_page(const Arguments& arguments, const std::vector<Imported>& tests,
     for (const Imported& imported : tests)
       pages.push_back({imported.file.file, imported.file.test, imported.reduction.test});
     for (std::size_t i = 0; i < pages.size(); ++i)
-      io::write_file(output.stage(arguments.files[i].stem().string() + ".svg"),
-                     reports::test_svg(pages[i]));
+      io::write_file(output.stage(figure_name(tests, i)), reports::test_svg(pages[i]));
     const io::Provenance provenance = provenance_of(common, arguments.files, watch);
     io::write_file(output.stage("report.html"),
                    reports::import_page(pages, page_facts(provenance)));

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "calib/experiment/join_logger.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/input_error.hpp"
 #include "io/machine/read_test.hpp"
@@ -29,20 +30,26 @@ void override_sizes(calib::RawTest& test, const io::SpecimenFiles& files) {
   if (files.gauge_length) test.gauge_length = files.gauge_length;
 }
 
-void read_and_reduce(const io::SpecimenFiles& files, Outcome& outcome) {
-  if (files.gauge)
-    outcome.problems.push_back({files.gauge->string(),
-                                "a second logger's file cannot be joined to the test",
-                                "export the strain in the test file and leave `gauge` out"});
+calib::RawTest read_specimen(const io::SpecimenFiles& files, Outcome& outcome) {
+  calib::RawTest raw = io::read_test(files.test, files.columns).test;
+  override_sizes(raw, files);
+  if (!files.gauge) return raw;
+  const io::TestFile logger = io::read_test(*files.gauge, files.gauge_columns);
+  calib::JoinedTest joined = calib::join_logger(raw, logger.test);
+  for (const std::string& problem : joined.problems)
+    outcome.problems.push_back({files.gauge->string(), problem, ""});
+  return std::move(joined.test);
+}
+
+void read_and_reduce(const io::SpecimenFiles& files, const calib::ReductionOptions& options,
+                     Outcome& outcome) {
   try {
-    calib::RawTest raw = io::read_test(files.test).test;
-    override_sizes(raw, files);
-    calib::Reduction reduction = calib::reduce_test(raw);
+    const calib::RawTest raw = read_specimen(files, outcome);
+    calib::Reduction reduction = calib::reduce_test(raw, options);
     for (const std::string& problem : reduction.problems)
       outcome.problems.push_back({files.test.string(), problem, ""});
-    for (const auto* list : {&raw.warnings, &reduction.test.warnings})
-      for (const std::string& warning : *list)
-        outcome.warnings.push_back(files.test.string() + ": " + warning);
+    for (const std::string& warning : reduction.test.warnings)
+      outcome.warnings.push_back(files.test.string() + ": " + warning);
     outcome.specimen.test = std::move(reduction.test);
   } catch (const io::InputError& error) {
     collect(outcome.problems, error.problems());
@@ -63,10 +70,11 @@ void measure(const std::filesystem::path& section, const io::SectionOptions& opt
 }
 
 Outcome load_specimen(const calib::Specimen& declared, const io::SpecimenFiles& files,
-                      const sim::AssemblyOptions& fibres) {
+                      const sim::AssemblyOptions& fibres,
+                      const calib::ReductionOptions& reduction) {
   Outcome outcome;
   outcome.specimen = declared;
-  read_and_reduce(files, outcome);
+  read_and_reduce(files, reduction, outcome);
   io::SectionOptions options;
   options.pixel_size = files.pixel_size;
   options.window_length = fibres.fibre_length;
@@ -82,8 +90,8 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   io::StudyFile read = io::read_study(file, overrides);
   std::vector<Outcome> outcomes(read.specimens.size());
   tbb::parallel_for(std::size_t{0}, outcomes.size(), [&](std::size_t i) {
-    outcomes[i] =
-        load_specimen(read.study.specimens[i], read.specimens[i], read.study.model.assembly);
+    outcomes[i] = load_specimen(read.study.specimens[i], read.specimens[i],
+                                read.study.model.assembly, read.reduction);
   });
 
   LoadedStudy loaded;
@@ -94,6 +102,7 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
     collect(problems, outcomes[i].problems);
     const io::SpecimenFiles& files = read.specimens[i];
     loaded.inputs.push_back(files.test);
+    if (files.gauge) loaded.inputs.push_back(*files.gauge);
     loaded.inputs.insert(loaded.inputs.end(), files.sections.begin(), files.sections.end());
     loaded.warnings.insert(loaded.warnings.end(), outcomes[i].warnings.begin(),
                            outcomes[i].warnings.end());
