@@ -19,8 +19,8 @@ constexpr int most_rounds = 8;
 constexpr double close_enough = 0.005;
 
 // The first of the study's start and the middle of the bounds where the simulations answer.
-bool begin(const FitProblem& problem, Trail& trail) {
-  trail.set_replicates(std::min(scouting_replicates, problem.study.calibrate.replicates));
+bool begin(const FitProblem& problem, Trail& trail, int replicates) {
+  trail.set_replicates(replicates);
   const auto both =
       predict(problem, trail.batch(),
               {start_point(problem.unknowns), middle_point(problem.unknowns)}, trail.replicates());
@@ -142,7 +142,9 @@ Answer solve(const FitProblem& problem, Trail& trail) {
     answer.status = CalibrationStatus::nothing_to_fit;
     return answer;
   }
-  if (!begin(problem, trail)) return answer;
+  const int all = problem.study.calibrate.replicates;
+  if (!begin(problem, trail, std::min(scouting_replicates, all)) && !begin(problem, trail, all))
+    return answer;
 
   for (std::size_t k = 0; k < problem.unknowns.size(); ++k)
     answer.active.push_back(static_cast<Eigen::Index>(k));

@@ -14,15 +14,11 @@ namespace {
 // used.
 constexpr std::string_view model_version = "havers-model-1";
 
-// Reference values (F3): any would do; those of a scene file's defaults keep the keys readable.
-const sim::Scene& reference() {
-  static const sim::Scene scene;
-  return scene;
-}
-
-// Far beyond any failure strain at the reference values, so that the limit asked for can be applied
-// later.
-constexpr double reference_max_strain = 0.5;
+// Reference values (F3). Any would do; with these a joint breaks at a strain of some 1e-5, so that
+// the largest strain limit that a scene may have is far away, and the limit asked for can be
+// applied to the finished curve.
+constexpr double reference_young = 13e9, reference_head_tail = 0.5e6;  // [Pa]
+constexpr double reference_max_strain = 1.0;
 
 // Twelve digits: values that differ by the rounding of the scaling alone become equal.
 double rounded(double value) {
@@ -99,23 +95,23 @@ NormalForm normal_form(const sim::Scene& scene, bool quasi_static) {
   NormalForm form{.scene = scene, .max_strain = scene.loading.max_strain};
   if (!quasi_static || !scene.joints.thresholds.empty()) return form;
 
-  const auto& unit = reference();
-  const double to_reference = unit.joints.head_tail / scene.joints.head_tail;
+  const double to_reference = reference_head_tail / scene.joints.head_tail;
+  const double strain_factor = reference_young / scene.material.young / to_reference;
+  if (form.max_strain > strain_factor * reference_max_strain) return form;
   form.scaled = true;
   form.stress_factor = 1.0 / to_reference;
-  form.strain_factor = form.stress_factor * unit.material.young / scene.material.young;
+  form.strain_factor = strain_factor;
 
   auto& [assembly, material, joints, loading, solver] = form.scene;
-  material.young = unit.material.young;
-  material.density = unit.material.density;
-  joints.head_tail = unit.joints.head_tail;
+  material.young = reference_young;
+  material.density = sim::Material{}.density;
+  joints.head_tail = reference_head_tail;
   joints.flank = rounded(joints.flank * to_reference);
   scale(joints.head_tail_shear, to_reference);
   scale(joints.flank_tension, to_reference);
   joints.scatter = rounded(joints.scatter);
-  loading.strain_rate = unit.loading.strain_rate;
-  loading.max_strain =
-      std::max(reference_max_strain, rounded(form.max_strain / form.strain_factor));
+  loading.strain_rate = sim::Loading{}.strain_rate;
+  loading.max_strain = reference_max_strain;
   solver.regime = sim::Regime::quasi_static;
   solver.step.reset();
   return form;

@@ -23,10 +23,13 @@ class Residuals final : public ceres::CostFunction {
     if (at_.failed) return false;
     std::ranges::copy(at_.residuals, residuals);
     if (!jacobians || !jacobians[0]) return true;
-    const auto slopes = differentiate(trail_, at_, active_, slope_step);
+    auto slopes = differentiate(trail_, at_, active_, slope_step);
+    if (slopes.failed) slopes.jacobian.setZero();
+    // Where neighbours fail there is no slope: a zero one ends the search here, and the best point
+    // stays.
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
         jacobians[0], slopes.jacobian.rows(), slopes.jacobian.cols()) = slopes.jacobian;
-    return !slopes.failed;
+    return true;
   }
 
   [[nodiscard]] const Evaluation& best() const { return best_; }
@@ -53,7 +56,7 @@ SearchResult search_ceres(Trail& trail, const Evaluation& start, const Active& a
   SearchResult result{.best = start};
   result.log = {.optimiser = "Ceres Levenberg-Marquardt", .cost_before = start.cost};
   const int points_before = trail.points();
-  if (start.failed || active.empty()) return result;
+  if (start.failed || active.empty() || trail.stopped()) return result;
 
   std::vector<double> values;
   for (const Eigen::Index k : active) values.push_back(start.point[k]);

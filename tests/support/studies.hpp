@@ -14,10 +14,11 @@
 
 namespace havers::test {
 
-/// A brittle law with the shape of the fibre model: strength = σ₁ (1 − d/2) g(θ, r) (1 + noise by seed), modulus = E,
-/// straight up to the break. g is 1 at 0°, falls with r at 45° and does not depend on r at 90°.
+/// A brittle law with the shape of the fibre model: strength = σ₁ (1 − d/2) g(θ, r) (1 + noise by
+/// seed), modulus = E, straight up to the break. g is 1 at 0°, falls with r at 45° and does not
+/// depend on r at 90°.
 struct ClosedForm {
-  double noise = 0.003;     ///< Standard deviation of log strength from seed to seed. [-]
+  double noise = 0.003;  ///< Standard deviation of log strength from seed to seed. [-]
   bool quasi_static = true;
 
   [[nodiscard]] static double orientation_factor(const sim::Scene& scene) {
@@ -49,7 +50,8 @@ struct ClosedForm {
 };
 
 /// A measured test as straight as a ruler, with the errors given as parts of the values.
-inline calib::MeasuredTest straight_test(double modulus, double strength, double modulus_error = 1e-3,
+inline calib::MeasuredTest straight_test(double modulus, double strength,
+                                         double modulus_error = 1e-3,
                                          double strength_error = 1e-3) {
   constexpr int rows = 1000;
   calib::MeasuredTest test;

@@ -1,0 +1,52 @@
+// The fibre model as a calibration uses it: one stored simulation serves every E and σ₁.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "calib/fit/normal_form.hpp"
+#include "calib/fit/simulation_batch.hpp"
+#include "calib/study/parameter.hpp"
+
+namespace havers::calib {
+namespace {
+
+sim::Scene small_scene(double degrees) {
+  sim::Scene scene;
+  scene.assembly.layers = 6;
+  scene.assembly.fibres = 5;
+  scene.assembly.orientation = degrees * std::numbers::pi / 180.0;
+  scene.loading.strain_rate = 1e-4;
+  apply(scene, "young_GPa", 17.3);
+  apply(scene, "head_tail_MPa", 41.7);
+  apply(scene, "ratio", 1.7);
+  return scene;
+}
+
+TEST(FibreModel, GivesInNormalFormWhatItGivesPlain) {
+  const auto model = fibre_model();
+  for (const double degrees : {0.0, 45.0, 90.0}) {
+    const auto scene = small_scene(degrees);
+    ASSERT_TRUE(model.quasi_static(scene));
+    const auto form = normal_form(scene, true);
+    ASSERT_TRUE(form.scaled);
+    const auto plain = model.run(scene);
+    const auto scaled = rescaled(model.run(form.scene), form);
+    ASSERT_FALSE(plain.failed) << plain.why;
+    EXPECT_EQ(scaled.broke, plain.broke);
+    EXPECT_NEAR(scaled.modulus, plain.modulus, 1e-9 * plain.modulus);
+    EXPECT_NEAR(scaled.strength, plain.strength, 1e-9 * plain.strength);
+    EXPECT_NEAR(scaled.failure_strain, plain.failure_strain, 1e-9 * plain.failure_strain);
+    ASSERT_EQ(scaled.stress.size(), plain.stress.size());
+    for (std::size_t i = 0; i < plain.stress.size(); ++i)
+      EXPECT_NEAR(scaled.stress[i], plain.stress[i], 1e-7 * plain.strength);
+  }
+}
+
+TEST(FibreModel, IsNotScaledWhereTheLoadingIsFast) {
+  auto scene = small_scene(0.0);
+  scene.loading.strain_rate = 1000.0;
+  EXPECT_FALSE(fibre_model().quasi_static(scene));
+}
+
+}  // namespace
+}  // namespace havers::calib

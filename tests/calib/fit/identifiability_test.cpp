@@ -1,0 +1,83 @@
+// What the specimens cannot tell is left out of the fit, with the reason.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "calib/fit/calibrate.hpp"
+#include "tests/support/studies.hpp"
+
+namespace havers::calib {
+namespace {
+
+CalibrationResult fit(const std::vector<double>& degrees, std::vector<std::string> parameters,
+                      const test::ClosedForm& law = {}) {
+  auto study = test::synthetic_study(degrees, {}, 1, law);
+  study.calibrate.parameters = std::move(parameters);
+  return calibrate_with(law.simulator(), study);
+}
+
+void expect_left_out(const CalibratedParameter& parameter, const std::string& reason, double kept) {
+  EXPECT_FALSE(parameter.identifiable);
+  EXPECT_NE(parameter.left_out_because.find(reason), std::string::npos)
+      << parameter.left_out_because;
+  EXPECT_TRUE(std::isnan(parameter.interval_95[0]));
+  EXPECT_NEAR(parameter.value, kept, 1e-9);
+}
+
+TEST(Identifiability, LeavesOutTheRatioWhereHeadTailJointsDecideAlone) {
+  const auto result = fit({0.0}, {"young_GPa", "head_tail_MPa", "ratio"});
+  expect_left_out(test::parameter_of(result, "ratio"), "nothing", value_of(sim::Scene{}, "ratio"));
+  EXPECT_TRUE(test::parameter_of(result, "head_tail_MPa").identifiable);
+  EXPECT_EQ(result.left_out.front().what, "ratio");
+}
+
+// The outcome jumps with the ratio, but at random from seed to seed: no information.
+TEST(Identifiability, IsNotFooledByNoise) {
+  auto simulator = test::ClosedForm{}.simulator();
+  simulator.run = [](const sim::Scene& scene) {
+    auto other = scene;
+    other.joints.seed += static_cast<std::uint64_t>(1e6 * sim::ratio(scene.assembly, scene.joints));
+    return test::ClosedForm{}(other);
+  };
+  const auto result = calibrate_with(simulator, test::synthetic_study({0.0, 90.0}));
+  EXPECT_FALSE(test::parameter_of(result, "ratio").identifiable);
+  EXPECT_TRUE(test::parameter_of(result, "head_tail_MPa").identifiable);
+}
+
+TEST(Identifiability, LeavesOutTheScatterBesideTheThreshold) {
+  for (const auto& degrees : {std::vector{0.0}, std::vector{0.0, 45.0, 90.0}}) {
+    const auto result = fit(degrees, {"young_GPa", "head_tail_MPa", "scatter"});
+    expect_left_out(test::parameter_of(result, "scatter"),
+                    "only head_tail_MPa × (1 − scatter/2) is determined", 0.3);
+    EXPECT_TRUE(test::parameter_of(result, "head_tail_MPa").identifiable);
+  }
+}
+
+TEST(Identifiability, FitsTheScatterWhereTheThresholdIsKnown) {
+  auto study = test::synthetic_study({0.0, 90.0});
+  study.model.joints.head_tail = 60e6;
+  study.model.joints.flank = sim::flank_from_ratio(study.model.assembly, 60e6, 2.0);
+  study.calibrate.parameters = {"young_GPa", "scatter"};
+  const auto result = calibrate_with(test::ClosedForm{}.simulator(), study);
+  EXPECT_NEAR(test::parameter_of(result, "scatter").value, 0.3, 0.02);
+}
+
+TEST(Identifiability, LeavesOutTheRatioBesideTheThresholdAtOneOrientation) {
+  const auto result = fit({45.0}, {"head_tail_MPa", "ratio"});
+  EXPECT_NE(
+      test::parameter_of(result, "ratio").left_out_because.find("only head_tail_MPa × ratio^-0."),
+      std::string::npos)
+      << test::parameter_of(result, "ratio").left_out_because;
+}
+
+TEST(Identifiability, TriesEverythingWhenAutomaticAndKeepsWhatIsInformed) {
+  auto study = test::synthetic_study({0.0, 45.0, 90.0});
+  study.calibrate.automatic = true;
+  const auto result = calibrate_with(test::ClosedForm{}.simulator(), study);
+  EXPECT_TRUE(test::parameter_of(result, "ratio").identifiable);
+  EXPECT_FALSE(test::parameter_of(result, "scatter").identifiable);
+  EXPECT_TRUE(result.trusted());
+}
+
+}  // namespace
+}  // namespace havers::calib

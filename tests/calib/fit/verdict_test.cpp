@@ -1,0 +1,137 @@
+// Every check of the verdict says yes and no where it should, in words.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "calib/fit/calibrate.hpp"
+#include "tests/support/studies.hpp"
+
+namespace havers::calib {
+namespace {
+
+const std::vector<double> three_orientations{0.0, 45.0, 90.0};
+
+CalibrationResult fit(const Study& study) {
+  return calibrate_with(test::ClosedForm{}.simulator(), study);
+}
+
+Check check_of(const CalibrationResult& result, const std::string& name) {
+  for (const auto& check : result.verdict)
+    if (check.check == name) return check;
+  ADD_FAILURE() << "no check " << name;
+  return {};
+}
+
+bool says(const Check& check, const std::string& words) {
+  return check.text.find(words) != std::string::npos;
+}
+
+// A metal: strength 500 MPa, 210 GPa, breaks at 12 %.
+MeasuredTest ductile_test(double modulus) {
+  MeasuredTest test;
+  test.modulus = modulus;
+  test.modulus_standard_error = 1e-3 * modulus;
+  test.strength = 500e6;
+  test.strength_standard_error = 1e5;
+  test.failure_strain = 0.12;
+  for (int i = 0; i <= 1000; ++i) {
+    const double strain = 0.12 * i / 1000;
+    test.strain.push_back(strain);
+    test.stress.push_back(500e6 * std::tanh(modulus * strain / 500e6));
+  }
+  return test;
+}
+
+TEST(Verdict, PassesAModelThatIsTrue) {
+  for (const auto& check : fit(test::synthetic_study(three_orientations)).verdict)
+    EXPECT_EQ(check.outcome, Outcome::pass) << check.check << ": " << check.text;
+}
+
+TEST(Verdict, RejectsTheModelWhereCurvesAreNotBrittle) {
+  auto study = test::synthetic_study({0.0, 0.0, 0.0, 0.0, 0.0});
+  for (std::size_t s = 0; s < study.specimens.size(); ++s)
+    study.specimens[s].test = ductile_test(1e9 * (205.0 + static_cast<double>(s)));
+  const auto result = fit(study);
+  const auto check = check_of(result, "brittle");
+  EXPECT_EQ(check.outcome, Outcome::fail);
+  EXPECT_TRUE(says(check, "These curves are not brittle"));
+  EXPECT_TRUE(says(check, "The model is rejected"));
+  EXPECT_EQ(check_of(result, "inside bounds").outcome, Outcome::fail);  // 210 GPa is no bone
+  EXPECT_FALSE(result.trusted());
+}
+
+TEST(Verdict, SaysWhichParameterLiesAtABound) {
+  auto study = test::synthetic_study(three_orientations);
+  study.calibrate.bounds["young_GPa"] = {5.0, 12.0};
+  const auto check = check_of(fit(study), "inside bounds");
+  EXPECT_EQ(check.outcome, Outcome::fail);
+  EXPECT_TRUE(says(check, "young_GPa = 12 of [5, 12]"));
+}
+
+TEST(Verdict, SeesAModulusThatDiffersBetweenOrientations) {
+  auto study = test::synthetic_study(three_orientations);
+  for (const std::size_t s : {4U, 5U}) {
+    auto& test = study.specimens[s].test;
+    test = test::straight_test(0.7 * test.modulus, test.strength);
+  }
+  const auto check = check_of(fit(study), "residuals unstructured");
+  EXPECT_EQ(check.outcome, Outcome::fail);
+  EXPECT_TRUE(says(check, "young_GPa = \"orientation\""));
+}
+
+TEST(Verdict, SaysWhatIsLeftOut) {
+  const auto check = check_of(fit(test::synthetic_study({0.0})), "identifiable");
+  EXPECT_EQ(check.outcome, Outcome::warn);
+  EXPECT_TRUE(says(check, "ratio is left out"));
+}
+
+TEST(Verdict, SaysThatTwoSpecimensDoNotShowTheirSpread) {
+  EXPECT_EQ(check_of(fit(test::synthetic_study({0.0})), "spread between specimens").outcome,
+            Outcome::warn);
+}
+
+TEST(Verdict, SaysThatSimulationsDoNotBreak) {
+  auto study = test::synthetic_study(three_orientations);
+  study.model.loading.max_strain = 1e-4;
+  const auto check = check_of(fit(study), "simulations break");
+  EXPECT_EQ(check.outcome, Outcome::fail);
+  EXPECT_TRUE(says(check, "loading.max_strain"));
+}
+
+TEST(Verdict, CountsFailedSimulations) {
+  auto simulator = test::ClosedForm{}.simulator();
+  simulator.run = [](const sim::Scene& scene) {
+    auto response = test::ClosedForm{}(scene);
+    response.failed = scene.joints.seed % 10 < 3;
+    return response;
+  };
+  const auto result = calibrate_with(simulator, test::synthetic_study(three_orientations));
+  EXPECT_EQ(check_of(result, "simulations").outcome, Outcome::fail);
+}
+
+TEST(Verdict, SaysThatAHeldOutSpecimenIsOff) {
+  auto study = test::synthetic_study(three_orientations);
+  study.specimens[0].use = Use::validate;
+  EXPECT_EQ(check_of(fit(study), "held-out specimens").outcome, Outcome::pass);
+  study.specimens[0].test = test::straight_test(14e9, 90e6);
+  const auto check = check_of(fit(study), "held-out specimens");
+  EXPECT_EQ(check.outcome, Outcome::fail);
+  EXPECT_TRUE(says(check, "S1"));
+}
+
+TEST(CalibrationStatus, HasAWordAndASentenceEach) {
+  std::set<std::string> words, sentences;
+  for (const auto status : {CalibrationStatus::converged, CalibrationStatus::budget_spent,
+                            CalibrationStatus::all_failed, CalibrationStatus::nothing_to_fit,
+                            CalibrationStatus::cancelled}) {
+    words.insert(to_string(status));
+    sentences.insert(explain(status));
+  }
+  EXPECT_EQ(words.size(), 5U);
+  EXPECT_EQ(sentences.size(), 5U);
+  EXPECT_EQ(to_string(Outcome::warn), "warn");
+}
+
+}  // namespace
+}  // namespace havers::calib
