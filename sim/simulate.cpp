@@ -48,6 +48,10 @@ std::vector<LeftOut> left_out(const Scene& scene, const Simulation& simulation) 
   list.push_back({"one operator for each body", "equal bodies share theirs"});
   if (simulation.regime == Regime::quasi_static) {
     list.push_back({"inertia and time steps", simulation.regime_ground});
+    if (end_fraction_used(scene) > scene.loading.end_fraction)
+      list.push_back(
+          {fmt::format("the avalanche below {:g} of the strength", end_fraction_used(scene)),
+           "it happens at one strain, and no measured quantity depends on it"});
     list.push_back({"contact of pieces that no bonded joint connects to an end",
                     "they carry nothing, and without inertia their position is not determined"});
     return list;

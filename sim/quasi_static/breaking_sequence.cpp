@@ -209,6 +209,11 @@ void BreakingRun::finish(double strain, double energy_scale, Simulation& simulat
 
 }  // namespace
 
+double end_fraction_used(const Scene& scene) {
+  return scene.solver.leave_out ? std::max(scene.loading.end_fraction, avalanche_known_at)
+                                : scene.loading.end_fraction;
+}
+
 Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
   Simulation simulation;
   simulation.regime = Regime::quasi_static;
@@ -217,6 +222,7 @@ Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
   BreakingRun run(scene, intact);
   simulation.curve.push_back(run.point(0.0));
   double strain = 0.0, largest_energy = 0.0;
+  const double end_fraction = end_fraction_used(scene);
 
   for (;;) {
     const double event = run.next_event();
@@ -229,7 +235,7 @@ Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
     strain = std::max(strain, event);
     const CurvePoint before = run.point(strain);
     simulation.curve.push_back(before);
-    has_failed(simulation, scene.loading.end_fraction);  // takes note of the strength
+    has_failed(simulation, end_fraction);  // takes note of the strength
     largest_energy = std::max(largest_energy, before.elastic);
 
     run.break_joints(event, strain);
@@ -245,7 +251,7 @@ Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
       simulation.status = SimulationStatus::cancelled;
       break;
     }
-    if (has_failed(simulation, scene.loading.end_fraction)) {
+    if (has_failed(simulation, end_fraction)) {
       simulation.status = SimulationStatus::broken;
       break;
     }
