@@ -148,9 +148,10 @@ TEST_F(ReadScene, RefusesStrengthsThatAreTooManyOrTooFewOrContradictThemselves) 
 }
 
 TEST_F(ReadScene, NamesTheNearestKeyOfAnUnknownOne) {
-  EXPECT_THAT(complaints("[joints]\nscater = 0.3\n[lodaing]\nx = 1\n"),
-              ElementsAre("scene.toml:2: joints.scater: is not a known key (did you mean scatter?)",
-                          "scene.toml:3: lodaing: is not a known key (did you mean loading?)"));
+  EXPECT_THAT(
+      complaints("[joints]\nscater = 0.3\n[lodaing]\nx = 1\n"),
+      ElementsAre("scene.toml:3: lodaing: is not a known key (did you mean loading?)",
+                  "scene.toml:2: joints.scater: is not a known key (did you mean scatter?)"));
 }
 
 TEST_F(ReadScene, NamesWrongTypes) {

@@ -28,6 +28,35 @@ class ReadStudy : public testing::Test {
 
 const std::string one_specimen = "[[specimen]]\nid = \"A1\"\ntest = \"A1.csv\"\n";
 
+TEST_F(ReadStudy, TakesColumnsAndCorrections) {
+  const StudyFile file = read(one_specimen + R"(
+specimen_in_file = "South"
+[specimen.columns]
+force = "Channel 3"
+force_unit = "500 N/V"
+[specimen.gauge_columns]
+strain = "2"
+[reduction]
+remove_toe = false
+mend_slips = false
+machine_compliance_mm_per_kN = 0.02
+largest_noise = 0.1
+)");
+  const SpecimenFiles& specimen = file.specimens.at(0);
+  EXPECT_EQ(specimen.columns.specimen, "South");
+  EXPECT_EQ(specimen.columns.columns.at(Quantity::force).column, "Channel 3");
+  EXPECT_EQ(specimen.columns.columns.at(Quantity::force).unit, "500 N/V");
+  EXPECT_FALSE(specimen.columns.logger);
+  EXPECT_EQ(specimen.gauge_columns.columns.at(Quantity::strain).column, "2");
+  EXPECT_TRUE(specimen.gauge_columns.logger);
+  EXPECT_FALSE(file.reduction.remove_toe);
+  EXPECT_FALSE(file.reduction.mend_slips);
+  EXPECT_TRUE(file.reduction.remove_spikes);
+  EXPECT_DOUBLE_EQ(file.reduction.machine_compliance, 20e-9);
+  EXPECT_DOUBLE_EQ(file.reduction.largest_noise, 0.1);
+  EXPECT_EQ(complaints(one_specimen + "[reduction]\nbreak_part = 1.5\n").size(), 1U);
+}
+
 TEST_F(ReadStudy, TakesEveryKeyInItsUnit) {
   for (const char* name : {"a/A1.csv", "A1_gauge.csv", "s1.png", "s2.png"}) folder.write(name, "");
   const StudyFile file = read(R"(
