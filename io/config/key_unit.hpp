@@ -18,6 +18,7 @@ inline constexpr KeyUnit square_micrometre{1.0, 1e12};
 inline constexpr KeyUnit megapascal{1e6, 1.0};
 inline constexpr KeyUnit gigapascal{1e9, 1.0};
 inline constexpr KeyUnit millimetre_per_minute{1.0, 6e4};
+inline constexpr KeyUnit millimetre_per_kilonewton{1.0, 1e6};
 inline constexpr KeyUnit degree{std::numbers::pi, 180.0};
 
 constexpr double to_si(double value, KeyUnit unit) {

@@ -67,6 +67,9 @@ std::vector<SpecimenFiles> read_specimens(TableReader& top, Files files) {
   for (TableReader& table : top.tables("specimen")) {
     SpecimenFiles& specimen = specimens.emplace_back();
     keys(table, specimen);
+    TableReader columns = table.table("columns"), gauge_columns = table.table("gauge_columns");
+    keys(columns, specimen.columns);
+    keys(gauge_columns, specimen.gauge_columns);
     check_id(table, specimen.id, ids);
     check_specimen(table, specimen);
     if (files == Files::must_exist) check_files(table, specimen);
@@ -158,6 +161,19 @@ void read_synthesize(TableReader table, SynthesizeOptions& options) {
           "at least 16");
 }
 
+void read_reduction(TableReader table, calib::ReductionOptions& options) {
+  keys(table, options);
+  require(options.window_low >= 0.0 && options.window_low < options.window_high, table,
+          "window_low", options.window_low, "0 or more and below window_high");
+  require(options.window_high <= 1.0, table, "window_high", options.window_high, "at most 1");
+  require(options.break_part > 0.0 && options.break_part < 1.0, table, "break_part",
+          options.break_part, "between 0 and 1");
+  require_not_negative(table, "straightness", options.straightness);
+  require_not_negative(table, "machine_compliance_mm_per_kN", options.machine_compliance);
+  require_positive(table, "largest_modulus_error", options.largest_modulus_error);
+  require_positive(table, "largest_noise", options.largest_noise);
+}
+
 calib::Specimen without_tests(const SpecimenFiles& files) {
   calib::Specimen specimen;
   specimen.id = files.id;
@@ -186,6 +202,7 @@ StudyFile read_study(const std::filesystem::path& file, const Overrides& overrid
   read_porosity(top.table("porosity"), read.study.porosity);
   read_calibrate(top.table("calibrate"), read.study.model, read.study.calibrate);
   read_synthesize(top.table("synthesize"), read.synthesize);
+  read_reduction(top.table("reduction"), read.reduction);
   config.finish();
   return read;
 }

@@ -9,6 +9,7 @@
 
 #include "calib/study/study.hpp"
 #include "io/config/read_scene.hpp"
+#include "io/machine/read_test.hpp"
 
 namespace havers::io {
 
@@ -17,6 +18,8 @@ struct SpecimenFiles {
   std::string id;
   std::filesystem::path test;
   std::optional<std::filesystem::path> gauge;
+  ReadOptions columns{};                      ///< [specimen.columns], and which in `test`.
+  ReadOptions gauge_columns{.logger = true};  ///< [specimen.gauge_columns].
   std::optional<double> width, thickness, gauge_length;  ///< Override what the test file says. [m]
   double orientation = 0.0;                              ///< [rad]
   std::vector<std::filesystem::path> sections;
@@ -44,6 +47,7 @@ struct StudyFile {
       study;  ///< Everything but the specimens, which hold only id, use, orientation, porosity.
   std::vector<SpecimenFiles> specimens;
   SynthesizeOptions synthesize;
+  calib::ReductionOptions reduction;
 };
 
 /// Whether the named test and section files must exist (all commands but `synthesize`).

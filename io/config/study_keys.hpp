@@ -39,10 +39,42 @@ void keys(Table& table, SynthesizeOptions& options) {
   table.key("section_pixels", options.section_pixels);
 }
 
+/// [reduction]: every correction has its switch.
+template <class Table>
+void keys(Table& table, calib::ReductionOptions& options) {
+  table.key("window_low", options.window_low);
+  table.key("window_high", options.window_high);
+  table.key("straightness", options.straightness);
+  table.key("remove_toe", options.remove_toe);
+  table.key("cut_after_break", options.cut_after_break);
+  table.key("break_part", options.break_part);
+  table.key("remove_spikes", options.remove_spikes);
+  table.key("spread_repeated_times", options.spread_repeated_times);
+  table.key("mend_slips", options.mend_slips);
+  table.key("machine_compliance_mm_per_kN", options.machine_compliance, millimetre_per_kilonewton);
+  table.key("quality_control", options.quality_control);
+  table.key("largest_modulus_error", options.largest_modulus_error);
+  table.key("largest_noise", options.largest_noise);
+}
+
+/// [specimen.columns]: a column's name or number, and its unit: force = "Channel 3", force_unit =
+/// "500 N/V".
+template <class Table>
+void keys(Table& table, ReadOptions& options) {
+  for (const Quantity quantity :
+       {Quantity::time, Quantity::force, Quantity::extension, Quantity::strain, Quantity::stress}) {
+    ColumnHint hint;
+    const bool given = table.key(to_string(quantity), hint.column);
+    table.key(to_string(quantity) + "_unit", hint.unit);
+    if (given) options.columns[quantity] = hint;
+  }
+}
+
 template <class Table>
 void keys(Table& table, SpecimenFiles& specimen) {
   table.key("id", specimen.id);
   table.key("test", specimen.test);
+  table.key("specimen_in_file", specimen.columns.specimen);
   table.key("gauge", specimen.gauge);
   table.key("width_mm", specimen.width, millimetre);
   table.key("thickness_mm", specimen.thickness, millimetre);
