@@ -13,6 +13,7 @@ constexpr double largest_scatter = 1.99;  // d < 2: no joint may start broken.
 // Weights of sum 1 from bone areas; equal ones where an area is unknown.
 std::vector<double> area_weights(const std::vector<const SectionPorosity*>& sections) {
   std::vector<double> weights;
+  weights.reserve(sections.size());
   for (const SectionPorosity* section : sections) weights.push_back(section->bone_area);
   const bool known = std::all_of(weights.begin(), weights.end(), [](double w) { return w > 0.0; });
   if (!known) std::fill(weights.begin(), weights.end(), 1.0);

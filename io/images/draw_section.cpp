@@ -116,7 +116,7 @@ cv::Mat photograph(const PoreMap& truth, const SectionDrawing& drawing, std::mt1
   for (int y = 0; y < image.rows; ++y)
     for (int x = 0; x < image.cols; ++x) {
       const double u = (x - middle) / middle, v = (y - middle) / middle;
-      double& value = image.at<double>(y, x);
+      auto& value = image.at<double>(y, x);
       value *= 1.0 - 0.5 * drawing.shading * (u * u + v * v);
       value += drawing.noise * (bone_grey - pore_grey) * normal(random);
     }

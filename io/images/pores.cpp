@@ -102,7 +102,7 @@ cv::Mat find_pore_level(const cv::Mat& grey, const cv::Mat& bone, Levels& levels
 
   const std::vector<Sample> samples = sample(grey, clean_bone(bone & ~pores), 20000);
   if (samples.size() >= 500) levels.bone = fit_surface(samples, grey.size(), 4);
-  const cv::Mat cores = cores_of(pores);
+  cv::Mat cores = cores_of(pores);
   fit_contrast(grey, cores, levels);
   return cores;
 }

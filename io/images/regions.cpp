@@ -57,6 +57,7 @@ bool is_a_region(const cv::Mat& level) {
 cv::Mat main_parts(const cv::Mat& mask) {
   std::vector<Contour> contours = outer_contours(mask);
   std::vector<double> areas;
+  areas.reserve(contours.size());
   for (const Contour& contour : contours) areas.push_back(cv::contourArea(contour));
   const double largest = areas.empty() ? 0.0 : *std::max_element(areas.begin(), areas.end());
   cv::Mat parts = cv::Mat::zeros(mask.size(), CV_8U);

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace havers::io {
@@ -47,10 +48,9 @@ std::array<double, 5> Surface::row(double y) const {
 }
 
 Surface fit_surface(const std::vector<Sample>& samples, cv::Size size, int degree) {
-  while (degree > 0 &&
-         samples.size() < 10U * static_cast<unsigned>((degree + 1) * (degree + 2) / 2))
-    degree -= 2;
-  const Eigen::Index n = (degree + 1) * (degree + 2) / 2;
+  const auto terms = [&degree] { return (degree + 1) * (degree + 2) / 2; };
+  while (degree > 0 && std::ssize(samples) < 10 * terms()) degree -= 2;
+  const Eigen::Index n = terms();
   Eigen::Matrix<double, 15, 15> products = Eigen::Matrix<double, 15, 15>::Zero();
   Monomials right = Monomials::Zero();
   for (const Sample& s : samples) {

@@ -17,7 +17,9 @@ struct Sums {
 using Blocks = std::array<Sums, static_cast<std::size_t>(parts) * parts>;
 
 std::size_t block_of(int x, int y, cv::Size size) {
-  return static_cast<std::size_t>(y * parts / size.height * parts + x * parts / size.width);
+  const int row = y * parts / size.height, column = x * parts / size.width;
+  const int block = row * parts + column;
+  return static_cast<std::size_t>(block);
 }
 
 // Integral image along a row, at a fraction between pixels.

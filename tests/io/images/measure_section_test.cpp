@@ -16,7 +16,7 @@ using test::SectionCase;
 constexpr double pixel = 2e-6;
 
 calib::SectionPorosity measure(const test::DrawnSection& section, const std::string& name,
-                               SectionOptions options = {.pixel_size = pixel}) {
+                               const SectionOptions& options = {.pixel_size = pixel}) {
   return measure_section(test::write(section.image, name), options).porosity;
 }
 
