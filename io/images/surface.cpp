@@ -49,7 +49,7 @@ std::array<double, 5> Surface::row(double y) const {
 
 Surface fit_surface(const std::vector<Sample>& samples, cv::Size size, int degree) {
   const auto terms = [&degree] { return (degree + 1) * (degree + 2) / 2; };
-  while (degree > 0 && std::ssize(samples) < 10 * terms()) degree -= 2;
+  while (degree > 0 && std::ssize(samples) / terms() < 10) degree -= 2;
   const Eigen::Index n = terms();
   Eigen::Matrix<double, 15, 15> products = Eigen::Matrix<double, 15, 15>::Zero();
   Monomials right = Monomials::Zero();
