@@ -13,7 +13,7 @@ namespace havers::sim {
 enum class JointState { stick, slip_forward, slip_backward, open };
 
 /// Find y with r = r₀ + S y and the joint law at every joint, gaps being u = u₀ + y (C1),
-/// sim/contact/README.md.
+/// sim/README.md.
 struct LocalContact {
   Eigen::MatrixXd S;           ///< Reactions to unit gaps, 2n × 2n, symmetric ≥ 0. [N/m²]
   Eigen::VectorXd r0;          ///< Reactions at y = 0, 2n. [N/m]

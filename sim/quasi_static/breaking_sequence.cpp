@@ -150,8 +150,8 @@ bool BreakingRun::settle() {
     if (contact.apart[i] != 0) states_[i] = JointState::open;
   LocalContact held = contact;  // as before the event: what has just broken bears what it bore then
   for (Index i = 0; i < n; ++i)
-    held.r0.segment<2>(2 * i) = reactions_.segment<2>(
-        2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)]));
+    held.r0.segment<2>(2 * i) =
+        reactions_.segment<2>(2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)]));
   VectorXd extra = cohesion_to_stick(held);
   extra.head(static_cast<Index>(settled_)).setZero();
   LocalContactResult result = follow_release(contact, states_, extra);

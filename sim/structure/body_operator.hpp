@@ -16,7 +16,7 @@ struct Shift {
 };
 
 /// Static condensation of Ā δ = g + Bᵀ t with port displacements p = B δ (S1)-(S4),
-/// sim/structure/README.md. n degrees of freedom (those held by the boundary included), p ports.
+/// sim/README.md. n degrees of freedom (those held by the boundary included), p ports.
 struct BodyOperator {
   BodyMatrices matrices;
   Eigen::MatrixXd shifted;        ///< Ā, n × n. [N/m²]

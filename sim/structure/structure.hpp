@@ -36,7 +36,7 @@ struct JumpResponse {
 };
 
 /// Factor of the structure in which all joints hold but the detached ones (S5)-(S7),
-/// sim/structure/README.md. Unknowns are the joints' own displacements; what an even ring of ports
+/// sim/README.md. Unknowns are the joints' own displacements; what an even ring of ports
 /// cannot do is imposed by multipliers, so that no digits are lost at large steps (M10).
 class Structure {
  public:
