@@ -1,12 +1,10 @@
+#include <algorithm>
+
 #include "io/input_error.hpp"
 #include "io/snapshots/snapshots.hpp"
 
 namespace havers::io {
 namespace {
-
-Snapshot moment(int row, const sim::Progress& progress) {
-  return {.row = row, .displacements = progress.displacements, .joints = progress.joints};
-}
 
 void drop_every_second(std::vector<Snapshot>& held) {
   for (std::size_t i = 1; 2 * i < held.size(); ++i) held[i] = std::move(held[2 * i]);
@@ -22,25 +20,28 @@ SnapshotRecorder::SnapshotRecorder(int count) : count_(static_cast<std::size_t>(
 }
 
 void SnapshotRecorder::record(const sim::Progress& progress) {
-  if (count_ == 0) return;
   const int row = rows_++;
-  last_ = moment(row, progress);
-  if (row % stride_ != 0) return;
-  held_.push_back(last_);
+  if (count_ == 0 || progress.displacements.size() == 0 || row % stride_ != 0) return;
+  held_.push_back({.row = row, .displacements = progress.displacements, .joints = progress.joints});
   if (held_.size() < 2 * count_ + 1) return;
   drop_every_second(held_);
   stride_ *= 2;
 }
 
+void SnapshotRecorder::finish(const sim::Simulation& simulation) {
+  if (count_ == 0 || simulation.displacements.size() == 0) return;
+  const int last = std::max(rows_ - 1, 0);
+  if (!held_.empty() && held_.back().row == last) held_.pop_back();
+  held_.push_back(
+      {.row = last, .displacements = simulation.displacements, .joints = simulation.joints});
+}
+
 std::vector<Snapshot> SnapshotRecorder::chosen() const {
-  if (rows_ == 0 || count_ == 0) return {};
-  std::vector<Snapshot> all = held_;
-  if (all.back().row != last_.row) all.push_back(last_);
-  if (all.size() <= count_) return all;
+  if (held_.size() <= count_) return held_;
   std::vector<Snapshot> spread;
   for (std::size_t i = 0; i + 1 < count_; ++i)
-    spread.push_back(all[i * (all.size() - 1) / (count_ - 1)]);
-  spread.push_back(all.back());
+    spread.push_back(held_[i * (held_.size() - 1) / (count_ - 1)]);
+  spread.push_back(held_.back());
   return spread;
 }
 

@@ -26,8 +26,12 @@ class SnapshotRecorder {
   /// @throws InputError when snapshots are asked for and VTK is not built in.
   explicit SnapshotRecorder(int count);
 
-  /// To be called for every row, in order.
+  /// To be called for every row, in order. Rows without displacements (the quasi-static sequence
+  /// finds them at its end only) are passed over.
   void record(const sim::Progress& progress);
+
+  /// To be called once after the run: its last state is the last moment.
+  void finish(const sim::Simulation& simulation);
 
   /// The moments, the first and the last row among them (one: the last).
   [[nodiscard]] std::vector<Snapshot> chosen() const;
@@ -36,7 +40,6 @@ class SnapshotRecorder {
   std::size_t count_;
   int rows_ = 0, stride_ = 1;
   std::vector<Snapshot> held_;
-  Snapshot last_;
 };
 
 /// Writes the triangles of the fibres and the joints as lines, both displaced by the point data

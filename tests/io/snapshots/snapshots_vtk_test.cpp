@@ -19,6 +19,9 @@ std::vector<int> chosen_rows(int count, int rows) {
   for (int row = 0; row < rows; ++row)
     recorder.record(
         {.point = {}, .displacements = Eigen::VectorXd::Constant(2, row), .joints = joints});
+  sim::Simulation end;
+  if (rows > 0) end.displacements = Eigen::VectorXd::Constant(2, rows - 1);
+  recorder.finish(end);
   std::vector<int> chosen;
   for (const Snapshot& snapshot : recorder.chosen()) {
     EXPECT_EQ(snapshot.displacements(0), snapshot.row);
@@ -49,6 +52,16 @@ TEST(SnapshotRecorder, KeepsAllRowsOfAShortRunAndTheLastWhenAskedForOne) {
   EXPECT_EQ(chosen_rows(1, 50), (std::vector{49}));
   EXPECT_TRUE(chosen_rows(0, 50).empty());
   EXPECT_TRUE(chosen_rows(4, 0).empty());
+}
+
+// The quasi-static sequence knows its displacements at the end only.
+TEST(SnapshotRecorder, KeepsTheEndOfARunWithoutDisplacementsOnTheWay) {
+  SnapshotRecorder recorder(4);
+  recorder.record({.point = {}, .displacements = {}, .joints = {}});
+  sim::Simulation end;
+  end.displacements = Eigen::VectorXd::Ones(2);
+  recorder.finish(end);
+  EXPECT_EQ(recorder.chosen().size(), 1U);
 }
 
 // Two triangles and one joint between them.
