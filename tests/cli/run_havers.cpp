@@ -43,7 +43,7 @@ void write_text(const fs::path& file, const std::string& text) {
 
 std::string small_scene() {
   return R"([assembly]
-layers = 4
+layers = 8
 fibres = 5
 [joints]
 resultant_MPa = 100.0
@@ -58,7 +58,7 @@ std::string small_study() {
   std::string text = R"([study]
 name = "two bars"
 [model.assembly]
-layers = 4
+layers = 8
 fibres = 5
 [model.joints]
 head_tail_MPa = 80.0
@@ -66,7 +66,8 @@ ratio = 1.0
 scatter = 0.4
 [synthesize]
 force_noise_N = 0.2
-sampling_s = 0.05
+sampling_s = 0.02
+toe_strain = 2e-5
 [porosity]
 to_scatter = "none"
 [calibrate]

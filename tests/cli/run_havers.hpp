@@ -20,10 +20,10 @@ std::filesystem::path own_folder();
 std::string read_text(const std::filesystem::path& file);
 void write_text(const std::filesystem::path& file, const std::string& text);
 
-/// A scene that runs in milliseconds: 5 x 4 fibres, quasi-static.
+/// A scene that runs in milliseconds: 5 fibres in 8 layers, quasi-static.
 std::string small_scene();
 
-/// A study of two specimens, one at 0 and one at 90 degrees, of 5 x 4 fibres each, without
+/// A study of two specimens, one at 0 and one at 90 degrees, of 5 fibres in 8 layers each, without
 /// sections.
 std::string small_study();
 
