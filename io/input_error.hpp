@@ -7,7 +7,8 @@
 
 namespace havers::io {
 
-/// One complaint. `where` is a file, a file and line, or a file and key; `hint` says what to do, may be empty.
+/// One complaint. `where` is a file, a file and line, or a file and key; `hint` says what to do,
+/// may be empty.
 struct Problem {
   std::string where, what, hint;
 };

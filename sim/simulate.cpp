@@ -52,6 +52,10 @@ std::vector<LeftOut> left_out(const Scene& scene, const Simulation& simulation) 
       list.push_back(
           {fmt::format("the avalanche below {:g} of the strength", end_fraction_used(scene)),
            "it happens at one strain, and no measured quantity depends on it"});
+    if (simulation.events_without_contact > 0)
+      list.push_back({fmt::format("contact of broken joints in {} of {} events",
+                                  simulation.events_without_contact, simulation.steps),
+                      "no set of sticking, sliding and open joints was found that obeys friction"});
     list.push_back({"contact of pieces that no bonded joint connects to an end",
                     "they carry nothing, and without inertia their position is not determined"});
     return list;

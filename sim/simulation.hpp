@@ -73,6 +73,8 @@ struct Simulation {
   double energy_defect = 0.0;      ///< Largest relative defect of (M4) over the steps. [-]
   double worst_residual = 0.0;     ///< Largest (M11) over the steps. [-]
   double worst_penetration = 0.0;  ///< Largest −g. [m]
+  int events_without_contact =
+      0;  ///< Quasi-static: events whose contact had no solution and was left out.
   std::vector<LeftOut> left_out;
 
   /// Whether the numbers may be used: the run ended as it should and the checks hold.

@@ -58,6 +58,7 @@ class BreakingRun {
   double dissipated = 0.0;  // [J/m]
   long iterations = 0;
   int broken = 0;
+  int without_contact = 0;  // events whose contact found no solution
 };
 
 BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact)
@@ -160,6 +161,12 @@ bool BreakingRun::settle() {
     result = solve_local_contact(contact, result.states, scene_.solver.max_iterations);
     iterations += result.iterations;
   }
+  if (!result.converged) {  // an answer without contact, counted and reported, instead of none
+    ++without_contact;
+    contact.apart.assign(loose_.size(), 1);
+    result =
+        solve_local_contact(contact, std::vector<JointState>(loose_.size(), JointState::open), 1);
+  }
   states_ = result.states;
   settled_ = loose_.size();
   y_ = result.y;
@@ -251,7 +258,9 @@ Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
       simulation.status = SimulationStatus::not_converged;
       break;
     }
-    if (observer && !observer({simulation.curve.back(), simulation.displacements, run.joints})) {
+    if (observer) run.finish(strain, largest_energy, simulation);
+    if (observer &&
+        !observer({simulation.curve.back(), simulation.displacements, simulation.joints})) {
       simulation.status = SimulationStatus::cancelled;
       break;
     }
@@ -262,6 +271,7 @@ Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
   }
   largest_energy = std::max(largest_energy, simulation.curve.back().elastic);
   run.finish(strain, largest_energy, simulation);
+  simulation.events_without_contact = run.without_contact;
   return simulation;
 }
 

@@ -1,0 +1,178 @@
+#include "sim/contact/local_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sim/contact/release_path.hpp"
+#include "tests/sim/contact/enumerated_contact.hpp"
+
+namespace havers::sim {
+namespace {
+
+using Eigen::VectorXd;
+using States = std::vector<JointState>;
+
+constexpr int many = 1000;
+
+bool is_among(const VectorXd& y, const std::vector<VectorXd>& solutions) {
+  return std::any_of(solutions.begin(), solutions.end(), [&](const VectorXd& other) {
+    return (other - y).norm() < 1e-7 * (1.0 + y.norm());
+  });
+}
+
+class LocalContactProblems : public testing::TestWithParam<std::tuple<int, double>> {
+ protected:
+  int joints = std::get<0>(GetParam());
+  double friction = std::get<1>(GetParam());
+};
+INSTANTIATE_TEST_SUITE_P(JointsAndFriction, LocalContactProblems,
+                         testing::Combine(testing::Values(1, 2, 3),
+                                          testing::Values(0.0, 0.3, 1.0, 3.0)));
+
+// Friction may leave several answers; the solver's must be one of them, whatever it starts from.
+// Far above the friction of any joint it may miss one.
+TEST_P(LocalContactProblems, AreSolvedWhereverEnumerationFindsASolution) {
+  int missed = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    const LocalContact problem = test::random_contact(joints, friction, seed);
+    const auto solutions = test::all_solutions(problem);
+    for (const JointState start : {JointState::stick, JointState::open, JointState::slip_forward}) {
+      const auto result = solve_local_contact(problem, States(problem.laws.size(), start), many);
+      SCOPED_TRACE(testing::Message()
+                   << "seed " << seed << ", " << solutions.size() << " solutions");
+      missed += solutions.empty() || result.converged ? 0 : 1;
+      if (!result.converged) continue;
+      EXPECT_TRUE(test::keeps_law(problem, result.y, 1e-10));
+      EXPECT_TRUE(is_among(result.y, solutions));
+    }
+  }
+  EXPECT_LE(missed, friction > 1.0 ? 5 : 0);
+}
+
+TEST_P(LocalContactProblems, AreSolvedAlongTheReleasePathToo) {
+  int reached = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    const LocalContact problem = test::random_contact(joints, friction, seed);
+    const auto result = follow_release(problem, States(problem.laws.size(), JointState::stick),
+                                       cohesion_to_stick(problem));
+    if (!result.converged) continue;  // the path turned back
+    ++reached;
+    EXPECT_TRUE(test::keeps_law(problem, result.y, 1e-10)) << "seed " << seed;
+  }
+  EXPECT_GE(reached, friction > 1.0 ? 30 : 50);
+}
+
+// Lengths, forces and stiffnesses in other units: the same states, the gaps in the other unit.
+TEST_P(LocalContactProblems, HaveNoScale) {
+  const double force = 0x1p20, length = 0x1p-17;  // powers of two: not even rounding changes
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    const LocalContact problem = test::random_contact(joints, friction, seed);
+    LocalContact scaled = problem;
+    scaled.S *= force / length;
+    scaled.r0 *= force;
+    scaled.u0 *= length;
+    for (JointLaw& law : scaled.laws) law.cohesion *= force;
+    const States start(problem.laws.size(), JointState::stick);
+    const auto one = solve_local_contact(problem, start, many);
+    const auto other = solve_local_contact(scaled, start, many);
+    EXPECT_EQ(one.converged, other.converged);
+    EXPECT_EQ(one.states, other.states);
+    EXPECT_LT((other.y / length - one.y).norm(), 1e-12 * (1.0 + one.y.norm()));
+  }
+}
+
+TEST(LocalContact, OfNoJointsIsSolved) {
+  EXPECT_TRUE(solve_local_contact({}, {}, many).converged);
+}
+
+TEST(LocalContact, StartedFromItsAnswerTakesOneSet) {
+  const LocalContact problem = test::random_contact(3, 0.3, 4);
+  const auto first = solve_local_contact(problem, States(3, JointState::stick), many);
+  const auto again = solve_local_contact(problem, first.states, many);
+  EXPECT_EQ(again.iterations, 1);
+  EXPECT_EQ(again.y, first.y);
+}
+
+// One joint, S = diag(2, 1), c = 1, μ = 1/2: each answer by hand.
+class OneJoint : public testing::Test {
+ protected:
+  Eigen::Matrix2d S = Eigen::Vector2d(2.0, 1.0).asDiagonal();
+  JointLaw law{1.0, 0.5};
+  [[nodiscard]] SingleJoint solve(const Local& free, const Local& u0 = {0.0, 0.0}) const {
+    return solve_single_joint(S, free, u0, law);
+  }
+};
+
+TEST_F(OneJoint, SticksInsideItsCone) {
+  const SingleJoint joint = solve({1.0, 0.9});
+  EXPECT_EQ(joint.state, JointState::stick);
+  EXPECT_EQ(joint.y, Local(0.0, 0.0));
+}
+
+TEST_F(OneJoint, ReturnsToWhereItWasHeld) {
+  const SingleJoint joint = solve({5.0, 0.0}, {0.2, 0.1});
+  EXPECT_EQ(joint.state, JointState::stick);
+  EXPECT_EQ(joint.y, Local(-0.2, -0.1));
+}
+
+TEST_F(OneJoint, OpensWhenPulledBeyondItsTip) {
+  const SingleJoint joint = solve({-3.0, 0.4});
+  EXPECT_EQ(joint.state, JointState::open);
+  EXPECT_LT((joint.y - Local(1.0, -0.4)).norm(), 1e-15);  // r = (−1, 0), the tip
+}
+
+TEST_F(OneJoint, SlipsAgainstTheForce) {
+  const SingleJoint forward = solve({0.0, -2.0}), backward = solve({0.0, 2.0});
+  EXPECT_EQ(forward.state, JointState::slip_forward);
+  EXPECT_LT((forward.y - Local(0.0, 1.5)).norm(), 1e-15);  // r_T from −2 to −1/2
+  EXPECT_EQ(backward.state, JointState::slip_backward);
+  EXPECT_LT((backward.y - Local(0.0, -1.5)).norm(), 1e-15);
+}
+
+TEST_F(OneJoint, StaysOpenAboveItsPlace) {
+  const SingleJoint joint = solve({-1.0, 0.0}, {0.5, 0.2});
+  EXPECT_EQ(joint.state, JointState::open);
+  EXPECT_LT(joint.y.norm(), 1e-15);
+}
+
+TEST(StateOf, LeavesAStateOnlyWhenItsConditionFails) {
+  const JointLaw law{1.0, 0.5};
+  const Local none(0.0, 0.0);
+  using enum JointState;
+  EXPECT_EQ(state_of({0.0, 0.4}, none, stick, law, 1.0), stick);
+  EXPECT_EQ(state_of({0.0, -0.6}, none, stick, law, 1.0), slip_forward);
+  EXPECT_EQ(state_of({0.0, 0.6}, none, stick, law, 1.0), slip_backward);
+  EXPECT_EQ(state_of({-1.1, 0.0}, none, stick, law, 1.0), open);
+  EXPECT_EQ(state_of({-1.1, 0.0}, none, slip_forward, law, 1.0), open);
+  EXPECT_EQ(state_of({0.0, -0.5}, {0.0, 0.1}, slip_forward, law, 1.0), slip_forward);
+  EXPECT_EQ(state_of({0.0, -0.5}, {0.0, -0.1}, slip_forward, law, 1.0), stick);
+  EXPECT_EQ(state_of({-1.0, 0.0}, {0.1, 0.0}, open, law, 1.0), open);
+  EXPECT_EQ(state_of({-1.0, 0.0}, {-0.1, 0.0}, open, law, 1.0), stick);
+  EXPECT_EQ(state_of({0.0, 0.5 + 1e-14}, none, stick, law, 1.0), stick);  // rounding
+}
+
+// A path on which friction leaves no answer: with μ above the wedging limit the branch turns back.
+TEST(ReleasePath, SaysWhenItTurnsBack) {
+  int turned = 0;
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    const LocalContact problem = test::random_contact(3, 5.0, seed);
+    const auto result =
+        follow_release(problem, States(3, JointState::stick), cohesion_to_stick(problem));
+    if (!result.converged) ++turned;
+  }
+  EXPECT_GT(turned, 0);
+}
+
+TEST(ReleasePath, StartsWhereEveryJointSticks) {
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    LocalContact problem = test::random_contact(3, 0.4, seed);
+    const VectorXd extra = cohesion_to_stick(problem);
+    for (std::size_t i = 0; i < 3; ++i)
+      problem.laws[i].cohesion += extra(static_cast<Eigen::Index>(i));
+    EXPECT_TRUE(test::keeps_law(problem, -problem.u0, 1e-12));
+  }
+}
+
+}  // namespace
+}  // namespace havers::sim

@@ -1,0 +1,66 @@
+#include "sim/dynamics/time_stepping.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+TEST(ChooseStep, TakesAThousandStepsToTheHeadTailStrain) {
+  Scene scene;
+  scene.loading.strain_rate = 1e4;
+  EXPECT_NEAR(choose_step(scene), 1e-3 * (50e6 / 13e9) / 1e4, 1e-24);
+}
+
+TEST(ChooseStep, IsNeverLongerThanHalfTheWavesTimeAlongAFibre) {
+  Scene scene;
+  scene.loading.strain_rate = 0.1;
+  EXPECT_NEAR(choose_step(scene), 0.5 * 100e-6 / std::sqrt(13e9 / 2000.0), 1e-20);
+}
+
+TEST(SimulateDynamic, TakesTheStepOfTheScene) {
+  Scene scene = test::dynamic_scene(0.0, 3e-8);
+  scene.loading.max_strain = 3e-4;
+  const Simulation simulation = simulate_dynamic(scene, {});
+  EXPECT_EQ(simulation.step, 3e-8);
+  EXPECT_EQ(simulation.steps, 10);
+  ASSERT_EQ(simulation.curve.size(), 11U);
+  EXPECT_DOUBLE_EQ(simulation.curve[10].time, 3e-7);
+  EXPECT_DOUBLE_EQ(simulation.curve[10].strain, 3e-4);
+}
+
+// The joints' answer does not depend on the method that found it.
+TEST(SimulateDynamic, GivesTheSameRunByGaussSeidelAsByTheActiveSet) {
+  Scene scene = test::small_scene(0.0, 4, 3);
+  scene.solver.step = 5e-9;
+  scene.loading.strain_rate = 2e4;
+  scene.loading.max_strain = 0.008;
+  scene.solver.tolerance = 1e-10;
+  scene.solver.max_iterations = 100000;
+  const Simulation one = simulate_dynamic(scene, {});
+  scene.solver.contact = ContactMethod::gauss_seidel;
+  const Simulation other = simulate_dynamic(scene, {});
+  EXPECT_EQ(to_string(one.status), to_string(other.status));
+  EXPECT_GT(one.curve.back().broken_joints, 0);
+  ASSERT_EQ(one.curve.size(), other.curve.size());
+  for (std::size_t i = 0; i < one.curve.size(); ++i) {
+    EXPECT_EQ(one.curve[i].broken_joints, other.curve[i].broken_joints);
+    EXPECT_NEAR(one.curve[i].stress_right, other.curve[i].stress_right, 1e-5 * 50e6);
+  }
+}
+
+TEST(SimulateDynamic, GivesTheSameRunWhenNothingIsLeftOut) {
+  Scene scene = test::dynamic_scene(0.0);
+  const Simulation one = simulate_dynamic(scene, {});
+  scene.solver.leave_out = false;
+  const Simulation other = simulate_dynamic(scene, {});
+  ASSERT_EQ(one.curve.size(), other.curve.size());
+  EXPECT_NEAR(one.strength / other.strength, 1.0, 1e-9);
+  EXPECT_EQ(one.curve.back().broken_joints, other.curve.back().broken_joints);
+}
+
+}  // namespace
+}  // namespace havers::sim

@@ -1,0 +1,167 @@
+#include "sim/joint/thresholds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+constexpr std::uint64_t draws = 50000;
+
+struct Moments {
+  double mean = 0.0, deviation = 0.0, least = INFINITY, greatest = -INFINITY;
+};
+
+Moments moments(double scatter, Distribution distribution) {
+  Moments m;
+  double sum = 0.0, squares = 0.0;
+  for (std::uint64_t joint = 0; joint < draws; ++joint) {
+    const double w = threshold_factor(7, joint, scatter, distribution);
+    sum += w;
+    squares += w * w;
+    m.least = std::min(m.least, w);
+    m.greatest = std::max(m.greatest, w);
+  }
+  m.mean = sum / draws;
+  m.deviation = std::sqrt(squares / draws - m.mean * m.mean);
+  return m;
+}
+
+// (M8): mean 1 and standard deviation d/√12 whatever the distribution.
+TEST(ThresholdFactor, HasTheSameMeanAndDeviationInEveryDistribution) {
+  for (const Distribution distribution :
+       {Distribution::uniform, Distribution::weibull, Distribution::lognormal})
+    for (const double scatter : {0.1, 0.6, 1.9}) {
+      const Moments m = moments(scatter, distribution);
+      const double deviation = scatter / std::sqrt(12.0);
+      EXPECT_NEAR(m.mean, 1.0, 5.0 * deviation / std::sqrt(draws));
+      EXPECT_NEAR(m.deviation / deviation, 1.0, 0.02);
+      EXPECT_GT(m.least, 0.0);
+    }
+}
+
+TEST(ThresholdFactor, FillsTheWholeIntervalWhenUniform) {
+  const Moments m = moments(0.8, Distribution::uniform);
+  EXPECT_GT(m.least, 0.6);
+  EXPECT_LT(m.greatest, 1.4);
+  EXPECT_NEAR(m.least, 0.6, 1e-4);
+  EXPECT_NEAR(m.greatest, 1.4, 1e-4);
+}
+
+// Weibull of coefficient of variation 1 is the exponential law; its median is ln 2.
+TEST(ThresholdFactor, HasTheTailsOfItsDistribution) {
+  int below_uniform = 0, below_weibull = 0, below_lognormal = 0;
+  const double d = 0.9 * 2.0, cv = d / std::sqrt(12.0), s = std::sqrt(std::log1p(cv * cv));
+  for (std::uint64_t joint = 0; joint < draws; ++joint) {
+    below_uniform += threshold_factor(3, joint, d, Distribution::uniform) < 1.0 - 0.25 * d ? 1 : 0;
+    below_weibull += threshold_factor(3, joint, d, Distribution::weibull) < 0.2 ? 1 : 0;
+    const double one_deviation_below = std::exp(-0.5 * s * s - s);
+    below_lognormal +=
+        threshold_factor(3, joint, d, Distribution::lognormal) < one_deviation_below ? 1 : 0;
+  }
+  const double error = 4.0 * 0.5 / std::sqrt(draws);
+  EXPECT_NEAR(below_uniform / double(draws), 0.25, error);
+  EXPECT_NEAR(below_lognormal / double(draws), 0.158655, error);
+  // Shape 2.0146 gives cv = 0.5196: P(w < 0.2) = 1 − exp(−(0.2 Γ(1+1/k))^k).
+  double low = 1.0, high = 5.0;
+  for (int i = 0; i < 60; ++i) {
+    const double k = 0.5 * (low + high), g = std::tgamma(1.0 + 1.0 / k);
+    (std::tgamma(1.0 + 2.0 / k) / (g * g) - 1.0 > cv * cv ? low : high) = k;
+  }
+  EXPECT_NEAR(below_weibull / double(draws),
+              -std::expm1(-std::pow(0.2 * std::tgamma(1.0 + 1.0 / low), low)), error);
+}
+
+TEST(ThresholdFactor, DependsOnSeedAndJointAlone) {
+  EXPECT_EQ(threshold_factor(5, 17, 0.4, Distribution::uniform),
+            threshold_factor(5, 17, 0.4, Distribution::uniform));
+  EXPECT_NE(threshold_factor(5, 17, 0.4, Distribution::uniform),
+            threshold_factor(6, 17, 0.4, Distribution::uniform));
+  EXPECT_NE(threshold_factor(5, 17, 0.4, Distribution::uniform),
+            threshold_factor(5, 18, 0.4, Distribution::uniform));
+  EXPECT_EQ(threshold_factor(5, 17, 0.0, Distribution::weibull), 1.0);
+}
+
+// A longer interval or another distribution stretches the draw, but does not reshuffle it.
+TEST(ThresholdFactor, KeepsTheOrderOfJointsWhenParametersChange) {
+  for (std::uint64_t joint = 0; joint < 100; ++joint) {
+    const double w = threshold_factor(2, joint, 0.2, Distribution::uniform);
+    EXPECT_NEAR(threshold_factor(2, joint, 1.0, Distribution::uniform) - 1.0, 5.0 * (w - 1.0),
+                1e-14);
+    const double next = threshold_factor(2, joint + 1, 0.2, Distribution::uniform);
+    for (const Distribution other : {Distribution::weibull, Distribution::lognormal})
+      EXPECT_EQ(w < next, threshold_factor(2, joint, 0.7, other) <
+                              threshold_factor(2, joint + 1, 0.7, other));
+  }
+}
+
+Joint joint_of(JointKind kind, double length, double y) {
+  Joint joint;
+  joint.kind = kind;
+  joint.length = length;
+  joint.position = {1e-4, y};
+  return joint;
+}
+
+TEST(MeanThreshold, IsThePapersSingleLawUnlessAKindIsSetApart) {
+  Scene scene = test::small_scene(45.0);
+  const double l = scene.assembly.fibre_height, half = 0.5 * scene.assembly.fibre_length;
+  const double f1 = scene.joints.head_tail * l, f2 = scene.joints.flank * half;
+  for (const auto& [kind, length] :
+       {std::pair{JointKind::head_tail, l}, std::pair{JointKind::flank, half}}) {
+    const Threshold full = mean_threshold(scene, joint_of(kind, length, 0.0));
+    EXPECT_DOUBLE_EQ(full.normal, f1);
+    EXPECT_DOUBLE_EQ(full.tangent, f2);
+    const Threshold piece = mean_threshold(scene, joint_of(kind, 0.3 * length, 0.0));
+    EXPECT_DOUBLE_EQ(piece.normal, 0.3 * f1);
+    EXPECT_DOUBLE_EQ(piece.tangent, 0.3 * f2);
+  }
+  scene.joints.head_tail_shear = 7e6;
+  scene.joints.flank_tension = 3e6;
+  EXPECT_DOUBLE_EQ(mean_threshold(scene, joint_of(JointKind::head_tail, l, 0.0)).tangent, 7e6 * l);
+  EXPECT_DOUBLE_EQ(mean_threshold(scene, joint_of(JointKind::flank, half, 0.0)).normal, 3e6 * half);
+}
+
+TEST(MeanThreshold, GivesTheOuterLayersTheMissingFlanksForce) {
+  Scene scene = test::small_scene(0.0);
+  const double l = scene.assembly.fibre_height, half = 0.5 * scene.assembly.fibre_length;
+  const double f1 = scene.joints.head_tail * l, f2 = scene.joints.flank * half;
+  const auto normal = [&](JointKind kind, double y) {
+    return mean_threshold(scene, joint_of(kind, kind == JointKind::flank ? half : l, y)).normal;
+  };
+  EXPECT_DOUBLE_EQ(normal(JointKind::head_tail, 0.5 * l), f1 + f2);
+  EXPECT_DOUBLE_EQ(normal(JointKind::head_tail, scene.assembly.height() - 0.5 * l), f1 + f2);
+  EXPECT_DOUBLE_EQ(normal(JointKind::head_tail, 1.5 * l), f1);
+  EXPECT_DOUBLE_EQ(normal(JointKind::flank, 0.0), f1);
+  scene.joints.reinforced_boundary = false;
+  EXPECT_DOUBLE_EQ(normal(JointKind::head_tail, 0.5 * l), f1);
+}
+
+TEST(DrawThresholds, ScalesBothThresholdsOfAJointByOneDraw) {
+  const Scene scene = test::small_scene(45.0);
+  const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
+  const auto thresholds = draw_thresholds(scene, assembly);
+  ASSERT_EQ(thresholds.size(), assembly.joints.size());
+  for (std::size_t i = 0; i < thresholds.size(); ++i) {
+    const Threshold mean = mean_threshold(scene, assembly.joints[i]);
+    const double w = threshold_factor(scene.joints.seed, i, 0.2, Distribution::uniform);
+    EXPECT_DOUBLE_EQ(thresholds[i].normal, w * mean.normal);
+    EXPECT_DOUBLE_EQ(thresholds[i].tangent, w * mean.tangent);
+  }
+}
+
+TEST(DrawThresholds, TakesGivenOnesAsTheyAre) {
+  Scene scene = test::small_scene();
+  const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
+  scene.joints.thresholds.assign(assembly.joints.size(), {12.0, 34.0});
+  for (const Threshold& threshold : draw_thresholds(scene, assembly)) {
+    EXPECT_EQ(threshold.normal, 12.0);
+    EXPECT_EQ(threshold.tangent, 34.0);
+  }
+}
+
+}  // namespace
+}  // namespace havers::sim

@@ -1,0 +1,71 @@
+#include "sim/outcome.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace havers::sim {
+namespace {
+
+Simulation run_with(std::vector<CurvePoint> curve) {
+  Simulation simulation;
+  simulation.curve = std::move(curve);
+  return simulation;
+}
+
+CurvePoint row(double strain, double right, double left, int broken = 0) {
+  CurvePoint point;
+  point.strain = strain;
+  point.stress_right = right;
+  point.stress_left = left;
+  point.broken_joints = broken;
+  return point;
+}
+
+TEST(HasFailed, NeedsABreakAndBothSidesLow) {
+  Simulation simulation = run_with({row(0.001, 10.0, 10.0)});
+  EXPECT_FALSE(has_failed(simulation, 0.3));
+  simulation.curve.push_back(row(0.002, 2.0, 2.0));
+  EXPECT_FALSE(has_failed(simulation, 0.3)) << "nothing has broken";
+  simulation.curve.push_back(row(0.003, 2.0, 4.0, 1));
+  EXPECT_FALSE(has_failed(simulation, 0.3)) << "the left side still carries";
+  simulation.curve.push_back(row(0.004, 2.0, 2.0, 1));
+  EXPECT_TRUE(has_failed(simulation, 0.3));
+  EXPECT_FALSE(has_failed(simulation, 0.1));
+  EXPECT_EQ(simulation.strength, 10.0);
+}
+
+TEST(Summarise, ReadsTheCurveAndTheJoints) {
+  Simulation simulation = run_with({row(0.0, 0.0, 0.0), row(0.001, 13e6, 13e6),
+                                    row(0.002, 24e6, 24e6, 1), row(0.003, 20e6, 20e6, 2)});
+  simulation.joints = initial_outcomes({{1.0, 1.0}, {2.0, 1.0}, {3.0, 1.0}});
+  for (const std::size_t j : {0U, 2U}) {
+    simulation.joints[j].broken = true;
+    simulation.joints[j].broken_at_strain = j == 0 ? 0.003 : 0.002;
+  }
+  summarise(simulation);
+  EXPECT_EQ(simulation.strength, 24e6);
+  EXPECT_EQ(simulation.failure_strain, 0.002);
+  EXPECT_EQ(simulation.first_break_strain, 0.002);
+  EXPECT_EQ(simulation.broken_joints, 2);
+  EXPECT_DOUBLE_EQ(simulation.modulus, 13e9);  // secant at half the first break's strain
+}
+
+TEST(Summarise, TakesTheWholeCurveWhenNothingBroke) {
+  Simulation simulation = run_with({row(0.0, 0.0, 0.0), row(0.004, 40e6, 40e6)});
+  simulation.joints = initial_outcomes({{1.0, 1.0}});
+  summarise(simulation);
+  EXPECT_TRUE(std::isnan(simulation.first_break_strain));
+  EXPECT_DOUBLE_EQ(simulation.modulus, 10e9);
+}
+
+TEST(LateralContraction, IsLargerInPlaneStrain) {
+  Material material;
+  material.poisson = 0.25;
+  EXPECT_DOUBLE_EQ(lateral_contraction(material), 0.25);
+  material.plane = Plane::strain;
+  EXPECT_DOUBLE_EQ(lateral_contraction(material), 1.0 / 3.0);
+}
+
+}  // namespace
+}  // namespace havers::sim

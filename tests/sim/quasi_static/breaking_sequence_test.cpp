@@ -1,0 +1,138 @@
+#include "sim/quasi_static/breaking_sequence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/joint/thresholds.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+// One row of fibres is a chain: it is as strong as its weakest head-tail joint, and breaks there.
+TEST(BreakingSequence, BreaksARowAtItsWeakestJoint) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
+    Scene scene = test::small_scene(0.0, 1, 6);
+    scene.joints.scatter = 0.8;
+    scene.joints.seed = seed;
+    scene.joints.reinforced_boundary = false;
+    const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
+    const auto thresholds = draw_thresholds(scene, assembly);
+    const auto weakest =
+        std::min_element(thresholds.begin(), thresholds.end(),
+                         [](const auto& a, const auto& b) { return a.normal < b.normal; });
+    const Simulation simulation = simulate_quasi_static(scene, {});
+    ASSERT_EQ(simulation.status, SimulationStatus::broken);
+    EXPECT_EQ(simulation.steps, 1);
+    EXPECT_NEAR(simulation.strength / (weakest->normal / 10e-6), 1.0, 1e-9);
+    for (std::size_t j = 0; j < thresholds.size(); ++j)
+      EXPECT_EQ(simulation.joints[j].broken, &thresholds[j] == &*weakest);
+    const auto at = static_cast<std::size_t>(weakest - thresholds.begin());
+    EXPECT_NEAR(simulation.joints[at].broken_at_strain,
+                weakest->normal / (10e-6 * scene.material.young), 1e-12);
+    EXPECT_NEAR(simulation.joints[at].gap,
+                simulation.joints[at].broken_at_strain * scene.assembly.width(), 1e-15);
+  }
+}
+
+// Without scatter all joints of that chain meet their cones together.
+TEST(BreakingSequence, BreaksEqualJointsTogether) {
+  Scene scene = test::small_scene(0.0, 1, 6);
+  scene.joints.scatter = 0.0;
+  const Simulation simulation = simulate_quasi_static(scene, {});
+  EXPECT_EQ(simulation.steps, 1);
+  EXPECT_EQ(simulation.curve.back().broken_joints, 5);
+}
+
+// Before the first break the stress is uniform, E ε along x, so each joint's forces are known.
+TEST(BreakingSequence, FindsTheFirstBreakOfEveryOrientation) {
+  for (const double degrees : test::orientations) {
+    Scene scene = test::small_scene(degrees);
+    scene.joints.seed = 3;
+    const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
+    const auto thresholds = draw_thresholds(scene, assembly);
+    double first = INFINITY;
+    std::size_t weakest = 0;
+    for (std::size_t j = 0; j < thresholds.size(); ++j) {  // the uniform stress E ε alone
+      const Joint& joint = assembly.joints[j];
+      const double pull = scene.material.young * joint.normal.x() * joint.length;
+      const double tension = pull * joint.normal.x(), shear = std::abs(pull * joint.tangent().x());
+      const double ratio = thresholds[j].tangent / thresholds[j].normal;
+      const double strain = thresholds[j].tangent / (shear + ratio * tension);
+      if (strain < first) {
+        first = strain;
+        weakest = j;
+      }
+    }
+    const Simulation simulation = simulate(scene);
+    EXPECT_TRUE(simulation.joints[weakest].broken) << degrees;
+    EXPECT_EQ(simulation.joints[weakest].broken_at_strain, simulation.first_break_strain);
+    EXPECT_NEAR(simulation.joints[weakest].broken_at_strain / first, 1.0, 1e-8) << degrees;
+  }
+}
+
+// Rows of the curve come in pairs at one strain: the stress drops, and what is set free is kept.
+TEST(BreakingSequence, AccountsForTheEnergyOfEachBreak) {
+  const Simulation simulation = simulate_quasi_static(test::small_scene(0.0), {});
+  double dissipated = 0.0;
+  ASSERT_GT(simulation.steps, 1);
+  for (std::size_t i = 1; i + 1 < simulation.curve.size(); i += 2) {
+    const CurvePoint &before = simulation.curve[i], &after = simulation.curve[i + 1];
+    EXPECT_EQ(before.strain, after.strain);
+    EXPECT_GT(after.broken_joints, before.broken_joints);
+    EXPECT_LE(after.stress_right, before.stress_right * (1.0 + 1e-12));
+    dissipated += before.elastic - after.elastic;
+    EXPECT_NEAR(after.dissipated, dissipated, 1e-12 * before.elastic);
+    EXPECT_DOUBLE_EQ(before.time, before.strain / 1000.0);
+  }
+}
+
+// Two rows mirrored about the middle: what breaks in one breaks in the other.
+TEST(BreakingSequence, BreaksASymmetricSpecimenSymmetrically) {
+  Scene scene = test::small_scene(0.0, 3, 4);
+  const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
+  std::vector<std::size_t> mirror(assembly.joints.size());
+  scene.joints.thresholds = draw_thresholds(scene, assembly);
+  for (std::size_t i = 0; i < mirror.size(); ++i)
+    for (std::size_t j = 0; j < mirror.size(); ++j) {
+      const Eigen::Vector2d image(assembly.joints[j].position.x(),
+                                  assembly.height - assembly.joints[j].position.y());
+      if ((assembly.joints[i].position - image).norm() < 1e-12) mirror[i] = j;
+    }
+  for (std::size_t i = 0; i < mirror.size(); ++i)
+    if (mirror[i] > i) scene.joints.thresholds[mirror[i]] = scene.joints.thresholds[i];
+  const Simulation simulation = simulate_quasi_static(scene, {});
+  EXPECT_GT(simulation.curve.back().broken_joints, 1);
+  for (std::size_t i = 0; i < mirror.size(); ++i)
+    EXPECT_EQ(simulation.joints[i].broken, simulation.joints[mirror[i]].broken);
+}
+
+TEST(BreakingSequence, GivesTheSameRunWhenNothingIsLeftOut) {
+  Scene scene = test::small_scene(0.0);
+  scene.loading.end_fraction = avalanche_known_at;
+  const Simulation one = simulate_quasi_static(scene, {});
+  scene.solver.leave_out = false;
+  const Simulation other = simulate_quasi_static(scene, {});
+  ASSERT_EQ(one.curve.size(), other.curve.size());
+  for (std::size_t i = 0; i < one.curve.size(); ++i)
+    EXPECT_NEAR(one.curve[i].stress_right, other.curve[i].stress_right, 1e-8 * 50e6);
+}
+
+// Friction acts on what is pressed together only, and there is no jump where it vanishes.
+TEST(BreakingSequence, HasALimitWithoutFriction) {
+  for (const double degrees : {0.0, 45.0, 90.0}) {
+    Scene scene = test::small_scene(degrees);
+    scene.joints.friction = 0.0;
+    const Simulation none = simulate_quasi_static(scene, {});
+    scene.joints.friction = 0.01;
+    const Simulation little = simulate_quasi_static(scene, {});
+    EXPECT_EQ(none.status, SimulationStatus::broken);
+    EXPECT_EQ(little.status, SimulationStatus::broken);
+    EXPECT_NEAR(none.curve[1].stress_right / little.curve[1].stress_right, 1.0, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace havers::sim

@@ -1,0 +1,51 @@
+#include "sim/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+// (M9) by hand: N = 30, L/l = 10, σ₁ = 50 MPa, σ₂ = 10 MPa.
+TEST(Resultant, AddsFlanksToHeadTailJoints) {
+  EXPECT_NEAR(resultant({}, {}), 50e6 + 0.5 * (31.0 / 30.0) * 10.0 * 10e6, 1.0);
+  EXPECT_NEAR(ratio({}, {}), 500.0 / 500.0, 1e-14);
+}
+
+// The balance that (M9) stands for: N f₁ + (N + 1) f₂ = N l Σ_res.
+TEST(Resultant, IsTheForceOfAllLayersOverTheHeight) {
+  const AssemblyOptions assembly{.layers = 7, .fibre_length = 80e-6, .fibre_height = 16e-6};
+  JointOptions joints;
+  joints.head_tail = 31e6;
+  joints.flank = 4e6;
+  const double f1 = 31e6 * 16e-6, f2 = 4e6 * 40e-6;
+  EXPECT_NEAR(resultant(assembly, joints), (7.0 * f1 + 8.0 * f2) / (7.0 * 16e-6), 1e-3);
+  EXPECT_NEAR(ratio(assembly, joints), f1 / f2, 1e-14);
+}
+
+TEST(Resultant, AndRatioGiveTheStressesBack) {
+  const AssemblyOptions assembly{.layers = 12, .fibre_length = 90e-6, .fibre_height = 7e-6};
+  for (const double r : {0.3, 1.0, 3.0}) {
+    JointOptions joints;
+    joints.head_tail = head_tail_from_resultant(assembly, 100e6, r);
+    joints.flank = flank_from_ratio(assembly, joints.head_tail, r);
+    EXPECT_NEAR(resultant(assembly, joints), 100e6, 1e-6);
+    EXPECT_NEAR(ratio(assembly, joints), r, 1e-13);
+  }
+}
+
+TEST(ReinforcedBoundary, IsOnAt0DegreesOnlyUnlessTheSceneSaysSo) {
+  Scene scene = test::small_scene(0.0);
+  EXPECT_TRUE(reinforced_boundary(scene));
+  EXPECT_FALSE(reinforced_boundary(test::small_scene(45.0)));
+  scene.joints.reinforced_boundary = false;
+  EXPECT_FALSE(reinforced_boundary(scene));
+}
+
+TEST(Scene, IsSoundByDefault) {
+  EXPECT_TRUE(Scene{}.problems().empty());
+}
+
+}  // namespace
+}  // namespace havers::sim

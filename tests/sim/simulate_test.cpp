@@ -1,0 +1,177 @@
+#include "sim/simulate.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "sim/quasi_static/breaking_sequence.hpp"
+#include "sim/simulation.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+using testing::HasSubstr;
+
+// (M12): a specimen of 1 m with c = 1000 m/s, torn at E/100.
+Scene unit_scene(double rate) {
+  Scene scene;
+  scene.assembly.fibre_length = 0.1;
+  scene.assembly.fibre_height = 0.01;
+  scene.assembly.fibres = 10;
+  scene.material.young = 1e9;
+  scene.material.density = 1000.0;
+  scene.joints.head_tail = 1e7;
+  scene.loading.strain_rate = rate;
+  return scene;
+}
+
+TEST(ChooseRegime, FollowsTheInertiaNumber) {
+  const RegimeChoice slow = choose_regime(unit_scene(0.009)),
+                     fast = choose_regime(unit_scene(0.011));
+  EXPECT_NEAR(slow.inertia_number, 0.9e-3, 1e-12);
+  EXPECT_EQ(slow.regime, Regime::quasi_static);
+  EXPECT_EQ(fast.regime, Regime::dynamic);
+  EXPECT_THAT(slow.ground, HasSubstr("inertia number 0.0009 is below 0.001"));
+  EXPECT_THAT(fast.ground, HasSubstr("inertia number 0.0011 is not below 0.001"));
+}
+
+TEST(ChooseRegime, KeepsTimeForWhatNeedsIt) {
+  Scene viscous = unit_scene(1e-3), shock = viscous, stepped = viscous, swept = viscous;
+  viscous.material.viscosity = 1e-6;
+  shock.loading.start = Start::rest;
+  stepped.solver.step = 1e-6;
+  swept.solver.contact = ContactMethod::gauss_seidel;
+  for (const Scene& scene : {viscous, shock, stepped, swept}) {
+    const RegimeChoice choice = choose_regime(scene);
+    EXPECT_EQ(choice.regime, Regime::dynamic);
+    EXPECT_THAT(choice.ground, HasSubstr("needs time"));
+  }
+}
+
+TEST(ChooseRegime, DoesWhatTheSceneAsksFor) {
+  Scene scene = unit_scene(1e3);
+  scene.solver.regime = Regime::quasi_static;
+  EXPECT_EQ(choose_regime(scene).regime, Regime::quasi_static);
+  scene = unit_scene(1e-9);
+  scene.solver.regime = Regime::dynamic;
+  EXPECT_EQ(choose_regime(scene).regime, Regime::dynamic);
+  EXPECT_THAT(choose_regime(scene).ground, HasSubstr("asked for"));
+}
+
+TEST(Simulate, EndsWhenTheSpecimenIsBroken) {
+  for (const Scene& scene : {test::small_scene(), test::dynamic_scene()}) {
+    const Simulation simulation = simulate(scene);
+    EXPECT_EQ(simulation.status, SimulationStatus::broken);
+    EXPECT_TRUE(simulation.trusted());
+    const double part = simulation.regime == Regime::dynamic ? 0.3 : end_fraction_used(scene);
+    EXPECT_LT(simulation.curve.back().stress_right, part * simulation.strength);
+    EXPECT_LT(simulation.curve.back().stress_left, part * simulation.strength);
+    EXPECT_GT(simulation.broken_joints, 0);
+  }
+}
+
+TEST(Simulate, EndsAtTheStrainLimit) {
+  for (Scene scene : {test::small_scene(), test::dynamic_scene()}) {
+    scene.loading.max_strain = 1e-3;
+    const Simulation simulation = simulate(scene);
+    EXPECT_EQ(simulation.status, SimulationStatus::strain_limit);
+    EXPECT_TRUE(simulation.trusted());
+    EXPECT_NEAR(simulation.curve.back().strain, 1e-3, 1e-12);
+    EXPECT_EQ(simulation.broken_joints, 0);
+  }
+}
+
+TEST(Simulate, SaysWhenAStepDidNotConverge) {
+  Scene scene = test::dynamic_scene(0.0, 1e-6);
+  scene.solver.contact = ContactMethod::gauss_seidel;
+  scene.solver.max_iterations = 3;
+  scene.loading.start = Start::rest;
+  const Simulation simulation = simulate(scene);
+  EXPECT_EQ(simulation.status, SimulationStatus::not_converged);
+  EXPECT_FALSE(simulation.trusted());
+  EXPECT_GT(simulation.worst_residual, scene.solver.tolerance);
+}
+
+TEST(Simulate, SaysWhenANumberLeftItsRange) {
+  Scene scene = test::dynamic_scene(0.0, 1e-8);
+  scene.loading.strain_rate = 1e304;
+  scene.material.young = 1e300;
+  const Simulation simulation = simulate(scene);
+  EXPECT_EQ(simulation.status, SimulationStatus::not_finite);
+  EXPECT_FALSE(simulation.trusted());
+}
+
+TEST(Simulate, StopsWhenTheObserverAsksForIt) {
+  for (const Scene& scene : {test::small_scene(), test::dynamic_scene()}) {
+    int calls = 0;
+    const Simulation simulation = simulate(scene, [&](const Progress&) { return ++calls < 2; });
+    EXPECT_EQ(simulation.status, SimulationStatus::cancelled);
+    EXPECT_FALSE(simulation.trusted());
+    EXPECT_EQ(calls, 2);
+    EXPECT_EQ(simulation.steps, 2);
+  }
+}
+
+// Snapshots are made of what the observer sees.
+TEST(Simulate, ShowsTheObserverDisplacementsOfEveryNode) {
+  for (const Scene& scene : {test::small_scene(), test::dynamic_scene()}) {
+    const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
+    const auto dofs = static_cast<Eigen::Index>(2 * assembly.nodes.size());
+    const Simulation simulation = simulate(scene, [&](const Progress& progress) {
+      EXPECT_EQ(progress.displacements.size(), dofs);
+      EXPECT_EQ(progress.joints.size(), assembly.joints.size());
+      if (progress.displacements.size() != dofs) return false;
+      EXPECT_NEAR(progress.displacements(2 * assembly.right.front()),
+                  progress.point.strain * assembly.width, 1e-12 * assembly.width);
+      return true;
+    });
+    EXPECT_EQ(simulation.displacements.size(), dofs);
+  }
+}
+
+TEST(Simulate, SaysWhatItLeftOut) {
+  const auto words = [](const Simulation& simulation) {
+    std::string all;
+    for (const LeftOut& part : simulation.left_out) all += part.what + ": " + part.why + "\n";
+    return all;
+  };
+  Scene scene = test::small_scene();
+  EXPECT_THAT(words(simulate(scene)), HasSubstr("inertia and time steps"));
+  scene.loading.lateral = Lateral::free;
+  EXPECT_THAT(words(simulate(scene)), HasSubstr("periodic ties"));
+  scene = test::dynamic_scene();
+  scene.loading.max_strain = 1e-3;
+  EXPECT_THAT(words(simulate(scene)), HasSubstr("viscosity"));
+  EXPECT_THAT(words(simulate(scene)), HasSubstr("contact of joints that opened"));
+  scene.solver.leave_out = false;
+  EXPECT_THAT(words(simulate(scene)), testing::Not(HasSubstr("contact")));
+}
+
+TEST(SimulationStatus, HasAWordAndASentenceEach) {
+  std::set<std::string> words, sentences;
+  for (const SimulationStatus status :
+       {SimulationStatus::broken, SimulationStatus::strain_limit, SimulationStatus::not_converged,
+        SimulationStatus::not_finite, SimulationStatus::cancelled}) {
+    words.insert(to_string(status));
+    sentences.insert(explain(status));
+  }
+  EXPECT_THAT(words, testing::ElementsAre("broken", "cancelled", "not_converged", "not_finite",
+                                          "strain_limit"));
+  EXPECT_EQ(sentences.size(), 5U);
+  EXPECT_THAT(explain(SimulationStatus::strain_limit), HasSubstr("lower bound"));
+}
+
+TEST(Simulation, IsNotTrustedUnlessItsChecksHold) {
+  Simulation simulation;
+  EXPECT_FALSE(simulation.trusted());  // pessimistic at first
+  simulation.status = SimulationStatus::broken;
+  EXPECT_TRUE(simulation.trusted());
+  simulation.energy_defect = 1e-6;
+  EXPECT_FALSE(simulation.trusted());
+}
+
+}  // namespace
+}  // namespace havers::sim

@@ -1,0 +1,186 @@
+#include "sim/structure/structure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/sim/structure/dense_structure.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// The step that a wave needs for `fibres` fibre lengths.
+Shift shift_of(double fibres, const Material& material) {
+  const double c = std::sqrt(material.young / material.density), h = fibres * 100e-6 / c;
+  return {1.0 / (h * h), 1.0};
+}
+
+StructureLoads no_loads(const Bodies& bodies) {
+  return {VectorXd::Zero(bodies.dofs()), VectorXd::Zero(bodies.dofs()),
+          VectorXd::Zero(2 * static_cast<Index>(bodies.assembly().joints.size()))};
+}
+
+StructureLoads random_loads(const Bodies& bodies, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  StructureLoads loads = no_loads(bodies);
+  for (Index i = 0; i < bodies.dofs(); ++i) {
+    loads.forces(i) = 1e3 * normal(random);
+    if (bodies.held()[static_cast<std::size_t>(i)] != 0)
+      loads.prescribed(i) = 1e-7 * normal(random);
+  }
+  for (double& jump : loads.jumps) jump = 1e-7 * normal(random);
+  return loads;
+}
+
+class PatchProperty : public testing::TestWithParam<std::tuple<double, Lateral>> {};
+INSTANTIATE_TEST_SUITE_P(OrientationAndSides, PatchProperty,
+                         testing::Combine(testing::ValuesIn(test::orientations),
+                                          testing::Values(Lateral::periodic, Lateral::free)));
+
+// (M1): uniform stress is in exact equilibrium with joint forces traction · s. With inertia, the
+// field (x, −ν y) takes the body forces αM u.
+TEST_P(PatchProperty, HoldsFromSmallToHugeSteps) {
+  const auto [degrees, lateral] = GetParam();
+  const Scene scene = test::small_scene(degrees);
+  const Material& material = scene.material;
+  const Assembly assembly = build_assembly(scene.assembly, lateral);
+  VectorXd u(2 * static_cast<Index>(assembly.nodes.size()));
+  for (std::size_t i = 0; i < assembly.nodes.size(); ++i)
+    u.segment<2>(static_cast<Index>(2 * i)) << assembly.nodes[i].x(),
+        -material.poisson * assembly.nodes[i].y();
+  VectorXd expected(2 * static_cast<Index>(assembly.joints.size()));
+  for (std::size_t j = 0; j < assembly.joints.size(); ++j) {
+    const Joint& joint = assembly.joints[j];
+    const double pull = -material.young * joint.normal.x() * joint.length;
+    expected.segment<2>(static_cast<Index>(2 * j)) << pull * joint.normal.x(),
+        pull * joint.tangent().x();
+  }
+
+  for (const double size : {1e-3, 0.1, 1.0, 30.0, 1e3, 1e6}) {
+    const Shift shift = shift_of(size, material);
+    const Bodies bodies(assembly, material, shift);
+    const Structure structure(bodies);
+    ASSERT_TRUE(structure.ok());
+    StructureLoads loads = no_loads(bodies);
+    loads.forces = shift.alpha * bodies.mass().cwiseProduct(u);
+    for (const int node : assembly.right) loads.prescribed(2 * node) = assembly.width;
+    const StructureResponse response = structure.solve(loads);
+    SCOPED_TRACE(testing::Message() << "h c/L = " << size);
+    EXPECT_LT((response.displacements - u).norm() / u.norm(), 1e-8);
+    // In small steps the forces of inertia that cancel here are far larger than the joints'.
+    const double accuracy = size < 0.1 ? 1e-8 : 1e-9;
+    EXPECT_LT((response.reactions - expected).norm() / expected.norm(), accuracy);
+    EXPECT_LT(response.tie_forces.size() == 0 ? 0.0 : response.tie_forces.cwiseAbs().maxCoeff(),
+              accuracy * expected.cwiseAbs().maxCoeff());
+    EXPECT_LT(response.residual, 1e-5);
+  }
+}
+
+struct Tiny {
+  double degrees;
+  Lateral lateral;
+  double size;  // h c/L
+};
+
+class TinyStructure : public testing::TestWithParam<Tiny> {
+ protected:
+  Scene scene = test::small_scene(GetParam().degrees, 3, 2);
+  Assembly assembly = build_assembly(scene.assembly, GetParam().lateral);
+  Shift shift = shift_of(GetParam().size, scene.material);
+  Bodies bodies{assembly, scene.material, shift};
+  test::DenseStructure dense{assembly, scene.material, shift};
+};
+INSTANTIATE_TEST_SUITE_P(, TinyStructure,
+                         testing::Values(Tiny{0.0, Lateral::periodic, 0.3},
+                                         Tiny{0.0, Lateral::free, 5.0},
+                                         Tiny{45.0, Lateral::periodic, 1.0},
+                                         Tiny{-25.0, Lateral::free, 20.0},
+                                         Tiny{90.0, Lateral::periodic, 20.0}));
+
+TEST_P(TinyStructure, AnswersRandomLoadsAsTheFullEquationsDo) {
+  const std::vector<char> none(assembly.joints.size(), 0);
+  const Structure structure(bodies);
+  for (const unsigned seed : {1U, 2U}) {
+    const StructureLoads loads = random_loads(bodies, seed);
+    const auto truth = dense.solve(loads, none);
+    const StructureResponse found = structure.solve(loads);
+    EXPECT_LT((found.displacements - truth.displacements).norm() / truth.displacements.norm(),
+              1e-8);
+    EXPECT_LT((found.reactions - truth.reactions).norm() / truth.reactions.norm(), 1e-8);
+  }
+}
+
+TEST_P(TinyStructure, LetsGoOfDetachedJoints) {
+  std::vector<char> detached(assembly.joints.size(), 0);
+  for (std::size_t j = 0; j < detached.size(); j += 3) detached[j] = 1;
+  const Structure structure(bodies, detached);
+  ASSERT_TRUE(structure.ok());
+  const StructureLoads loads = random_loads(bodies, 3);
+  const auto truth = dense.solve(loads, detached);
+  const StructureResponse found = structure.solve(loads);
+  EXPECT_LT((found.displacements - truth.displacements).norm() / truth.displacements.norm(), 1e-8);
+  EXPECT_LT((found.reactions - truth.reactions).norm() / truth.reactions.norm(), 1e-8);
+  for (std::size_t j = 0; j < detached.size(); j += 3)
+    EXPECT_EQ(found.reactions.segment<2>(static_cast<Index>(2 * j)).norm(), 0.0);
+}
+
+TEST_P(TinyStructure, HoldsNothingTogetherWhenAllIsDetached) {
+  const std::vector<char> all(assembly.joints.size(), 1);
+  const Structure structure(bodies, all);
+  if (assembly.ties.empty() && !structure.ok()) GTEST_SKIP() << "no unknowns are left";
+  const StructureLoads loads = random_loads(bodies, 4);
+  const auto truth = dense.solve(loads, all);
+  const StructureResponse found = structure.solve(loads);
+  EXPECT_EQ(found.reactions.norm(), 0.0);
+  EXPECT_LT((found.displacements - truth.displacements).norm() / truth.displacements.norm(), 1e-8);
+}
+
+// Influence columns: the answer to a unit jump, with gaps of detached joints that follow.
+TEST_P(TinyStructure, AnswersUnitJumpsAsTheFullEquationsDo) {
+  std::vector<char> detached(assembly.joints.size(), 0);
+  detached.front() = 1;
+  const Structure structure(bodies, detached);
+  for (const int joint : {1, 2, static_cast<int>(detached.size()) - 1}) {
+    const JumpResponse response = structure.respond_to_jump(joint);
+    for (const Index component : {0, 1}) {
+      StructureLoads loads = no_loads(bodies);
+      loads.jumps(2 * joint + component) = 1.0;
+      const auto truth = dense.solve(loads, detached);
+      const VectorXd gaps = (dense.C * truth.displacements).head(loads.jumps.size());
+      EXPECT_LT((response.reactions.col(component) - truth.reactions).norm(),
+                1e-8 * truth.reactions.norm());
+      EXPECT_LT((response.gaps.col(component) - gaps).norm(), 1e-8 * gaps.norm());
+    }
+  }
+}
+
+TEST_P(TinyStructure, SharesOperatorsWithoutChangingTheAnswer) {
+  const Bodies apart(assembly, scene.material, shift, false);
+  EXPECT_EQ(apart.classes().size(), assembly.bodies.size());
+  const StructureLoads loads = random_loads(bodies, 5);
+  const VectorXd shared = Structure(bodies).solve(loads).reactions,
+                 own = Structure(apart).solve(loads).reactions;
+  EXPECT_LT((shared - own).norm() / own.norm(), 1e-9);
+}
+
+TEST_P(TinyStructure, MultipliesByTheMatricesOfTheWhole) {
+  const VectorXd q = VectorXd::Random(bodies.dofs());
+  EXPECT_LT((bodies.stiffness_times(q) - dense.K * q).norm(), 1e-13 * (dense.K * q).norm());
+  EXPECT_LT((bodies.shifted_times(q) - dense.A * q).norm(), 1e-13 * (dense.A * q).norm());
+}
+
+TEST(Bodies, HaveFewKindsWhereTheyAreEqual) {
+  const Scene scene = test::small_scene(0.0, 30, 21);
+  const Assembly assembly = build_assembly(scene.assembly, Lateral::periodic);
+  const Bodies bodies(assembly, scene.material, {1e14, 1.0});
+  EXPECT_LE(bodies.classes().size(), 16U);
+}
+
+}  // namespace
+}  // namespace havers::sim

@@ -1,0 +1,40 @@
+// What the theory promises of a whole run before anything breaks.
+#include <gtest/gtest.h>
+
+#include "sim/simulation.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+class UniformStress : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Orientation, UniformStress, testing::ValuesIn(test::orientations));
+
+// (M1): σ = E ε for every orientation, in both regimes and on both kinds of sides.
+TEST_P(UniformStress, HasTheModulusOfTheMaterial) {
+  for (Scene scene : {test::small_scene(GetParam()), test::dynamic_scene(GetParam())})
+    for (const Lateral lateral : {Lateral::periodic, Lateral::free}) {
+      scene.loading.lateral = lateral;
+      scene.loading.max_strain = 2e-4;
+      const Simulation simulation = simulate(scene);
+      EXPECT_EQ(simulation.status, SimulationStatus::strain_limit);
+      EXPECT_NEAR(simulation.modulus / scene.material.young, 1.0, 1e-9);
+      for (const CurvePoint& point : simulation.curve) {
+        EXPECT_NEAR(point.stress_right, scene.material.young * point.strain, 1e-9 * 2.6e6);
+        EXPECT_NEAR(point.stress_left, point.stress_right, 1e-9 * 2.6e6);
+      }
+      EXPECT_LT(simulation.worst_penetration, 1e-15);
+    }
+}
+
+TEST_P(UniformStress, IsStifferInPlaneStrain) {
+  for (Scene scene : {test::small_scene(GetParam()), test::dynamic_scene(GetParam())}) {
+    scene.material.plane = Plane::strain;
+    scene.loading.max_strain = 2e-4;
+    const double nu = scene.material.poisson;
+    EXPECT_NEAR(simulate(scene).modulus * (1.0 - nu * nu) / scene.material.young, 1.0, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace havers::sim

@@ -1,0 +1,94 @@
+// Start from rest: a wave runs from the right at the speed sqrt(E/ρ), and doubles at the fixed end.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/simulation.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+// ν = 0: the specimen is a bar. The right side's speed is V = ε̇ W.
+Scene bar(double orientation_deg, double step) {
+  Scene scene = test::small_scene(orientation_deg, 10, 6);
+  scene.solver.regime = Regime::dynamic;
+  scene.solver.step = step;
+  scene.material.poisson = 0.0;
+  scene.loading.start = Start::rest;
+  scene.loading.strain_rate = 1000.0;
+  scene.joints.head_tail = scene.joints.flank = 1e12;  // nothing breaks
+  return scene;
+}
+
+double speed(const Scene& scene) {
+  return std::sqrt(scene.material.young / scene.material.density);
+}
+
+double mean_stress(const Simulation& simulation, double from, double to,
+                   double CurvePoint::*stress) {
+  double sum = 0.0;
+  int rows = 0;
+  for (const CurvePoint& point : simulation.curve)
+    if (point.time >= from && point.time <= to) {
+      sum += point.*stress;
+      ++rows;
+    }
+  return sum / rows;
+}
+
+class Waves : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Orientation, Waves, testing::Values(0.0, 45.0, 90.0));
+
+TEST_P(Waves, TravelAtTheBarSpeed) {
+  Scene scene = bar(GetParam(), 1e-9);
+  const double transit = scene.assembly.width() / speed(scene);
+  scene.loading.max_strain = 2.0 * transit * scene.loading.strain_rate;
+  const Simulation simulation = simulate(scene);
+  const double shock = scene.material.density * speed(scene) * scene.loading.strain_rate *
+                       scene.assembly.width();  // ρ c V
+  // Half of the doubled stress marks the front; numerical damping has smeared it.
+  const auto arrival =
+      std::find_if(simulation.curve.begin(), simulation.curve.end(),
+                   [&](const CurvePoint& point) { return point.stress_left > shock; });
+  ASSERT_NE(arrival, simulation.curve.end());
+  EXPECT_NEAR(arrival->time / transit, 1.0, 0.03);
+}
+
+TEST_P(Waves, CarryTheShocksStressAndDoubleAtTheFixedEnd) {
+  Scene scene = bar(GetParam(), 1e-9);
+  const double transit = scene.assembly.width() / speed(scene);
+  scene.loading.max_strain = 2.0 * transit * scene.loading.strain_rate;
+  const Simulation simulation = simulate(scene);
+  const double shock =
+      scene.material.density * speed(scene) * scene.loading.strain_rate * scene.assembly.width();
+  EXPECT_NEAR(
+      mean_stress(simulation, 0.3 * transit, 1.7 * transit, &CurvePoint::stress_right) / shock, 1.0,
+      0.03);
+  EXPECT_NEAR(
+      mean_stress(simulation, 1.3 * transit, 1.9 * transit, &CurvePoint::stress_left) / shock, 2.0,
+      0.06);
+  EXPECT_NEAR(mean_stress(simulation, 0.0, 0.7 * transit, &CurvePoint::stress_left) / shock, 0.0,
+              0.01);
+}
+
+// Implicit Euler is of first order: halving h halves the error, here of the left side's stress.
+TEST_P(Waves, ConvergeWithFirstOrderInTheStep) {
+  const auto stress_at_end = [&](double step) {
+    Scene scene = bar(GetParam(), step);
+    scene.material.viscosity =
+        2e-8;  // without it the front is a jump, and no smooth solution is there
+    scene.loading.max_strain = 2.56e-4;
+    return simulate(scene).curve.back().stress_left;
+  };
+  const double h = 0.5e-9;
+  const double coarse = stress_at_end(4 * h), middle = stress_at_end(2 * h),
+               fine = stress_at_end(h);
+  const double order = std::log2(std::abs((coarse - middle) / (middle - fine)));
+  EXPECT_GT(order, 0.9);
+  EXPECT_LT(order, 1.1);
+}
+
+}  // namespace
+}  // namespace havers::sim
