@@ -16,7 +16,8 @@ inline double direction(sim::JointState state) {
 }
 
 /// The gaps that given states ask for: two equations a joint.
-inline Eigen::VectorXd gaps_of(const sim::LocalContact& p, const std::vector<sim::JointState>& states) {
+inline Eigen::VectorXd gaps_of(const sim::LocalContact& p,
+                               const std::vector<sim::JointState>& states) {
   const Eigen::Index n = p.S.rows();
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd b(n);
@@ -80,8 +81,10 @@ inline sim::LocalContact random_contact(int joints, double friction, unsigned se
   const Eigen::Index n = 2 * joints;
   const auto draw = [&] { return normal(random); };
   const Eigen::MatrixXd H = Eigen::MatrixXd::NullaryExpr(n, 2 * n, draw);
-  sim::LocalContact p{H * H.transpose() / static_cast<double>(2 * n), Eigen::VectorXd(n),
-                      Eigen::VectorXd::Zero(n), {}};
+  sim::LocalContact p{H * H.transpose() / static_cast<double>(2 * n),
+                      Eigen::VectorXd(n),
+                      Eigen::VectorXd::Zero(n),
+                      {}};
   p.r0 = Eigen::VectorXd::NullaryExpr(n, draw);
   for (int i = 0; i < joints; ++i) {
     const bool broken = i % 2 == 0;

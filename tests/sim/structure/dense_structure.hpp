@@ -55,16 +55,19 @@ struct DenseStructure {
   };
 
   /// @param detached  1 for a joint that holds nothing, one per joint.
-  [[nodiscard]] Answer solve(const sim::StructureLoads& loads, const std::vector<char>& detached) const {
+  [[nodiscard]] Answer solve(const sim::StructureLoads& loads,
+                             const std::vector<char>& detached) const {
     std::vector<Eigen::Index> free, kept;
     for (std::size_t i = 0; i < held.size(); ++i)
       if (held[i] == 0) free.push_back(static_cast<Eigen::Index>(i));
     for (Eigen::Index i = 0; i < C.rows(); ++i)
-      if (i >= loads.jumps.size() || detached[static_cast<std::size_t>(i / 2)] == 0) kept.push_back(i);
+      if (i >= loads.jumps.size() || detached[static_cast<std::size_t>(i / 2)] == 0)
+        kept.push_back(i);
     Eigen::VectorXd gaps = -C * loads.prescribed;
     gaps.head(loads.jumps.size()) += loads.jumps;
 
-    const auto n = static_cast<Eigen::Index>(free.size()), m = static_cast<Eigen::Index>(kept.size());
+    const auto n = static_cast<Eigen::Index>(free.size()),
+               m = static_cast<Eigen::Index>(kept.size());
     const double scale = A.diagonal().maxCoeff();  // displacements and forces of the same size
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + m, n + m);
     system.topLeftCorner(n, n) = A(free, free) / scale;
