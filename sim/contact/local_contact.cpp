@@ -70,7 +70,7 @@ SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, cons
 
 namespace {
 
-// (C3). States and gaps by sweeps over the joints; returns the sweeps spent.
+// (C4). States and gaps by sweeps over the joints; returns the sweeps spent.
 int gauss_seidel(const LocalContact& p, VectorXd& y, States& states, int max_sweeps) {
   VectorXd r = p.r0 + p.S * y;
   for (int sweep = 1; sweep <= max_sweeps; ++sweep) {

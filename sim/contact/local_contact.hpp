@@ -50,8 +50,8 @@ SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, cons
                                const JointLaw& law);
 
 /// Active set started from `states`: each set is one linear solve (C2). When a set comes back,
-/// joints change their state one at a time, each to what it would be alone (C3); when even that
-/// comes back, Gauss-Seidel over the joints (C4) finds the set.
+/// the release of cohesion is followed (C5); when that turns back, sweeps over the joints, each
+/// solved alone (C3), look for the set (C4).
 LocalContactResult solve_local_contact(const LocalContact& problem, std::vector<JointState> states,
                                        int max_iterations);
 
