@@ -3,7 +3,7 @@
 
 #include "io/images/pores.hpp"
 
-namespace havers::io {
+namespace havers::images {
 
 /// Sets `levels`' contrast from pixels known to be pores or background.
 void fit_contrast(const cv::Mat& grey, const cv::Mat& pores, Levels& levels);
@@ -14,4 +14,4 @@ cv::Mat depth_image(const cv::Mat& grey, const Levels& levels);
 /// Gaussian smoothing in place; 0 is none. [px]
 void smooth(cv::Mat& depth, double sigma);
 
-}  // namespace havers::io
+}  // namespace havers::images

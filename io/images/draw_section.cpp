@@ -8,10 +8,11 @@
 #include <random>
 #include <vector>
 
+#include "io/images/image_library.hpp"
 #include "io/images/section_quantities.hpp"
 #include "io/input_error.hpp"
 
-namespace havers::io {
+namespace havers::images {
 namespace {
 
 // Grey levels of the drawing; the distance leaves room for shading and noise.
@@ -47,7 +48,7 @@ struct Shape {
   }
 };
 
-Shape shape_of(const SectionDrawing& drawing) {
+Shape shape_of(const io::SectionDrawing& drawing) {
   const double side = drawing.pixels;
   Shape shape{.middle = 0.5 * side, .half_width = 0.44 * side, .half_height = 0.36 * side};
   if (drawing.ring) shape.outer = 0.45 * side, shape.inner = 0.22 * side;
@@ -56,7 +57,7 @@ Shape shape_of(const SectionDrawing& drawing) {
 
 // Log-normal radii up to the wanted area, the last one what is left of it; largest first, so that
 // they fit.
-std::vector<double> radii(const SectionDrawing& drawing, double area, std::mt19937_64& random) {
+std::vector<double> radii(const io::SectionDrawing& drawing, double area, std::mt19937_64& random) {
   const double mean = drawing.pore_radius / drawing.pixel_size;
   const double s = std::sqrt(std::log(1.0 + radius_variation * radius_variation));
   std::vector<double> drawn;
@@ -107,7 +108,8 @@ void draw_pores(const std::vector<Circle>& circles, cv::Mat& pores) {
 }
 
 // Blurred by one pixel, shaded from the centre, noisy.
-cv::Mat photograph(const PoreMap& truth, const SectionDrawing& drawing, std::mt19937_64& random) {
+cv::Mat photograph(const PoreMap& truth, const io::SectionDrawing& drawing,
+                   std::mt19937_64& random) {
   cv::Mat solid, image;
   cv::bitwise_and(truth.bone, ~truth.pores, solid);
   solid.convertTo(image, CV_64F, (bone_grey - pore_grey) / 255.0, pore_grey);
@@ -127,7 +129,8 @@ cv::Mat photograph(const PoreMap& truth, const SectionDrawing& drawing, std::mt1
 }  // namespace
 
 calib::SectionPorosity draw_section(const std::filesystem::path& image,
-                                    const SectionDrawing& drawing, const SectionOptions& options) {
+                                    const io::SectionDrawing& drawing,
+                                    const io::SectionOptions& options) {
   std::mt19937_64 random(drawing.seed);
   const Shape shape = shape_of(drawing);
   PoreMap truth;
@@ -143,9 +146,9 @@ calib::SectionPorosity draw_section(const std::filesystem::path& image,
   std::ofstream file(image, std::ios::binary);
   file.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
   if (!file.flush())
-    throw InputError(image.string(), "cannot be written", "check the folder and its space");
+    throw io::InputError(image.string(), "cannot be written", "check the folder and its space");
 
-  SectionOptions scale = options;
+  io::SectionOptions scale = options;
   scale.pixel_size = drawing.pixel_size;
   calib::SectionPorosity section = section_quantities(truth, scale);
   section.file = image.string();
@@ -154,4 +157,4 @@ calib::SectionPorosity draw_section(const std::filesystem::path& image,
   return section;
 }
 
-}  // namespace havers::io
+}  // namespace havers::images

@@ -10,25 +10,25 @@
 
 #include "io/input_error.hpp"
 
-namespace havers::io {
+namespace havers::images {
 namespace {
 
 cv::Mat read_any(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file))
-    throw InputError(file.string(), "there is no such file",
-                     "check the path; it is relative to the study");
+    throw io::InputError(file.string(), "there is no such file",
+                         "check the path; it is relative to the study");
   if (std::filesystem::is_directory(file))
-    throw InputError(file.string(), "is a folder, not an image", "name the images in it");
+    throw io::InputError(file.string(), "is a folder, not an image", "name the images in it");
   if (std::filesystem::file_size(file) == 0)
-    throw InputError(file.string(), "is an empty file", "export the image again");
+    throw io::InputError(file.string(), "is an empty file", "export the image again");
   cv::Mat image;
   try {
     image = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& error) {
-    throw InputError(file.string(), fmt::format("cannot be decoded: {}", error.err));
+    throw io::InputError(file.string(), fmt::format("cannot be decoded: {}", error.err));
   }
   if (image.empty())
-    throw InputError(file.string(), "is not a readable image", "use PNG, TIFF, JPEG or BMP");
+    throw io::InputError(file.string(), "is not a readable image", "use PNG, TIFF, JPEG or BMP");
   if (image.depth() == CV_8U || image.depth() == CV_16U) return image;
   image.convertTo(image, CV_32F);
   return image;
@@ -76,24 +76,25 @@ cv::Mat read_grey(const std::filesystem::path& file) {
   double lowest = 0.0, highest = 0.0;
   cv::minMaxLoc(image.reshape(1), &lowest, &highest);
   if (lowest == highest)
-    throw InputError(file.string(), fmt::format("every pixel has the same value ({:g})", lowest),
-                     "this image is empty");
+    throw io::InputError(file.string(),
+                         fmt::format("every pixel has the same value ({:g})", lowest),
+                         "this image is empty");
   return image.channels() == 3 ? along_main_colour(image) : image;
 }
 
 cv::Mat read_mask(const std::filesystem::path& file, cv::Size size) {
   cv::Mat mask = read_any(file);
   if (mask.size() != size)
-    throw InputError(file.string(),
-                     fmt::format("the mask is {} × {} pixels, its image {} × {}", mask.cols,
-                                 mask.rows, size.width, size.height),
-                     "draw the mask on the image itself");
+    throw io::InputError(file.string(),
+                         fmt::format("the mask is {} × {} pixels, its image {} × {}", mask.cols,
+                                     mask.rows, size.width, size.height),
+                         "draw the mask on the image itself");
   if (mask.channels() == 4) cv::cvtColor(mask, mask, cv::COLOR_BGRA2GRAY);
   if (mask.channels() == 3) cv::cvtColor(mask, mask, cv::COLOR_BGR2GRAY);
   double highest = 0.0;
   cv::minMaxLoc(mask, nullptr, &highest);
   if (highest == 0.0)
-    throw InputError(file.string(), "the mask marks nothing", "paint the bone white");
+    throw io::InputError(file.string(), "the mask marks nothing", "paint the bone white");
   return mask > 0.5 * highest;
 }
 
@@ -102,4 +103,4 @@ cv::Size fitted(cv::Size size, int side) {
   return {std::max(1, cvRound(scale * size.width)), std::max(1, cvRound(scale * size.height))};
 }
 
-}  // namespace havers::io
+}  // namespace havers::images

@@ -4,18 +4,18 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 
-namespace havers::io {
+namespace havers::images {
 
 /// Reads PNG, TIFF, JPEG or BMP as one channel: 8 bit, 16 bit (kept so) or, from colour, float
 /// along the image's main axis of colour (I1). What is transparent becomes background.
-/// @throws InputError when it is missing, not an image, or of one grey level only.
+/// @throws io::InputError when it is missing, not an image, or of one grey level only.
 cv::Mat read_grey(const std::filesystem::path& file);
 
 /// Reads a mask of the given size: 255 where the file is brighter than half its own range.
-/// @throws InputError when it cannot be read, is of another size, or marks nothing.
+/// @throws io::InputError when it cannot be read, is of another size, or marks nothing.
 cv::Mat read_mask(const std::filesystem::path& file, cv::Size size);
 
 /// Size of a copy whose longer side is at most `side` pixels.
 cv::Size fitted(cv::Size size, int side);
 
-}  // namespace havers::io
+}  // namespace havers::images

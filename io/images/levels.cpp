@@ -5,7 +5,7 @@
 
 #include "io/images/depth.hpp"
 
-namespace havers::io {
+namespace havers::images {
 namespace {
 
 // Second difference in both directions: blind to levels and slopes, 6 times the noise [Immerkær].
@@ -82,4 +82,4 @@ void smooth(cv::Mat& depth, double sigma) {
   if (sigma > 0.0) cv::GaussianBlur(depth, depth, {}, sigma, sigma, cv::BORDER_REPLICATE);
 }
 
-}  // namespace havers::io
+}  // namespace havers::images

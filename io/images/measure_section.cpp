@@ -1,29 +1,28 @@
-#include "io/images/measure_section.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
 
 #include "io/images/grey_image.hpp"
+#include "io/images/image_library.hpp"
 #include "io/images/overlay.hpp"
 #include "io/images/pores.hpp"
 #include "io/images/section_quantities.hpp"
 #include "io/input_error.hpp"
 
-namespace havers::io {
+namespace havers::images {
 namespace {
 
-void check(const std::filesystem::path& image, const SectionOptions& options) {
+void check(const std::filesystem::path& image, const io::SectionOptions& options) {
   if (!options.pixel_size) return;
   const double size = *options.pixel_size;
   if (!(size >= 0.1e-6 && size <= 200e-6))
-    throw InputError(image.string(),
-                     fmt::format("a pixel size of {:g} µm is outside 0.1 to 200 µm", size * 1e6),
-                     "pixel_size_um is the side of one pixel in µm");
+    throw io::InputError(
+        image.string(), fmt::format("a pixel size of {:g} µm is outside 0.1 to 200 µm", size * 1e6),
+        "pixel_size_um is the side of one pixel in µm");
 }
 
-void warn(const PoreMap& map, const SectionOptions& options, calib::SectionPorosity& section) {
+void warn(const PoreMap& map, const io::SectionOptions& options, calib::SectionPorosity& section) {
   const double bone = cv::countNonZero(map.bone);
   if (!options.pixel_size)
     section.warnings.emplace_back(
@@ -52,12 +51,8 @@ void warn(const PoreMap& map, const SectionOptions& options, calib::SectionPoros
 
 }  // namespace
 
-bool images_available() {
-  return true;
-}
-
-SectionMeasurement measure_section(const std::filesystem::path& image,
-                                   const SectionOptions& options) {
+io::SectionMeasurement measure_section(const std::filesystem::path& image,
+                                       const io::SectionOptions& options) {
   check(image, options);
   const cv::Mat grey = read_grey(image);
   const Regions regions = options.mask
@@ -66,11 +61,11 @@ SectionMeasurement measure_section(const std::filesystem::path& image,
   const Levels levels = bone_levels(grey, regions);
   const cv::Mat bone = find_bone(grey, regions, levels);
   if (bone.empty())
-    throw InputError(image.string(), "no bone was found",
-                     "give a mask that is white where the bone is");
+    throw io::InputError(image.string(), "no bone was found",
+                         "give a mask that is white where the bone is");
   const PoreMap map = find_pores(grey, bone, regions.outlined, levels);
 
-  SectionMeasurement measured;
+  io::SectionMeasurement measured;
   measured.porosity = section_quantities(map, options);
   measured.porosity.file = image.string();
   measured.porosity.method = "half-maximum after flat field, corrected for blur";
@@ -80,4 +75,4 @@ SectionMeasurement measure_section(const std::filesystem::path& image,
   return measured;
 }
 
-}  // namespace havers::io
+}  // namespace havers::images

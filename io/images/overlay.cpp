@@ -5,7 +5,7 @@
 
 #include "io/images/grey_image.hpp"
 
-namespace havers::io {
+namespace havers::images {
 
 // Few grey levels and a little smoothing, or noise would make a report of many sections megabytes
 // long.
@@ -27,4 +27,4 @@ std::vector<std::uint8_t> draw_overlay(const cv::Mat& grey, const PoreMap& map) 
   return png;
 }
 
-}  // namespace havers::io
+}  // namespace havers::images

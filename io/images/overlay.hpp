@@ -6,9 +6,9 @@
 
 #include "io/images/pores.hpp"
 
-namespace havers::io {
+namespace havers::images {
 
 /// PNG of at most 640 pixels a side: the section in few grey levels, pores red, outline blue.
 std::vector<std::uint8_t> draw_overlay(const cv::Mat& grey, const PoreMap& map);
 
-}  // namespace havers::io
+}  // namespace havers::images

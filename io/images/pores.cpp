@@ -8,7 +8,7 @@
 
 #include "io/images/depth.hpp"
 
-namespace havers::io {
+namespace havers::images {
 namespace {
 
 cv::Mat square(int side) {
@@ -211,4 +211,4 @@ void count_pores(PoreMap& map) {
   }
 }
 
-}  // namespace havers::io
+}  // namespace havers::images

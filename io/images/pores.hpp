@@ -6,7 +6,7 @@
 #include "io/images/regions.hpp"
 #include "io/images/surface.hpp"
 
-namespace havers::io {
+namespace havers::images {
 
 /// Grey levels of bone and pores. Depth is 0 in bone and 1 in pores wherever the shade is (I6):
 /// sign (B − I) / (offset + slope B).
@@ -44,4 +44,4 @@ PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, bool outlined, Leve
 /// Count, areas and specks of a pore image; specks are wiped from it.
 void count_pores(PoreMap& map);
 
-}  // namespace havers::io
+}  // namespace havers::images

@@ -8,7 +8,7 @@
 #include "io/images/grey_image.hpp"
 #include "io/images/two_levels.hpp"
 
-namespace havers::io {
+namespace havers::images {
 namespace {
 
 using Contour = std::vector<cv::Point>;
@@ -82,14 +82,14 @@ bool tail_is_dark(const cv::Mat& grey, const cv::Mat& mask) {
   return third <= 0.0;
 }
 
-bool are_dark(Pores pores, bool found) {
-  return pores == Pores::found ? found : pores == Pores::dark;
+bool are_dark(io::Pores pores, bool found) {
+  return pores == io::Pores::found ? found : pores == io::Pores::dark;
 }
 
-Regions all_of(const cv::Mat& grey, const cv::Mat& mask, Pores pores) {
+Regions all_of(const cv::Mat& grey, const cv::Mat& mask, io::Pores pores) {
   Regions regions;
   regions.bone = mask;
-  regions.dark_pores = are_dark(pores, pores == Pores::found && tail_is_dark(grey, mask));
+  regions.dark_pores = are_dark(pores, pores == io::Pores::found && tail_is_dark(grey, mask));
   return regions;
 }
 
@@ -150,7 +150,7 @@ void fill_notches(const std::vector<Contour>& outlines, cv::Mat& bone) {
 
 }  // namespace
 
-Regions divide(const cv::Mat& grey, Pores pores) {
+Regions divide(const cv::Mat& grey, io::Pores pores) {
   const cv::Mat everywhere(grey.size(), CV_8U, cv::Scalar(255));
   const cv::Mat copy = small_copy(grey);
   const TwoLevels levels = split_levels(copy);
@@ -176,7 +176,7 @@ Regions divide(const cv::Mat& grey, Pores pores) {
   return regions;
 }
 
-Regions divide(const cv::Mat& grey, const cv::Mat& mask, Pores pores) {
+Regions divide(const cv::Mat& grey, const cv::Mat& mask, io::Pores pores) {
   return all_of(grey, mask, pores);
 }
 
@@ -189,4 +189,4 @@ cv::Mat outline(const cv::Mat& solid) {
   return bone;
 }
 
-}  // namespace havers::io
+}  // namespace havers::images

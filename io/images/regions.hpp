@@ -7,7 +7,7 @@
 #include "io/images/measure_section.hpp"
 #include "io/images/surface.hpp"
 
-namespace havers::io {
+namespace havers::images {
 
 /// The image's coarse division.
 struct Regions {
@@ -21,13 +21,13 @@ struct Regions {
 
 /// Divides the image into bone and background by two levels under one smooth shade (I2), and finds
 /// which of the two is bone (I3).
-Regions divide(const cv::Mat& grey, Pores pores);
+Regions divide(const cv::Mat& grey, io::Pores pores);
 
 /// The same where the user's mask says where the bone is.
-Regions divide(const cv::Mat& grey, const cv::Mat& mask, Pores pores);
+Regions divide(const cv::Mat& grey, const cv::Mat& mask, io::Pores pores);
 
 /// The bone, pores included, marrow cavity excluded (I4): `solid` (255) is what is brighter than
 /// half way. Empty when there is none.
 cv::Mat outline(const cv::Mat& solid);
 
-}  // namespace havers::io
+}  // namespace havers::images

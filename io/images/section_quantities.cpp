@@ -5,9 +5,9 @@
 
 #include "io/images/windows.hpp"
 
-namespace havers::io {
+namespace havers::images {
 
-calib::SectionPorosity section_quantities(const PoreMap& map, const SectionOptions& options) {
+calib::SectionPorosity section_quantities(const PoreMap& map, const io::SectionOptions& options) {
   const double pixel = options.pixel_size.value_or(std::numeric_limits<double>::quiet_NaN());
   const double bone = cv::countNonZero(map.bone), pixel_area = pixel * pixel;
   calib::SectionPorosity section;
@@ -29,4 +29,4 @@ calib::SectionPorosity section_quantities(const PoreMap& map, const SectionOptio
   return section;
 }
 
-}  // namespace havers::io
+}  // namespace havers::images

@@ -4,10 +4,10 @@
 #include "io/images/measure_section.hpp"
 #include "io/images/pores.hpp"
 
-namespace havers::io {
+namespace havers::images {
 
 /// Porosity, counts, areas and spread between windows of a pore map. Where the pixel size is
 /// unknown, what needs it is NaN.
-calib::SectionPorosity section_quantities(const PoreMap& map, const SectionOptions& options);
+calib::SectionPorosity section_quantities(const PoreMap& map, const io::SectionOptions& options);
 
-}  // namespace havers::io
+}  // namespace havers::images

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <limits>
 
-namespace havers::io {
+namespace havers::images {
 namespace {
 
 using Monomials = Eigen::Matrix<double, 15, 1>;
@@ -112,4 +112,4 @@ double quantile(std::vector<float>& values, double share) {
   return values[static_cast<std::size_t>(place)];
 }
 
-}  // namespace havers::io
+}  // namespace havers::images

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace havers::io {
+namespace havers::images {
 
 /// A pixel and a value there.
 struct Sample {
@@ -34,4 +34,4 @@ std::vector<Sample> sample(const cv::Mat& image, const cv::Mat& mask, int count)
 /// Quantile of values (reordered), share from 0 to 1; NaN without any.
 double quantile(std::vector<float>& values, double share);
 
-}  // namespace havers::io
+}  // namespace havers::images

@@ -6,7 +6,7 @@
 
 #include "io/images/surface.hpp"
 
-namespace havers::io {
+namespace havers::images {
 namespace {
 
 cv::Mat values_of(const Surface& surface) {
@@ -80,4 +80,4 @@ bool is_a_step(const TwoLevels& levels, const cv::Mat& image) {
   return jump > 0.4 * whole;
 }
 
-}  // namespace havers::io
+}  // namespace havers::images

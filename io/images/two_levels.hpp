@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-namespace havers::io {
+namespace havers::images {
 
 /// How a small grey image splits.
 struct TwoLevels {
@@ -17,4 +17,4 @@ TwoLevels split_levels(const cv::Mat& image);
 /// Whether the levels differ by a step and not by a slope of the shade or by noise.
 bool is_a_step(const TwoLevels& levels, const cv::Mat& image);
 
-}  // namespace havers::io
+}  // namespace havers::images

@@ -6,7 +6,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-namespace havers::io {
+namespace havers::images {
 namespace {
 
 constexpr int parts = 4;  // Along each side of the grid of blocks.
@@ -99,4 +99,4 @@ double porosity_standard_error(const cv::Mat& bone, const cv::Mat& pores) {
   return used > 1.0 ? std::sqrt(used / (used - 1.0) * squares) : 0.0;
 }
 
-}  // namespace havers::io
+}  // namespace havers::images

@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-namespace havers::io {
+namespace havers::images {
 
 struct WindowSpread {
   double sd = 0.0;              ///< [-]
@@ -17,4 +17,4 @@ WindowSpread window_spread(const cv::Mat& bone, const cv::Mat& pores, double len
 /// Standard error of the porosity from how it differs between the parts of a 4 × 4 grid (I10). [-]
 double porosity_standard_error(const cv::Mat& bone, const cv::Mat& pores);
 
-}  // namespace havers::io
+}  // namespace havers::images

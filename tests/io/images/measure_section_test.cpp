@@ -172,7 +172,7 @@ TEST(Section, StandardErrorCoversTheTruth) {
 TEST(Section, MeasuresTheWindowSpreadOfTheDrawnPores) {
   const auto drawn = test::draw({.largest_radius = 15.0, .noise = 0.1, .blur = 1.0});
   const auto measured = measure(drawn, "windows.png");
-  const auto truth = window_spread(drawn.bone >= 0.5, drawn.pores >= 0.5, 50.0, 5.0);
+  const auto truth = images::window_spread(drawn.bone >= 0.5, drawn.pores >= 0.5, 50.0, 5.0);
   EXPECT_NEAR(measured.window_sd, truth.sd, 0.03 * truth.sd);
   EXPECT_GT(measured.window_sd_standard_error, 0.0);
   EXPECT_LT(measured.window_sd_standard_error, 0.3 * measured.window_sd);

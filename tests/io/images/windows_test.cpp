@@ -9,7 +9,7 @@
 
 #include "calib/porosity/scatter_map.hpp"
 
-namespace havers::io {
+namespace havers::images {
 namespace {
 
 cv::Mat full(int side) {
@@ -109,4 +109,4 @@ TEST(PorosityStandardError, IsThatOfIndependentBlocks) {
 }
 
 }  // namespace
-}  // namespace havers::io
+}  // namespace havers::images

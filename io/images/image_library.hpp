@@ -1,0 +1,24 @@
+// What the library libhavers_images offers. It holds all of OpenCV's users and is loaded with the
+// first image, so that a run without images starts without OpenCV.
+#pragma once
+
+#include "io/images/measure_section.hpp"
+
+namespace havers::images {
+
+/// As their namesakes of io/images/measure_section.hpp, which call them.
+io::SectionMeasurement measure_section(const std::filesystem::path& image,
+                                       const io::SectionOptions& options);
+calib::SectionPorosity draw_section(const std::filesystem::path& image,
+                                    const io::SectionDrawing& drawing,
+                                    const io::SectionOptions& options);
+
+struct ImageLibrary {
+  decltype(&images::measure_section) measure_section;
+  decltype(&images::draw_section) draw_section;
+};
+
+}  // namespace havers::images
+
+/// The library's one exported name.
+extern "C" const havers::images::ImageLibrary* havers_images();
