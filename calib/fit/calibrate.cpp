@@ -15,8 +15,8 @@ constexpr double screening_step = 0.2;
 // Replicates that are enough to find the neighbourhood of the answer.
 constexpr int scouting_replicates = 3;
 constexpr int most_rounds = 8;
-// Cost that a search may leave on the table: a tenth of a standard deviation (½·0.1²).
-constexpr double close_enough = 0.005;
+// Cost that a search may leave on the table: a fifth of a standard deviation (½·0.2²).
+constexpr double close_enough = 0.02;
 
 // The first of the study's start and the middle of the bounds where the simulations answer.
 bool begin(const FitProblem& problem, Trail& trail, int replicates) {
@@ -73,7 +73,7 @@ void leave_out(Trail& trail, const std::vector<LeftUnknown>& left, Answer& answe
 }
 
 bool settled(const Landmarks& before, const Landmarks& now) {
-  return ((now - before).abs() <= 0.02 * now + 1e-4).all();
+  return ((now - before).abs() <= 0.05 * now + 1e-4).all();
 }
 
 void reweigh(Trail& trail, const Landmarks& effect) {
@@ -90,13 +90,18 @@ bool settle_down(const FitProblem& problem, Trail& trail) {
   return true;
 }
 
-// Search, weigh anew, search again, until weights and answer agree.
+// Search, weigh anew, search again, until weights and answer agree. The first weights come from
+// where the scouts ended: without them the first search would chase what is a specimen's own.
 void refine(Trail& trail, Answer& answer) {
   Landmarks effect = Landmarks::Zero();
-  bool rough = false;
+  bool rough = false, polished = false;
+  const auto first = differentiate(trail, trail.best(), answer.active, slope_step);
+  if (!first.failed)
+    effect = specimen_effect(trail.problem(), trail.weights(), trail.best(), first.jacobian);
   for (int round = 0; round < most_rounds && !trail.stopped(); ++round) {
     reweigh(trail, effect);
     search(trail, answer.active, rough, answer);
+    polished = polished || rough;
     const auto slopes = differentiate(trail, trail.best(), answer.active, slope_step);
     if (slopes.failed) continue;
     const auto left = uninformed(trail.problem(), trail.best().point, answer.active, slopes);
@@ -109,7 +114,7 @@ void refine(Trail& trail, Answer& answer) {
     effect = specimen_effect(trail.problem(), trail.weights(), trail.best(), slopes.jacobian);
     const auto error = uncertainty_of(trail.problem(), trail.weights(), trail.best(), answer.active,
                                       slopes.jacobian);
-    rough = error.distance >= close_enough;
+    rough = error.distance >= close_enough && !polished;
     if (!rough && settled(before, effect)) return;
   }
 }
