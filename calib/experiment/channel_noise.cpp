@@ -5,7 +5,6 @@
 #include <cmath>
 
 namespace havers::calib {
-
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -17,8 +16,9 @@ double median(std::vector<double> values) {
 // (X7) Second differences of white noise have six times its variance. The median is deaf to breaks
 // and jumps.
 double noise_of(std::span<const double> values) {
+  const std::size_t stride = 1 + values.size() / enough_for_median;
   std::vector<double> differences;
-  for (std::size_t i = 1; i + 1 < values.size(); ++i) {
+  for (std::size_t i = 1; i + 1 < values.size(); i += stride) {
     const double difference = std::abs(values[i - 1] - 2.0 * values[i] + values[i + 1]);
     if (std::isfinite(difference)) differences.push_back(difference);
   }
@@ -30,8 +30,9 @@ double noise_of(std::span<const double> values) {
 double median_rate(std::span<const double> values, std::span<const double> time) {
   assert(values.size() == time.size());
   const std::size_t span = std::max<std::size_t>(1, values.size() / 20);
+  const std::size_t stride = 1 + values.size() / enough_for_median;
   std::vector<double> rates;
-  for (std::size_t i = 0; i + span < values.size(); ++i)
+  for (std::size_t i = 0; i + span < values.size(); i += stride)
     if (time[i + span] > time[i])
       rates.push_back((values[i + span] - values[i]) / (time[i + span] - time[i]));
   return median(std::move(rates));

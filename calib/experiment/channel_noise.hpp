@@ -1,10 +1,15 @@
 // Noise and median slope of a recorded channel.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 namespace havers::calib {
+
+/// Of longer records these many rows tell a median to half a percent of its scatter; noise and
+/// rates are medians over so many.
+inline constexpr std::size_t enough_for_median = 1U << 16U;
 
 /// Median; 0 of nothing.
 double median(std::vector<double> values);

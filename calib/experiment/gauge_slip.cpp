@@ -36,7 +36,8 @@ struct Record {
 Record record_of(std::vector<double>& strain, std::span<const double> stress) {
   const auto peak = static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin());
   std::vector<double> steps;
-  for (std::size_t i = 1; i <= peak; ++i) steps.push_back(std::abs(strain[i] - strain[i - 1]));
+  for (std::size_t i = 1; i <= peak; i += 1 + peak / enough_for_median)
+    steps.push_back(std::abs(strain[i] - strain[i - 1]));
   const auto [low, high] =
       std::minmax_element(strain.begin(), strain.begin() + static_cast<std::ptrdiff_t>(peak) + 1);
   const double smallest =

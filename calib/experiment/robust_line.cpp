@@ -7,6 +7,8 @@
 #include <cassert>
 #include <cmath>
 #include <memory>
+#include <numeric>
+#include <vector>
 
 namespace havers::calib {
 namespace {
@@ -28,10 +30,25 @@ Range range_of(std::span<const double> values) {
   return {low, high - low};
 }
 
+// (X4) Means of as many rows in succession as leave `most_points` at most. A line of means is the
+// line of the rows, and no more points are needed for it.
+constexpr std::size_t most_points = 8192;
+
+std::vector<double> means(std::span<const double> values) {
+  const std::size_t rows = 1 + (values.size() - 1) / most_points;
+  std::vector<double> result;
+  for (; !values.empty(); values = values.subspan(std::min(rows, values.size()))) {
+    const auto block = values.first(std::min(rows, values.size()));
+    result.push_back(std::reduce(block.begin(), block.end()) / static_cast<double>(block.size()));
+  }
+  return result;
+}
+
 Line fit(std::span<const double> x, std::span<const double> y,
          const gsl_multifit_robust_type* weighting) {
   assert(x.size() == y.size());
   if (x.size() < 3) return {};
+  if (x.size() > most_points) return fit(means(x), means(y), weighting);
   const Range rx = range_of(x), ry = range_of(y);
   if (rx.extent <= 0.0) return {};
   if (ry.extent <= 0.0) return {.intercept = ry.low, .fitted = true};

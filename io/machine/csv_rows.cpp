@@ -23,18 +23,23 @@ struct CsvRows::State {
 namespace {
 
 constexpr std::size_t longest_cell = 1U << 20U;
-constexpr int inside_cell = 2;  // libcsv's FIELD_BEGUN, which csv.h does not name
+constexpr int between_rows = 0, inside_cell = 2;  // libcsv's states, which csv.h does not name
 
 template <typename State>
 void hand_on(State& state) {
+  const bool blank = state.cells.empty() || (state.cells.size() == 1 && state.cells[0].empty());
+  if (state.wanted && !blank) state.wanted = state.take({state.line, state.cells});
+}
+
+template <typename State>
+void hand_on_parsed(State& state) {
   state.cells.clear();
   std::size_t begin = 0;
   for (const std::size_t end : state.ends) {
     state.cells.emplace_back(state.text.data() + begin, end - begin);
     begin = end;
   }
-  const bool blank = state.text.empty() && state.ends.size() <= 1;
-  if (state.wanted && !blank) state.wanted = state.take({state.line, state.cells});
+  hand_on(state);
   if (state.text.find(state.line_end) != std::string::npos)  // rarely: a quote spans lines
     state.line += static_cast<std::size_t>(std::ranges::count(state.text, state.line_end));
   state.text.clear();
@@ -51,8 +56,46 @@ void on_cell(void* cell, std::size_t length, void* data) {
 template <typename State>
 void on_row(int end, void* data) {
   auto& state = *static_cast<State*>(data);
-  if (!state.ends.empty()) hand_on(state);
+  if (!state.ends.empty()) hand_on_parsed(state);
   if (end == state.line_end) ++state.line;
+}
+
+template <typename State>
+void parse(State& state, std::string_view text) {
+  const std::size_t used =
+      csv_parse(&state.parser, text.data(), text.size(), on_cell<State>, on_row<State>, &state);
+  if (used != text.size()) throw std::bad_alloc();  // libcsv fails on nothing else unless strict
+}
+
+std::string_view trimmed(std::string_view cell) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!cell.empty() && is_blank(cell.front())) cell.remove_prefix(1);
+  while (!cell.empty() && is_blank(cell.back())) cell.remove_suffix(1);
+  return cell;
+}
+
+// Cuts a line as libcsv does, in a fraction of the time, where its quotes are plain:
+// `a,"1,004.5",c`. False where they are not.
+template <typename State>
+bool cut_plain(State& state, std::string_view line) {
+  while (line.ends_with('\r')) line.remove_suffix(1);
+  const char other_end = state.line_end == '\n' ? '\r' : '\n';
+  if (line.find(other_end) != std::string_view::npos) return false;
+  const bool quotes = line.find('"') != std::string_view::npos;
+  const char delimiter = static_cast<char>(state.parser.delim_char);
+  state.cells.clear();
+  while (true) {
+    const bool quoted = quotes && line.starts_with('"');
+    std::size_t end = quoted ? std::min(line.find('"', 1), line.size() - 1) + 1 : 0;
+    while (end < line.size() && line[end] != delimiter) ++end;
+    std::string_view cell = trimmed(line.substr(0, end));
+    if (quoted && (cell.size() < 2 || !cell.ends_with('"'))) return false;
+    if (quoted) cell = cell.substr(1, cell.size() - 2);
+    if (quotes && cell.find('"') != std::string_view::npos) return false;
+    state.cells.push_back(cell);
+    if (end == line.size()) return true;
+    line.remove_prefix(end + 1);
+  }
 }
 
 }  // namespace
@@ -72,9 +115,18 @@ bool CsvRows::feed(std::string_view block) {
   State& state = *state_;
   if (state.line_end == '\0')
     state.line_end = block.find('\n') == std::string_view::npos ? '\r' : '\n';
-  const std::size_t used =
-      csv_parse(&state.parser, block.data(), block.size(), on_cell<State>, on_row<State>, &state);
-  if (used != block.size()) throw std::bad_alloc();  // libcsv fails on nothing else unless strict
+  while (!block.empty() && state.wanted && state.parser.entry_pos < longest_cell) {
+    const std::size_t end = std::min(block.find(state.line_end), block.size());
+    const std::size_t used = std::min(end + 1, block.size());
+    const bool whole = end < used && state.parser.pstate == between_rows;
+    if (whole && cut_plain(state, block.substr(0, end))) {
+      hand_on(state);
+      ++state.line;
+    } else {
+      parse(state, block.substr(0, used));
+    }
+    block.remove_prefix(used);
+  }
   return state.wanted && state.parser.entry_pos < longest_cell;
 }
 

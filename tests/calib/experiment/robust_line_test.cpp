@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -57,6 +58,43 @@ TEST(RobustLine, StatesItsErrorTruly) {
   }
   EXPECT_NEAR(within_one, 683, 50);
   EXPECT_NEAR(within_two, 954, 30);
+}
+
+// A long record is fitted by the means of its rows; nothing is lost by it.
+TEST(RobustLine, UsesEveryRowOfALongRecord) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal(0.0, 0.1);
+  constexpr int rows = 100'000;
+  Points points;
+  for (int i = 0; i < rows; ++i) {
+    points.x.push_back(1.0 * i / rows);
+    points.y.push_back(3.0 * points.x.back() + normal(random));
+  }
+  const double standard_error = 0.1 / std::sqrt(rows / 12.0);  // σ / √Σ(x − x̄)²
+  for (const Line& line :
+       {fit_robust_line(points.x, points.y), fit_plain_line(points.x, points.y)}) {
+    EXPECT_NEAR(line.slope, 3.0, 3.0 * standard_error);
+    EXPECT_NEAR(line.slope_standard_error, standard_error, 0.05 * standard_error);
+  }
+}
+
+// Norris of the NIST Statistical Reference Datasets (itl.nist.gov/div898/strd), linear regression,
+// with its certified values.
+TEST(RobustLine, AgreesWithTheReferenceOfNist) {
+  const std::vector x{0.2,   337.4, 118.2, 884.6, 10.1,  226.5, 666.3, 996.3, 448.6,
+                      777.0, 558.2, 0.4,   0.6,   775.5, 666.9, 338.0, 447.5, 11.6,
+                      556.0, 228.1, 995.8, 887.6, 120.2, 0.3,   0.3,   556.8, 339.1,
+                      887.2, 999.0, 779.0, 11.1,  118.3, 229.2, 669.1, 448.9, 0.5};
+  const std::vector y{0.1,   338.8, 118.1, 888.0, 9.2,   228.1, 668.5, 998.5, 449.1,
+                      778.9, 559.2, 0.3,   0.1,   778.1, 668.8, 339.3, 448.9, 10.8,
+                      557.7, 228.3, 998.0, 888.8, 119.6, 0.3,   0.6,   557.6, 339.3,
+                      888.0, 998.5, 778.9, 10.2,  117.6, 228.9, 668.4, 449.2, 0.2};
+  const Line plain = fit_plain_line(x, y);
+  EXPECT_NEAR(plain.slope, 1.00211681802045, 1e-13);
+  EXPECT_NEAR(plain.intercept, -0.262323073774029, 1e-12);
+  EXPECT_NEAR(plain.slope_standard_error, 0.429796848199937e-3, 1e-13);
+  const Line robust = fit_robust_line(x, y);
+  EXPECT_NEAR(robust.slope, plain.slope, 2.0 * plain.slope_standard_error);
 }
 
 TEST(RobustLine, SaysWhenThereIsNone) {
