@@ -17,8 +17,10 @@ using Eigen::VectorXd;
 using States = std::vector<JointState>;
 
 constexpr double rounding = 1e-12;
-constexpr int worth_trying = 20;  // sets, before a safer way is taken
-constexpr int worth_sweeping = 1000;
+constexpr int sets_at_once = 3;  // that follow from each other, before sweeps look for a better one
+constexpr int searches = 6;      // by sweeps, before a safer way is taken
+constexpr int sweeps_of_search = 200;
+constexpr int calm = 10;  // sweeps without a change of state, after which the set is worth a solve
 
 double sign_of(JointState state) {
   return state == JointState::slip_forward ? 1.0 : state == JointState::slip_backward ? -1.0 : 0.0;
@@ -70,11 +72,13 @@ SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, cons
 
 namespace {
 
-// (C4). States and gaps by sweeps over the joints; returns the sweeps spent.
+// (C4). States and gaps by sweeps over the joints, until the states stay; returns the sweeps spent.
 int gauss_seidel(const LocalContact& p, VectorXd& y, States& states, int max_sweeps) {
   VectorXd r = p.r0 + p.S * y;
-  for (int sweep = 1; sweep <= max_sweeps; ++sweep) {
-    double change = 0.0, size = 0.0;
+  int quiet = 0, sweep = 0;
+  while (sweep < max_sweeps && quiet < calm) {
+    ++sweep;
+    ++quiet;
     for (std::size_t i = 0; i < p.laws.size(); ++i) {
       if (p.is_apart(i)) continue;
       const auto row = static_cast<Index>(2 * i);
@@ -84,13 +88,11 @@ int gauss_seidel(const LocalContact& p, VectorXd& y, States& states, int max_swe
           solve_single_joint(S, r.segment<2>(row) - S * old, p.u0.segment<2>(row), p.laws[i]);
       r += p.S.middleCols<2>(row) * (found.y - old);
       y.segment<2>(row) = found.y;
+      if (found.state != states[i]) quiet = 0;
       states[i] = found.state;
-      change += (found.y - old).squaredNorm();
-      size += found.y.squaredNorm();
     }
-    if (change <= 1e-26 * size) return sweep;
   }
-  return max_sweeps;
+  return sweep;
 }
 
 // Sets tried one after the other until one is right or comes back.
@@ -115,24 +117,26 @@ LocalContactResult try_sets(const LocalContact& p, States states, int max_iterat
 LocalContactResult solve_local_contact(const LocalContact& problem, States states,
                                        int max_iterations) {
   if (states.empty()) return {.converged = true, .y = {}, .states = {}, .iterations = 0};
-  LocalContactResult result =
-      try_sets(problem, std::move(states), std::min(max_iterations, worth_trying));
+  LocalContactResult result = try_sets(problem, std::move(states), sets_at_once);
+  const auto search = [&] {
+    int spent = result.iterations;
+    if (!result.y.allFinite()) result.y.setZero();
+    spent +=
+        gauss_seidel(problem, result.y, result.states, std::min(max_iterations, sweeps_of_search));
+    result = try_sets(problem, std::move(result.states), sets_at_once);
+    result.iterations += spent;
+  };
+  for (int i = 0; i < searches && !result.converged; ++i) search();
   if (result.converged) return result;
-  int spent = result.iterations;
 
+  const int spent = result.iterations;
   States stuck(problem.laws.size(), JointState::stick);
   for (std::size_t i = 0; i < stuck.size(); ++i)
     if (problem.is_apart(i)) stuck[i] = JointState::open;
-  LocalContactResult released = follow_release(problem, stuck, cohesion_to_stick(problem));
-  spent += released.iterations;
-  if (!released.converged) {
-    spent += gauss_seidel(problem, released.y, released.states,
-                          std::min(max_iterations, worth_sweeping));
-    released = try_sets(problem, std::move(released.states), worth_trying);
-    spent += released.iterations;
-  }
-  released.iterations = spent;
-  return released;
+  result = follow_release(problem, stuck, cohesion_to_stick(problem));
+  result.iterations += spent;
+  if (!result.converged) search();
+  return result;
 }
 
 }  // namespace havers::sim

@@ -49,9 +49,9 @@ struct SingleJoint {
 SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const Local& u0,
                                const JointLaw& law);
 
-/// Active set started from `states`: each set is one linear solve (C2). When a set comes back,
-/// the release of cohesion is followed (C5); when that turns back, sweeps over the joints, each
-/// solved alone (C3), look for the set (C4).
+/// Active set started from `states`: each set is one linear solve (C2), and sweeps over the joints,
+/// each solved alone (C3), find a better set where sets do not lead to each other (C4). Where that
+/// ends nowhere, the release of cohesion is followed (C5).
 LocalContactResult solve_local_contact(const LocalContact& problem, std::vector<JointState> states,
                                        int max_iterations);
 
