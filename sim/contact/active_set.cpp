@@ -12,6 +12,7 @@ namespace {
 
 // A new factor costs about as much as the columns of this many joints.
 constexpr int worth_detaching = 24;
+constexpr int worth_searching = 24;
 
 Local at(const VectorXd& values, int joint) {
   return values.segment<2>(2 * static_cast<Index>(joint));
@@ -23,9 +24,9 @@ ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, int max_iterations, bool 
     : bodies_(&bodies),
       max_iterations_(max_iterations),
       detach_open_(detach_open),
-      detached_(bodies.assembly().joints.size(), 0),
       structure_(bodies),
       loose_(make_loose()),
+      search_(bodies),
       stiffness_(joint_stiffness(bodies)) {}
 
 LooseJoints ActiveSetSolver::make_loose() const {
@@ -33,23 +34,22 @@ LooseJoints ActiveSetSolver::make_loose() const {
                      [this](int joint) { return structure_.respond_to_jump(joint); });
 }
 
-void ActiveSetSolver::rebuild(std::vector<char> detached) {
-  detached_ = std::move(detached);
-  structure_ = Structure(*bodies_, detached_);
+void ActiveSetSolver::rebuild(std::vector<Held> held) {
+  structure_ = Structure(*bodies_, std::move(held));
   loose_ = make_loose();
 }
 
 void ActiveSetSolver::detach_opened(const JointStep& step) {
   if (!detach_open_) return;
-  std::vector<char> detached = detached_;
+  std::vector<Held> held = structure_.held();
   int opened = 0;
   for (const int joint : loose_.joints()) {
     const auto j = static_cast<std::size_t>(joint);
     if (step.broken[j] == 0 || step.states[j] != JointState::open) continue;
-    detached[j] = 1;
+    held[j] = Held::not_at_all;
     ++opened;
   }
-  if (opened >= worth_detaching) rebuild(std::move(detached));
+  if (opened >= worth_detaching) rebuild(std::move(held));
 }
 
 // Jumps that bring every joint to where it is held, the loose ones to where they are now.
@@ -92,7 +92,7 @@ bool ActiveSetSolver::loosen_violated(const JointStep& step, const VectorXd& rea
   std::vector<int> violated;
   for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint) {
     const auto j = static_cast<std::size_t>(joint);
-    if (structure_.detached(joint) || loose_.contains(joint)) continue;
+    if (detached(joint) || loose_.contains(joint)) continue;
     const JointState state =
         state_of(at(reactions, joint), Local::Zero(), JointState::stick, step.laws[j], scale);
     if (state == JointState::stick) continue;
@@ -104,24 +104,31 @@ bool ActiveSetSolver::loosen_violated(const JointStep& step, const VectorXd& rea
 }
 
 bool ActiveSetSolver::reattach_closed(const JointStepResult& result) {
-  std::vector<char> detached = detached_;
-  for (std::size_t j = 0; j < detached.size(); ++j)
-    if (detached[j] != 0 && result.gaps(static_cast<Index>(2 * j)) < 0.0) detached[j] = 0;
-  if (detached == detached_) return false;
+  std::vector<Held> held = structure_.held();
   std::vector<int> again;
-  for (std::size_t j = 0; j < detached.size(); ++j)
-    if (detached[j] != detached_[j]) again.push_back(static_cast<int>(j));
+  for (int joint = 0; joint < static_cast<int>(held.size()); ++joint)
+    if (detached(joint) && at(result.gaps, joint).x() < 0.0) again.push_back(joint);
+  if (again.empty()) return false;
+  for (const int joint : again) held[static_cast<std::size_t>(joint)] = Held::fully;
   again.insert(again.end(), loose_.joints().begin(), loose_.joints().end());
-  rebuild(std::move(detached));
+  rebuild(std::move(held));
   for (const int joint : again) loose_.add(joint);
   return true;
 }
 
 JointStepResult ActiveSetSolver::solve(const JointStep& step) {
+  if (detach_open_ && std::count(step.broken.begin(), step.broken.end(), 1) >= worth_searching) {
+    JointStepResult result = search_.solve(step);
+    if (result.converged) return result;
+  }
+  return solve_loose(step);
+}
+
+JointStepResult ActiveSetSolver::solve_loose(const JointStep& step) {
   detach_opened(step);
   // What is broken and not detached may move; after a rebuild it has to be said again.
   for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint)
-    if (step.broken[static_cast<std::size_t>(joint)] != 0 && !structure_.detached(joint) &&
+    if (step.broken[static_cast<std::size_t>(joint)] != 0 && !detached(joint) &&
         !loose_.contains(joint))
       loose_.add(joint);
 

@@ -3,12 +3,14 @@
 
 #include "sim/contact/joint_step.hpp"
 #include "sim/contact/loose_joints.hpp"
+#include "sim/contact/set_search.hpp"
 
 namespace havers::sim {
 
-/// Everything bonded is one triangular solve (S5); joints that leave the bonded state are loosened
-/// one by one and solved among themselves (C1); joints that opened for good are detached from the
-/// factor. The answer does not depend on what is loose or detached, only its cost does.
+/// Everything bonded is one triangular solve (S5). A few joints that leave the bonded state are
+/// loosened one by one and solved among themselves (C1); where many move, sets are searched with a
+/// factor each. Joints that opened for good are detached from the factor. The answer does not
+/// depend on what is loose or detached, only its cost does.
 class ActiveSetSolver : public JointSolver {
  public:
   /// @param detach_open  false: broken joints stay in the factor for good (section 7, for
@@ -19,7 +21,11 @@ class ActiveSetSolver : public JointSolver {
  private:
   [[nodiscard]] LooseJoints make_loose() const;
   void detach_opened(const JointStep& step);
-  void rebuild(std::vector<char> detached);
+  void rebuild(std::vector<Held> held);
+  [[nodiscard]] bool detached(int joint) const {
+    return structure_.held()[static_cast<std::size_t>(joint)] == Held::not_at_all;
+  }
+  JointStepResult solve_loose(const JointStep& step);
   [[nodiscard]] Eigen::VectorXd jumps(const JointStep& step) const;
   bool settle_loose(const JointStep& step, const Eigen::VectorXd& bonded_reactions,
                     JointStepResult& result, Eigen::VectorXd& y);
@@ -30,9 +36,9 @@ class ActiveSetSolver : public JointSolver {
   const Bodies* bodies_;
   int max_iterations_;
   bool detach_open_;
-  std::vector<char> detached_;
-  Structure structure_;
+  Structure structure_;  // holds all but the joints that opened for good
   LooseJoints loose_;
+  SetSearch search_;
   Eigen::VectorXd stiffness_;
 };
 

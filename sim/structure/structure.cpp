@@ -17,41 +17,52 @@ namespace {
 constexpr double relative_penalty = 1e7;
 constexpr double accuracy = 1e-12;
 constexpr int max_solves = 8;
+constexpr int max_solves_with_friction = 40;
 
 }  // namespace
 
+// What acts at the ports of all bodies; a case a column.
+struct Structure::PortLoads {
+  MatrixXd forces;    // on the bodies
+  MatrixXd offsets;   // displacements that the ports have beyond those of their unknowns
+  VectorXd friction;  // of each joint; empty: none
+  double force_scale = 0.0;
+};
+
 // Displacements, forces and compatibility multipliers at the ports of all bodies.
 struct Structure::PortState {
-  MatrixXd displacements;  // p, offsets included; a case a column
-  MatrixXd forces;         // t, on the bodies
+  MatrixXd displacements;  // p, offsets included
+  MatrixXd forces;         // t, on the bodies, beyond the loads
   MatrixXd multipliers;    // a
   int solves = 0;
   double correction = 0.0;
 };
 
-Structure::Structure(const Bodies& bodies, std::vector<char> detached)
-    : bodies_(&bodies), detached_(std::move(detached)) {
+Structure::Structure(const Bodies& bodies, std::vector<Held> held)
+    : bodies_(&bodies), held_(std::move(held)) {
   const Assembly& assembly = bodies.assembly();
-  detached_.resize(assembly.joints.size(), 0);
+  held_.resize(assembly.joints.size(), Held::fully);
   const int joint_unknowns = 2 * static_cast<int>(assembly.joints.size());
-  const int shared = joint_unknowns + static_cast<int>(assembly.ties.size());
+  int next = joint_unknowns + static_cast<int>(assembly.ties.size());
 
-  std::vector<int> own(static_cast<std::size_t>(joint_unknowns),
-                       -1);  // of side b of detached joints
-  int next = shared;
-  for (std::size_t j = 0; j < detached_.size(); ++j)
-    if (detached_[j] != 0)
-      for (const std::size_t row : {2 * j, 2 * j + 1}) own[row] = next++;
-
+  ports_of_.resize(static_cast<std::size_t>(joint_unknowns));
   for (const Port& port : bodies.ports()) {
-    const bool joint = port.unknown < joint_unknowns;
-    const int apart = joint ? own[static_cast<std::size_t>(port.unknown)] : -1;
-    unknown_of_port_.push_back(port.side == PortSide::b && apart >= 0 ? apart : port.unknown);
-    tie_top_.push_back(!joint && port.side == PortSide::b ? 1 : 0);
+    const bool joint = port.unknown < joint_unknowns, b = port.side == PortSide::b;
+    if (joint)
+      ports_of_[static_cast<std::size_t>(port.unknown)][b ? 1 : 0] =
+          static_cast<Index>(unknown_of_port_.size());
+    // Where a joint does not hold, its side b has an unknown of its own.
+    unknown_of_port_.push_back(joint && b && !holds(port.unknown) ? next++ : port.unknown);
+    tie_top_.push_back(!joint && b ? 1 : 0);
   }
   unknowns_ =
       next + (assembly.ties.empty() ? 0 : 1);  // the last one is the distance common to all ties
   assemble();
+}
+
+bool Structure::holds(int unknown) const {
+  const Held held = held_[static_cast<std::size_t>(unknown / 2)];
+  return held == Held::fully || (held == Held::normal && unknown % 2 == 0);
 }
 
 void Structure::assemble() {
@@ -107,33 +118,93 @@ MatrixXd Structure::ports_to_unknowns(const MatrixXd& forces) const {
   return f;
 }
 
-// Corrections of the mixed system (S6) with the factor of its penalised form (S7): the residuals
-// are those of the mixed system itself, so its accuracy is reached and not the penalty's.
-Structure::PortState Structure::solve_ports(const MatrixXd& port_loads, const MatrixXd& offsets,
-                                            double force_scale) const {
-  PortState state{offsets, {}, MatrixXd::Zero(bodies_->compatibilities(), offsets.cols()), 0, 0.0};
-  const auto forces = [&]() -> MatrixXd {
-    return bodies_->port_forces(state.displacements, state.multipliers) - port_loads;
-  };
-  state.forces = forces();
+// Takes the friction of sliding joints from the forces that the bodies still have to bear.
+void Structure::rub(const VectorXd& friction, MatrixXd& port_forces) const {
+  for (std::size_t j = 0; j < held_.size(); ++j) {
+    const double slope = friction(static_cast<Index>(j));
+    if (held_[j] != Held::normal || slope == 0.0) continue;
+    const auto& [a, b] = ports_of_[2 * j + 1];
+    for (Index c = 0; c < port_forces.cols(); ++c) {
+      const double force = slope * port_forces(ports_of_[2 * j][1], c);
+      port_forces(b, c) -= force;
+      port_forces(a, c) += force;
+    }
+  }
+}
+
+// A correction, what it does to the equations, and that as one vector, all in units of a force.
+struct Structure::Correction {
+  MatrixXd displacements, multipliers, forces, gap;
+  VectorXd effect;
+
+  void subtract(double part, const Correction& other) {
+    displacements -= part * other.displacements;
+    multipliers -= part * other.multipliers;
+    forces -= part * other.forces;
+    gap -= part * other.gap;
+    effect -= part * other.effect;
+  }
+};
+
+VectorXd Structure::in_forces(const MatrixXd& forces, const MatrixXd& gap) const {
+  const MatrixXd at_unknowns = ports_to_unknowns(forces);
+  VectorXd all(at_unknowns.size() + gap.size());
+  all << at_unknowns.reshaped(), penalty_ / relative_penalty * gap.reshaped();
+  return all;
+}
+
+// One solve with the factor of the penalised form (S7), which knows no friction.
+Structure::Correction Structure::correct(const MatrixXd& forces, const MatrixXd& gap,
+                                         const VectorXd& friction) const {
+  const MatrixXd imbalance = forces + penalty_ * bodies_->compatibility_forces(gap);
+  Correction change;
+  change.displacements = unknowns_to_ports(factor_->solve(ports_to_unknowns(-imbalance)));
+  change.gap = bodies_->incompatibility(change.displacements);
+  change.multipliers = penalty_ * (gap + change.gap);
+  change.forces = bodies_->port_forces(change.displacements, change.multipliers);
+  if (friction.size() > 0) {
+    rub(friction, change.forces);
+    change.effect = in_forces(change.forces, change.gap);
+  }
+  return change;
+}
+
+// Corrections of the mixed system (S6) until it is solved: its own residuals decide, so that its
+// accuracy is reached and not the penalty's. Friction makes them generalised conjugate residuals
+// [EES83].
+Structure::PortState Structure::solve_ports(const PortLoads& loads) const {
+  PortState state{
+      loads.offsets, {}, MatrixXd::Zero(bodies_->compatibilities(), loads.offsets.cols()), 0, 0.0};
+  const bool rubs = loads.friction.size() > 0 && !loads.friction.isZero(0.0);
+  const VectorXd friction = rubs ? loads.friction : VectorXd();
+  state.forces = bodies_->port_forces(state.displacements, state.multipliers) - loads.forces;
+  if (rubs) rub(friction, state.forces);
+  MatrixXd gap = bodies_->incompatibility(state.displacements);
+  std::vector<Correction> past;
   double before = 1.0;
-  while (state.solves < max_solves) {
-    const MatrixXd gap = bodies_->incompatibility(state.displacements);
-    const MatrixXd imbalance = state.forces + penalty_ * bodies_->compatibility_forces(gap);
-    const MatrixXd change = unknowns_to_ports(factor_->solve(ports_to_unknowns(-imbalance)));
+  while (state.solves < (rubs ? max_solves_with_friction : max_solves)) {
+    Correction change = correct(state.forces, gap, friction);
     ++state.solves;
-    const MatrixXd old = state.forces;
-    state.displacements += change;
-    state.multipliers += penalty_ * (gap + bodies_->incompatibility(change));
-    state.forces = forces();
-    const double scale = std::max(force_scale, state.forces.norm());
-    state.correction = scale > 0.0 ? (state.forces - old).norm() / scale : 0.0;
+    double length = 1.0;
+    if (rubs) {
+      for (const Correction& old : past)
+        change.subtract(change.effect.dot(old.effect) / old.effect.squaredNorm(), old);
+      length = -in_forces(state.forces, gap).dot(change.effect) / change.effect.squaredNorm();
+      if (!std::isfinite(length)) break;
+    }
+    state.displacements += length * change.displacements;
+    state.multipliers += length * change.multipliers;
+    state.forces += length * change.forces;
+    gap += length * change.gap;
+    const double scale = std::max(loads.force_scale, state.forces.norm());
+    state.correction = scale > 0.0 ? std::abs(length) * change.forces.norm() / scale : 0.0;
     // The next correction is expected to shrink as this one did, but not by more than part of a
     // double's digits.
     const double shrinkage = std::max(state.correction / before, 1e-6);
     if (!(state.correction * std::min(shrinkage, 1.0) > accuracy)) break;
-    if (state.solves > 3 && shrinkage > 0.5) break;
+    if (state.solves > 3 && shrinkage > 0.5 && !rubs) break;
     before = state.correction;
+    if (rubs) past.push_back(std::move(change));
   }
   return state;
 }
@@ -145,7 +216,7 @@ MatrixXd Structure::reactions_of(const MatrixXd& port_forces) const {
   const std::vector<Port>& ports = bodies_->ports();
   for (std::size_t i = 0; i < ports.size(); ++i)
     if (ports[i].side == PortSide::b &&
-        !(ports[i].unknown < 2 * joints() && detached(ports[i].unknown / 2)))
+        (ports[i].unknown >= 2 * joints() || holds(ports[i].unknown)))
       r.row(ports[i].unknown) = port_forces.row(static_cast<Index>(i));
   return r;
 }
@@ -154,49 +225,58 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
   const auto dof = [&](int body) { return bodies_->first_dof(body); };
   const auto port = [&](int body) { return bodies_->first_port(body); };
   const auto ports = static_cast<Index>(unknown_of_port_.size());
-  MatrixXd offsets(ports, 1), port_loads(ports, 1), displacements(bodies_->dofs(), 1);
+  PortLoads at_ports{MatrixXd(ports, 1), MatrixXd(ports, 1), loads.friction, loads.force_scale};
+  MatrixXd displacements(bodies_->dofs(), 1);
 
   for (const BodyClass& group : bodies_->classes()) {  // (S3): condense the loads
     const BodyOperator& op = group.op;
     const MatrixXd given = gather(loads.prescribed, group, op.shifted.rows(), dof);
     const MatrixXd forces =
         gather(loads.forces, group, op.shifted.rows(), dof) - op.shifted * given;
-    scatter(op.recovery.transpose() * forces, group, port, port_loads);
-    scatter(-op.ports * given, group, port, offsets);
+    scatter(op.recovery.transpose() * forces, group, port, at_ports.forces);
+    scatter(-op.ports * given, group, port, at_ports.offsets);
     scatter(op.compliance * forces + given, group, dof, displacements);
   }
-  const std::vector<Port>& all = bodies_->ports();
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (all[i].side == PortSide::b && all[i].unknown < 2 * joints() &&
-        !detached(all[i].unknown / 2))
-      offsets(static_cast<Index>(i)) += loads.jumps(all[i].unknown);
+  for (int unknown = 0; unknown < 2 * static_cast<int>(joints()); ++unknown) {
+    const auto& [a, b] = ports_of_[static_cast<std::size_t>(unknown)];
+    if (holds(unknown)) {
+      at_ports.offsets(b) += loads.jumps(unknown);
+    } else if (loads.given.size() > 0) {
+      at_ports.forces(b) += loads.given(unknown);
+      at_ports.forces(a) -= loads.given(unknown);
+    }
+  }
 
-  const PortState state = solve_ports(port_loads, offsets, loads.force_scale);
+  const PortState state = solve_ports(at_ports);
   for (const BodyClass& group : bodies_->classes()) {  // (S4): recover the displacements
     const MatrixXd& T = group.op.recovery;
     scatter(gather(displacements, group, T.rows(), dof) +
                 T * gather(state.displacements, group, T.cols(), port),
             group, dof, displacements);
   }
-  const MatrixXd reactions = reactions_of(state.forces);
-  return {displacements, reactions.topRows(2 * joints()),
-          reactions.bottomRows(reactions.rows() - 2 * joints()), state.solves, state.correction};
+  const MatrixXd all = reactions_of(state.forces);
+  VectorXd reactions = all.topRows(2 * joints());
+  for (int unknown = 0; unknown < reactions.size() && loads.given.size() > 0; ++unknown)
+    if (!holds(unknown)) reactions(unknown) = loads.given(unknown);
+  for (Index j = 0; j < joints() && loads.friction.size() > 0; ++j)
+    if (held_[static_cast<std::size_t>(j)] == Held::normal)
+      reactions(2 * j + 1) += loads.friction(j) * reactions(2 * j);
+  return {displacements, reactions, all.bottomRows(all.rows() - 2 * joints()), state.solves,
+          state.correction};
 }
 
 JumpResponse Structure::respond_to_jump(int joint) const {
-  MatrixXd offsets = MatrixXd::Zero(static_cast<Index>(unknown_of_port_.size()), 2);
-  const std::vector<Port>& ports = bodies_->ports();
-  for (std::size_t i = 0; i < ports.size(); ++i)
-    if (ports[i].side == PortSide::b && ports[i].unknown / 2 == joint)
-      offsets(static_cast<Index>(i), ports[i].unknown % 2) = 1.0;
-  const PortState state = solve_ports(MatrixXd::Zero(offsets.rows(), 2), offsets, 0.0);
+  const auto ports = static_cast<Index>(unknown_of_port_.size());
+  PortLoads loads{MatrixXd::Zero(ports, 2), MatrixXd::Zero(ports, 2), {}, 0.0};
+  for (const int component : {0, 1})
+    loads.offsets(ports_of_[static_cast<std::size_t>(2 * joint + component)][1], component) = 1.0;
+  const PortState state = solve_ports(loads);
 
   JumpResponse response{reactions_of(state.forces).topRows(2 * joints()),
-                        MatrixXd::Zero(2 * joints(), 2)};
-  for (std::size_t i = 0; i < ports.size(); ++i) {
-    if (ports[i].unknown >= 2 * joints()) continue;
-    const double sign = ports[i].side == PortSide::b ? 1.0 : -1.0;
-    response.gaps.row(ports[i].unknown) += sign * state.displacements.row(static_cast<Index>(i));
+                        Eigen::MatrixX2d(2 * joints(), 2)};
+  for (Index unknown = 0; unknown < 2 * joints(); ++unknown) {
+    const auto& [a, b] = ports_of_[static_cast<std::size_t>(unknown)];
+    response.gaps.row(unknown) = state.displacements.row(b) - state.displacements.row(a);
   }
   return response;
 }

@@ -54,33 +54,50 @@ struct DenseStructure {
     Eigen::VectorXd displacements, reactions;
   };
 
-  /// @param detached  1 for a joint that holds nothing, one per joint.
+  /// @param joints  What each joint holds; empty: all.
   [[nodiscard]] Answer solve(const sim::StructureLoads& loads,
-                             const std::vector<char>& detached) const {
+                             const std::vector<sim::Held>& joints = {}) const {
+    // Reactions of all rows of C: given ones, and unknown ones through E.
+    const Eigen::Index n_joints = loads.jumps.size() / 2;
     std::vector<Eigen::Index> free, kept;
     for (std::size_t i = 0; i < held.size(); ++i)
       if (held[i] == 0) free.push_back(static_cast<Eigen::Index>(i));
+    const auto holds = [&](Eigen::Index row) {
+      const sim::Held joint = row < 2 * n_joints && !joints.empty()
+                                  ? joints[static_cast<std::size_t>(row / 2)]
+                                  : sim::Held::fully;
+      return joint == sim::Held::fully || (joint == sim::Held::normal && row % 2 == 0);
+    };
     for (Eigen::Index i = 0; i < C.rows(); ++i)
-      if (i >= loads.jumps.size() || detached[static_cast<std::size_t>(i / 2)] == 0)
-        kept.push_back(i);
+      if (holds(i)) kept.push_back(i);
+    const auto n = static_cast<Eigen::Index>(free.size()),
+               m = static_cast<Eigen::Index>(kept.size());
+    Eigen::MatrixXd E = Eigen::MatrixXd::Zero(C.rows(), m);
+    for (Eigen::Index k = 0; k < m; ++k) {
+      const Eigen::Index row = kept[static_cast<std::size_t>(k)];
+      E(row, k) = 1.0;
+      if (row < 2 * n_joints && row % 2 == 0 && !holds(row + 1) && loads.friction.size() > 0)
+        E(row + 1, k) = loads.friction(row / 2);
+    }
+    Eigen::VectorXd given = Eigen::VectorXd::Zero(C.rows());
+    for (Eigen::Index i = 0; i < loads.given.size(); ++i)
+      if (!holds(i)) given(i) = loads.given(i);
     Eigen::VectorXd gaps = -C * loads.prescribed;
     gaps.head(loads.jumps.size()) += loads.jumps;
 
-    const auto n = static_cast<Eigen::Index>(free.size()),
-               m = static_cast<Eigen::Index>(kept.size());
     const double scale = A.diagonal().maxCoeff();  // displacements and forces of the same size
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + m, n + m);
     system.topLeftCorner(n, n) = A(free, free) / scale;
-    system.topRightCorner(n, m) = -C(kept, free).transpose();
+    system.topRightCorner(n, m) = -(C.transpose() * E)(free, Eigen::all);
     system.bottomLeftCorner(m, n) = C(kept, free);
     Eigen::VectorXd right(n + m);
-    right.head(n) = Eigen::VectorXd(loads.forces - A * loads.prescribed)(free) / scale;
+    right.head(n) =
+        Eigen::VectorXd(loads.forces + C.transpose() * given - A * loads.prescribed)(free) / scale;
     right.tail(m) = gaps(kept);
     const Eigen::VectorXd x = system.fullPivLu().solve(right);
 
-    Answer answer{loads.prescribed, Eigen::VectorXd::Zero(C.rows())};
+    Answer answer{loads.prescribed, given + scale * E * x.tail(m)};
     answer.displacements(free) += x.head(n);
-    answer.reactions(kept) = scale * x.tail(m);
     answer.reactions.conservativeResize(loads.jumps.size());
     return answer;
   }

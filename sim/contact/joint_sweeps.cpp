@@ -1,0 +1,199 @@
+#include "sim/contact/joint_sweeps.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+#include <utility>
+
+namespace havers::sim {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr std::array<double, 4> tie_signs{1.0, -1.0, -1.0,
+                                          1.0};  // top, bottom, next top, next bottom
+
+MatrixXd inverse_of_free_part(const BodyOperator& op, const std::vector<char>& held, Index first) {
+  std::vector<Index> free;
+  for (Index i = 0; i < op.shifted.rows(); ++i)
+    if (held[static_cast<std::size_t>(first + i)] == 0) free.push_back(i);
+  const auto n = static_cast<Index>(free.size());
+  MatrixXd inverse = MatrixXd::Zero(op.shifted.rows(), op.shifted.rows());
+  const MatrixXd A = op.shifted(free, free);
+  const MatrixXd solution = A.llt().solve(MatrixXd::Identity(n, n));
+  inverse(free, free) = solution;
+  return inverse;
+}
+
+}  // namespace
+
+JointSweeps::JointSweeps(const Bodies& bodies)
+    : bodies_(&bodies), class_of_(bodies.assembly().bodies.size()) {
+  for (std::size_t c = 0; c < bodies.classes().size(); ++c) {
+    const BodyClass& group = bodies.classes()[c];
+    inverses_.push_back(
+        inverse_of_free_part(group.op, bodies.held(), bodies.first_dof(group.bodies.front())));
+    port_answers_.push_back(group.op.ports * inverses_.back() * group.op.ports.transpose());
+    for (const int body : group.bodies) class_of_[static_cast<std::size_t>(body)] = c;
+  }
+  std::vector<std::array<Index, 2>> tie_ports(bodies.assembly().ties.size());
+  find_contacts(tie_ports);
+  pair_ties(tie_ports);
+}
+
+double JointSweeps::answer(int body, Index row, Index column) const {
+  const Index first = bodies_->first_port(body);
+  return port_answers_[class_of_[static_cast<std::size_t>(body)]](row - first, column - first);
+}
+
+void JointSweeps::find_contacts(std::vector<std::array<Index, 2>>& tie_ports) {
+  const Assembly& assembly = bodies_->assembly();
+  const std::size_t joints = assembly.joints.size();
+  contacts_.resize(joints);
+  const std::vector<Port>& ports = bodies_->ports();
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    const auto unknown = static_cast<std::size_t>(ports[i].unknown);
+    const std::size_t side = ports[i].side == PortSide::b ? 1 : 0;
+    if (unknown < 2 * joints)
+      contacts_[unknown / 2].ports[2 * side + unknown % 2] = static_cast<Index>(i);
+    else
+      tie_ports[unknown - 2 * joints][1 - side] = static_cast<Index>(i);
+  }
+  for (std::size_t j = 0; j < joints; ++j) {
+    Contact& contact = contacts_[j];
+    contact.body_a = assembly.joints[j].body_a;
+    contact.body_b = assembly.joints[j].body_b;
+    Eigen::Matrix2d W;
+    for (const Index r : {0, 1})
+      for (const Index c : {0, 1})
+        W(r, c) = answer(contact.body_a, contact.ports[static_cast<std::size_t>(r)],
+                         contact.ports[static_cast<std::size_t>(c)]) +
+                  answer(contact.body_b, contact.ports[static_cast<std::size_t>(2 + r)],
+                         contact.ports[static_cast<std::size_t>(2 + c)]);
+    contact.stiffness = W.inverse();
+  }
+}
+
+void JointSweeps::pair_ties(const std::vector<std::array<Index, 2>>& tie_ports) {
+  for (std::size_t i = 0; i + 1 < tie_ports.size(); ++i) {
+    const Tie &tie = bodies_->assembly().ties[i], &next = bodies_->assembly().ties[i + 1];
+    TieEquation equation{
+        {tie_ports[i][0], tie_ports[i][1], tie_ports[i + 1][0], tie_ports[i + 1][1]},
+        {tie.body_top, tie.body_bottom, next.body_top, next.body_bottom},
+        0.0};
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = 0; b < 4; ++b)
+        if (equation.bodies[a] == equation.bodies[b])
+          equation.compliance += tie_signs[a] * tie_signs[b] *
+                                 answer(equation.bodies[a], equation.ports[a], equation.ports[b]);
+    ties_.push_back(equation);
+  }
+}
+
+void JointSweeps::start(const JointStep& step, VectorXd reactions, const VectorXd& tie_forces) {
+  reactions_ = std::move(reactions);
+  states_ = step.states;
+  between_ties_ = VectorXd::Zero(static_cast<Index>(ties_.size()));
+  double sum = 0.0;  // an equation's force acts on its own tie and, the other way, on the next
+  for (Index i = 0; i < between_ties_.size(); ++i) between_ties_(i) = sum += tie_forces(i);
+  p_ = bodies_->port_displacements(displacements(step));
+}
+
+VectorXd JointSweeps::tie_forces() const {
+  VectorXd forces = VectorXd::Zero(static_cast<Index>(bodies_->assembly().ties.size()));
+  for (Index i = 0; i < between_ties_.size(); ++i) {
+    forces(i) += between_ties_(i);
+    forces(i + 1) -= between_ties_(i);
+  }
+  return forces;
+}
+
+void JointSweeps::push(int body, Index port, double force) {
+  const MatrixXd& answers = port_answers_[class_of_[static_cast<std::size_t>(body)]];
+  const Index first = bodies_->first_port(body);
+  p_.segment(first, answers.rows()) += force * answers.col(port - first);
+}
+
+double JointSweeps::opening(const TieEquation& tie) const {
+  double difference = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) difference += tie_signs[k] * p_(tie.ports[k]);
+  return difference;
+}
+
+bool JointSweeps::sweep(const JointStep& step) {
+  bool changed = false;
+  for (std::size_t j = 0; j < contacts_.size(); ++j) {
+    const Contact& contact = contacts_[j];
+    const auto row = static_cast<Index>(2 * j);
+    const Local gap = step.predicted.segment<2>(row) - step.held_at.segment<2>(row) +
+                      Local(p_(contact.ports[2]) - p_(contact.ports[0]),
+                            p_(contact.ports[3]) - p_(contact.ports[1]));
+    const Local old = reactions_.segment<2>(row);
+    const Local free = old - contact.stiffness * gap;
+    const SingleJoint found =
+        solve_single_joint(contact.stiffness, free, Local::Zero(), step.laws[j]);
+    const Local now = free + contact.stiffness * found.y;
+    for (const Index c : {0, 1}) {
+      push(contact.body_a, contact.ports[static_cast<std::size_t>(c)], old(c) - now(c));
+      push(contact.body_b, contact.ports[static_cast<std::size_t>(2 + c)], now(c) - old(c));
+    }
+    reactions_.segment<2>(row) = now;
+    changed = changed || found.state != states_[j];
+    states_[j] = found.state;
+  }
+  for (std::size_t i = 0; i < ties_.size(); ++i) {
+    const double force = -opening(ties_[i]) / ties_[i].compliance;
+    for (std::size_t k = 0; k < 4; ++k)
+      push(ties_[i].bodies[k], ties_[i].ports[k], tie_signs[k] * force);
+    between_ties_(static_cast<Index>(i)) += force;
+  }
+  return changed;
+}
+
+VectorXd JointSweeps::gaps(const JointStep& step) const {
+  VectorXd gaps = step.predicted;
+  for (std::size_t j = 0; j < contacts_.size(); ++j)
+    for (const std::size_t c : {0U, 1U})
+      gaps(static_cast<Index>(2 * j + c)) +=
+          p_(contacts_[j].ports[2 + c]) - p_(contacts_[j].ports[c]);
+  return gaps;
+}
+
+double JointSweeps::tie_gap() const {
+  double squared = 0.0;
+  for (const TieEquation& tie : ties_) squared += opening(tie) * opening(tie);
+  return std::sqrt(squared);
+}
+
+VectorXd JointSweeps::port_forces() const {
+  VectorXd t = VectorXd::Zero(static_cast<Index>(bodies_->ports().size()));
+  for (std::size_t j = 0; j < contacts_.size(); ++j)
+    for (const std::size_t c : {0U, 1U}) {
+      const double r = reactions_(static_cast<Index>(2 * j + c));
+      t(contacts_[j].ports[c]) = -r;
+      t(contacts_[j].ports[2 + c]) = r;
+    }
+  for (std::size_t i = 0; i < ties_.size(); ++i)
+    for (std::size_t k = 0; k < 4; ++k)
+      t(ties_[i].ports[k]) += tie_signs[k] * between_ties_(static_cast<Index>(i));
+  return t;
+}
+
+VectorXd JointSweeps::displacements(const JointStep& step) const {
+  const VectorXd load = step.forces + bodies_->port_forces_on_nodes(port_forces()) -
+                        bodies_->shifted_times(step.prescribed);
+  MatrixXd d = step.prescribed;
+  const auto dof = [&](int body) { return bodies_->first_dof(body); };
+  for (std::size_t c = 0; c < inverses_.size(); ++c) {
+    const BodyClass& group = bodies_->classes()[c];
+    const Index rows = inverses_[c].rows();
+    scatter(gather(d, group, rows, dof) + inverses_[c] * gather(load, group, rows, dof), group, dof,
+            d);
+  }
+  return d;
+}
+
+}  // namespace havers::sim

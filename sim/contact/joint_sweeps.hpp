@@ -1,0 +1,63 @@
+// Sweeps over all joints of a step, each solved alone: a solver of their own, and a way to find the
+// states.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sim/contact/joint_step.hpp"
+
+namespace havers::sim {
+
+/// Keeps the bodies' answers to forces at their ports. The ties are n − 1 equations between
+/// neighbouring ones, solved in turn like the joints.
+class JointSweeps {
+ public:
+  explicit JointSweeps(const Bodies& bodies);
+
+  /// Starts from given reactions of the joints and forces of the ties. [N/m]
+  void start(const JointStep& step, Eigen::VectorXd reactions, const Eigen::VectorXd& tie_forces);
+  /// One sweep; returns whether a joint's state changed.
+  bool sweep(const JointStep& step);
+
+  [[nodiscard]] const Eigen::VectorXd& reactions() const { return reactions_; }  ///< [N/m]
+  [[nodiscard]] const std::vector<JointState>& states() const { return states_; }
+  [[nodiscard]] Eigen::VectorXd tie_forces() const;                 ///< [N/m]
+  [[nodiscard]] Eigen::VectorXd gaps(const JointStep& step) const;  ///< [m]
+  /// How far the ties' points are from the height that they should share, all together. [m]
+  [[nodiscard]] double tie_gap() const;
+  [[nodiscard]] Eigen::VectorXd displacements(const JointStep& step) const;  ///< δ. [m]
+
+ private:
+  /// What one joint needs: its ports (side a: normal, tangential; side b likewise) and 1/W.
+  struct Contact {
+    std::array<Eigen::Index, 4> ports{};
+    int body_a = 0, body_b = 0;
+    Eigen::Matrix2d stiffness;  ///< (W_aa + W_bb)⁻¹. [N/m²]
+  };
+  /// Two neighbouring ties: top and bottom port of either.
+  struct TieEquation {
+    std::array<Eigen::Index, 4> ports{};
+    std::array<int, 4> bodies{};
+    double compliance = 0.0;  ///< [m²/N]
+  };
+
+  void find_contacts(std::vector<std::array<Eigen::Index, 2>>& tie_ports);
+  void pair_ties(const std::vector<std::array<Eigen::Index, 2>>& tie_ports);
+  [[nodiscard]] double answer(int body, Eigen::Index row, Eigen::Index column) const;
+  void push(int body, Eigen::Index port, double force);
+  [[nodiscard]] double opening(const TieEquation& tie) const;
+  [[nodiscard]] Eigen::VectorXd port_forces() const;
+
+  const Bodies* bodies_;
+  std::vector<Eigen::MatrixXd> inverses_;      // Ā⁻¹ of each class, zero where held
+  std::vector<Eigen::MatrixXd> port_answers_;  // B Ā⁻¹ Bᵀ of each class
+  std::vector<std::size_t> class_of_;          // of each body
+  std::vector<Contact> contacts_;
+  std::vector<TieEquation> ties_;
+  Eigen::VectorXd reactions_, between_ties_;  // forces of joints and of tie equations
+  Eigen::VectorXd p_;                         // port displacements
+  std::vector<JointState> states_;
+};
+
+}  // namespace havers::sim

@@ -1,0 +1,33 @@
+// Steps in which many joints move: sets of states, each one sparse factor, with sweeps in between.
+#pragma once
+
+#include <optional>
+
+#include "sim/contact/joint_sweeps.hpp"
+
+namespace havers::sim {
+
+/// Every set of states is a structure that holds what sticks, slides along what slips and leaves
+/// what is open (S5); the friction of sliding joints comes by the corrections of (S6). Where an
+/// answer breaks the law of a joint, sweeps over all joints (C6) say which set to take next. Sweeps
+/// see one joint's neighbours, a factor sees all: together they are quick while h c/L is not large.
+class SetSearch {
+ public:
+  explicit SetSearch(const Bodies& bodies);
+
+  /// `converged` is false where a handful of sets did not do; the answer is then worthless.
+  JointStepResult solve(const JointStep& step);
+
+ private:
+  void take(const std::vector<JointState>& states);
+  StructureResponse answer(const JointStep& step, const std::vector<JointState>& states) const;
+  int look_for_states(const JointStep& step, const StructureResponse& from,
+                      std::vector<JointState>& states);
+
+  const Bodies* bodies_;
+  JointSweeps sweeps_;
+  std::optional<Structure> structure_;  // of the last set
+  Eigen::VectorXd stiffness_;
+};
+
+}  // namespace havers::sim
