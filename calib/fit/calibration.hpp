@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -81,6 +82,7 @@ struct StageLog {
   double cost_before = 0.0, cost_after = 0.0;
   int evaluations = 0;
   std::string message{};
+  double wall_seconds = std::numeric_limits<double>::quiet_NaN();  ///< NaN where not recorded. [s]
 };
 
 struct CalibrationResult {

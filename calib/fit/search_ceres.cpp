@@ -19,6 +19,7 @@ SearchResult search_ceres(Trail& trail, const Evaluation& start, const Active& a
                 .cost_after = start.cost};
   if (start.failed || active.empty() || trail.stopped()) return result;
   const int points_before = trail.points();
+  const double seconds_before = trail.wall_seconds();
 
   const auto& unknowns = trail.problem().unknowns;
   const auto count = static_cast<Eigen::Index>(active.size());
@@ -45,6 +46,7 @@ SearchResult search_ceres(Trail& trail, const Evaluation& start, const Active& a
       {.step = slope_step, .cost_tolerance = std::min(cost_tolerance / start.cost, 0.1)});
   result.log.cost_after = result.best.cost;
   result.log.evaluations = trail.points() - points_before;
+  result.log.wall_seconds = trail.wall_seconds() - seconds_before;
   result.log.message = end.message;
   return result;
 }

@@ -92,6 +92,7 @@ SearchResult search_nlopt(Trail& trail, const Evaluation& start, const Split& sp
   SearchResult result{.best = start};
   result.log = {.optimiser = quadratic ? "NLopt BOBYQA" : "NLopt Sbplx", .cost_before = start.cost};
   const int points_before = trail.points();
+  const double seconds_before = trail.wall_seconds();
   if (split.costly.empty()) return result;
 
   nlopt::opt optimiser(quadratic ? nlopt::LN_BOBYQA : nlopt::LN_SBPLX,
@@ -112,6 +113,7 @@ SearchResult search_nlopt(Trail& trail, const Evaluation& start, const Split& sp
   result.best = objective.best;
   result.log.cost_after = result.best.cost;
   result.log.evaluations = trail.points() - points_before;
+  result.log.wall_seconds = trail.wall_seconds() - seconds_before;
   return result;
 }
 

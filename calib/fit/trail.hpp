@@ -1,6 +1,7 @@
 // Every point that a calibration evaluates, and the best of them.
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,7 @@ class Trail {
   [[nodiscard]] const Evaluation& best() const { return best_; }
   [[nodiscard]] int replicates() const { return replicates_; }
   [[nodiscard]] int points() const { return points_; }
+  [[nodiscard]] double wall_seconds() const;  ///< Since the search began. [s]
   [[nodiscard]] bool cancelled() const { return cancelled_; }
   [[nodiscard]] bool budget_spent() const { return budget_spent_; }
   [[nodiscard]] bool stopped() const { return cancelled_ || (budget_spent_ && !budget_lifted_); }
@@ -55,6 +57,7 @@ class Trail {
   std::string stage_;
   int replicates_ = 1;
   int points_ = 0;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   bool cancelled_ = false, budget_spent_ = false, budget_lifted_ = false;
 };
 

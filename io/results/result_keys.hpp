@@ -158,6 +158,7 @@ void keys(Table& table, calib::StageLog& stage) {
   table.key("cost_after", stage.cost_after);
   table.key("evaluations", stage.evaluations);
   table.key("message", stage.message);
+  table.key("wall_s", stage.wall_seconds);
 }
 
 template <class Table>

@@ -125,6 +125,7 @@ mstch::array stage_rows(const std::vector<calib::StageLog>& stages) {
                                  {"before", text(number(stage.cost_before))},
                                  {"after", text(number(stage.cost_after))},
                                  {"evaluations", text(std::to_string(stage.evaluations))},
+                                 {"wall", text(duration(stage.wall_seconds))},
                                  {"message", text(stage.message)}});
   return rows;
 }

@@ -92,6 +92,7 @@ TEST(FitPage, ShowsEverySpecimenParameterCheckAndStage) {
     EXPECT_TRUE(contains(page, parameter.name));
   for (const auto& check : sample.result.verdict) EXPECT_TRUE(contains(page, check.text));
   for (const auto& stage : sample.result.stages) EXPECT_TRUE(contains(page, stage.optimiser));
+  for (const char* wall : {"21.4\u00a0s", "6.25\u00a0s"}) EXPECT_TRUE(contains(page, wall)) << wall;
   EXPECT_TRUE(contains(page, sample.result.parameters.back().left_out_because));
   EXPECT_TRUE(contains(page, "38.2\u00a0s wall time"));
   EXPECT_TRUE(contains(page, "data:image/png;base64,iVBORw0KGgo"));

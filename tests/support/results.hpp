@@ -168,8 +168,9 @@ inline FitSample fit_sample() {
   }
   r.specimens[1].failed_simulations = 12;
   r.specimens[4].measured.warnings = {"The force channel is coarse: 0.5 N per step."};
-  r.stages = {{"NLopt BOBYQA", 1204.5, 8.31, 214, "parameters changed by less than 1e-4"},
-              {"Ceres Levenberg-Marquardt", 8.31, 7.942, 48, "the cost changed by less than 1e-8"}};
+  r.stages = {
+      {"NLopt BOBYQA", 1204.5, 8.31, 214, "parameters changed by less than 1e-4", 21.4},
+      {"Ceres Levenberg-Marquardt", 8.31, 7.942, 48, "the cost changed by less than 1e-8", 6.25}};
   r.left_out = {{"ratio", "no specimen informs it"}, {"time steps", "the loading is quasi-static"}};
   r.cost = 7.942;
   r.evaluations = 4128;

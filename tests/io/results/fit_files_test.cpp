@@ -67,6 +67,7 @@ TEST(FitFolder, GivesBackTheWholeResult) {
   EXPECT_EQ(again.result.parameters.at(0).interval_95[1], 13.2974);
   EXPECT_TRUE(std::isnan(again.result.parameters.at(2).standard_error));
   EXPECT_EQ(again.result.stages.at(1).optimiser, "Ceres Levenberg-Marquardt");
+  EXPECT_EQ(again.result.stages.at(1).wall_seconds, 6.25);
   EXPECT_EQ(again.study.specimens.at(0).sections.at(0).pore_area, 3.1e-7);
 }
 
