@@ -101,7 +101,7 @@ LocalContactResult try_sets(const LocalContact& p, States states, int max_iterat
   std::set<States> tried;
   while (result.iterations < max_iterations && tried.insert(states).second) {
     ++result.iterations;
-    result.y = StateSystem(p, states).solve(p.r0, -p.u0, cohesions(p));
+    result.y = StateSystem(p, states).solve(p.r0, -p.u0, cohesions(p)).y;
     if (!result.y.allFinite()) break;
     States wanted = states_of(p, result.y, states);
     result.converged = wanted == states;
@@ -133,7 +133,9 @@ LocalContactResult solve_local_contact(const LocalContact& problem, States state
   States stuck(problem.laws.size(), JointState::stick);
   for (std::size_t i = 0; i < stuck.size(); ++i)
     if (problem.is_apart(i)) stuck[i] = JointState::open;
-  result = follow_release(problem, stuck, cohesion_to_stick(problem));
+  StateSystem system(problem, stuck);
+  result =
+      follow_release(system, cohesion_to_stick(problem.r0 - problem.S * problem.u0, problem.laws));
   result.iterations += spent;
   if (!result.converged) search();
   return result;

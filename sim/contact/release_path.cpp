@@ -28,18 +28,17 @@ struct Branch {
   double force_tolerance = 0.0;  // [N/m]
 };
 
-Branch solve_branch(const LocalContact& p, const States& states, const VectorXd& extra,
-                    double part) {
+Branch solve_branch(const StateSystem& system, const VectorXd& extra, double part) {
+  const LocalContact& p = system.problem();
   const auto n = static_cast<Index>(p.laws.size());
-  const StateSystem system(p, states);
-  Branch branch{MatrixXd(2 * n, 2), MatrixXd(2 * n, 2), {}, part * p.r0.cwiseAbs().maxCoeff()};
-  branch.y.col(0) = system.solve(p.r0, -p.u0, cohesions(p));
-  branch.y.col(1) = system.solve(VectorXd::Zero(2 * n), VectorXd::Zero(2 * n), extra);
-  branch.r = p.S * branch.y;
-  branch.r.col(0) += p.r0;
-  branch.u = branch.y;
-  branch.u.col(0) += p.u0;
-  return branch;
+  MatrixXd r0 = MatrixXd::Zero(2 * n, 2), u0 = MatrixXd::Zero(2 * n, 2), cohesion(n, 2);
+  r0.col(0) = p.r0;
+  u0.col(0) = p.u0;
+  cohesion << cohesions(p), extra;
+  StateSolution solution = system.solve(r0, -u0, cohesion);
+  u0 += solution.y;
+  return {std::move(solution.y), std::move(solution.r), std::move(u0),
+          part * p.r0.lpNorm<Eigen::Infinity>()};
 }
 
 struct Change {
@@ -95,13 +94,12 @@ VectorXd cohesions(const LocalContact& p) {
   return c;
 }
 
-VectorXd cohesion_to_stick(const LocalContact& p) {
-  const VectorXd r = p.r0 - p.S * p.u0;
-  VectorXd extra(static_cast<Index>(p.laws.size()));
+VectorXd cohesion_to_stick(const VectorXd& reactions, const std::vector<JointLaw>& laws) {
+  VectorXd extra(static_cast<Index>(laws.size()));
   for (Index i = 0; i < extra.size(); ++i) {
-    const JointLaw& law = p.laws[static_cast<std::size_t>(i)];
-    const double need =
-        std::abs(r(2 * i + 1)) / std::max(law.friction, 1e-3) - r(2 * i) - law.cohesion;
+    const JointLaw& law = laws[static_cast<std::size_t>(i)];
+    const double need = std::abs(reactions(2 * i + 1)) / std::max(law.friction, 1e-3) -
+                        reactions(2 * i) - law.cohesion;
     extra(i) = std::max(0.0, 1.01 * need);
   }
   return extra;
@@ -109,42 +107,42 @@ VectorXd cohesion_to_stick(const LocalContact& p) {
 
 namespace {
 
-LocalContactResult follow(const LocalContact& problem, States states, const VectorXd& extra,
-                          double part) {
+LocalContactResult follow(StateSystem& system, const VectorXd& extra, double part) {
   LocalContactResult result;
   double lambda = 1.0;
   std::set<States> met;  // at this λ
   for (;;) {
     ++result.iterations;
-    const Branch branch = solve_branch(problem, states, extra, part);
+    const Branch branch = solve_branch(system, extra, part);
     if (!branch.y.allFinite()) break;
     result.y = branch.y.col(0);
     Change next;
-    for (std::size_t j = 0; j < states.size(); ++j) {
-      const Change change =
-          next_change(problem, branch, j, states[j], extra(static_cast<Index>(j)), lambda);
+    for (std::size_t j = 0; j < system.states().size(); ++j) {
+      const Change change = next_change(system.problem(), branch, j, system.states()[j],
+                                        extra(static_cast<Index>(j)), lambda);
       if (change.at > next.at) next = change;
     }
     result.converged = next.at < 0.0;
     if (result.converged) break;
     if (next.at < lambda) met.clear();
-    if (!met.insert(states).second)
+    if (!met.insert(system.states()).second)
       break;  // the same states again without having moved: the path turns back
     lambda = next.at;
-    states[next.joint] = next.to;
+    system.set(next.joint, next.to);
   }
-  result.states = std::move(states);
+  result.states = system.states();
   return result;
 }
 
 }  // namespace
 
-LocalContactResult follow_release(const LocalContact& problem, const States& states,
-                                  const VectorXd& extra) {
+LocalContactResult follow_release(StateSystem& system, const VectorXd& extra) {
+  const States start = system.states();
   LocalContactResult result;
   int spent = 0;
   for (const double part : nothing) {
-    result = follow(problem, states, extra, part);
+    system.set(start);
+    result = follow(system, extra, part);
     spent += result.iterations;
     if (result.converged) break;
   }

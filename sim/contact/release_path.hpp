@@ -2,22 +2,21 @@
 #pragma once
 
 #include "sim/contact/local_contact.hpp"
+#include "sim/contact/state_system.hpp"
 
 namespace havers::sim {
 
-/// Follows the solution of `problem` with cohesions c + λ e from λ = 1, where `states` hold, to λ =
-/// 0 (C5). For given states the solution is linear in λ; one joint changes its state at a time,
-/// where its condition says so. Not converged when the path turns back, which friction allows.
+/// Follows the solution with cohesions c + λ e from λ = 1, where the system's states hold, to λ = 0
+/// (C5). For given states the solution is linear in λ; one joint changes its state at a time, where
+/// its condition says so. Not converged when the path turns back, which friction allows.
 /// @param extra  e of each joint, n. [N/m]
-LocalContactResult follow_release(const LocalContact& problem,
-                                  const std::vector<JointState>& states,
-                                  const Eigen::VectorXd& extra);
+LocalContactResult follow_release(StateSystem& system, const Eigen::VectorXd& extra);
 
 /// c of every joint, n. [N/m]
 Eigen::VectorXd cohesions(const LocalContact& problem);
 
-/// e that lets every joint stick in the answer to y = −u₀: where a path can start when nothing
-/// better is known. [N/m]
-Eigen::VectorXd cohesion_to_stick(const LocalContact& problem);
+/// e that lets joints with these reactions stick: where a path can start. [N/m]
+Eigen::VectorXd cohesion_to_stick(const Eigen::VectorXd& reactions,
+                                  const std::vector<JointLaw>& laws);
 
 }  // namespace havers::sim

@@ -1,9 +1,13 @@
 #include "sim/contact/state_system.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace havers::sim {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -12,6 +16,8 @@ namespace {
 // and a few corrections take the trace's effect on everything else away.
 constexpr double trace = 1e-8;
 constexpr int corrections = 3;
+constexpr double accuracy = 1e-14;
+constexpr int most_updates = 100;  // until rounding has to be cleared away
 
 double friction_slope(JointState state, const JointLaw& law) {
   if (state == JointState::slip_forward) return law.friction;
@@ -21,54 +27,166 @@ double friction_slope(JointState state, const JointLaw& law) {
 
 }  // namespace
 
-StateSystem::StateSystem(const LocalContact& problem, const std::vector<JointState>& states)
-    : problem_(&problem) {
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const auto row = static_cast<Index>(2 * i);
-    if (states[i] == JointState::open) {
-      unknown_.push_back(row);
-      slope_.push_back(0.0);
-    }
-    if (states[i] != JointState::stick) {
-      unknown_.push_back(row + 1);
-      slope_.push_back(friction_slope(states[i], problem.laws[i]));
-    }
-  }
-  const auto n = static_cast<Index>(unknown_.size());
-  if (n == 0) return;
-  matrix_.resize(n, n);
-  for (Index k = 0; k < n; ++k) {
-    const Index row = unknown_[static_cast<std::size_t>(k)];
-    matrix_.row(k) = problem.S(row, unknown_);
-    const double slope = slope_[static_cast<std::size_t>(k)];
-    if (slope != 0.0) matrix_.row(k) += slope * problem.S(row - 1, unknown_);
-  }
-  MatrixXd held = matrix_;
-  held.diagonal() *= 1.0 + trace;
-  factor_.compute(held);
+StateSystem::StateSystem(const LocalContact& problem) : problem_(&problem) {
+  grow();
 }
 
-VectorXd StateSystem::solve(const VectorXd& r0, const VectorXd& held,
-                            const VectorXd& cohesion) const {
-  VectorXd y = held;
-  if (unknown_.empty()) return y;
-  for (const Index row : unknown_) y(row) = 0.0;
-  const VectorXd r = r0 + problem_->S * y;
-  VectorXd b(static_cast<Index>(unknown_.size()));
-  for (Index k = 0; k < b.size(); ++k) {
-    const Index row = unknown_[static_cast<std::size_t>(k)];
-    const double slope = slope_[static_cast<std::size_t>(k)];
-    b(k) = -r(row);
-    if (row % 2 == 0) b(k) -= cohesion(row / 2);
-    if (slope != 0.0) b(k) -= slope * (r(row - 1) + cohesion(row / 2));
+StateSystem::StateSystem(const LocalContact& problem, const std::vector<JointState>& states)
+    : StateSystem(problem) {
+  set(states);
+}
+
+void StateSystem::grow() {
+  states_.resize(problem_->laws.size(), JointState::stick);
+  place_.resize(2 * problem_->laws.size(), -1);
+}
+
+RowVectorXd StateSystem::coefficients(const Equation& equation) const {
+  const auto n = static_cast<Index>(equations_.size());
+  RowVectorXd row(n);
+  for (Index k = 0; k < n; ++k) {
+    const Index column = equations_[static_cast<std::size_t>(k)].row;
+    row(k) = problem_->S(equation.row, column);
+    if (equation.slope != 0.0) row(k) += equation.slope * problem_->S(equation.row - 1, column);
+    if (column == equation.row) row(k) *= 1.0 + trace;
   }
-  VectorXd x = factor_.solve(b);
-  for (int i = 0; i < corrections; ++i) {
-    const VectorXd missing = b - matrix_ * x;
-    x += factor_.solve(missing);
+  return row;
+}
+
+void StateSystem::factorise() {
+  const auto n = static_cast<Index>(equations_.size());
+  MatrixXd matrix(n, n);
+  for (Index k = 0; k < n; ++k)
+    matrix.row(k) = coefficients(equations_[static_cast<std::size_t>(k)]);
+  if (inverse_.rows() < n) inverse_.resize(n, n);
+  if (n > 0) inverse_.topLeftCorner(n, n) = matrix.partialPivLu().inverse();
+  updates_ = 0;
+}
+
+// Bordering: one equation and its unknown more.
+void StateSystem::add(Index row, double slope) {
+  const auto n = static_cast<Index>(equations_.size());
+  const RowVectorXd last = coefficients({row, slope});
+  VectorXd column(n);
+  for (Index k = 0; k < n; ++k) {
+    const Equation& equation = equations_[static_cast<std::size_t>(k)];
+    column(k) = problem_->S(equation.row, row);
+    if (equation.slope != 0.0) column(k) += equation.slope * problem_->S(equation.row - 1, row);
   }
-  y(unknown_) = x;
-  return y;
+  place_[static_cast<std::size_t>(row)] = n;
+  equations_.push_back({row, slope});
+  if (inverse_.rows() <= n) inverse_.conservativeResize(2 * n + 8, 2 * n + 8);
+  const RowVectorXd left = last * inverse_.topLeftCorner(n, n);
+  const VectorXd right = inverse_.topLeftCorner(n, n) * column;
+  double diagonal = problem_->S(row, row);
+  if (slope != 0.0) diagonal += slope * problem_->S(row - 1, row);
+  const double pivot = diagonal * (1.0 + trace) - last.dot(right);
+  inverse_.topLeftCorner(n, n) += right / pivot * left;
+  inverse_.block(0, n, n, 1) = -right / pivot;
+  inverse_.block(n, 0, 1, n) = -left / pivot;
+  inverse_(n, n) = 1.0 / pivot;
+  ++updates_;
+}
+
+void StateSystem::remove(Index row) {
+  const Index gone = place_[static_cast<std::size_t>(row)];
+  const auto last = static_cast<Index>(equations_.size()) - 1;
+  auto used = inverse_.topLeftCorner(last + 1, last + 1);
+  used.col(gone).swap(used.col(last));
+  used.row(gone).swap(used.row(last));
+  place_[static_cast<std::size_t>(equations_.back().row)] = gone;
+  place_[static_cast<std::size_t>(row)] = -1;
+  equations_[static_cast<std::size_t>(gone)] = equations_.back();
+  equations_.pop_back();
+  const VectorXd column = used.col(last).head(last) / used(last, last);
+  const RowVectorXd below = used.row(last).head(last);
+  used.topLeftCorner(last, last) -= column * below;
+  ++updates_;
+}
+
+// Another slope of an equation: Sherman and Morrison's formula.
+void StateSystem::incline(Index row, double slope) {
+  const Index place = place_[static_cast<std::size_t>(row)];
+  Equation& equation = equations_[static_cast<std::size_t>(place)];
+  if (equation.slope == slope) return;
+  const auto n = static_cast<Index>(equations_.size());
+  const RowVectorXd before = coefficients(equation);
+  equation.slope = slope;
+  auto used = inverse_.topLeftCorner(n, n);
+  const RowVectorXd change = (coefficients(equation) - before) * used;
+  const VectorXd column = used.col(place) / (1.0 + change(place));
+  used -= column * change;
+  ++updates_;
+}
+
+void StateSystem::set(std::size_t joint, JointState state) {
+  const auto normal = static_cast<Index>(2 * joint), tangent = normal + 1;
+  const double slope = friction_slope(state, problem_->laws[joint]);
+  const auto has = [&](Index row) { return place_[static_cast<std::size_t>(row)] >= 0; };
+  states_[joint] = state;
+  if (has(normal) && state != JointState::open) remove(normal);
+  if (has(tangent) && state == JointState::stick) remove(tangent);
+  if (has(tangent)) incline(tangent, slope);
+  if (!has(tangent) && state != JointState::stick) add(tangent, slope);
+  if (!has(normal) && state == JointState::open) add(normal, 0.0);
+  const auto n = static_cast<Index>(equations_.size());
+  if (updates_ > most_updates || !inverse_.topLeftCorner(n, n).allFinite()) factorise();
+}
+
+void StateSystem::set(const std::vector<JointState>& states) {
+  std::vector<std::size_t> changed;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (states[i] != states_[i]) changed.push_back(i);
+  if (4 * changed.size() < equations_.size()) {
+    for (const std::size_t i : changed) set(i, states[i]);
+    return;
+  }
+  states_ = states;
+  equations_.clear();
+  std::fill(place_.begin(), place_.end(), -1);
+  const auto include = [&](Index row, double slope) {
+    place_[static_cast<std::size_t>(row)] = static_cast<Index>(equations_.size());
+    equations_.push_back({row, slope});
+  };
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const auto row = static_cast<Index>(2 * i);
+    if (states[i] == JointState::open) include(row, 0.0);
+    if (states[i] != JointState::stick)
+      include(row + 1, friction_slope(states[i], problem_->laws[i]));
+  }
+  factorise();
+}
+
+// What the reactions lack in the equations.
+MatrixXd StateSystem::missing(const MatrixXd& r, const MatrixXd& cohesion) const {
+  MatrixXd b(static_cast<Index>(equations_.size()), r.cols());
+  for (Index k = 0; k < b.rows(); ++k) {
+    const auto& [row, slope] = equations_[static_cast<std::size_t>(k)];
+    b.row(k) = -r.row(row);
+    if (row % 2 == 0) b.row(k) -= cohesion.row(row / 2);
+    if (slope != 0.0) b.row(k) -= slope * (r.row(row - 1) + cohesion.row(row / 2));
+  }
+  return b;
+}
+
+StateSolution StateSystem::solve(const MatrixXd& r0, const MatrixXd& held,
+                                 const MatrixXd& cohesion) const {
+  StateSolution solution{held, {}};
+  for (const Equation& equation : equations_) solution.y.row(equation.row).setZero();
+  solution.r = r0 + problem_->S * solution.y;
+  const auto n = static_cast<Index>(equations_.size());
+  double before = 0.0;
+  for (int i = 0; i <= corrections && n > 0; ++i) {
+    const MatrixXd b = missing(solution.r, cohesion);
+    const double size = b.norm();
+    if (i == 0) before = size;
+    if (size <= accuracy * before) break;
+    const MatrixXd x = inverse_.topLeftCorner(n, n) * b;
+    for (Index k = 0; k < n; ++k)
+      solution.y.row(equations_[static_cast<std::size_t>(k)].row) += x.row(k);
+    solution.r = r0 + problem_->S * solution.y;
+  }
+  return solution;
 }
 
 }  // namespace havers::sim

@@ -2,28 +2,59 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <vector>
 
 #include "sim/contact/local_contact.hpp"
 
 namespace havers::sim {
 
+/// Gaps and reactions for given states; one load a column.
+struct StateSolution {
+  Eigen::MatrixXd y;  ///< [m]
+  Eigen::MatrixXd r;  ///< [N/m]
+};
+
 /// (C2): gaps are held where a joint sticks, along the normal also where it slips; for each other
-/// gap one equation, no force beyond −c where open, friction on the cone where slipping. Factorised
-/// once for several loads.
+/// gap one equation, no force beyond −c where open, friction on the cone where slipping. A change
+/// of one state is an update of the inverse.
 class StateSystem {
  public:
+  /// The problem may change its loads and laws' cohesions, and get more joints (see `grow`).
+  explicit StateSystem(const LocalContact& problem);
   StateSystem(const LocalContact& problem, const std::vector<JointState>& states);
 
-  /// y for free reactions `r0` [N/m], gaps `held` where they are held [m] and cohesions c [N/m].
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& r0, const Eigen::VectorXd& held,
-                                      const Eigen::VectorXd& cohesion) const;
+  [[nodiscard]] const LocalContact& problem() const { return *problem_; }
+  [[nodiscard]] const std::vector<JointState>& states() const { return states_; }
+
+  /// Takes note of joints that the problem has got; they stick.
+  void grow();
+  void set(std::size_t joint, JointState state);
+  void set(const std::vector<JointState>& states);
+
+  /// For free reactions `r0` [N/m], gaps `held` where they are held [m] and cohesions c [N/m].
+  [[nodiscard]] StateSolution solve(const Eigen::MatrixXd& r0, const Eigen::MatrixXd& held,
+                                    const Eigen::MatrixXd& cohesion) const;
 
  private:
+  struct Equation {
+    Eigen::Index row;
+    double slope;  // r_T = −slope (r_N + c)
+  };
+
+  void factorise();
+  void add(Eigen::Index row, double slope);
+  void remove(Eigen::Index row);
+  void incline(Eigen::Index row, double slope);
+  [[nodiscard]] Eigen::RowVectorXd coefficients(const Equation& equation) const;
+  [[nodiscard]] Eigen::MatrixXd missing(const Eigen::MatrixXd& r,
+                                        const Eigen::MatrixXd& cohesion) const;
+
   const LocalContact* problem_;
-  std::vector<Eigen::Index> unknown_;  // rows of y
-  std::vector<double> slope_;          // of each unknown: r_T = −slope (r_N + c)
-  Eigen::MatrixXd matrix_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> factor_;
+  std::vector<JointState> states_;
+  std::vector<Equation> equations_;
+  std::vector<Eigen::Index> place_;  // of each row's equation; −1: held
+  Eigen::MatrixXd inverse_;          // leading part in use
+  int updates_ = 0;                  // of the inverse since it was made
 };
 
 }  // namespace havers::sim

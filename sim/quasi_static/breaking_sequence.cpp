@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include "sim/contact/local_contact.hpp"
@@ -42,16 +43,19 @@ class BreakingRun {
 
  private:
   [[nodiscard]] double meets_cone_at(std::size_t joint) const;
+  void loosen(const std::vector<std::size_t>& breaking);
   [[nodiscard]] std::vector<char> apart() const;
 
   const Scene& scene_;
   std::shared_ptr<const IntactStructure> intact_;
   LooseJoints loose_;
-  std::vector<JointState> states_;  // of the loose joints
-  std::size_t settled_ = 0;         // of the loose joints, those that were loose before this event
-  VectorXd y_;                      // their gaps [m per unit strain]
-  VectorXd reactions_;              // for E = 1 and ε = 1 [N/m]
-  double force_;                    // likewise
+  LocalContact contact_;  // of the loose joints
+  StateSystem system_{contact_};
+  VectorXd extra_;      // cohesion by which those that have just broken bear what they bore [N/m]
+  VectorXd y_;          // gaps of the loose joints [m per unit strain]
+  VectorXd reactions_;  // for E = 1 and ε = 1 [N/m]
+  double force_;        // likewise
+  double noise_;        // what rounding leaves on an unloaded joint is not a load
 
  public:
   std::vector<JointOutcome> joints;
@@ -68,6 +72,7 @@ BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructu
              [this](int joint) { return intact_->respond_to_jump(joint); }),
       reactions_(intact_->answer().reactions),
       force_(intact_->answer().force),
+      noise_(1e-10 * intact_->answer().reactions.lpNorm<Eigen::Infinity>()),
       joints(initial_outcomes(draw_thresholds(scene, intact_->assembly()))) {}
 
 // ε = f_N μ_c / (|r_T| − μ_c r_N), section 6.
@@ -77,9 +82,7 @@ double BreakingRun::meets_cone_at(std::size_t joint) const {
   const JointLaw law = intact_law(joints[joint].threshold);
   const Local r = reactions_.segment<2>(static_cast<Index>(2 * joint));
   const double denominator = std::abs(r.y()) - law.friction * r.x();
-  // What rounding leaves on an unloaded joint is not a load.
-  const double noise = 1e-10 * intact_->answer().reactions.cwiseAbs().maxCoeff();
-  if (denominator <= noise * std::max(1.0, law.friction)) return never;
+  if (denominator <= noise_ * std::max(1.0, law.friction)) return never;
   return law.cohesion * law.friction / (scene_.material.young * denominator);
 }
 
@@ -96,83 +99,81 @@ void BreakingRun::break_joints(double event, double strain) {
   for (const std::size_t j : breaking) {
     joints[j].broken = true;
     joints[j].broken_at_strain = strain;
-    loose_.add(static_cast<int>(j));
-    states_.push_back(JointState::stick);
     ++broken;
   }
+  loosen(breaking);
+}
+
+void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {
+  const JointLaw law = broken_law(scene_.joints.friction);
+  const auto old = static_cast<Index>(loose_.size());
+  const auto n = old + static_cast<Index>(breaking.size());
+  contact_.r0.conservativeResize(2 * n);
+  extra_ = VectorXd::Zero(n);
+  for (Index i = old; i < n; ++i) {
+    const std::size_t joint = breaking[static_cast<std::size_t>(i - old)];
+    const auto row = static_cast<Index>(2 * joint);
+    loose_.add(static_cast<int>(joint));
+    contact_.r0.segment<2>(2 * i) = intact_->answer().reactions.segment<2>(row);
+    contact_.laws.push_back(law);
+    extra_.segment<1>(i) = cohesion_to_stick(reactions_.segment<2>(row), {law});
+  }
+  contact_.u0 = VectorXd::Zero(2 * n);
+  contact_.S = loose_.stiffness();
+  system_.grow();
 }
 
 // Loose joints at a body that no chain of bonded joints connects to an end: 1. Such a body carries
 // nothing, and without inertia its position is not determined, so neither is what it touches.
 std::vector<char> BreakingRun::apart() const {
   const Assembly& assembly = intact_->assembly();
-  std::vector<char> carried(assembly.bodies.size(), 0);
-  const auto touches = [](const Body& body, const std::vector<int>& side) {
-    return std::any_of(side.begin(), side.end(), [&](int node) {
-      return node >= body.first_node && node < body.first_node + body.nodes;
-    });
+  const std::size_t end = assembly.bodies.size();  // stands for both ends
+  std::vector<std::size_t> piece(end + 1);         // a body of the same piece; itself at its root
+  std::iota(piece.begin(), piece.end(), std::size_t{0});
+  const auto root = [&](std::size_t body) {
+    while (piece[body] != body) body = piece[body] = piece[piece[body]];
+    return body;
   };
-  for (std::size_t b = 0; b < carried.size(); ++b)
-    carried[b] =
-        touches(assembly.bodies[b], assembly.left) || touches(assembly.bodies[b], assembly.right)
-            ? 1
-            : 0;
-  for (bool grew = true; grew;) {
-    grew = false;
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      if (joints[j].broken) continue;
-      char& a = carried[static_cast<std::size_t>(assembly.joints[j].body_a)];
-      char& b = carried[static_cast<std::size_t>(assembly.joints[j].body_b)];
-      if (a == b) continue;
-      a = b = 1;
-      grew = true;
-    }
-  }
-  std::vector<char> apart(loose_.size(), 0);
-  for (std::size_t i = 0; i < apart.size(); ++i) {
-    const Joint& joint = assembly.joints[static_cast<std::size_t>(loose_.joints()[i])];
-    const bool both = carried[static_cast<std::size_t>(joint.body_a)] != 0 &&
-                      carried[static_cast<std::size_t>(joint.body_b)] != 0;
-    apart[i] = both ? 0 : 1;
+  for (const int body : intact_->held_bodies())
+    piece[root(static_cast<std::size_t>(body))] = root(end);
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (!joints[j].broken)
+      piece[root(static_cast<std::size_t>(assembly.joints[j].body_a))] =
+          root(static_cast<std::size_t>(assembly.joints[j].body_b));
+
+  std::vector<char> apart;
+  for (const int joint : loose_.joints()) {
+    const Joint& between = assembly.joints[static_cast<std::size_t>(joint)];
+    const bool carried = root(static_cast<std::size_t>(between.body_a)) == root(end) &&
+                         root(static_cast<std::size_t>(between.body_b)) == root(end);
+    apart.push_back(carried ? 0 : 1);
   }
   return apart;
 }
 
 // Only what has just broken is released; the others follow from where they are.
 bool BreakingRun::settle() {
-  const auto n = static_cast<Index>(loose_.size());
-  LocalContact contact{loose_.stiffness(), VectorXd(2 * n), VectorXd::Zero(2 * n),
-                       std::vector<JointLaw>(loose_.size(), broken_law(scene_.joints.friction)),
-                       apart()};
-  for (Index i = 0; i < n; ++i)
-    contact.r0.segment<2>(2 * i) = intact_->answer().reactions.segment<2>(
-        2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)]));
+  contact_.apart = apart();
   for (std::size_t i = 0; i < loose_.size(); ++i)
-    if (contact.apart[i] != 0) states_[i] = JointState::open;
-  LocalContact held = contact;  // as before the event: what has just broken bears what it bore then
-  for (Index i = 0; i < n; ++i)
-    held.r0.segment<2>(2 * i) =
-        reactions_.segment<2>(2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)]));
-  VectorXd extra = cohesion_to_stick(held);
-  extra.head(static_cast<Index>(settled_)).setZero();
-  LocalContactResult result = follow_release(contact, states_, extra);
+    if (contact_.is_apart(i) && system_.states()[i] != JointState::open)
+      system_.set(i, JointState::open);
+  LocalContactResult result = follow_release(system_, extra_);
   iterations += result.iterations;
   if (!result.converged) {
-    result = solve_local_contact(contact, result.states, scene_.solver.max_iterations);
+    result = solve_local_contact(contact_, result.states, scene_.solver.max_iterations);
     iterations += result.iterations;
   }
   if (!result.converged) {  // an answer without contact, counted and reported, instead of none
     ++without_contact;
-    contact.apart.assign(loose_.size(), 1);
+    contact_.apart.assign(loose_.size(), 1);
     result =
-        solve_local_contact(contact, std::vector<JointState>(loose_.size(), JointState::open), 1);
+        solve_local_contact(contact_, std::vector<JointState>(loose_.size(), JointState::open), 1);
   }
-  states_ = result.states;
-  settled_ = loose_.size();
+  system_.set(result.states);
   y_ = result.y;
   reactions_ = intact_->answer().reactions + loose_.reactions_to(y_);
   // By reciprocity the force at the end changes by r⁰·y/W.
-  force_ = intact_->answer().force + contact.r0.dot(y_) / intact_->assembly().width;
+  force_ = intact_->answer().force + contact_.r0.dot(y_) / intact_->assembly().width;
   return result.converged;
 }
 

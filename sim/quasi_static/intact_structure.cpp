@@ -1,5 +1,6 @@
 #include "sim/quasi_static/intact_structure.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <list>
 #include <mutex>
@@ -50,6 +51,15 @@ IntactStructure::IntactStructure(const AssemblyOptions& options, const Loading& 
     : assembly_(build_assembly(options, loading.lateral)),
       bodies_(assembly_, unit_material(material), quasi_static_shift(options), share),
       structure_(bodies_) {
+  const auto touches = [](const Body& body, const std::vector<int>& side) {
+    return std::any_of(side.begin(), side.end(), [&](int node) {
+      return node >= body.first_node && node < body.first_node + body.nodes;
+    });
+  };
+  for (std::size_t b = 0; b < assembly_.bodies.size(); ++b)
+    if (touches(assembly_.bodies[b], assembly_.left) ||
+        touches(assembly_.bodies[b], assembly_.right))
+      held_bodies_.push_back(static_cast<int>(b));
   if (structure_.ok())
     answer_ = stretch(structure_, Eigen::VectorXd::Zero(2 * structure_.joints()), 0.0);
 }

@@ -33,6 +33,8 @@ class IntactStructure {
   [[nodiscard]] const Bodies& bodies() const { return bodies_; }
   [[nodiscard]] const Structure& structure() const { return structure_; }
   [[nodiscard]] const UnitAnswer& answer() const { return answer_; }
+  /// Bodies with a node at one of the ends.
+  [[nodiscard]] const std::vector<int>& held_bodies() const { return held_bodies_; }
 
   /// Structure::respond_to_jump, remembered for later runs as long as memory allows. May be called
   /// by several threads.
@@ -43,6 +45,7 @@ class IntactStructure {
   Bodies bodies_;
   Structure structure_;
   UnitAnswer answer_;
+  std::vector<int> held_bodies_;
   mutable std::mutex mutex_;
   mutable std::map<int, Eigen::MatrixX2d> reactions_to_jump_;
 };

@@ -15,6 +15,15 @@ using States = std::vector<JointState>;
 
 constexpr int many = 1000;
 
+VectorXd sticking_cohesion(const LocalContact& problem) {
+  return cohesion_to_stick(problem.r0 - problem.S * problem.u0, problem.laws);
+}
+
+LocalContactResult release_from_sticking(const LocalContact& problem) {
+  StateSystem system(problem);
+  return follow_release(system, sticking_cohesion(problem));
+}
+
 bool is_among(const VectorXd& y, const std::vector<VectorXd>& solutions) {
   return std::any_of(solutions.begin(), solutions.end(), [&](const VectorXd& other) {
     return (other - y).norm() < 1e-7 * (1.0 + y.norm());
@@ -54,8 +63,7 @@ TEST_P(LocalContactProblems, AreSolvedAlongTheReleasePathToo) {
   int reached = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {
     const LocalContact problem = test::random_contact(joints, friction, seed);
-    const auto result = follow_release(problem, States(problem.laws.size(), JointState::stick),
-                                       cohesion_to_stick(problem));
+    const auto result = release_from_sticking(problem);
     if (!result.converged) continue;  // the path turned back
     ++reached;
     EXPECT_TRUE(test::keeps_law(problem, result.y, 1e-10)) << "seed " << seed;
@@ -157,8 +165,7 @@ TEST(ReleasePath, SaysWhenItTurnsBack) {
   int turned = 0;
   for (unsigned seed = 1; seed <= 200; ++seed) {
     const LocalContact problem = test::random_contact(3, 5.0, seed);
-    const auto result =
-        follow_release(problem, States(3, JointState::stick), cohesion_to_stick(problem));
+    const auto result = release_from_sticking(problem);
     if (!result.converged) ++turned;
   }
   EXPECT_GT(turned, 0);
@@ -167,7 +174,7 @@ TEST(ReleasePath, SaysWhenItTurnsBack) {
 TEST(ReleasePath, StartsWhereEveryJointSticks) {
   for (unsigned seed = 1; seed <= 50; ++seed) {
     LocalContact problem = test::random_contact(3, 0.4, seed);
-    const VectorXd extra = cohesion_to_stick(problem);
+    const VectorXd extra = sticking_cohesion(problem);
     for (std::size_t i = 0; i < 3; ++i)
       problem.laws[i].cohesion += extra(static_cast<Eigen::Index>(i));
     EXPECT_TRUE(test::keeps_law(problem, -problem.u0, 1e-12));
