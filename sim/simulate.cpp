@@ -77,6 +77,7 @@ Simulation simulate(const Scene& scene, const Observer& observer) {
                               ? simulate_quasi_static(scene, observer)
                               : simulate_dynamic(scene, observer);
   simulation.regime_ground = choice.ground;
+  simulation.tolerance = scene.solver.tolerance;
   summarise(simulation);
   simulation.left_out = left_out(scene, simulation);
   return simulation;

@@ -72,6 +72,7 @@ struct Simulation {
   long iterations = 0;             ///< Of the contact solver, all steps together.
   double energy_defect = 0.0;      ///< Largest relative defect of (M4) over the steps. [-]
   double worst_residual = 0.0;     ///< Largest (M11) over the steps. [-]
+  double tolerance = 0.0;          ///< Of the residual, as asked for. [-]
   double worst_penetration = 0.0;  ///< Largest −g. [m]
   int events_without_contact =
       0;  ///< Quasi-static: events whose contact had no solution and was left out.

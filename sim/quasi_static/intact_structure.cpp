@@ -49,7 +49,8 @@ UnitAnswer stretch(const Structure& structure, const Eigen::VectorXd& gaps, doub
 IntactStructure::IntactStructure(const AssemblyOptions& options, const Loading& loading,
                                  const Material& material, bool share)
     : assembly_(build_assembly(options, loading.lateral)),
-      bodies_(assembly_, unit_material(material), quasi_static_shift(options), share),
+      shift_(quasi_static_shift(options)),
+      bodies_(assembly_, unit_material(material), shift_, share),
       structure_(bodies_) {
   const auto touches = [](const Body& body, const std::vector<int>& side) {
     return std::any_of(side.begin(), side.end(), [&](int node) {
@@ -62,6 +63,18 @@ IntactStructure::IntactStructure(const AssemblyOptions& options, const Loading& 
       held_bodies_.push_back(static_cast<int>(b));
   if (structure_.ok())
     answer_ = stretch(structure_, Eigen::VectorXd::Zero(2 * structure_.joints()), 0.0);
+}
+
+// Without each body's own motion, which would leave few digits of a piece that swings.
+double IntactStructure::energy(const Eigen::VectorXd& q) const {
+  Eigen::VectorXd strained = q;
+  for (const Body& body : assembly_.bodies) {
+    Eigen::Map<Eigen::Matrix2Xd> nodes(strained.data() + 2 * body.first_node, 2, body.nodes);
+    const Eigen::Vector2d centre = nodes.rowwise().mean();
+    nodes.colwise() -= centre;
+  }
+  return 0.5 * (strained.dot(Eigen::VectorXd(bodies_.stiffness_times(strained))) +
+                shift_.alpha * bodies_.mass().dot(q.cwiseAbs2()));
 }
 
 JumpResponse IntactStructure::respond_to_jump(int joint) const {
@@ -82,9 +95,10 @@ JumpResponse IntactStructure::respond_to_jump(int joint) const {
 
 std::shared_ptr<const IntactStructure> intact_structure(const Scene& scene) {
   const AssemblyOptions& a = scene.assembly;
-  using Key = std::tuple<int, int, double, double, double, Lateral, double, Plane, bool>;
+  using Key = std::tuple<int, int, int, double, double, double, Lateral, double, Plane, bool>;
   const Key key{a.layers,
                 a.fibres,
+                a.refinement,
                 a.fibre_length,
                 a.fibre_height,
                 a.orientation,

@@ -33,6 +33,8 @@ class IntactStructure {
   [[nodiscard]] const Bodies& bodies() const { return bodies_; }
   [[nodiscard]] const Structure& structure() const { return structure_; }
   [[nodiscard]] const UnitAnswer& answer() const { return answer_; }
+  /// ½ qᵀĀq, of the bodies and of what holds loose ones. [J/m]
+  [[nodiscard]] double energy(const Eigen::VectorXd& q) const;
   /// Bodies with a node at one of the ends.
   [[nodiscard]] const std::vector<int>& held_bodies() const { return held_bodies_; }
 
@@ -42,6 +44,7 @@ class IntactStructure {
 
  private:
   Assembly assembly_;
+  Shift shift_;
   Bodies bodies_;
   Structure structure_;
   UnitAnswer answer_;

@@ -15,7 +15,8 @@ namespace {
 // Relative weight of the compatibility term: large enough that one or two corrections settle the
 // multipliers, small enough to leave the factor half of its digits.
 constexpr double relative_penalty = 1e7;
-constexpr double accuracy = 1e-12;
+constexpr double usual_accuracy = 1e-12;
+constexpr double accuracy_of_columns = 1e-16;  // wide cracks are sums of many that nearly cancel
 constexpr int max_solves = 8;
 constexpr int max_solves_with_friction = 40;
 
@@ -27,6 +28,7 @@ struct Structure::PortLoads {
   MatrixXd offsets;   // displacements that the ports have beyond those of their unknowns
   VectorXd friction;  // of each joint; empty: none
   double force_scale = 0.0;
+  double accuracy = 0.0;  // of the forces, relative
 };
 
 // Displacements, forces and compatibility multipliers at the ports of all bodies.
@@ -201,7 +203,7 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads) const {
     // The next correction is expected to shrink as this one did, but not by more than part of a
     // double's digits.
     const double shrinkage = std::max(state.correction / before, 1e-6);
-    if (!(state.correction * std::min(shrinkage, 1.0) > accuracy)) break;
+    if (!(state.correction * std::min(shrinkage, 1.0) > loads.accuracy)) break;
     if (state.solves > 3 && shrinkage > 0.5 && !rubs) break;
     before = state.correction;
     if (rubs) past.push_back(std::move(change));
@@ -225,7 +227,8 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
   const auto dof = [&](int body) { return bodies_->first_dof(body); };
   const auto port = [&](int body) { return bodies_->first_port(body); };
   const auto ports = static_cast<Index>(unknown_of_port_.size());
-  PortLoads at_ports{MatrixXd(ports, 1), MatrixXd(ports, 1), loads.friction, loads.force_scale};
+  PortLoads at_ports{MatrixXd(ports, 1), MatrixXd(ports, 1), loads.friction, loads.force_scale,
+                     usual_accuracy};
   MatrixXd displacements(bodies_->dofs(), 1);
 
   for (const BodyClass& group : bodies_->classes()) {  // (S3): condense the loads
@@ -267,7 +270,7 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
 
 JumpResponse Structure::respond_to_jump(int joint) const {
   const auto ports = static_cast<Index>(unknown_of_port_.size());
-  PortLoads loads{MatrixXd::Zero(ports, 2), MatrixXd::Zero(ports, 2), {}, 0.0};
+  PortLoads loads{MatrixXd::Zero(ports, 2), MatrixXd::Zero(ports, 2), {}, 0.0, accuracy_of_columns};
   for (const int component : {0, 1})
     loads.offsets(ports_of_[static_cast<std::size_t>(2 * joint + component)][1], component) = 1.0;
   const PortState state = solve_ports(loads);

@@ -171,6 +171,12 @@ TEST(Simulation, IsNotTrustedUnlessItsChecksHold) {
   EXPECT_TRUE(simulation.trusted());
   simulation.energy_defect = 1e-6;
   EXPECT_FALSE(simulation.trusted());
+  simulation.energy_defect = 0.0;
+  simulation.tolerance = 1e-8;
+  simulation.worst_residual = 1e-8;
+  EXPECT_TRUE(simulation.trusted());
+  simulation.worst_residual = 2e-8;
+  EXPECT_FALSE(simulation.trusted());
 }
 
 }  // namespace

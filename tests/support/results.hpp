@@ -216,6 +216,7 @@ inline sim::Simulation simulation_sample(const sim::Assembly& assembly) {
   s.steps = 400;
   s.iterations = 5127;
   s.energy_defect = 3.2e-14;
+  s.tolerance = 1e-8;
   s.worst_residual = 6.1e-10;
   s.left_out = {{"snapshots", "none were asked for"}};
   return s;
