@@ -37,7 +37,7 @@ struct Structure::PortState {
   MatrixXd forces;         // t, on the bodies, beyond the loads
   MatrixXd multipliers;    // a
   int solves = 0;
-  double correction = 0.0;
+  double error = 0.0;  // of the forces, relative, as far as the corrections tell
 };
 
 Structure::Structure(const Bodies& bodies, std::vector<Held> held)
@@ -199,13 +199,14 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads) const {
     state.forces += length * change.forces;
     gap += length * change.gap;
     const double scale = std::max(loads.force_scale, state.forces.norm());
-    state.correction = scale > 0.0 ? std::abs(length) * change.forces.norm() / scale : 0.0;
+    const double correction = scale > 0.0 ? std::abs(length) * change.forces.norm() / scale : 0.0;
     // The next correction is expected to shrink as this one did, but not by more than part of a
     // double's digits.
-    const double shrinkage = std::max(state.correction / before, 1e-6);
-    if (!(state.correction * std::min(shrinkage, 1.0) > loads.accuracy)) break;
+    const double shrinkage = std::max(correction / before, 1e-6);
+    state.error = correction * std::min(shrinkage, 1.0);
+    if (!(state.error > loads.accuracy)) break;
     if (state.solves > 3 && shrinkage > 0.5 && !rubs) break;
-    before = state.correction;
+    before = correction;
     if (rubs) past.push_back(std::move(change));
   }
   return state;
@@ -265,7 +266,7 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
     if (held_[static_cast<std::size_t>(j)] == Held::normal)
       reactions(2 * j + 1) += loads.friction(j) * reactions(2 * j);
   return {displacements, reactions, all.bottomRows(all.rows() - 2 * joints()), state.solves,
-          state.correction};
+          state.error};
 }
 
 JumpResponse Structure::respond_to_jump(int joint) const {

@@ -36,7 +36,7 @@ struct StructureResponse {
   Eigen::VectorXd reactions;      ///< r of every joint: R_N, R_T. [N/m]
   Eigen::VectorXd tie_forces;     ///< Of every tie, pushing its top point up. [N/m]
   int solves = 0;                 ///< Triangular solves spent.
-  double residual = 0.0;          ///< Relative size of the last correction of the port forces. [-]
+  double residual = 0.0;          ///< Relative error of the port forces, as corrections shrink. [-]
 };
 
 /// Answers of all joints to unit jumps at one joint: a column for the normal, one for the
