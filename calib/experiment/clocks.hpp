@@ -21,6 +21,12 @@ struct ClockOptions {
   double largest_shift = 0.05;       ///< What the offset's error may move, part of the range. [-]
 };
 
+/// A signal of the figure, in parts of the range of the record it is compared with.
+struct ClockTrace {
+  std::vector<double> time;  ///< [s]
+  std::vector<double> part;  ///< [-]
+};
+
 /// Machine's time = offset + rate · (logger's time − reference) (X17).
 struct ClockFit {
   double reference = 0.0;              ///< Logger's time, in the middle of what both saw. [s]
@@ -30,9 +36,10 @@ struct ClockFit {
   double rate_standard_error = 0.0;    ///< 0 where it was not fitted. [-]
   bool rate_fitted = false;            ///< False: the signals do not tell it, and it is taken as 1.
   double correlation = 0.0;            ///< Of the rates at the fit. [-]
-  std::vector<double> time;            ///< For the figure: the machine's clock. [s]
-  std::vector<double> machine, logger;  ///< And the signals' rates, logger's scaled. [unit / s]
-  std::string problem;                  ///< Not empty: the signals do not determine the clocks.
+  ClockTrace machine, logger;  ///< As recorded, each on its own clock and in parts of its range.
+  ClockTrace aligned;   ///< The machine's signal that the logger's lets expect, machine's clock.
+  ClockTrace residual;  ///< Aligned less machine's, without the rows at the break.
+  std::string problem;  ///< Not empty: the signals do not determine the clocks.
 
   [[nodiscard]] double logger_time(double machine_time) const {
     return reference + (machine_time - offset) / rate;

@@ -52,8 +52,8 @@ struct MeasuredTest {
 };
 
 /// Reduces a test. A test that cannot be reduced (no rows, no strain, no area) says why in
-/// `problems` and leaves the numbers at zero; one that quality control rejects says why and keeps
-/// them.
+/// `problems` and leaves the numbers but the area at zero; one that quality control rejects says
+/// why and keeps them.
 struct Reduction {
   MeasuredTest test;
   std::vector<std::string> problems;

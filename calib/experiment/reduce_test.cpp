@@ -112,17 +112,27 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-MeasuredTest uncorrected(const RawTest& raw, EngineeringCurve curve) {
+MeasuredTest uncorrected(RawTest& raw, EngineeringCurve curve) {
   MeasuredTest test;
   test.strain = std::move(curve.strain);
   test.stress = std::move(curve.stress);
-  test.time = raw.time;
+  test.time = std::move(raw.time);
   test.area = curve.area;
   test.corrections = raw.corrections;
   append(test.corrections, curve.corrections);
   test.warnings = raw.warnings;
   append(test.warnings, curve.warnings);
   return test;
+}
+
+// What was done and noticed is told all the same.
+Reduction unreduced(const MeasuredTest& test, std::vector<std::string> problems) {
+  Reduction reduction;
+  reduction.test.area = test.area;
+  reduction.test.corrections = test.corrections;
+  reduction.test.warnings = test.warnings;
+  reduction.problems = std::move(problems);
+  return reduction;
 }
 
 // Only a gauge slips: a crosshead does not.
@@ -159,18 +169,19 @@ Reduction reduce_test(const RawTest& recorded, const ReductionOptions& options) 
   RawTest raw = recorded;
   clean_channels(raw, options);
   EngineeringCurve curve = engineering_curve(raw, options.machine_compliance);
-  if (!curve.problems.empty()) return {{}, std::move(curve.problems)};
+  const std::vector<std::string> problems = std::move(curve.problems);
 
   MeasuredTest test = uncorrected(raw, std::move(curve));
+  if (!problems.empty()) return unreduced(test, problems);
   find_strength(raw, test);
   note_preload(test);
   note_missing_break(test);
   if (std::string problem = mend_gauge(raw, options, test); !problem.empty())
-    return {{}, {std::move(problem)}};
+    return unreduced(test, {std::move(problem)});
   if (options.cut_after_break) cut_after_break(test, options.break_part);
   ModulusFit fit;
   if (std::string problem = take_modulus(test, options, fit); !problem.empty())
-    return {{}, {std::move(problem)}};
+    return unreduced(test, {std::move(problem)});
   if (options.remove_toe) remove_toe(test, fit.line);
   take_failure(test);
 
