@@ -16,7 +16,7 @@ namespace {
 // and a few corrections take the trace's effect on everything else away.
 constexpr double trace = 1e-8;
 constexpr int corrections = 3;
-constexpr double accuracy = 1e-14;
+constexpr double accuracy = 1e-13;
 constexpr int most_updates = 100;  // until rounding has to be cleared away
 
 double friction_slope(JointState state, const JointLaw& law) {
@@ -169,11 +169,20 @@ MatrixXd StateSystem::missing(const MatrixXd& r, const MatrixXd& cohesion) const
   return b;
 }
 
+namespace {
+
+// A product for few columns: Eigen's would first copy the matrix into panels.
+void add_product(const Eigen::Ref<const MatrixXd>& A, const MatrixXd& x, MatrixXd& sum) {
+  for (Index c = 0; c < x.cols(); ++c) sum.col(c).noalias() += A * x.col(c);
+}
+
+}  // namespace
+
 StateSolution StateSystem::solve(const MatrixXd& r0, const MatrixXd& held,
                                  const MatrixXd& cohesion) const {
-  StateSolution solution{held, {}};
+  StateSolution solution{held, r0};
   for (const Equation& equation : equations_) solution.y.row(equation.row).setZero();
-  solution.r = r0 + problem_->S * solution.y;
+  if (!solution.y.isZero(0.0)) add_product(problem_->S, solution.y, solution.r);
   const auto n = static_cast<Index>(equations_.size());
   double before = 0.0;
   for (int i = 0; i <= corrections && n > 0; ++i) {
@@ -181,10 +190,12 @@ StateSolution StateSystem::solve(const MatrixXd& r0, const MatrixXd& held,
     const double size = b.norm();
     if (i == 0) before = size;
     if (size <= accuracy * before) break;
-    const MatrixXd x = inverse_.topLeftCorner(n, n) * b;
+    MatrixXd x = MatrixXd::Zero(n, b.cols()), change = MatrixXd::Zero(held.rows(), b.cols());
+    add_product(inverse_.topLeftCorner(n, n), b, x);
     for (Index k = 0; k < n; ++k)
-      solution.y.row(equations_[static_cast<std::size_t>(k)].row) += x.row(k);
-    solution.r = r0 + problem_->S * solution.y;
+      change.row(equations_[static_cast<std::size_t>(k)].row) = x.row(k);
+    solution.y += change;
+    add_product(problem_->S, change, solution.r);
   }
   return solution;
 }
