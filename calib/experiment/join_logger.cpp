@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "calib/experiment/robust_line.hpp"
 #include "calib/experiment/signal_rates.hpp"
@@ -17,6 +18,12 @@ const std::vector<double>& first_of(std::initializer_list<const std::vector<doub
   return **channels.begin();
 }
 
+// How a signal in volts is told from one that is known.
+struct Calibration {
+  const char *name, *signal, *known, *hint, *unit;
+  double scale;  // SI to unit
+};
+
 // Keeps the rows whose time the logger saw.
 void keep_common_rows(RawTest& test, const ClockFit& clocks, const std::vector<double>& logged) {
   std::vector<bool> seen;
@@ -24,8 +31,8 @@ void keep_common_rows(RawTest& test, const ClockFit& clocks, const std::vector<d
     const double at = clocks.logger_time(time);
     seen.push_back(at >= logged.front() && at <= logged.back());
   }
-  for (std::vector<double>* channel :
-       std::array{&test.force, &test.extension, &test.strain, &test.stress, &test.time}) {
+  for (std::vector<double>* channel : std::array{&test.force, &test.load_volts, &test.extension,
+                                                 &test.strain, &test.stress, &test.time}) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < channel->size(); ++i)
       if (seen[i]) (*channel)[kept++] = (*channel)[i];
@@ -33,22 +40,71 @@ void keep_common_rows(RawTest& test, const ClockFit& clocks, const std::vector<d
   }
 }
 
-// (X19)
-void turn_volts_into_strain(const std::vector<double>& volts, JoinedTest& joined) {
-  RawTest& test = joined.test;
-  const Line line = fit_robust_line(volts, test.strain);
-  if (!line.fitted || line.slope == 0.0) {
+// (X19) Volts in the unit of a channel that was recorded beside them; nothing where they do not
+// follow it.
+std::vector<double> calibrated(const std::vector<double>& volts, const std::vector<double>& known,
+                               const Calibration& calibration, JoinedTest& joined) {
+  constexpr double largest_error = 0.05;  // of the factor
+  const bool recorded = known.size() == volts.size();
+  const Line line = recorded ? fit_robust_line(volts, known) : Line{};
+  if (!(line.slope_standard_error < largest_error * std::abs(line.slope))) {
+    joined.problems.push_back(fmt::format("{} is in volts, and {} does not tell what a volt is: {}",
+                                          calibration.signal, calibration.known, calibration.hint));
+    return {};
+  }
+  std::vector<double> values;
+  for (const double volt : volts) values.push_back(line.intercept + line.slope * volt);
+  joined.test.corrections.push_back(
+      {calibration.name,
+       fmt::format("a volt is {:.5g} ± {:.2g} {}, fitted to {}", line.slope * calibration.scale,
+                   line.slope_standard_error * calibration.scale, calibration.unit,
+                   calibration.known)});
+  return values;
+}
+
+// The logger's channel at the rows of the machine.
+std::vector<double> at_machine_rows(const std::vector<double>& time,
+                                    const std::vector<double>& channel, const JoinedTest& joined) {
+  std::vector<double> values;
+  if (channel.empty()) return values;
+  for (const double machine_time : joined.test.time)
+    values.push_back(value_at({time, channel}, joined.clocks.logger_time(machine_time)));
+  return values;
+}
+
+constexpr Calibration gauge{"gauge factor",          "the logger's gauge",
+                            "the test's own strain", "give strain_unit, as in \"0.001 mm/mm/V\"",
+                            "% of strain",           100.0};
+constexpr Calibration load_cell{"load cell factor",
+                                "the test's force",
+                                "the logger's force",
+                                "give force_unit, as in \"500 N/V\"",
+                                "N",
+                                1.0};
+
+void take_elongation(std::vector<double> elongation, JoinedTest& joined) {
+  if (!joined.test.gauge_length) {
     joined.problems.emplace_back(
-        "the logger's signal is in volts, and the test has no strain that tells what a volt is: "
-        "give strain_unit, as in \"0.001 mm/mm/V\"");
+        "the logger's gauge is an elongation, and the gauge length is unknown: give "
+        "gauge_length_mm");
     return;
   }
-  for (std::size_t i = 0; i < volts.size(); ++i)
-    test.strain[i] = line.intercept + line.slope * volts[i];
-  test.corrections.push_back(
-      {"gauge factor", fmt::format("a volt is a strain of {:.5g} ± {:.2g} %, fitted to the test's "
-                                   "own strain",
-                                   100.0 * line.slope, 100.0 * line.slope_standard_error)});
+  for (double& value : elongation) value /= *joined.test.gauge_length;
+  joined.test.strain = std::move(elongation);
+}
+
+void take_channels(const RawTest& logger, JoinedTest& joined) {
+  RawTest& test = joined.test;
+  if (test.force.empty() && !test.load_volts.empty())
+    test.force = calibrated(test.load_volts, at_machine_rows(logger.time, logger.force, joined),
+                            load_cell, joined);
+  if (!logger.strain.empty())
+    test.strain = at_machine_rows(logger.time, logger.strain, joined);
+  else if (!logger.extension.empty())
+    take_elongation(at_machine_rows(logger.time, logger.extension, joined), joined);
+  else if (!logger.volts.empty())
+    test.strain =
+        calibrated(at_machine_rows(logger.time, logger.volts, joined), test.strain, gauge, joined);
 }
 
 void list_clocks(const ClockFit& clocks, RawTest& test) {
@@ -69,10 +125,11 @@ void list_clocks(const ClockFit& clocks, RawTest& test) {
 JoinedTest join_logger(const RawTest& machine, const RawTest& logger, const ClockOptions& options) {
   JoinedTest joined{.test = machine, .clocks = {}, .problems = {}};
   RawTest& test = joined.test;
-  const auto& load = first_of({&machine.force, &machine.stress, &machine.extension});
-  const auto& gauge = first_of({&logger.strain, &logger.volts, &logger.extension});
-  const auto& signal = first_of({&logger.force, &gauge});
-  if (machine.time.empty() || load.empty() || signal.empty() || gauge.empty()) {
+  const auto& load =
+      first_of({&machine.force, &machine.load_volts, &machine.stress, &machine.extension});
+  const auto& signal = first_of(
+      {&logger.force, &logger.load_volts, &logger.strain, &logger.volts, &logger.extension});
+  if (machine.time.empty() || load.empty() || logger.time.empty() || signal.empty()) {
     joined.problems.emplace_back(
         "to join a logger, the test needs time and force, the logger time and a gauge");
     return joined;
@@ -83,15 +140,7 @@ JoinedTest join_logger(const RawTest& machine, const RawTest& logger, const Cloc
     return joined;
   }
   keep_common_rows(test, joined.clocks, logger.time);
-  std::vector<double> gauged;
-  for (const double time : test.time)
-    gauged.push_back(value_at({logger.time, gauge}, joined.clocks.logger_time(time)));
-  if (!logger.volts.empty() && logger.strain.empty()) {
-    test.strain.resize(gauged.size());  // zeros, which no line can be fitted to, where it has none
-    turn_volts_into_strain(gauged, joined);
-  } else {
-    test.strain = std::move(gauged);
-  }
+  take_channels(logger, joined);
   list_clocks(joined.clocks, test);
   return joined;
 }

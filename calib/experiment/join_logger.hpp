@@ -16,9 +16,10 @@ struct JoinedTest {
   std::vector<std::string> problems;
 };
 
-/// Matches the clocks by the force (or the machine's stress or extension) and the logger's force,
-/// strain or volts; then the strain of the test is the logger's, at the machine's rows that the
-/// logger saw too. Volts become strain by a line fitted to the test's own strain (X19).
+/// Matches the clocks by the test's force (or stress or extension) and the logger's force, strain
+/// or volts; then the strain of the test is the logger's, at the machine's rows that the logger saw
+/// too. Volts become strain by a line fitted to the test's own strain, a force in volts becomes one
+/// by the logger's (X19).
 JoinedTest join_logger(const RawTest& machine, const RawTest& logger,
                        const ClockOptions& options = {});
 

@@ -22,7 +22,8 @@ struct RawTest {
   std::vector<double> strain;     ///< Gauge or extensometer. [-]
   std::vector<double>
       stress;  ///< As the machine computed it; used only where force or area is unknown. [Pa]
-  std::vector<double> volts;  ///< Of a gauge or load cell whose factor is not known yet. [V]
+  std::vector<double> volts;               ///< Of a gauge whose factor is not known yet. [V]
+  std::vector<double> load_volts;          ///< Of a load cell whose factor is not known yet. [V]
   std::optional<double> width, thickness;  ///< Of the specimen. [m]
   std::optional<double> area;              ///< Used where width or thickness is unknown. [m²]
   std::optional<double> gauge_length;      ///< [m]
@@ -30,7 +31,9 @@ struct RawTest {
   std::vector<std::string> warnings;       ///< What the reader noticed, a sentence each.
 
   [[nodiscard]] std::size_t rows() const {
-    return force.empty() ? (stress.empty() ? time.size() : stress.size()) : force.size();
+    for (const std::vector<double>* channel : {&force, &stress, &load_volts})
+      if (!channel->empty()) return channel->size();
+    return time.size();
   }
 };
 

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "io/input_error.hpp"
+#include "io/machine/excerpt.hpp"
 #include "io/machine/units.hpp"
 #include "io/machine/vocabulary.hpp"
 
@@ -28,11 +30,17 @@ bool fits(Quantity quantity, Dimension dimension) {
     case Quantity::stress:
       return dimension == Dimension::stress;
     case Quantity::volts:
+    case Quantity::load_volts:
       return dimension == Dimension::voltage;
     case Quantity::other:
       return false;
   }
   return false;
+}
+
+// What a force or a strain is called while its factor is not known.
+Quantity in_volts(Quantity quantity) {
+  return quantity == Quantity::force ? Quantity::load_volts : Quantity::volts;
 }
 
 // Percent and mm/mm are units of too many things to stand for a strain.
@@ -58,6 +66,7 @@ Candidate classify(const Column& column) {
   const Rank rank = is_absolute(column.name) ? by_name_but_absolute : by_name;
   if (named != Quantity::other && column.unit.empty()) return {named, rank};
   if (named != Quantity::other && unit && fits(named, unit->dimension)) return {named, rank};
+  if (unit && unit->dimension == Dimension::voltage) return {in_volts(named), by_unit};
   return {quantity_of_unit(column.unit), by_unit};
 }
 
@@ -74,11 +83,12 @@ std::optional<std::size_t> hinted_column(const std::string& hint,
 }
 
 std::string list_of(const std::vector<Column>& columns) {
+  constexpr std::size_t most = 20;
   std::string text;
-  for (const Column& column : columns)
-    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", column.name,
-                        column.unit.empty() ? "" : " (" + column.unit + ")");
-  return text;
+  for (const Column& column : std::span(columns).first(std::min(columns.size(), most)))
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", excerpt(column.name),
+                        column.unit.empty() ? "" : " (" + excerpt(column.unit) + ")");
+  return columns.size() > most ? text + ", ..." : text;
 }
 
 // What a number means where no unit is written.
@@ -93,6 +103,7 @@ std::pair<double, const char*> unwritten_unit(Quantity quantity) {
     case Quantity::force:
       return {1.0, "N"};
     case Quantity::volts:
+    case Quantity::load_volts:
       return {1.0, "V"};
     case Quantity::strain:
     case Quantity::other:
@@ -131,13 +142,15 @@ Chosen take_hints(TestFile& file, const std::string& where, const ReadOptions& o
     if (!column)
       throw InputError(where, fmt::format(R"(there is no column "{}")", hint.column),
                        "the columns are " + list_of(file.columns));
-    file.columns[*column].quantity = quantity;
     if (!hint.unit.empty()) file.columns[*column].unit = hint.unit;
     const std::optional<Unit> unit = find_unit(hint.unit);
-    if (!hint.unit.empty() && (!unit || !fits(quantity, unit->dimension)))
+    const bool volts = unit && unit->dimension == Dimension::voltage;
+    const Quantity held = volts ? in_volts(quantity) : quantity;
+    if (!hint.unit.empty() && (!unit || !fits(held, unit->dimension)))
       throw InputError(
           where, fmt::format("\"{}\" is not a known unit of {}", hint.unit, to_string(quantity)));
-    chosen[quantity] = *column;
+    file.columns[*column].quantity = held;
+    chosen[held] = *column;
   }
   return chosen;
 }
@@ -168,11 +181,13 @@ void choose(TestFile& file, const std::vector<Candidate>& candidates, Chosen& ch
 constexpr const char* volt_hint =
     "say what a volt is in [specimen.columns], as in force_unit = \"500 N/V\"";
 
-// A signal in volts is of use only to a logger, whose factor can be fitted.
-void need_load(TestFile& file, const std::string& where, Chosen& chosen) {
-  const auto volts = chosen.find(Quantity::volts);
+// A signal in volts is of use only where another signal tells its factor.
+void need_load(TestFile& file, const std::string& where, bool has_logger, Chosen& chosen) {
   const bool loaded = chosen.contains(Quantity::force) || chosen.contains(Quantity::stress);
-  if (volts != chosen.end()) {
+  if (!loaded && has_logger && chosen.contains(Quantity::load_volts)) return;
+  for (const Quantity quantity : {Quantity::load_volts, Quantity::volts}) {
+    const auto volts = chosen.find(quantity);
+    if (volts == chosen.end()) continue;
     const std::string what =
         fmt::format("column \"{}\" is in volts", file.columns[volts->second].name);
     if (!loaded) throw InputError(where, what, volt_hint);
@@ -209,7 +224,7 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   if (options.logger)
     need_gauge(file, where, chosen);
   else
-    need_load(file, where, chosen);
+    need_load(file, where, options.has_logger, chosen);
   std::vector<Channel> channels;
   for (const auto& [quantity, column] : chosen)
     channels.push_back(

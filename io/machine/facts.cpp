@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "io/machine/excerpt.hpp"
 #include "io/machine/number.hpp"
 #include "io/machine/units.hpp"
 #include "io/machine/vocabulary.hpp"
@@ -66,7 +67,7 @@ std::optional<double> size_of(const HeaderLine& line, Fact fact, char decimal,
   Number number = parse_number(line.value, decimal);
   if (number.fault != NumberFault::none) number = parse_number(line.value);
   if (number.fault != NumberFault::none || number.value <= 0.0) {
-    warning = fmt::format("\"{}\" is no size; the line is not used", line.value);
+    warning = fmt::format("\"{}\" is no size; the line is not used", excerpt(line.value));
     return std::nullopt;
   }
   if (line.unit.empty()) {
@@ -75,7 +76,8 @@ std::optional<double> size_of(const HeaderLine& line, Fact fact, char decimal,
   }
   const std::optional<Unit> unit = find_unit(line.unit);
   if (!unit || unit->dimension != wanted) {
-    warning = fmt::format("\"{}\" is not a known unit of it; the line is not used", line.unit);
+    warning =
+        fmt::format("\"{}\" is not a known unit of it; the line is not used", excerpt(line.unit));
     return std::nullopt;
   }
   return number.value * unit->to_si;
@@ -92,7 +94,7 @@ void take_fact(const HeaderLine& line, std::size_t number, char decimal, calib::
   std::optional<double>& size = dimension_of(*fact, test);
   if (!size) size = size_of(line, *fact, decimal, warning);
   if (!warning.empty())
-    test.warnings.push_back(fmt::format("line {}, {}: {}", number, line.key, warning));
+    test.warnings.push_back(fmt::format("line {}, {}: {}", number, excerpt(line.key), warning));
 }
 
 }  // namespace

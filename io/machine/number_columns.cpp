@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "io/machine/excerpt.hpp"
 
 namespace havers::io {
 namespace {
@@ -42,21 +45,38 @@ bool take_cells(const Row& row, char decimal, SpecimenColumns& specimen,
       return false;
     }
     const std::string_view cell = row.cells[channel.column];
-    const Number number = parse_number(cell, decimal);
+    Number number = parse_number(cell, decimal);
+    number.value *= channel.to_si;
+    if (std::isinf(number.value)) number.fault = NumberFault::too_large;
     if (number.fault != NumberFault::none) {
       problems.push_back(bad_cell(specimen.file, row.line, specimen.file.columns[channel.in_file],
                                   cell, number.fault));
       return false;
     }
-    specimen.values[i].push_back(number.value * channel.to_si);
+    specimen.values[i].push_back(number.value);
   }
   return true;
+}
+
+// More cells than names: a decimal comma among commas, or a row of something else.
+void check_width(const Row& row, std::span<const SpecimenColumns> side_by_side,
+                 std::vector<Problem>& problems) {
+  std::size_t columns = 0;
+  for (const SpecimenColumns& specimen : side_by_side) columns += specimen.file.columns.size();
+  if (row.cells.size() <= columns) return;
+  const auto surplus = row.cells.subspan(columns);
+  if (std::ranges::all_of(surplus, [](std::string_view cell) { return cell.empty(); })) return;
+  problems.push_back(
+      {place(side_by_side.front().file, row.line),
+       fmt::format("the row has {} cells, and there are {} columns", row.cells.size(), columns),
+       "is the decimal mark also the delimiter?"});
 }
 
 }  // namespace
 
 void take_numbers(const Row& row, char decimal, std::span<SpecimenColumns> side_by_side,
                   std::vector<Problem>& problems) {
+  check_width(row, side_by_side, problems);
   for (SpecimenColumns& specimen : side_by_side) {
     if (side_by_side.size() > 1 && has_ended(row, specimen)) continue;
     if (!take_cells(row, decimal, specimen, problems)) return;
@@ -66,9 +86,10 @@ void take_numbers(const Row& row, char decimal, std::span<SpecimenColumns> side_
 
 Problem bad_cell(const TestFile& file, std::size_t line, const Column& column,
                  std::string_view cell, NumberFault fault) {
-  return {place(file, line),
-          fmt::format(R"(column "{}": "{}" {})", column.name, cell, to_string(fault)),
-          {}};
+  return {
+      place(file, line),
+      fmt::format(R"(column "{}": "{}" {})", excerpt(column.name), excerpt(cell), to_string(fault)),
+      {}};
 }
 
 }  // namespace havers::io

@@ -50,6 +50,17 @@ char preferred_decimal(const Preview& preview) {
   return has(',') && !has('.') ? ',' : '.';
 }
 
+// Most lines begin with a quote, as they do where each has been quoted as a whole.
+bool may_be_requoted(std::string_view text) {
+  std::ptrdiff_t lines = 0, quoted = 0;
+  for (; !text.empty(); ++lines) {
+    quoted += text.front() == '"' ? 1 : 0;
+    text.remove_prefix(std::min(text.find_first_of("\r\n"), text.size()));
+    text.remove_prefix(std::min(text.find_first_not_of("\r\n"), text.size()));
+  }
+  return 2 * quoted > lines;
+}
+
 }  // namespace
 
 bool is_number_row(const PreviewRow& row, char decimal) {
@@ -72,7 +83,7 @@ Preview make_preview(std::string_view text) {
   Preview best;
   std::ptrdiff_t most = -1;
   for (const bool quoted_again : {false, true}) {
-    if (most > 1) break;
+    if (quoted_again && (most > 1 || !may_be_requoted(text))) break;
     for (const char delimiter : {',', ';', '\t'}) {
       Preview preview = cut(text, {.delimiter = delimiter, .requoted = quoted_again});
       const char preferred = preferred_decimal(preview);

@@ -87,6 +87,8 @@ std::string to_string(Quantity quantity) {
       return "stress";
     case Quantity::volts:
       return "volts";
+    case Quantity::load_volts:
+      return "load volts";
     case Quantity::other:
       return "other";
   }

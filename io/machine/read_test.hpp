@@ -11,7 +11,7 @@
 namespace havers::io {
 
 /// What a column holds.
-enum class Quantity { time, force, extension, strain, stress, volts, other };
+enum class Quantity { time, force, extension, strain, stress, volts, load_volts, other };
 std::string to_string(Quantity quantity);
 
 struct Column {
@@ -41,8 +41,9 @@ struct ColumnHint {
 /// found by name, by unit and by content, in that order.
 struct ReadOptions {
   std::map<Quantity, ColumnHint> columns{};
-  std::string specimen{};  ///< Its name in a file of several, or its number from 1.
-  bool logger = false;     ///< The file of a second logger: time and a gauge, no force.
+  std::string specimen{};   ///< Its name in a file of several, or its number from 1.
+  bool logger = false;      ///< The file of a second logger: time and a gauge, no force.
+  bool has_logger = false;  ///< A second logger's file tells what a volt of the load is.
 };
 
 /// Reads one export, whatever its encoding, delimiter and decimal mark; io/machine/README.md says

@@ -28,6 +28,8 @@ std::vector<double>& channel_of(calib::RawTest& test, Quantity quantity) {
       return test.stress;
     case Quantity::volts:
       return test.volts;
+    case Quantity::load_volts:
+      return test.load_volts;
     case Quantity::force:
     case Quantity::other:
       break;

@@ -1,9 +1,11 @@
 #include "io/machine/text_source.hpp"
 
+#include <fmt/format.h>
 #include <iconv.h>
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 
 #include "io/input_error.hpp"
 #include "io/machine/encoding.hpp"
@@ -12,6 +14,7 @@ namespace havers::io {
 namespace {
 
 constexpr std::size_t block_bytes = 1U << 18U;
+constexpr std::uintmax_t largest_file = 1'000'000'000;  // [byte]
 
 void check_openable(const std::filesystem::path& file) {
   std::error_code error;
@@ -19,6 +22,11 @@ void check_openable(const std::filesystem::path& file) {
   if (!std::filesystem::exists(status)) throw InputError(file.string(), "there is no such file");
   if (std::filesystem::is_directory(status))
     throw InputError(file.string(), "is a folder, not a test file", "name one of the files in it");
+  if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(file) > largest_file)
+    throw InputError(
+        file.string(),
+        fmt::format("is larger than {} MB, which no tensile test is", largest_file / 1'000'000),
+        "export one test alone, or fewer rows a second");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "calib/experiment/join_logger.hpp"
 #include "calib/experiment/measured_test.hpp"
@@ -145,10 +146,40 @@ TEST(JoinLogger, FitsWhatAVoltIs) {
   const JoinedTest joined = join_logger(machine, logger);
   ASSERT_TRUE(joined.problems.empty()) << joined.problems[0];
   EXPECT_EQ(joined.test.corrections.at(0).what, "gauge factor");
-  EXPECT_TRUE(joined.test.corrections[0].detail.starts_with("a volt is a strain of 0."))
-      << joined.test.corrections[0].detail;
+  EXPECT_TRUE(joined.test.corrections[0].detail.starts_with("a volt is 0."))
+      << joined.test.corrections[0].detail;  // % of strain
   machine.strain.clear();
   EXPECT_NE(join_logger(machine, logger).problems.at(0).find("what a volt is"), std::string::npos);
+}
+
+TEST(JoinLogger, FitsWhatAVoltOfTheLoadCellIs) {
+  RawTest machine = machine_record(4), logger = logger_record({}, 4);
+  for (const double strain : logger.strain) logger.force.push_back(young * area * strain);
+  machine.load_volts = machine.force;
+  for (double& volts : machine.load_volts) volts = 0.1 + volts / 500.0;
+  machine.force.clear();
+  const JoinedTest joined = join_logger(machine, logger);
+  ASSERT_TRUE(joined.problems.empty()) << joined.problems[0];
+  EXPECT_EQ(joined.test.corrections.at(0).what, "load cell factor");
+  const Reduction reduction = reduce_test(joined.test);
+  ASSERT_TRUE(reduction.problems.empty()) << reduction.problems[0];
+  EXPECT_NEAR(reduction.test.max_force, 4.5e-3 * young * area, 0.01 * 4.5e-3 * young * area);
+  logger.force.clear();
+  EXPECT_EQ(join_logger(machine, logger).problems.at(0),
+            "the test's force is in volts, and the logger's force does not tell what a volt is: "
+            "give force_unit, as in \"500 N/V\"");
+}
+
+TEST(JoinLogger, DividesAnElongationByTheGaugeLength) {
+  RawTest machine = machine_record(5), logger = logger_record({}, 5);
+  logger.extension = std::exchange(logger.strain, {});
+  for (double& elongation : logger.extension) elongation *= 25e-3;
+  EXPECT_NE(join_logger(machine, logger).problems.at(0).find("give gauge_length_mm"),
+            std::string::npos);
+  machine.gauge_length = 25e-3;
+  const JoinedTest joined = join_logger(machine, logger);
+  ASSERT_TRUE(joined.problems.empty()) << joined.problems[0];
+  EXPECT_NEAR(std::ranges::max(joined.test.strain), 4.5e-3, 2e-5);
 }
 
 TEST(JoinLogger, SaysWhatIsMissing) {

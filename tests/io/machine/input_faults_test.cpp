@@ -92,6 +92,62 @@ TEST(InputFaults, NamesAQuoteThatIsNeverClosed) {
             "test.csv:4: " + sentence);
 }
 
+// Numbers that are read as if each line had been quoted would hide it.
+TEST(InputFaults, NamesAnOpenQuoteEvenWhereMostRowsWouldReadWithoutIt) {
+  std::string rows = header + "2,\"3,4\n";
+  for (int i = 3; i < 1000; ++i) rows += std::to_string(i) + ",4,5\n";
+  EXPECT_EQ(complaint_of(rows),
+            "test.csv:4: a quote is opened and never closed (the file may be cut off or damaged "
+            "here)");
+}
+
+TEST(InputFaults, NamesAFileLargerThanAnyTest) {
+  const test::TemporaryFile file(header);
+  std::filesystem::resize_file(file.path(), 2'000'000'000);  // sparse
+  EXPECT_EQ(complaint(file.path()),
+            "test.csv: is larger than 1000 MB, which no tensile test is (export one test alone, or "
+            "fewer rows a second)");
+}
+
+TEST(InputFaults, NamesAMillionColumns) {
+  std::string names = "a", row = "1";
+  for (int i = 1; i < 1'000'000; ++i) {
+    names += ",a";
+    row += ",1";
+  }
+  EXPECT_EQ(complaint_of(names + "\n" + row + "\n" + row + "\n"),
+            "test.csv:1: has more than 10000 columns (a test has a row for each time and a column "
+            "for each channel)");
+  EXPECT_EQ(complaint_of(header + row + "\n"),
+            "test.csv:4: the row has 1000000 cells, and there are 3 columns (is the decimal mark "
+            "also the delimiter?)");
+}
+
+TEST(InputFaults, NamesAFirstLineOfMegabytes) {
+  const std::string sentence =
+      "test.csv: no rows of numbers were found in it (a test file has a row of column names and "
+      "rows of two numbers or more)";
+  EXPECT_EQ(complaint_of(std::string(5'000'000, 'x') + "\n" + header), sentence);
+  EXPECT_EQ(complaint_of(std::string(5'000'000, '1') + "\n" + header), sentence);
+}
+
+TEST(InputFaults, ShowsTheBeginningOfALongCell) {
+  EXPECT_EQ(complaint_of(header + "2," + std::string(500'000, 'z') + ",4\n"),
+            "test.csv:4: column \"Load\": \"" + std::string(60, 'z') + "...\" is not a number");
+}
+
+TEST(InputFaults, NamesANumberThatItsUnitMakesTooLarge) {
+  EXPECT_EQ(complaint_of("Time (s),Stress (GPa)\n0,1\n1,1e300\n"),
+            "test.csv:3: column \"Stress\": \"1e300\" is too large for a number");
+}
+
+TEST(InputFaults, NamesARowWithMoreCellsThanNames) {
+  EXPECT_EQ(
+      complaint_of(header + "2,3,4,\n3,4,5,6\n"),
+      "test.csv:5: the row has 4 cells, and there are 3 columns (is the decimal mark also the "
+      "delimiter?)");
+}
+
 TEST(InputFaults, AsksForTheNamesOfColumnsAndGuesses) {
   EXPECT_EQ(
       complaint_of("0,0.1,5\n1,0.2,60\n2,0.25,90\n3,0.3,130\n"),

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace havers::io {
+
+/// The beginning of a text from a file, short enough for a sentence: a cell may be megabytes long.
+std::string excerpt(std::string_view text);
+
+}  // namespace havers::io
