@@ -9,7 +9,7 @@
 namespace havers::calib {
 namespace {
 
-constexpr std::size_t fewest_rows = 10;
+constexpr std::size_t fewest_readings = 10;
 
 double area_of(const RawTest& raw) {
   if (raw.width && raw.thickness) return *raw.width * *raw.thickness;
@@ -81,7 +81,7 @@ EngineeringCurve engineering_curve(const RawTest& raw, double machine_compliance
   take_stress(raw, curve);
   take_strain(raw, machine_compliance, curve);
   if (!curve.problems.empty()) return curve;
-  if (raw.rows() < fewest_rows)
+  if (raw.rows() < fewest_readings)
     curve.problems.push_back(fmt::format("{} rows are too few", raw.rows()));
   else if (!all_finite(curve.stress) || !all_finite(curve.strain) || !all_finite(raw.time))
     curve.problems.emplace_back("a number is not finite");

@@ -8,8 +8,8 @@
 namespace havers::calib {
 namespace {
 
-constexpr std::size_t fewest_rows = 5;    // of a half window whose slope is to tell something
-constexpr double narrowing_step = 0.1;    // part of the window's stress range
+constexpr std::size_t fewest_half_window = 5;  // of a half window whose slope is to tell something
+constexpr double narrowing_step = 0.1;         // part of the window's stress range
 constexpr double fewest_remaining = 0.3;  // a window shorter than this part shows no straight line
 constexpr double yielded = 0.5;           // slope ratio of the halves that only yielding explains
 
@@ -52,7 +52,7 @@ Bend bend_of(const Curve& curve, double low, double high) {
   const RowRange whole = between(curve.stress, low, high);
   const RowRange upper = between(curve.stress, middle, high);
   const RowRange lower{whole.first, upper.first};
-  if (lower.rows() < fewest_rows || upper.rows() < fewest_rows) return {};
+  if (lower.rows() < fewest_half_window || upper.rows() < fewest_half_window) return {};
   return {true, curve.robust(lower), curve.robust(upper)};
 }
 
@@ -94,7 +94,7 @@ bool fit_standard(const Curve& curve, const ReductionOptions& options, ModulusFi
   }
   const Line plain = fit_plain_line(x, y), robust = fit_robust_line(x, y);
   const bool spanned = curve.strain.back() >= options.standard_high;
-  if (!spanned || x.size() < 2 * fewest_rows || plain.slope <= 0.0) return false;
+  if (!spanned || x.size() < 2 * fewest_half_window || plain.slope <= 0.0) return false;
   const double half = 0.5 * (options.standard_high - options.standard_low);
   if (std::abs(plain.intercept / plain.slope) > half) return false;
   fit.line = plain;

@@ -79,7 +79,7 @@ constexpr std::array units{
     NamedUnit{"mV", {voltage, 1e-3}},
 };
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
   return text;
@@ -108,11 +108,11 @@ std::optional<Unit> calibration(std::string_view text) {
 }  // namespace
 
 std::string_view without_brackets(std::string_view text) {
-  text = trimmed(text);
+  text = without_blanks(text);
   if (text.size() < 2) return text;
   const bool round = text.front() == '(' && text.back() == ')';
   const bool square = text.front() == '[' && text.back() == ']';
-  return round || square ? trimmed(text.substr(1, text.size() - 2)) : text;
+  return round || square ? without_blanks(text.substr(1, text.size() - 2)) : text;
 }
 
 std::optional<Unit> find_unit(std::string_view text) {
@@ -127,14 +127,14 @@ std::optional<Unit> find_unit(std::string_view text) {
 }
 
 NameAndUnit split_unit(std::string_view text) {
-  text = trimmed(text);
+  text = without_blanks(text);
   NameAndUnit whole{std::string(text), {}};
   if (text.empty() || (text.back() != ')' && text.back() != ']')) return whole;
   const std::size_t open = text.rfind(text.back() == ')' ? '(' : '[');
   if (open == std::string_view::npos || open == 0) return whole;
   const std::string_view unit = without_brackets(text.substr(open));
   if (!unit.empty() && !find_unit(unit)) return whole;
-  return {std::string(trimmed(text.substr(0, open))), std::string(unit)};
+  return {std::string(without_blanks(text.substr(0, open))), std::string(unit)};
 }
 
 }  // namespace havers::io

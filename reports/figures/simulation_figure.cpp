@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t most_points = 2000;
 
-constexpr std::string_view commands = R"gnuplot(
+constexpr std::string_view simulation_commands = R"gnuplot(
 set multiplot
 {range}{top}
 set xtics format ''
@@ -75,8 +75,9 @@ Figure simulation_figure(const sim::Simulation& simulation, const std::string& i
   const Prefix prefix = prefix_for(largest_energy(simulation.curve));
   figure.commands =
       curve_data(simulation.curve) +
-      fmt::format(commands, fmt::arg("range", range), fmt::arg("top", panel(0.635, 0.955)),
-                  fmt::arg("middle", panel(0.41, 0.61)), fmt::arg("bottom", panel(0.095, 0.345)),
+      fmt::format(simulation_commands, fmt::arg("range", range),
+                  fmt::arg("top", panel(0.635, 0.955)), fmt::arg("middle", panel(0.41, 0.61)),
+                  fmt::arg("bottom", panel(0.095, 0.345)),
                   fmt::arg("left", dynamic ? left_side : ""),
                   fmt::arg("right", dynamic ? "right side" : "stress"),
                   fmt::arg("unit", prefix.symbol), fmt::arg("factor", prefix.factor));

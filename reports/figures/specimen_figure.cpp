@@ -10,7 +10,7 @@
 namespace havers::reports {
 namespace {
 
-constexpr std::string_view commands = R"gnuplot(
+constexpr std::string_view specimen_commands = R"gnuplot(
 set multiplot
 {range}{top}
 set ylabel 'Stress (MPa)' offset 0.5,0
@@ -68,7 +68,7 @@ Figure specimen_figure(const calib::SpecimenResult& specimen, const std::string&
       data_block("band", {band.strain, band.lower, band.upper, band.median}) +
       data_block("residual", {band.strain, band.residual}) +
       data_block("peak", {peak_strain, peak_stress}) +
-      fmt::format(commands, fmt::arg("range", range), fmt::arg("top", panel(0.40, 0.89)),
+      fmt::format(specimen_commands, fmt::arg("range", range), fmt::arg("top", panel(0.40, 0.89)),
                   fmt::arg("tics", residual_tics(band.residual)),
                   fmt::arg("bottom", panel(0.145, 0.365)));
   return figure;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int most_sets = 12;
 constexpr int most_sweeps = 200;  // between two sets
-constexpr int calm = 10;          // sweeps without a change of state
+constexpr int quiet_sweeps = 10;  // sweeps without a change of state
 
 Held held_in(JointState state) {
   if (state == JointState::stick) return Held::fully;
@@ -59,7 +59,8 @@ int SetSearch::look_for_states(const JointStep& step, const StructureResponse& f
                                std::vector<JointState>& states) {
   sweeps_.start(step, from.reactions, from.tie_forces);
   int quiet = 0, sweep = 0;
-  for (; sweep < most_sweeps && quiet < calm; ++sweep) quiet = sweeps_.sweep(step) ? 0 : quiet + 1;
+  for (; sweep < most_sweeps && quiet < quiet_sweeps; ++sweep)
+    quiet = sweeps_.sweep(step) ? 0 : quiet + 1;
   states = sweeps_.states();
   return sweep;
 }
