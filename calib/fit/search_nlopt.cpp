@@ -9,7 +9,7 @@ namespace {
 // Where the simulations of a point failed: finite, because NLopt's models are built on numbers.
 constexpr double cost_of_failure = 1e30;
 // A change of ½χ² that no test could tell; of a wide search's coarser one even less.
-constexpr double cost_tolerance = 1e-3, wide_cost_tolerance = 2e-2;
+constexpr double polish_cost_tolerance = 1e-3, wide_cost_tolerance = 2e-2;
 constexpr int max_points = 200, max_polish_points = 12;  // the latter for each unknown
 
 struct Objective {
@@ -102,7 +102,7 @@ SearchResult search_nlopt(Trail& trail, const Evaluation& start, const Split& sp
   set_box(optimiser, trail.problem().unknowns, split.costly, stride);
   // Of the logarithm of a parameter; what a wide search leaves, least squares and polish find.
   optimiser.set_xtol_abs(stride == Stride::wide ? 2e-2 : 2e-3);
-  optimiser.set_ftol_abs(stride == Stride::wide ? wide_cost_tolerance : cost_tolerance);
+  optimiser.set_ftol_abs(stride == Stride::wide ? wide_cost_tolerance : polish_cost_tolerance);
   optimiser.set_maxeval(stride == Stride::wide
                             ? max_points
                             : max_polish_points * static_cast<int>(split.costly.size()));

@@ -10,7 +10,7 @@
 namespace havers::reports {
 namespace {
 
-constexpr std::string_view commands = R"gnuplot(
+constexpr std::string_view test_commands = R"gnuplot(
 set xlabel 'Strain (%)' offset 0,0.5
 set ylabel 'Engineering stress (MPa)'
 set object 1 rectangle from first {low},graph 0 to first {high},graph 1 fc rgb '#f4efe2' fs solid noborder behind
@@ -61,7 +61,7 @@ Figure test_figure(const ImportReport& report, const std::string& id) {
   figure.commands = data_block("raw", {raw.x, raw.y}) + data_block("used", {used.x, used.y}) +
                     data_block("line", {line.x, line.y}) +
                     data_block("peak", {peak_strain, peak_stress}) + range + panel(0.155, 0.89) +
-                    fmt::format(commands, fmt::arg("low", 100.0 * test.window_low),
+                    fmt::format(test_commands, fmt::arg("low", 100.0 * test.window_low),
                                 fmt::arg("high", 100.0 * test.window_high));
   return figure;
 }
