@@ -84,6 +84,9 @@ void check_assembly(const AssemblyOptions& assembly, Checker& checker) {
   const double degrees = assembly.orientation * 180.0 / std::numbers::pi;
   checker.require(degrees > -90.0 && degrees <= 90.0, "assembly.orientation_deg", degrees,
                   "above -90 and at most 90", "the angle between fibre axis and loading axis");
+  const int k = assembly.refinement;
+  checker.require(k == 1 || k == 2 || k == 4, "assembly.refinement", k, "1, 2 or 4",
+                  "8, 32 or 128 triangles a fibre");
 }
 
 void check_material(const Material& material, Checker& checker) {

@@ -16,6 +16,7 @@ struct AssemblyOptions {
   double fibre_length = 100e-6;  ///< L. [m]
   double fibre_height = 10e-6;   ///< l. [m]
   double orientation = 0.0;      ///< θ, angle between fibre axis and loading axis. [rad]
+  int refinement = 1;            ///< k: a whole fibre has 8 k² T3; 1, 2 or 4.
 
   [[nodiscard]] double width() const { return fibres * fibre_length; }   ///< W. [m]
   [[nodiscard]] double height() const { return layers * fibre_height; }  ///< H. [m]

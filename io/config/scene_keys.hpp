@@ -17,6 +17,7 @@ void keys(Table& table, sim::AssemblyOptions& assembly) {
   table.key("fibre_length_um", assembly.fibre_length, micrometre);
   table.key("fibre_height_um", assembly.fibre_height, micrometre);
   table.key("orientation_deg", assembly.orientation, degree);
+  table.key("refinement", assembly.refinement);
 }
 
 template <class Table>

@@ -50,7 +50,8 @@ void add_cells(vtkUnstructuredGrid& grid, const sim::Assembly& assembly,
   for (const auto& triangle : assembly.triangles) add_cell(VTK_TRIANGLE, triangle, 0, {});
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const sim::Joint& joint = assembly.joints[i];
-    add_cell(VTK_LINE, joint.edge_a, joint.kind == sim::JointKind::head_tail ? 1 : 2, joints[i]);
+    add_cell(VTK_POLY_LINE, joint.edge_a, joint.kind == sim::JointKind::head_tail ? 1 : 2,
+             joints[i]);
   }
   for (vtkDataArray* data : {static_cast<vtkDataArray*>(kind), static_cast<vtkDataArray*>(broken),
                              static_cast<vtkDataArray*>(gap)})

@@ -86,8 +86,8 @@ std::string fibres(const Drawing& drawing) {
 std::string gaps(const Drawing& drawing, const std::vector<sim::Joint>& joints) {
   std::string path;
   for (const sim::Joint& joint : joints) {
-    const Point a = drawing.at(joint.edge_a[0]), b = drawing.at(joint.edge_a[1]);
-    Point c = drawing.at(joint.edge_b[0]), d = drawing.at(joint.edge_b[1]);
+    const Point a = drawing.at(joint.edge_a.front()), b = drawing.at(joint.edge_a.back());
+    Point c = drawing.at(joint.edge_b.front()), d = drawing.at(joint.edge_b.back());
     if ((b - a).dot(d - c) > 0.0) std::swap(c, d);
     path += fmt::format("M{}L{}L{}L{}Z", coordinates(a), coordinates(b), coordinates(c),
                         coordinates(d));
@@ -99,8 +99,9 @@ std::string gaps(const Drawing& drawing, const std::vector<sim::Joint>& joints) 
 std::string diamonds(const Drawing& drawing, const std::vector<sim::Joint>& joints) {
   std::string path;
   for (const sim::Joint& joint : joints) {
-    const Point middle = 0.25 * (drawing.at(joint.edge_a[0]) + drawing.at(joint.edge_a[1]) +
-                                 drawing.at(joint.edge_b[0]) + drawing.at(joint.edge_b[1]));
+    const Point middle =
+        0.25 * (drawing.at(joint.edge_a.front()) + drawing.at(joint.edge_a.back()) +
+                drawing.at(joint.edge_b.front()) + drawing.at(joint.edge_b.back()));
     path += fmt::format("M{}l3 3-3 3-3-3z", coordinates(middle - Point(0.0, 3.0)));
   }
   return path;

@@ -74,53 +74,85 @@ HalfFibres clipped_half_fibres(const AssemblyOptions& options, Assembly& assembl
   return halves;
 }
 
-bool has_edge(const Polygon& polygon, EdgeOrigin origin) {
-  return std::any_of(polygon.begin(), polygon.end(),
-                     [&](const Vertex& v) { return v.edge == origin; });
+// The vertex where the edge of that origin starts; −1 when the clipping left none.
+int find_edge(const Polygon& polygon, EdgeOrigin origin) {
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    if (polygon[i].edge == origin) return static_cast<int>(i);
+  return -1;
 }
 
-// The second half of a fibre takes the nodes of the common line from the first.
-void add_nodes(const HalfFibre* first, HalfFibre& half, Assembly& assembly) {
-  const auto shared_node = [&](std::size_t i) {
-    if (first == nullptr) return -1;
-    const std::size_t n = half.polygon.size();
-    const bool starts = half.polygon[i].edge == EdgeOrigin::tail;  // upper end of the line
-    const bool ends = half.polygon[(i + n - 1) % n].edge == EdgeOrigin::tail;  // lower end
-    if (!starts && !ends) return -1;
-    const std::array<int, 2> line = first->edge(EdgeOrigin::head);  // from lower to upper end
-    return starts ? line[1] : line[0];
-  };
-  const auto new_node = [&](const Vector2d& position) {
-    assembly.nodes.push_back(position);
-    return static_cast<int>(assembly.nodes.size()) - 1;
-  };
-  for (std::size_t i = 0; i < half.polygon.size(); ++i) {
-    const int shared = shared_node(i);
-    half.nodes.push_back(shared >= 0 ? shared : new_node(half.polygon[i].position));
-  }
-  half.nodes.push_back(new_node(centroid(half.polygon)));
+int add_node(const Vector2d& position, Assembly& assembly) {
+  assembly.nodes.push_back(position);
+  return static_cast<int>(assembly.nodes.size()) - 1;
+}
 
-  const std::size_t n = half.polygon.size();
-  for (std::size_t i = 0; i < n; ++i)
-    assembly.triangles.push_back({half.nodes[n], half.nodes[i], half.nodes[(i + 1) % n]});
+// The second half of a fibre takes the nodes of the common line from the first; the rest is new.
+void add_outline(const HalfFibre* first, int k, HalfFibre& half, Assembly& assembly) {
+  const std::size_t n = half.polygon.size(), m = static_cast<std::size_t>(k);
+  half.outline.assign(n * m, -1);
+  if (first != nullptr) {
+    std::vector<int> line = first->edge(EdgeOrigin::head);  // from lower to upper end
+    const auto tail = static_cast<std::size_t>(find_edge(half.polygon, EdgeOrigin::tail));
+    for (std::size_t i = 0; i <= m; ++i) half.outline[(tail * m + i) % (n * m)] = line[m - i];
+  }
+  for (std::size_t i = 0; i < n * m; ++i) {
+    if (half.outline[i] >= 0) continue;
+    const Vector2d &from = half.polygon[i / m].position,
+                   &to = half.polygon[(i / m + 1) % n].position;
+    const double part = static_cast<double>(i % m) / k;
+    half.outline[i] = add_node((1.0 - part) * from + part * to, assembly);
+  }
+}
+
+// The fan of triangles between the centroid and the outline, each cut into k² alike: rings of nodes
+// around the centroid, the outermost of which is the outline.
+void add_triangles(const HalfFibre& half, int k, Assembly& assembly) {
+  const std::size_t n = half.polygon.size(), m = static_cast<std::size_t>(k);
+  const Vector2d centre = centroid(half.polygon);
+  std::vector<std::vector<int>> rings(m + 1);
+  rings[m] = half.outline;
+  for (std::size_t r = m - 1; r > 0; --r)
+    for (std::size_t i = 0; i < n * r; ++i) {
+      const std::size_t corner = i / r, along = i % r;
+      const Vector2d from = half.polygon[corner].position - centre,
+                     to = half.polygon[(corner + 1) % n].position - centre;
+      rings[r].push_back(add_node(
+          centre + (static_cast<double>(r - along) * from + static_cast<double>(along) * to) / k,
+          assembly));
+    }
+  rings[0].push_back(add_node(centre, assembly));
+
+  const auto node = [&](std::size_t ring, std::size_t edge, std::size_t along) {
+    return rings[ring][(edge * ring + along) % rings[ring].size()];
+  };
+  for (std::size_t edge = 0; edge < n; ++edge)
+    for (std::size_t r = 1; r <= m; ++r)
+      for (std::size_t i = 0; i < r; ++i) {
+        assembly.triangles.push_back(
+            {node(r - 1, edge, i), node(r, edge, i), node(r, edge, i + 1)});
+        if (i + 1 < r)
+          assembly.triangles.push_back(
+              {node(r - 1, edge, i), node(r, edge, i + 1), node(r - 1, edge, i + 1)});
+      }
 }
 
 // One body per fibre; half fibres in order, so the two halves of a fibre follow each other.
-void add_bodies(HalfFibres& halves, Assembly& assembly) {
+void add_bodies(HalfFibres& halves, int refinement, Assembly& assembly) {
   for (auto& [place, half] : halves) {
     const auto [layer, column] = place;
     const HalfFibre* first = nullptr;
     if (!is_first_half(layer, column)) {
       const auto before = halves.find({layer, column - 1});
-      if (before != halves.end() && has_edge(before->second.polygon, EdgeOrigin::head) &&
-          has_edge(half.polygon, EdgeOrigin::tail))
+      if (before != halves.end() && find_edge(before->second.polygon, EdgeOrigin::head) >= 0 &&
+          find_edge(half.polygon, EdgeOrigin::tail) >= 0)
         first = &before->second;
     }
     if (first == nullptr)
       assembly.bodies.push_back({static_cast<int>(assembly.nodes.size()), 0,
                                  static_cast<int>(assembly.triangles.size()), 0});
     half.body = static_cast<int>(assembly.bodies.size()) - 1;
-    add_nodes(first, half, assembly);
+    add_outline(first, refinement, half, assembly);
+    add_triangles(half, refinement, assembly);
     Body& body = assembly.bodies.back();
     body.nodes = static_cast<int>(assembly.nodes.size()) - body.first_node;
     body.triangles = static_cast<int>(assembly.triangles.size()) - body.first_triangle;
@@ -142,12 +174,24 @@ void find_sides(double tolerance, Assembly& assembly) {
 
 }  // namespace
 
-std::array<int, 2> HalfFibre::edge(EdgeOrigin origin) const {
-  const std::size_t n = polygon.size();
-  if (nodes.size() < n) return {-1, -1};
-  for (std::size_t i = 0; i < n; ++i)
-    if (polygon[i].edge == origin) return {nodes[i], nodes[(i + 1) % n]};
-  return {-1, -1};
+std::vector<int> HalfFibre::edge(std::size_t i) const {
+  const std::size_t pieces = outline.size() / polygon.size();
+  std::vector<int> nodes;
+  for (std::size_t j = 0; j <= pieces; ++j)
+    nodes.push_back(outline[(i * pieces + j) % outline.size()]);
+  return nodes;
+}
+
+std::vector<int> HalfFibre::edge(EdgeOrigin origin) const {
+  const int i = outline.empty() ? -1 : find_edge(polygon, origin);
+  return i < 0 ? std::vector<int>() : edge(static_cast<std::size_t>(i));
+}
+
+std::vector<double> mean_weights(std::size_t nodes) {
+  std::vector<double> weights(nodes, 1.0 / static_cast<double>(nodes - 1));
+  weights.front() *= 0.5;
+  weights.back() *= 0.5;
+  return weights;
 }
 
 bool is_first_half(int layer, int column) {
@@ -163,7 +207,7 @@ Assembly build_assembly(const AssemblyOptions& options, Lateral lateral) {
   assembly.width = options.width();
   assembly.height = options.height();
   HalfFibres halves = clipped_half_fibres(options, assembly);
-  add_bodies(halves, assembly);
+  add_bodies(halves, options.refinement, assembly);
   add_joints(options, halves, assembly);
   find_sides(geometric_tolerance(options), assembly);
   if (lateral == Lateral::periodic) add_ties(halves, assembly);

@@ -18,14 +18,14 @@ struct Body {
 };
 
 /// An edge between two bodies, bonded at its midpoint. Side a lies where −n points, side b where n
-/// points: the gap is (u_b − u_a)·n and the slip (u_b − u_a)·t.
+/// points: the gap is (u_b − u_a)·n and the slip (u_b − u_a)·t, u being the mean along the edge.
 struct Joint {
   JointKind kind = JointKind::flank;
   int body_a = 0, body_b = 0;
-  std::array<int, 2> edge_a{}, edge_b{};  ///< Nodes of the edge on either side.
-  Eigen::Vector2d position{0.0, 0.0};     ///< Midpoint. [m]
-  Eigen::Vector2d normal{1.0, 0.0};       ///< n, unit. The tangent t is n turned by +90°. [-]
-  double length = 0.0;                    ///< s. [m]
+  std::vector<int> edge_a, edge_b;     ///< Nodes along the edge on either side.
+  Eigen::Vector2d position{0.0, 0.0};  ///< Midpoint. [m]
+  Eigen::Vector2d normal{1.0, 0.0};    ///< n, unit. The tangent t is n turned by +90°. [-]
+  double length = 0.0;                 ///< s. [m]
 
   [[nodiscard]] Eigen::Vector2d tangent() const { return {-normal.y(), normal.x()}; }
 };
@@ -51,7 +51,11 @@ struct Assembly {
   int dropped = 0;  ///< Half fibres left out because they are smaller than 1e-6 of a whole one.
 };
 
-/// Lays the running bond, turns it by θ, clips it, cuts it into triangles and finds the joints.
+/// Weights of an edge's nodes in the mean of what is linear between neighbours. [-]
+std::vector<double> mean_weights(std::size_t nodes);
+
+/// Lays the running bond, turns it by θ, clips it, cuts it into triangles (8 k² a fibre)
+/// and finds the joints.
 Assembly build_assembly(const AssemblyOptions& options, Lateral lateral);
 
 }  // namespace havers::sim

@@ -14,10 +14,12 @@ namespace havers::sim {
 struct HalfFibre {
   Polygon polygon;
   int body = -1;
-  std::vector<int> nodes;  ///< Of the polygon's vertices, then of its centroid.
+  std::vector<int> outline;  ///< Nodes around it; those of edge i begin at i times the refinement.
 
-  /// Nodes of the edge of that origin; the first is −1 when the clipping left none.
-  [[nodiscard]] std::array<int, 2> edge(EdgeOrigin origin) const;
+  /// Nodes along the edge of that origin, both ends included; none when the clipping left none.
+  [[nodiscard]] std::vector<int> edge(EdgeOrigin origin) const;
+  /// Nodes along the edge that starts at vertex i.
+  [[nodiscard]] std::vector<int> edge(std::size_t i) const;
 };
 
 /// Keyed by (layer, column), in the order in which bodies and joints are numbered.

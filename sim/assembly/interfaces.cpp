@@ -18,9 +18,9 @@ void add_joint(const HalfFibre& a, EdgeOrigin side_a, const HalfFibre& b, EdgeOr
                Joint joint, Assembly& assembly) {
   joint.edge_a = a.edge(side_a);
   joint.edge_b = b.edge(side_b);
-  if (a.body == b.body || joint.edge_a[0] < 0 || joint.edge_b[0] < 0) return;
-  const Vector2d& p = at(assembly, joint.edge_a[0]);
-  const Vector2d& q = at(assembly, joint.edge_a[1]);
+  if (a.body == b.body || joint.edge_a.empty() || joint.edge_b.empty()) return;
+  const Vector2d& p = at(assembly, joint.edge_a.front());
+  const Vector2d& q = at(assembly, joint.edge_a.back());
   joint.body_a = a.body;
   joint.body_b = b.body;
   joint.position = 0.5 * (p + q);
@@ -31,19 +31,19 @@ void add_joint(const HalfFibre& a, EdgeOrigin side_a, const HalfFibre& b, EdgeOr
 // An edge on the top or bottom side.
 struct OuterEdge {
   int body;
-  std::array<int, 2> nodes;  // in the order of x
-  double from, to;           // x [m]
+  std::vector<int> nodes;  // in the order of x
+  double from, to;         // x [m]
 };
 
 std::vector<OuterEdge> outer_edges(const HalfFibres& halves, const Assembly& assembly, double y) {
   const double tolerance = 1e-9 * assembly.height;
   std::vector<OuterEdge> edges;
   for (const auto& [place, half] : halves) {
-    const std::size_t n = half.polygon.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      std::array<int, 2> nodes{half.nodes[i], half.nodes[(i + 1) % n]};
-      if (at(assembly, nodes[0]).x() > at(assembly, nodes[1]).x()) std::swap(nodes[0], nodes[1]);
-      const Vector2d &p = at(assembly, nodes[0]), &q = at(assembly, nodes[1]);
+    for (std::size_t i = 0; i < half.polygon.size(); ++i) {
+      std::vector<int> nodes = half.edge(i);
+      if (at(assembly, nodes.front()).x() > at(assembly, nodes.back()).x())
+        std::reverse(nodes.begin(), nodes.end());
+      const Vector2d &p = at(assembly, nodes.front()), &q = at(assembly, nodes.back());
       if (std::abs(p.y() - y) < tolerance && std::abs(q.y() - y) < tolerance)
         edges.push_back({half.body, nodes, p.x(), q.x()});
     }
@@ -53,9 +53,18 @@ std::vector<OuterEdge> outer_edges(const HalfFibres& halves, const Assembly& ass
   return edges;
 }
 
-std::array<double, 2> weights(const OuterEdge& edge, double x) {
-  const double w = (x - edge.from) / (edge.to - edge.from);
-  return {1.0 - w, w};
+// The point at x on an edge: two neighbouring nodes and their weights.
+struct EdgePoint {
+  std::array<int, 2> nodes;
+  std::array<double, 2> weights;
+};
+
+EdgePoint point_on(const OuterEdge& edge, double x) {
+  const std::size_t pieces = edge.nodes.size() - 1;
+  const double place = (x - edge.from) / (edge.to - edge.from) * static_cast<double>(pieces);
+  const std::size_t piece = std::min(static_cast<std::size_t>(place), pieces - 1);
+  const double w = place - static_cast<double>(piece);
+  return {{edge.nodes[piece], edge.nodes[piece + 1]}, {1.0 - w, w}};
 }
 
 }  // namespace
@@ -88,8 +97,9 @@ void add_ties(const HalfFibres& halves, Assembly& assembly) {
                  to = std::min(top[t].to, bottom[b].to);
     if (to - from > tolerance) {
       const double x = 0.5 * (from + to);
-      assembly.ties.push_back({top[t].body, bottom[b].body, top[t].nodes, bottom[b].nodes,
-                               weights(top[t], x), weights(bottom[b], x)});
+      const EdgePoint above = point_on(top[t], x), below = point_on(bottom[b], x);
+      assembly.ties.push_back(
+          {top[t].body, bottom[b].body, above.nodes, below.nodes, above.weights, below.weights});
     }
     if (top[t].to < bottom[b].to)
       ++t;

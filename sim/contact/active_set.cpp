@@ -88,7 +88,7 @@ bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded
 
 bool ActiveSetSolver::loosen_violated(const JointStep& step, const VectorXd& reactions,
                                       JointStepResult& result) {
-  const double scale = reactions.cwiseAbs().maxCoeff();
+  const double scale = reactions.lpNorm<Eigen::Infinity>();  // 0 where there is no joint
   std::vector<int> violated;
   for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint) {
     const auto j = static_cast<std::size_t>(joint);

@@ -16,8 +16,8 @@ using Eigen::VectorXd;
 // A port with the row of B that it reads.
 struct PortRow {
   Port port;
-  std::array<int, 2> nodes;
-  std::array<double, 2> weights;
+  std::vector<int> nodes;
+  std::vector<double> weights;
   Eigen::Vector2d direction;
 };
 
@@ -28,16 +28,22 @@ std::vector<std::vector<PortRow>> ports_of_bodies(const Assembly& assembly) {
   };
   int unknown = 0;
   for (const Joint& joint : assembly.joints) {
+    const std::vector<double> mean = mean_weights(joint.edge_a.size());
     for (const Eigen::Vector2d& direction : {joint.normal, joint.tangent()}) {
-      of(joint.body_a).push_back({{unknown, PortSide::a}, joint.edge_a, {0.5, 0.5}, direction});
-      of(joint.body_b).push_back({{unknown, PortSide::b}, joint.edge_b, {0.5, 0.5}, direction});
+      of(joint.body_a).push_back({{unknown, PortSide::a}, joint.edge_a, mean, direction});
+      of(joint.body_b).push_back({{unknown, PortSide::b}, joint.edge_b, mean, direction});
       ++unknown;
     }
   }
   for (const Tie& tie : assembly.ties) {
     const Eigen::Vector2d y(0.0, 1.0);
-    of(tie.body_bottom).push_back({{unknown, PortSide::a}, tie.edge_bottom, tie.weight_bottom, y});
-    of(tie.body_top).push_back({{unknown, PortSide::b}, tie.edge_top, tie.weight_top, y});
+    const auto row = [&](PortSide side, const std::array<int, 2>& nodes,
+                         const std::array<double, 2>& weights) {
+      return PortRow{
+          {unknown, side}, {nodes.begin(), nodes.end()}, {weights.begin(), weights.end()}, y};
+    };
+    of(tie.body_bottom).push_back(row(PortSide::a, tie.edge_bottom, tie.weight_bottom));
+    of(tie.body_top).push_back(row(PortSide::b, tie.edge_top, tie.weight_top));
     ++unknown;
   }
   return rows;
@@ -55,7 +61,7 @@ std::vector<char> held_dofs(const Assembly& assembly) {
 MatrixXd port_matrix(const std::vector<PortRow>& rows, const Body& body) {
   MatrixXd B = MatrixXd::Zero(static_cast<Index>(rows.size()), 2 * body.nodes);
   for (std::size_t r = 0; r < rows.size(); ++r)
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < rows[r].nodes.size(); ++k) {
       const Index column = 2 * (rows[r].nodes[k] - body.first_node);
       B.block<1, 2>(static_cast<Index>(r), column) +=
           rows[r].weights[k] * rows[r].direction.transpose();

@@ -27,6 +27,19 @@ TEST_P(UniformStress, HasTheModulusOfTheMaterial) {
     }
 }
 
+// (M1) on finer meshes: joints take the mean of their edges, so a uniform stress stays uniform.
+TEST_P(UniformStress, DoesNotDependOnTheMesh) {
+  for (Scene scene : {test::small_scene(GetParam()), test::dynamic_scene(GetParam())})
+    for (const int refinement : {2, 4}) {
+      scene.assembly.refinement = refinement;
+      scene.loading.max_strain = 2e-4;
+      const Simulation simulation = simulate(scene);
+      EXPECT_NEAR(simulation.modulus / scene.material.young, 1.0, 1e-9);
+      for (const CurvePoint& point : simulation.curve)
+        EXPECT_NEAR(point.stress_left, scene.material.young * point.strain, 1e-9 * 2.6e6);
+    }
+}
+
 TEST_P(UniformStress, IsStifferInPlaneStrain) {
   for (Scene scene : {test::small_scene(GetParam()), test::dynamic_scene(GetParam())}) {
     scene.material.plane = Plane::strain;

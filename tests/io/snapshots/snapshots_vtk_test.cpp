@@ -93,7 +93,7 @@ TEST(Vtu, ReadsBackAsWritten) {
   ASSERT_EQ(grid.GetNumberOfCells(), 3);
   EXPECT_EQ(grid.GetPoint(4)[1], 1.0);
   EXPECT_EQ(grid.GetPointData()->GetArray("displacement")->GetComponent(5, 1), 11.0);
-  EXPECT_EQ(grid.GetCellType(2), VTK_LINE);
+  EXPECT_EQ(grid.GetCellType(2), VTK_POLY_LINE);
   EXPECT_EQ(grid.GetCellData()->GetArray("kind")->GetComponent(0, 0), 0.0);
   EXPECT_EQ(grid.GetCellData()->GetArray("kind")->GetComponent(2, 0), 1.0);
   EXPECT_EQ(grid.GetCellData()->GetArray("broken")->GetComponent(2, 0), 1.0);

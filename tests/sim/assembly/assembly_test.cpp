@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "tests/support/scenes.hpp"
@@ -62,14 +63,20 @@ TEST(Assembly, HasThePapersCountsAt21By30) {
   EXPECT_EQ(whole, 615);
 }
 
-class AssemblyAt : public testing::TestWithParam<double> {
+class AssemblyAt : public testing::TestWithParam<std::tuple<double, int>> {
  protected:
-  AssemblyOptions options{.layers = 7, .fibres = 5, .orientation = GetParam() * test::degree};
+  AssemblyOptions options{.layers = 7,
+                          .fibres = 5,
+                          .orientation = std::get<0>(GetParam()) * test::degree,
+                          .refinement = std::get<1>(GetParam())};
   Assembly assembly = build_assembly(options, Lateral::periodic);
   double small = 1e-9 * options.fibre_height;
 };
-INSTANTIATE_TEST_SUITE_P(Orientation, AssemblyAt, testing::ValuesIn(test::orientations));
-INSTANTIATE_TEST_SUITE_P(Negative, AssemblyAt, testing::Values(-30.0, -89.0));
+INSTANTIATE_TEST_SUITE_P(OrientationAndMesh, AssemblyAt,
+                         testing::Combine(testing::ValuesIn(test::orientations),
+                                          testing::Values(1, 2, 4)));
+INSTANTIATE_TEST_SUITE_P(Negative, AssemblyAt,
+                         testing::Combine(testing::Values(-30.0, -89.0), testing::Values(1, 2)));
 
 TEST_P(AssemblyAt, FillsTheRectangle) {
   double sum = 0.0;
@@ -91,8 +98,10 @@ TEST_P(AssemblyAt, JoinsAllThatTouches) {
 
 TEST_P(AssemblyAt, HasTheSameEdgeOnBothSidesOfAJoint) {
   for (const Joint& joint : assembly.joints) {
-    const Vector2d a0 = node(assembly, joint.edge_a[0]), a1 = node(assembly, joint.edge_a[1]),
-                   b0 = node(assembly, joint.edge_b[0]), b1 = node(assembly, joint.edge_b[1]);
+    const Vector2d a0 = node(assembly, joint.edge_a.front()),
+                   a1 = node(assembly, joint.edge_a.back()),
+                   b0 = node(assembly, joint.edge_b.front()),
+                   b1 = node(assembly, joint.edge_b.back());
     const double same = (a0 - b0).norm() + (a1 - b1).norm(),
                  reversed = (a0 - b1).norm() + (a1 - b0).norm();
     EXPECT_LT(std::min(same, reversed), small);
@@ -184,6 +193,29 @@ TEST(Assembly, JoinsLayersAlongTheirWholeLengthAt0Degrees) {
     (joint.kind == JointKind::flank ? flank : head_tail) += joint.length;
   EXPECT_NEAR(flank, 5 * options.width(), 1e-15);
   EXPECT_NEAR(head_tail, (3 * 3 + 3 * 4) * options.fibre_height, 1e-15);
+}
+
+// A finer mesh is another mesh of the same wall: same fibres, same joints and ties in the same
+// order.
+TEST_P(AssemblyAt, IsTheSameWallOnEveryMesh) {
+  AssemblyOptions coarse = options;
+  coarse.refinement = 1;
+  const Assembly other = build_assembly(coarse, Lateral::periodic);
+  const auto k = static_cast<std::size_t>(options.refinement);
+  EXPECT_EQ(assembly.bodies.size(), other.bodies.size());
+  EXPECT_EQ(assembly.triangles.size(), k * k * other.triangles.size());
+  ASSERT_EQ(assembly.joints.size(), other.joints.size());
+  ASSERT_EQ(assembly.ties.size(), other.ties.size());
+  for (std::size_t j = 0; j < assembly.joints.size(); ++j) {
+    EXPECT_EQ(assembly.joints[j].edge_a.size(), k + 1);
+    EXPECT_EQ(assembly.joints[j].body_b, other.joints[j].body_b);
+    EXPECT_LT((assembly.joints[j].position - other.joints[j].position).norm(), small);
+  }
+}
+
+TEST(MeanWeights, GiveTheMeanOfALinearPiecewiseFunction) {
+  EXPECT_EQ(mean_weights(2), (std::vector<double>{0.5, 0.5}));
+  EXPECT_EQ(mean_weights(5), (std::vector<double>{0.125, 0.25, 0.25, 0.25, 0.125}));
 }
 
 TEST(Assembly, SaysWhatItDropped) {

@@ -30,8 +30,11 @@ struct DenseStructure {
     };
     for (const sim::Joint& joint : assembly.joints)
       for (const Eigen::Vector2d& direction : {joint.normal, joint.tangent()}) {
-        for (const int node : joint.edge_b) add(node, 0.5, direction);
-        for (const int node : joint.edge_a) add(node, -0.5, direction);
+        const std::vector<double> weights = sim::mean_weights(joint.edge_a.size());
+        for (std::size_t k = 0; k < weights.size(); ++k) {
+          add(joint.edge_b[k], weights[k], direction);
+          add(joint.edge_a[k], -weights[k], direction);
+        }
         ++row;
       }
     for (std::size_t i = 0; i + 1 < assembly.ties.size(); ++i) {  // n − 1 equations for n points

@@ -1,0 +1,133 @@
+#include "sim/bench/stability.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/bench/watched_run.hpp"
+
+namespace havers::sim {
+namespace {
+
+constexpr double largest_error = 1e-8;
+constexpr double largest_penetration = 1e-9;
+
+// Modulus of the bonded specimen along the load.
+double expected_modulus(const Material& material) {
+  const double nu = material.poisson;
+  return material.young / (material.plane == Plane::strain ? 1.0 - nu * nu : 1.0);
+}
+
+// Largest deviation of the loading curve from σ = E(ε + τε̇), relative to the largest stress until
+// the first break.
+double stress_error(const Scene& scene, const Simulation& run) {
+  const double modulus = expected_modulus(scene.material);
+  const double viscous =
+      run.regime == Regime::dynamic ? scene.material.viscosity * scene.loading.strain_rate : 0.0;
+  double error = 0.0, largest = 0.0;
+  for (const CurvePoint& point : run.curve) {
+    if (point.broken_joints > 0) break;
+    if (point.strain == 0.0) continue;
+    const double expected = modulus * (point.strain + viscous);
+    largest = std::max(largest, expected);
+    error = std::max(
+        {error, std::abs(point.stress_right - expected), std::abs(point.stress_left - expected)});
+  }
+  return largest > 0.0 ? error / largest : 0.0;
+}
+
+// How far the first break is from where it must be. A run in steps finds it at the end of the step.
+double first_break_error(const Scene& scene, const Simulation& run) {
+  double expected = first_break_by_uniform_stress(scene);
+  double lag = 0.0;
+  if (run.regime == Regime::dynamic) {
+    expected = std::max(0.0, expected - scene.material.viscosity * scene.loading.strain_rate);
+    lag = scene.loading.strain_rate * run.step;
+  }
+  const bool must_break = expected + lag < scene.loading.max_strain;
+  if (run.broken_joints == 0) return must_break ? 1.0 : 0.0;
+  const double late = run.first_break_strain - expected;
+  return std::max({0.0, -late, late - lag}) / run.first_break_strain;
+}
+
+bool all_finite(const Simulation& run) {
+  const auto finite = [](const CurvePoint& point) {
+    return std::isfinite(point.stress_right) && std::isfinite(point.stress_left) &&
+           std::isfinite(point.kinetic) && std::isfinite(point.elastic) &&
+           std::isfinite(point.dissipated);
+  };
+  return std::all_of(run.curve.begin(), run.curve.end(), finite) && run.displacements.allFinite() &&
+         std::isfinite(run.worst_residual) && std::isfinite(run.energy_defect) &&
+         std::isfinite(run.worst_penetration);
+}
+
+// A run may end as it should and still fail its own checks.
+std::string why_not_trusted(const Simulation& run) {
+  const bool ended =
+      run.status == SimulationStatus::broken || run.status == SimulationStatus::strain_limit;
+  return ended ? "its residual or energy defect is too large" : explain(run.status);
+}
+
+std::string what_is_wrong(const StabilityResult& result, bool finite) {
+  if (!finite) return "a number that is not finite left the run";
+  if (result.error > largest_error)
+    return fmt::format("misses the known answer by {:.1e}", result.error);
+  if (result.penetration > largest_penetration)
+    return fmt::format("fibres overlap by {:.1e} of their length", result.penetration);
+  return {};
+}
+
+}  // namespace
+
+std::string to_string(StabilityOutcome outcome) {
+  switch (outcome) {
+    case StabilityOutcome::solved:
+      return "solved";
+    case StabilityOutcome::refused:
+      return "refused";
+    case StabilityOutcome::failed:
+      return "failed";
+    case StabilityOutcome::wrong:
+      return "wrong";
+  }
+  return "unknown";
+}
+
+std::string summary(const std::vector<StabilityResult>& results) {
+  const auto good = std::count_if(results.begin(), results.end(),
+                                  [](const StabilityResult& result) { return result.as_it_must; });
+  return fmt::format("{} of {} scenes solved or refused as they must be.", good, results.size());
+}
+
+StabilityResult run_stability_scene(const StabilityScene& scene,
+                                    const std::function<bool()>& keep_going) {
+  StabilityResult result{.name = scene.name};
+  const std::vector<Scene::Problem> problems = scene.scene.problems();
+  if (!problems.empty()) {
+    result.outcome = StabilityOutcome::refused;
+    result.reason = problems.front().key + " " + problems.front().what;
+    result.as_it_must = scene.refused;
+    return result;
+  }
+  const WatchedRun watched = watch(scene.scene, {}, keep_going);
+  const Simulation& run = watched.simulation;
+  const bool finite = all_finite(run);
+  result.wall = watched.wall;
+  result.residual = run.worst_residual;
+  result.energy_defect = run.energy_defect;
+  result.penetration = run.worst_penetration / scene.scene.assembly.fibre_length;
+  result.error = std::max(stress_error(scene.scene, run), first_break_error(scene.scene, run));
+  result.reason = what_is_wrong(result, finite);
+  if (!run.trusted()) {
+    result.outcome = finite ? StabilityOutcome::failed : StabilityOutcome::wrong;
+    result.reason = watched.out_of_time ? "took longer than a minute" : why_not_trusted(run);
+  } else {
+    result.outcome = result.reason.empty() ? StabilityOutcome::solved : StabilityOutcome::wrong;
+  }
+  result.as_it_must = result.outcome == StabilityOutcome::solved && !scene.refused;
+  return result;
+}
+
+}  // namespace havers::sim

@@ -1,0 +1,181 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "sim/bench/stability.hpp"
+#include "sim/bench/watched_run.hpp"
+
+namespace havers::sim {
+namespace {
+
+using Scenes = std::vector<StabilityScene>;
+
+Scene wall(int layers = 4, int fibres = 3, double degrees = 0.0) {
+  Scene scene;
+  scene.assembly.layers = layers;
+  scene.assembly.fibres = fibres;
+  scene.assembly.orientation = degrees * std::numbers::pi / 180.0;
+  return scene;
+}
+
+// Both strengths stay the same part of the modulus.
+Scene with_modulus(double young, Scene scene = wall()) {
+  const double factor = young / scene.material.young;
+  scene.material.young = young;
+  scene.joints.head_tail *= factor;
+  scene.joints.flank *= factor;
+  return scene;
+}
+
+Scene with_fibres(double length, double height, Scene scene = wall()) {
+  scene.assembly.fibre_length = length;
+  scene.assembly.fibre_height = height;
+  return scene;
+}
+
+Scene quasi_static(Scene scene) {
+  scene.solver.regime = Regime::quasi_static;
+  return scene;
+}
+
+// Steps of h c/L = `size`, the first break in the eleventh.
+Scene dynamic(double size, Scene scene) {
+  const double wave = std::sqrt(scene.material.young / scene.material.density);
+  const double h = size * scene.assembly.fibre_length / wave;
+  const double first = first_break_by_uniform_stress(scene);
+  scene.solver.regime = Regime::dynamic;
+  scene.solver.step = h;
+  scene.loading.strain_rate =
+      (std::isfinite(first) ? first : scene.loading.max_strain) / (10.5 * h);
+  return scene;
+}
+
+void add_both(Scenes& scenes, const std::string& name, const Scene& scene) {
+  scenes.push_back({name + ", quasi-static", quasi_static(scene)});
+  scenes.push_back({name + ", stepped", dynamic(1.0, scene)});
+}
+
+void add_steps_and_materials(Scenes& scenes) {
+  for (int power = -3; power <= 6; ++power)
+    scenes.push_back({fmt::format("h c/L = 1e{}", power), dynamic(std::pow(10.0, power), wall())});
+  for (const double young : {1e3, 1e12})
+    add_both(scenes, fmt::format("modulus {:g} Pa", young), with_modulus(young));
+  for (const double density : {1e-3, 1e6}) {
+    Scene scene = wall();
+    scene.material.density = density;
+    scenes.push_back({fmt::format("density {:g} kg/m³", density), dynamic(1.0, scene)});
+  }
+  for (const double poisson : {0.0, 0.4999}) {
+    Scene scene = wall();
+    scene.material.plane = Plane::strain;
+    scene.material.poisson = poisson;
+    add_both(scenes, fmt::format("plane strain, Poisson's ratio {:g}", poisson), scene);
+  }
+  Scene auxetic = wall();
+  auxetic.material.poisson = -0.9;
+  add_both(scenes, "Poisson's ratio -0.9", auxetic);
+  for (const double viscosity : {1e-12, 1e-3}) {
+    Scene scene = dynamic(1.0, wall());
+    scene.material.viscosity = viscosity;
+    scene.loading.strain_rate =
+        std::min(scene.loading.strain_rate, 0.5 * first_break_by_uniform_stress(scene) / viscosity);
+    scene.solver.step = 0.05 * first_break_by_uniform_stress(scene) / scene.loading.strain_rate;
+    scenes.push_back({fmt::format("viscosity {:g} s", viscosity), scene});
+  }
+}
+
+void add_geometries(Scenes& scenes) {
+  add_both(scenes, "fibres of 10 nm", with_fibres(10e-9, 1e-9));
+  add_both(scenes, "fibres of 1 m", with_fibres(1.0, 0.1));
+  add_both(scenes, "fibres as long as high", with_fibres(10e-6, 10e-6));
+  add_both(scenes, "fibres 1000 times as long as high", with_fibres(10e-3, 10e-6));
+  for (const double degrees : {0.01, 45.0, 89.99, 90.0})
+    add_both(scenes, fmt::format("fibres at {:g}°", degrees), wall(4, 3, degrees));
+  add_both(scenes, "one fibre", wall(1, 1));
+  add_both(scenes, "one layer", wall(1, 6));
+  add_both(scenes, "layers of one fibre", wall(6, 1));
+  add_both(scenes, "a chain of 1000", wall(1, 1000));
+  for (const int refinement : {2, 4}) {
+    Scene scene = wall();
+    scene.assembly.refinement = refinement;
+    add_both(scenes, fmt::format("{} triangles a fibre", 8 * refinement * refinement), scene);
+  }
+  Scene free = wall(4, 3, 30.0);
+  free.loading.lateral = Lateral::free;
+  add_both(scenes, "free sides at 30°", free);
+}
+
+void add_strengths(Scenes& scenes) {
+  for (const double factor : {1e-12, 1e12}) {
+    Scene scene = wall();
+    scene.joints.head_tail *= factor;
+    scene.joints.flank *= factor;
+    add_both(scenes, fmt::format("thresholds {:g} of the usual", factor), scene);
+  }
+  for (const double r : {1e-4, 1e4}) {
+    Scene scene = wall();
+    scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, r);
+    add_both(scenes, fmt::format("r = {:g}", r), scene);
+  }
+  for (const double scatter : {0.0, 1.99}) {
+    Scene scene = wall(6, 5);
+    scene.joints.scatter = scatter;
+    add_both(scenes, fmt::format("scatter {:g}", scatter), scene);
+  }
+  for (const double friction : {0.0, 100.0}) {
+    Scene scene = wall(6, 5, 45.0);
+    scene.joints.friction = friction;
+    add_both(scenes, fmt::format("friction {:g} at 45°", friction), scene);
+  }
+}
+
+void add_loadings(Scenes& scenes) {
+  for (const double rate : {1e-6, 1e6}) {
+    Scene scene = wall();
+    scene.loading.strain_rate = rate;
+    scenes.push_back({fmt::format("strain rate {:g} /s, regime and step chosen", rate), scene});
+  }
+  for (const double size : {0.01, 0.1}) {
+    Scene scene = dynamic(size, wall());
+    scene.solver.contact = ContactMethod::gauss_seidel;
+    scenes.push_back({fmt::format("Gauss-Seidel at h c/L = {:g}", size), scene});
+  }
+}
+
+void add_refused(Scenes& scenes) {
+  const auto refuse = [&](const std::string& name, const auto& spoil) {
+    Scene scene = wall();
+    spoil(scene);
+    scenes.push_back({name, scene, true});
+  };
+  constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+  refuse("no stiffness", [](Scene& s) { s.material.young = 0.0; });
+  refuse("a modulus that is no number", [](Scene& s) { s.material.young = no_number; });
+  refuse("incompressible in plane strain", [](Scene& s) {
+    s.material.plane = Plane::strain;
+    s.material.poisson = 0.5;
+  });
+  refuse("no mass", [](Scene& s) { s.material.density = 0.0; });
+  refuse("scatter 2: joints without strength", [](Scene& s) { s.joints.scatter = 2.0; });
+  refuse("infinite strain rate",
+         [](Scene& s) { s.loading.strain_rate = std::numeric_limits<double>::infinity(); });
+  refuse("a step of no time", [](Scene& s) { s.solver.step = 0.0; });
+  refuse("thresholds of another wall", [](Scene& s) { s.joints.thresholds = {{1.0, 1.0}}; });
+  refuse("more fibres than fit", [](Scene& s) { s.assembly.layers = s.assembly.fibres = 100000; });
+}
+
+}  // namespace
+
+std::vector<StabilityScene> stability_scenes() {
+  Scenes scenes;
+  add_steps_and_materials(scenes);
+  add_geometries(scenes);
+  add_strengths(scenes);
+  add_loadings(scenes);
+  add_refused(scenes);
+  return scenes;
+}
+
+}  // namespace havers::sim

@@ -1,0 +1,119 @@
+#include "sim/bench/watched_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <limits>
+
+#include "sim/joint/cohesive_cone.hpp"
+#include "sim/joint/thresholds.hpp"
+
+namespace havers::sim {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+VectorXd forces_of(const std::vector<JointOutcome>& joints) {
+  VectorXd forces(2 * static_cast<Index>(joints.size()));
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    forces.segment<2>(static_cast<Index>(2 * j)) << joints[j].reaction_normal,
+        joints[j].reaction_tangent;
+  return forces;
+}
+
+// Takes down what an observer sees, row by row.
+class Watcher {
+ public:
+  Watcher(double bonded_strain, WatchedRun& run) : bonded_strain_(bonded_strain), run_(&run) {}
+
+  void record(const Progress& progress) {
+    const double strain = progress.point.strain;
+    const bool intact = progress.point.broken_joints == 0;
+    if (run_->bonded_forces.size() == 0 &&
+        (intact || strain_ >= bonded_strain_ || strain_ == 0.0)) {
+      const VectorXd forces = forces_of(progress.joints);
+      if (strain >= bonded_strain_) take_bonded(strain, forces);
+      before_ = forces;
+      strain_ = strain;
+    }
+    for (std::size_t j = 0; j < progress.joints.size(); ++j) {
+      if (!progress.joints[j].broken || seen(j)) continue;
+      run_->order.push_back(static_cast<int>(j));
+      run_->forces_at_break.push_back(forces_of(progress.joints));
+    }
+  }
+
+ private:
+  // Before the first row everything is 0.
+  void take_bonded(double strain, const VectorXd& forces) {
+    if (before_.size() == 0) before_ = VectorXd::Zero(forces.size());
+    const double w = (bonded_strain_ - strain_) / (strain - strain_);
+    run_->bonded_forces = (1.0 - w) * before_ + w * forces;
+  }
+
+  bool seen(std::size_t joint) {
+    if (seen_.size() <= joint) seen_.resize(joint + 1, 0);
+    const bool was = seen_[joint] != 0;
+    seen_[joint] = 1;
+    return was;
+  }
+
+  double bonded_strain_, strain_ = 0.0;
+  VectorXd before_;
+  std::vector<char> seen_;
+  WatchedRun* run_;
+};
+
+}  // namespace
+
+WatchedRun watch(const Scene& scene, const WatchOptions& options, const KeepGoing& keep_going) {
+  using Clock = std::chrono::steady_clock;
+  WatchedRun run;
+  Watcher watcher(options.bonded_strain, run);
+  const auto begin = Clock::now();
+  const std::clock_t cpu = std::clock();
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  run.simulation = simulate(scene, [&](const Progress& progress) {
+    watcher.record(progress);
+    run.out_of_time = seconds() > options.time_limit;
+    return !run.out_of_time && (!keep_going || keep_going());
+  });
+  run.wall = seconds();
+  run.cpu = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+  return run;
+}
+
+Eigen::VectorXd uniform_stress_forces(const Scene& scene, double strain) {
+  const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
+  const double nu = scene.material.poisson;
+  const double modulus =
+      scene.material.young / (scene.material.plane == Plane::strain ? 1.0 - nu * nu : 1.0);
+  VectorXd forces(2 * static_cast<Index>(assembly.joints.size()));
+  for (std::size_t j = 0; j < assembly.joints.size(); ++j) {
+    const Joint& joint = assembly.joints[j];
+    const double pull = modulus * strain * joint.length * joint.normal.x();
+    forces.segment<2>(static_cast<Index>(2 * j)) << -pull * joint.normal.x(),
+        -pull * joint.tangent().x();
+  }
+  return forces;
+}
+
+double first_break_by_uniform_stress(const Scene& scene) {
+  const VectorXd forces = uniform_stress_forces(scene, 1.0);
+  const std::vector<Threshold> thresholds =
+      draw_thresholds(scene, build_assembly(scene.assembly, scene.loading.lateral));
+  const double noise = forces.size() > 0 ? 1e-12 * forces.cwiseAbs().maxCoeff() : 0.0;
+  double first = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < thresholds.size(); ++j) {
+    const JointLaw law = intact_law(thresholds[j]);
+    const Local r = forces.segment<2>(static_cast<Index>(2 * j));
+    const double denominator = std::abs(r.y()) - law.friction * r.x();
+    if (denominator > noise * std::max(1.0, law.friction))
+      first = std::min(first, law.friction * law.cohesion / denominator);
+  }
+  return first;
+}
+
+}  // namespace havers::sim

@@ -1,0 +1,40 @@
+// A simulation with what a comparison needs to know about it: joint forces on the way, and its
+// cost.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "sim/simulation.hpp"
+
+namespace havers::sim {
+
+/// Called between rows; returning false stops everything.
+using KeepGoing = std::function<bool()>;
+
+/// Forces are R_N and R_T of every joint.
+struct WatchedRun {
+  Simulation simulation;
+  Eigen::VectorXd
+      bonded_forces;       ///< At the strain asked for; empty when a joint broke before. [N/m]
+  std::vector<int> order;  ///< Joints in the order of breaking.
+  std::vector<Eigen::VectorXd> forces_at_break;  ///< After the row of each break. [N/m]
+  double wall = 0.0, cpu = 0.0;                  ///< [s]
+  bool out_of_time = false;                      ///< Stopped at the limit.
+};
+
+struct WatchOptions {
+  double bonded_strain = 0.0;  ///< Where `bonded_forces` are taken, by linear interpolation. [-]
+  double time_limit = 60.0;    ///< Wall time. [s]
+};
+
+WatchedRun watch(const Scene& scene, const WatchOptions& options, const KeepGoing& keep_going);
+
+/// Forces of all joints in the bonded specimen, whose stress is uniform (M1). [N/m]
+Eigen::VectorXd uniform_stress_forces(const Scene& scene, double strain);
+
+/// Strain at which a joint first meets its cone under the uniform stress of the bonded specimen
+/// (M1), in closed form; infinite when none ever does. [-]
+double first_break_by_uniform_stress(const Scene& scene);
+
+}  // namespace havers::sim

@@ -1,0 +1,293 @@
+#include "sim/bench/work_precision.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "sim/simulate.hpp"
+
+namespace havers::sim {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+constexpr int finest = 4;  // refinement of the mesh that meshes are compared with
+
+bool is_quasi_static(const Scene& scene) {
+  return choose_regime(scene).regime == Regime::quasi_static;
+}
+
+double base_step(const Scene& scene) {
+  const double wave = std::sqrt(scene.material.young / scene.material.density);
+  if (is_quasi_static(scene))  // a hundredth of the way to the first break
+    return 1e-2 * first_break_by_uniform_stress(scene) / scene.loading.strain_rate;
+  return scene.solver.step.value_or(0.25 * scene.assembly.fibre_length / wave);
+}
+
+Scene with_setting(const BenchSetting& setting, Scene scene) {
+  scene.solver.regime = setting.regime;
+  scene.solver.contact = setting.contact;
+  scene.solver.tolerance = setting.tolerance;
+  scene.solver.step.reset();
+  if (setting.step > 0.0) scene.solver.step = setting.step;
+  scene.solver.leave_out = setting.leave_out;
+  scene.assembly.refinement = setting.refinement;
+  return scene;
+}
+
+BenchSetting reference_setting(const Scene& scene) {
+  BenchSetting reference{.regime = choose_regime(scene).regime,
+                         .tolerance = 1e-12,
+                         .refinement = scene.assembly.refinement};
+  if (is_quasi_static(scene))
+    reference.leave_out = false;
+  else
+    reference.step = base_step(scene) / 64.0;
+  return reference;
+}
+
+double relative_error(double value, double reference) {
+  return std::abs(value - reference) / std::abs(reference);
+}
+
+double relative_error(const VectorXd& forces, const VectorXd& reference) {
+  if (forces.size() == 0 || forces.size() != reference.size()) return not_known;
+  return (forces - reference).norm() / reference.norm();
+}
+
+double stress_on(const std::vector<CurvePoint>& curve, double strain) {
+  const auto next =
+      std::lower_bound(curve.begin(), curve.end(), strain,
+                       [](const CurvePoint& point, double value) { return point.strain < value; });
+  if (next == curve.begin() || next == curve.end())
+    return next == curve.end() ? 0.0 : next->stress_right;
+  const CurvePoint &a = *(next - 1), &b = *next;
+  const double w = b.strain > a.strain ? (strain - a.strain) / (b.strain - a.strain) : 1.0;
+  return (1.0 - w) * a.stress_right + w * b.stress_right;
+}
+
+double curve_error(const Simulation& run, const Simulation& reference) {
+  constexpr int points = 200;
+  double squares = 0.0;
+  for (int i = 1; i <= points; ++i) {
+    const double strain = reference.failure_strain * i / points;
+    const double difference = stress_on(run.curve, strain) - stress_on(reference.curve, strain);
+    squares += difference * difference;
+  }
+  return std::sqrt(squares / points) / reference.strength;
+}
+
+std::size_t same_breaks(const WatchedRun& run, const WatchedRun& reference) {
+  const auto& [a, b] = std::pair(run.order, reference.order);
+  const auto parting = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  return static_cast<std::size_t>(parting.first - a.begin());
+}
+
+BenchSpread spread(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) return {not_known, not_known, not_known};
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return {0.5 * (values[(n - 1) / 2] + values[n / 2]), values.front(), values.back()};
+}
+
+// A number of every run, as a spread.
+template <class Number>
+BenchSpread over(const std::vector<WatchedRun>& runs, const Number& number) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < runs.size(); ++i) values.push_back(number(i));
+  return spread(std::move(values));
+}
+
+// The reference of the forces before the first break is known in closed form, but for a shock.
+void take_exact_forces(const Scene& scene, double strain, std::vector<WatchedRun>& references) {
+  if (scene.loading.start == Start::rest || scene.material.viscosity > 0.0) return;
+  for (WatchedRun& reference : references)
+    reference.bonded_forces = uniform_stress_forces(scene, strain);
+}
+
+BenchErrors errors_of(const std::vector<WatchedRun>& runs,
+                      const std::vector<WatchedRun>& references) {
+  const auto ended = [&](std::size_t i) {  // only a run that ended has a strength
+    const SimulationStatus status = runs[i].simulation.status;
+    return status == SimulationStatus::broken || status == SimulationStatus::strain_limit;
+  };
+  const auto if_ended = [&](const auto& error) {
+    return over(runs, [&](std::size_t i) {
+      return ended(i) ? error(runs[i].simulation, references[i].simulation) : not_known;
+    });
+  };
+  return {.bonded_forces = over(runs,
+                                [&](std::size_t i) {
+                                  return relative_error(runs[i].bonded_forces,
+                                                        references[i].bonded_forces);
+                                }),
+          .forces = over(runs,
+                         [&](std::size_t i) {
+                           const std::size_t n = same_breaks(runs[i], references[i]);
+                           return n == 0 ? not_known
+                                         : relative_error(runs[i].forces_at_break[n - 1],
+                                                          references[i].forces_at_break[n - 1]);
+                         }),
+          .strength = if_ended([](const Simulation& run, const Simulation& reference) {
+            return relative_error(run.strength, reference.strength);
+          }),
+          .failure_strain = if_ended([](const Simulation& run, const Simulation& reference) {
+            return relative_error(run.failure_strain, reference.failure_strain);
+          }),
+          .curve = if_ended(curve_error)};
+}
+
+BenchRow row_of(const BenchSetting& setting, const std::vector<WatchedRun>& runs,
+                const std::vector<WatchedRun>& references) {
+  BenchRow row{.setting = setting, .runs = static_cast<int>(runs.size())};
+  for (const WatchedRun& run : runs) {
+    row.trusted += run.simulation.trusted() ? 1 : 0;
+    row.out_of_time += run.out_of_time ? 1 : 0;
+  }
+  row.errors = errors_of(runs, references);
+  row.wall = over(runs, [&](std::size_t i) { return runs[i].wall; });
+  row.cpu = over(runs, [&](std::size_t i) { return runs[i].cpu; });
+  row.steps = over(runs, [&](std::size_t i) { return runs[i].simulation.steps; });
+  row.iterations =
+      over(runs, [&](std::size_t i) { return static_cast<double>(runs[i].simulation.iterations); });
+  row.same_breaks = over(runs, [&](std::size_t i) {
+    return static_cast<double>(same_breaks(runs[i], references[i]));
+  });
+  return row;
+}
+
+void name_cheapest(WorkPrecision& study) {
+  const std::pair<const char*, BenchSpread BenchErrors::*> quantities[] = {
+      {"joint forces", &BenchErrors::bonded_forces},
+      {"strength", &BenchErrors::strength},
+      {"failure strain", &BenchErrors::failure_strain}};
+  for (const auto& [quantity, error] : quantities)
+    for (const double target : {1e-2, 1e-3, 1e-4}) {
+      CheapestSetting cheapest{.quantity = quantity, .target = target};
+      for (std::size_t i = 1; i < study.rows.size(); ++i) {  // the first is the reference
+        const BenchRow& row = study.rows[i];
+        if (row.setting.refinement != study.reference.refinement) continue;
+        if (row.trusted < row.runs || !((row.errors.*error).median <= target)) continue;
+        if (cheapest.row < 0 ||
+            row.cpu.median < study.rows[static_cast<std::size_t>(cheapest.row)].cpu.median)
+          cheapest.row = static_cast<int>(i);
+      }
+      study.cheapest.push_back(cheapest);
+    }
+}
+
+// Runs settings over the seeds; remembers nothing but whether somebody asked to stop.
+class Bench {
+ public:
+  Bench(const Scene& scene, const BenchOptions& options, const BenchObserver& observer,
+        const WorkPrecision& study)
+      : scene_(scene), options_(options), observer_(observer), study_(study) {}
+
+  [[nodiscard]] bool stopped() const { return stopped_; }
+
+  std::vector<WatchedRun> run(const BenchSetting& setting, double time_limit) {
+    std::vector<WatchedRun> runs;
+    for (const std::uint64_t seed : study_.seeds) {
+      const std::string next = fmt::format("{}, seed {}", to_string(setting), seed);
+      const auto keep_going = [&] {
+        stopped_ = stopped_ || (observer_ && !observer_(next));
+        return !stopped_;
+      };
+      if (!keep_going()) return runs;
+      Scene scene = with_setting(setting, scene_);
+      scene.joints.seed = seed;
+      runs.push_back(watch(scene, {study_.bonded_strain, time_limit}, keep_going));
+    }
+    return runs;
+  }
+
+ private:
+  const Scene& scene_;
+  const BenchOptions& options_;
+  const BenchObserver& observer_;
+  const WorkPrecision& study_;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+std::string to_string(const BenchSetting& setting) {
+  const std::string mesh = fmt::format("{} T3", 8 * setting.refinement * setting.refinement);
+  if (setting.regime == Regime::quasi_static)
+    return fmt::format("quasi-static{}, {}", setting.leave_out ? "" : ", nothing left out", mesh);
+  const std::string step =
+      setting.step > 0.0 ? fmt::format("h = {:.3g} ns", setting.step * 1e9) : "h chosen";
+  if (setting.contact == ContactMethod::gauss_seidel)
+    return fmt::format("Gauss-Seidel {:g}, {}, {}", setting.tolerance, step, mesh);
+  return fmt::format("active set, {}, {}", step, mesh);
+}
+
+std::vector<BenchSetting> bench_settings(const Scene& scene) {
+  std::vector<BenchSetting> settings;
+  const double h = base_step(scene);
+  const int mesh = scene.assembly.refinement;
+  if (is_quasi_static(scene))
+    settings.push_back({.regime = Regime::quasi_static, .refinement = mesh});
+  for (const double factor : {1.0, 0.25, 1.0 / 16.0})
+    settings.push_back({.step = factor * h, .refinement = mesh});
+  if (!is_quasi_static(scene)) {
+    settings.push_back({.refinement = mesh});
+    for (const double tolerance : {1e-4, 1e-6, 1e-8})
+      for (const double factor : {1.0, 0.25})
+        settings.push_back({.contact = ContactMethod::gauss_seidel,
+                            .tolerance = tolerance,
+                            .step = factor * h,
+                            .refinement = mesh});
+  }
+  for (int finer = 2 * mesh; finer <= finest; finer *= 2)
+    settings.push_back({.regime = choose_regime(scene).regime,
+                        .step = is_quasi_static(scene) ? 0.0 : h,
+                        .refinement = finer});
+  return settings;
+}
+
+WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
+                               const BenchObserver& observer) {
+  WorkPrecision study;
+  study.reference = reference_setting(scene);
+  study.reference_ground = is_quasi_static(scene)
+                               ? "the exact breaking sequence of the quasi-static limit"
+                               : "the finest step, a direct solve to 1e-12";
+  study.bonded_strain = 0.4 * first_break_by_uniform_stress(scene);
+  for (int i = 0; i < options.seeds; ++i)
+    study.seeds.push_back(scene.joints.seed + static_cast<std::uint64_t>(i));
+
+  Bench bench(scene, options, observer, study);
+  std::vector<WatchedRun> references = bench.run(study.reference, 1e9);
+  if (bench.stopped()) return study;
+  const std::vector<WatchedRun> first_row = references;
+  take_exact_forces(scene, study.bonded_strain, references);
+  study.rows.push_back(row_of(study.reference, first_row, references));
+  for (const BenchSetting& setting : bench_settings(scene)) {
+    const std::vector<WatchedRun> runs = bench.run(setting, options.time_limit);
+    if (bench.stopped()) break;
+    study.rows.push_back(row_of(setting, runs, references));
+  }
+  study.complete = !bench.stopped();
+  name_cheapest(study);
+  return study;
+}
+
+std::string summary(const WorkPrecision& study) {
+  if (!study.complete) return "Stopped before every setting was run.";
+  for (const CheapestSetting& cheapest : study.cheapest) {
+    if (cheapest.quantity != "failure strain" || cheapest.target != 1e-3 || cheapest.row < 0)
+      continue;
+    const BenchRow& row = study.rows[static_cast<std::size_t>(cheapest.row)];
+    return fmt::format("Cheapest for a failure strain to 0.1 %: {}, {:.2g} s of CPU time.",
+                       to_string(row.setting), row.cpu.median);
+  }
+  return "No setting but the reference gives the failure strain to 0.1 %.";
+}
+
+}  // namespace havers::sim

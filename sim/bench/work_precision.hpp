@@ -1,0 +1,84 @@
+// Error against run time: one scene by several solvers, tolerances, steps and meshes, over a few
+// seeds.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/bench/watched_run.hpp"
+
+namespace havers::sim {
+
+/// One way to compute the scene.
+struct BenchSetting {
+  Regime regime = Regime::dynamic;
+  ContactMethod contact = ContactMethod::active_set;
+  double tolerance = 1e-8;  ///< Of the contact solver. [-]
+  double step = 0.0;        ///< h; 0: chosen by the program, or none in the quasi-static limit. [s]
+  int refinement = 1;
+  bool leave_out = true;
+};
+
+/// "active set, h = 20 ns, 8 T3": the setting in words.
+std::string to_string(const BenchSetting& setting);
+
+/// Median and extremes over the seeds.
+struct BenchSpread {
+  double median = 0.0, low = 0.0, high = 0.0;
+};
+
+/// Relative errors against the reference of the same seed; NaN where a run did not get there. [-]
+struct BenchErrors {
+  BenchSpread bonded_forces;  ///< Of all joint forces before the first break.
+  BenchSpread forces;         ///< After the last break of which runs agree: joint and order.
+  BenchSpread strength;
+  BenchSpread failure_strain;
+  BenchSpread curve;  ///< Root mean square of the stress, relative to the strength, up to failure.
+};
+
+struct BenchRow {
+  BenchSetting setting;
+  int runs = 0, trusted = 0;  ///< Seeds, and those whose run is to be trusted.
+  int out_of_time = 0;        ///< Seeds whose run was stopped at the time limit.
+  BenchErrors errors;
+  BenchSpread wall, cpu;  ///< [s]
+  BenchSpread steps, iterations;
+  BenchSpread same_breaks;  ///< Joints broken in the reference's order before they part.
+};
+
+/// The setting of least CPU time whose median error is below a target.
+struct CheapestSetting {
+  std::string quantity;  ///< "joint forces", "strength", "failure strain"
+  double target = 0.0;   ///< [-]
+  int row = -1;          ///< −1: no setting reaches it.
+};
+
+struct WorkPrecision {
+  bool complete = false;  ///< false: stopped before the last run.
+  BenchSetting reference;
+  std::string reference_ground;  ///< What the errors are measured against, in a sentence.
+  double bonded_strain = 0.0;    ///< Where forces before the first break are compared. [-]
+  std::vector<std::uint64_t> seeds;
+  std::vector<BenchRow> rows;
+  std::vector<CheapestSetting> cheapest;
+};
+
+struct BenchOptions {
+  int seeds = 3;             ///< Runs of each setting: the scene's seed and those that follow it.
+  double time_limit = 20.0;  ///< Wall time of one run. [s]
+};
+
+/// Told what comes next; returning false ends the comparison with what there is.
+using BenchObserver = std::function<bool(const std::string& next)>;
+
+/// What a scene is computed with, around its own step or, where it has none, L/(4c).
+std::vector<BenchSetting> bench_settings(const Scene& scene);
+
+/// Precondition: scene.problems() is empty.
+WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
+                               const BenchObserver& observer = {});
+
+/// The outcome in a sentence.
+std::string summary(const WorkPrecision& study);
+
+}  // namespace havers::sim

@@ -1,0 +1,75 @@
+#include "sim/bench/stability.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+TEST(Stability, HasFortyScenesOfDistinctNames) {
+  const std::vector<StabilityScene> scenes = stability_scenes();
+  EXPECT_GE(scenes.size(), 40U);
+  std::set<std::string> names;
+  for (const StabilityScene& scene : scenes) names.insert(scene.name);
+  EXPECT_EQ(names.size(), scenes.size());
+}
+
+// Scenes for which the simulator has no answer yet, and says so.
+const std::set<std::string> known_failures{"h c/L = 1e2",
+                                           "h c/L = 1e3",
+                                           "h c/L = 1e4",
+                                           "h c/L = 1e5",
+                                           "fibres 1000 times as long as high, stepped",
+                                           "fibres at 0.01°, quasi-static",
+                                           "fibres at 0.01°, stepped",
+                                           "fibres at 89.99°, quasi-static",
+                                           "fibres at 90°, quasi-static",
+                                           "layers of one fibre, quasi-static",
+                                           "layers of one fibre, stepped",
+                                           "a chain of 1000, quasi-static",
+                                           "r = 0.0001, stepped"};
+
+TEST(Stability, EverySceneIsSolvedOrRefusedAsItMust) {
+  std::vector<StabilityResult> results;
+  for (const StabilityScene& scene : stability_scenes()) {
+    const StabilityResult result = run_stability_scene(scene);
+    EXPECT_NE(result.outcome, StabilityOutcome::wrong) << result.name << ": " << result.reason;
+    EXPECT_EQ(result.outcome == StabilityOutcome::refused, scene.refused) << result.name;
+    EXPECT_EQ(result.as_it_must, !known_failures.contains(result.name))
+        << result.name << ": " << result.reason;
+    EXPECT_EQ(result.reason.empty(), result.outcome == StabilityOutcome::solved) << result.name;
+    results.push_back(result);
+  }
+  EXPECT_EQ(summary(results).substr(0, 2), std::to_string(results.size() - known_failures.size()));
+}
+
+TEST(Stability, CallsAMissedAnswerWrong) {
+  StabilityScene scene{"stepped with a viscosity that the closed form knows",
+                       test::dynamic_scene()};
+  EXPECT_EQ(run_stability_scene(scene).outcome, StabilityOutcome::solved);
+  scene.scene.loading.start = Start::rest;  // a shock: the stress is not uniform
+  EXPECT_EQ(run_stability_scene(scene).outcome, StabilityOutcome::wrong);
+}
+
+TEST(Stability, SaysThatARunFailed) {
+  StabilityScene scene{"one sweep", test::dynamic_scene()};
+  scene.scene.solver.contact = ContactMethod::gauss_seidel;
+  scene.scene.solver.max_iterations = 1;
+  const StabilityResult result = run_stability_scene(scene);
+  EXPECT_EQ(result.outcome, StabilityOutcome::failed);
+  EXPECT_NE(result.reason, "");
+  EXPECT_FALSE(result.as_it_must);
+}
+
+TEST(Stability, StopsWhenAskedTo) {
+  const StabilityScene scene{"stopped", test::dynamic_scene()};
+  EXPECT_EQ(run_stability_scene(scene, [] { return false; }).reason,
+            explain(SimulationStatus::cancelled));
+}
+
+}  // namespace
+}  // namespace havers::sim

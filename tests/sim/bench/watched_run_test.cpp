@@ -1,0 +1,56 @@
+#include "sim/bench/watched_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+class FirstBreak : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Orientation, FirstBreak, testing::ValuesIn(test::orientations));
+
+TEST_P(FirstBreak, IsThatOfTheUniformStress) {
+  for (const Plane plane : {Plane::stress, Plane::strain}) {
+    Scene scene = test::small_scene(GetParam());
+    scene.material.plane = plane;
+    EXPECT_NEAR(first_break_by_uniform_stress(scene) / simulate(scene).first_break_strain, 1.0,
+                1e-9);
+  }
+}
+
+TEST(WatchedRun, TakesTheForcesAtTheStrainAskedFor) {
+  const Scene scene = test::dynamic_scene(30.0);
+  const double strain = 0.4 * first_break_by_uniform_stress(scene);
+  const WatchedRun run = watch(scene, {.bonded_strain = strain}, {});
+  const Eigen::VectorXd expected = uniform_stress_forces(scene, strain);
+  ASSERT_EQ(run.bonded_forces.size(), expected.size());
+  EXPECT_LT((run.bonded_forces - expected).norm(), 1e-9 * expected.norm());
+}
+
+TEST(WatchedRun, ListsTheBreaksInTheirOrder) {
+  const Scene scene = test::dynamic_scene();
+  const WatchedRun run = watch(scene, {}, {});
+  ASSERT_EQ(static_cast<int>(run.order.size()), run.simulation.broken_joints);
+  EXPECT_EQ(run.order.size(), run.forces_at_break.size());
+  double before = 0.0;
+  for (const int joint : run.order) {
+    const double strain = run.simulation.joints[static_cast<std::size_t>(joint)].broken_at_strain;
+    EXPECT_GE(strain, before);
+    before = strain;
+  }
+}
+
+TEST(WatchedRun, StopsAtTheTimeLimitAndWhenAskedTo) {
+  const WatchedRun late = watch(test::dynamic_scene(), {.time_limit = 0.0}, {});
+  EXPECT_TRUE(late.out_of_time);
+  EXPECT_EQ(late.simulation.status, SimulationStatus::cancelled);
+  const WatchedRun stopped = watch(test::dynamic_scene(), {}, [] { return false; });
+  EXPECT_FALSE(stopped.out_of_time);
+  EXPECT_EQ(stopped.simulation.status, SimulationStatus::cancelled);
+}
+
+}  // namespace
+}  // namespace havers::sim

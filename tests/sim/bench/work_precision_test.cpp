@@ -1,0 +1,78 @@
+#include "sim/bench/work_precision.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+Scene tiny(Regime regime) {
+  Scene scene = test::small_scene(0.0, 4, 3);
+  scene.solver.regime = regime;
+  if (regime == Regime::quasi_static) return scene;
+  scene.loading.strain_rate = 1e5;  // breaks after 20 steps that Gauss-Seidel is quick with
+  scene.solver.step = 2e-9;
+  return scene;
+}
+
+TEST(WorkPrecision, FindsTheReferenceWithoutErrorAndTheDirectSolverExactBeforeTheFirstBreak) {
+  const WorkPrecision study = compare_settings(tiny(Regime::dynamic), {.seeds = 2});
+  EXPECT_TRUE(study.complete);
+  EXPECT_EQ(study.rows.size(), bench_settings(tiny(Regime::dynamic)).size() + 1);
+  const BenchRow& reference = study.rows.front();
+  EXPECT_LT(reference.errors.bonded_forces.high, 1e-9);  // against the closed form
+  EXPECT_EQ(reference.errors.failure_strain.high, 0.0);
+  for (const BenchRow& row : study.rows) {
+    EXPECT_EQ(row.runs, 2);
+    if (row.setting.contact == ContactMethod::active_set) {
+      EXPECT_LT(row.errors.bonded_forces.high, 1e-9) << to_string(row.setting);
+    } else if (row.setting.tolerance == 1e-4) {
+      EXPECT_GT(row.errors.bonded_forces.low, 1e-9) << to_string(row.setting);
+    }
+    EXPECT_GT(row.steps.low, 0.0);
+  }
+}
+
+TEST(WorkPrecision, NamesTheCheapestSettingThatReachesATarget) {
+  const WorkPrecision study = compare_settings(tiny(Regime::quasi_static), {.seeds = 1});
+  ASSERT_EQ(study.cheapest.size(), 9U);
+  for (const CheapestSetting& cheapest : study.cheapest) {
+    if (cheapest.row < 0) continue;
+    const BenchRow& row = study.rows[static_cast<std::size_t>(cheapest.row)];
+    EXPECT_GT(cheapest.row, 0) << "the reference itself";
+    EXPECT_EQ(row.setting.refinement, study.reference.refinement);
+    EXPECT_EQ(row.trusted, row.runs);
+  }
+  // The limit itself is exact.
+  const auto strength =
+      std::find_if(study.cheapest.begin(), study.cheapest.end(),
+                   [](const auto& c) { return c.quantity == "strength" && c.target == 1e-4; });
+  ASSERT_GE(strength->row, 0);
+}
+
+TEST(WorkPrecision, EndsWhenAskedTo) {
+  int asked = 0;
+  const WorkPrecision study =
+      compare_settings(tiny(Regime::dynamic), {}, [&](const std::string& next) {
+        EXPECT_NE(next, "");
+        return ++asked < 3;
+      });
+  EXPECT_FALSE(study.complete);
+  EXPECT_EQ(summary(study), "Stopped before every setting was run.");
+}
+
+TEST(BenchSetting, IsSaidInWords) {
+  EXPECT_EQ(to_string({.step = 2e-8}), "active set, h = 20 ns, 8 T3");
+  EXPECT_EQ(to_string({.contact = ContactMethod::gauss_seidel, .tolerance = 1e-6, .step = 5e-9}),
+            "Gauss-Seidel 1e-06, h = 5 ns, 8 T3");
+  EXPECT_EQ(to_string({.regime = Regime::quasi_static, .refinement = 4, .leave_out = false}),
+            "quasi-static, nothing left out, 128 T3");
+}
+
+}  // namespace
+}  // namespace havers::sim
