@@ -41,6 +41,7 @@ std::vector<FinishedFit> read_all(const std::vector<fs::path>& results) {
 std::string page_of(const std::vector<FinishedFit>& fits) {
   if (fits.size() == 1) return reports::fit_page(fits.front().report());
   std::vector<reports::FitReport> reports;
+  reports.reserve(fits.size());
   for (const FinishedFit& fit : fits) reports.push_back(fit.report());
   return reports::comparison_page(reports);
 }

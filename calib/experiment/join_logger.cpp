@@ -53,6 +53,7 @@ std::vector<double> calibrated(const std::vector<double>& volts, const std::vect
     return {};
   }
   std::vector<double> values;
+  values.reserve(volts.size());
   for (const double volt : volts) values.push_back(line.intercept + line.slope * volt);
   joined.test.corrections.push_back(
       {calibration.name,

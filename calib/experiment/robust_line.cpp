@@ -44,11 +44,10 @@ std::vector<double> means(std::span<const double> values) {
   return result;
 }
 
-Line fit(std::span<const double> x, std::span<const double> y,
-         const gsl_multifit_robust_type* weighting) {
+Line fit_all(std::span<const double> x, std::span<const double> y,
+             const gsl_multifit_robust_type* weighting) {
   assert(x.size() == y.size());
   if (x.size() < 3) return {};
-  if (x.size() > most_points) return fit(means(x), means(y), weighting);
   const Range rx = range_of(x), ry = range_of(y);
   if (rx.extent <= 0.0) return {};
   if (ry.extent <= 0.0) return {.intercept = ry.low, .fitted = true};
@@ -72,6 +71,11 @@ Line fit(std::span<const double> x, std::span<const double> y,
       std::sqrt(std::max(0.0, gsl_matrix_get(covariance.get(), 1, 1))) * ry.extent / rx.extent;
   line.intercept = ry.low + gsl_vector_get(answer.get(), 0) * ry.extent - line.slope * rx.low;
   return line;
+}
+
+Line fit(std::span<const double> x, std::span<const double> y,
+         const gsl_multifit_robust_type* weighting) {
+  return x.size() > most_points ? fit_all(means(x), means(y), weighting) : fit_all(x, y, weighting);
 }
 
 }  // namespace

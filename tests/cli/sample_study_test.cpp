@@ -77,5 +77,23 @@ TEST(SampleScenes, HaveNoProblemsAndRunToTheBreak) {
             0);
 }
 
+// A thousand steps to complete failure, the same bytes each time.
+TEST(SampleScenes, ImpactBreaksTheSameWayAgainAndForAnyNumberOfThreads) {
+  const fs::path folder = own_folder();
+  const std::string scene = HAVERS_SOURCE_DIR "/data_samples/scenes/impact.toml";
+  std::string first;
+  for (const std::string threads : {"1", "1", "2", "4"}) {
+    const auto answer =
+        run_havers(folder, "simulate '" + scene + "' -o out --force --json --threads " + threads);
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    const auto result = nlohmann::json::parse(answer.out);
+    EXPECT_EQ(result["status"], "broken");
+    EXPECT_LE(result["energy_defect"].get<double>(), 1e-10);
+    const std::string curve = test::read_text(folder / "out/curve.csv");
+    if (first.empty()) first = curve;
+    EXPECT_EQ(curve, first) << "on " << threads;
+  }
+}
+
 }  // namespace
 }  // namespace havers

@@ -71,6 +71,24 @@ TEST(Fit, WritesItsFilesAndResumesOnlyWhatHasNoResult) {
   EXPECT_EQ(nlohmann::json::parse(resumed.out)["parameters"], result["parameters"]);
 }
 
+TEST(Fit, GivesTheSameAnswerAgainAndForAnyNumberOfThreads) {
+  const fs::path folder = folder_with_study();
+  ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
+  nlohmann::json first;
+  for (const std::string threads : {"1", "1", "2", "4"}) {
+    SCOPED_TRACE("on " + threads);
+    const auto answer =
+        run_havers(folder, "fit made/study.toml -o out --force --json --threads " + threads);
+    ASSERT_NE(answer.exit_code, 2) << answer.err;
+    const auto result = nlohmann::json::parse(answer.out);
+    fs::remove(folder / "out/evaluations.sqlite");  // what is kept would answer for the next
+    if (first.empty()) first = result;
+    EXPECT_GT(result["simulated"], 0);
+    for (const char* key : {"verdict", "parameters", "specimens", "cost", "evaluations", "scene"})
+      EXPECT_EQ(result[key], first[key]) << key;
+  }
+}
+
 TEST(Fit, ReportsTheProblemsOfAllFilesAtOnceAndWritesNothing) {
   const fs::path folder = folder_with_study();
   test::write_text(folder / "B0.csv", "");
