@@ -2,12 +2,16 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "calib/experiment/join_logger.hpp"
 #include "cli/command.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/provenance.hpp"
+#include "io/config/read_import.hpp"
 #include "io/input_error.hpp"
 
 namespace havers::cli {
@@ -16,16 +20,21 @@ namespace {
 constexpr const char* examples =
     "  havers import A1.csv\n"
     "  havers import *.csv --json\n"
-    "  havers import A1.csv --width-mm 4 --thickness-mm 2 --gauge-length-mm 25 -o runs/tests\n";
+    "  havers import A1.csv --width-mm 4 --thickness-mm 2 --gauge-length-mm 25 -o runs/tests\n"
+    "  havers import A1.csv --gauge A1_logger.csv -o runs/A1    # a logger with its own clock\n"
+    "  havers import A1.csv --set columns.force=2 --set columns.force_unit=kN\n"
+    "  havers import A1.csv --set reduction.remove_toe=false\n";
 
 struct Arguments {
   std::vector<std::filesystem::path> files;
+  std::optional<std::filesystem::path> gauge;
   std::filesystem::path folder;
   std::optional<double> width_mm, thickness_mm, gauge_length_mm;
 };
 
 struct Imported {
-  io::TestFile file;
+  io::TestFile file;  // with the gauge of the second logger, where there is one
+  std::optional<calib::ClockFit> clocks;
   calib::Reduction reduction;
 };
 
@@ -33,34 +42,81 @@ void override_size(std::optional<double>& size, const std::optional<double>& giv
   if (given_mm) size = 1e-3 * *given_mm;
 }
 
-Imported reduce_one(io::TestFile file, const Arguments& arguments) {
-  override_size(file.test.width, arguments.width_mm);
-  override_size(file.test.thickness, arguments.thickness_mm);
-  override_size(file.test.gauge_length, arguments.gauge_length_mm);
-  calib::Reduction reduction = calib::reduce_test(file.test);
-  return {std::move(file), std::move(reduction)};
+void override_sizes(calib::RawTest& test, const Arguments& arguments) {
+  override_size(test.width, arguments.width_mm);
+  override_size(test.thickness, arguments.thickness_mm);
+  override_size(test.gauge_length, arguments.gauge_length_mm);
 }
 
-// Files that can be read are shown even when others cannot.
-std::vector<Imported> import_all(const Arguments& arguments, std::vector<io::Problem>& problems) {
+Imported reduced(io::TestFile file, const calib::ReductionOptions& options) {
+  calib::Reduction reduction = calib::reduce_test(file.test, options);
+  return {std::move(file), {}, std::move(reduction)};
+}
+
+std::vector<Imported> import_tests(const std::filesystem::path& path,
+                                   const io::ImportSettings& settings, const Arguments& arguments) {
   std::vector<Imported> tests;
-  for (const auto& path : arguments.files) {
-    try {
-      for (io::TestFile& file : io::read_tests(path)) {
-        tests.push_back(reduce_one(std::move(file), arguments));
-        for (const std::string& problem : tests.back().reduction.problems)
-          problems.push_back({path.string(), problem, ""});
-      }
-    } catch (const io::InputError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-    }
+  for (io::TestFile& file : io::read_tests(path, settings.columns)) {
+    override_sizes(file.test, arguments);
+    tests.push_back(reduced(std::move(file), settings.reduction));
   }
   return tests;
 }
 
+Imported import_joined(io::ImportSettings settings, const Arguments& arguments) {
+  settings.columns.has_logger = true;
+  io::TestFile file = io::read_test(arguments.files.front(), settings.columns);
+  override_sizes(file.test, arguments);
+  const io::TestFile logger = io::read_test(*arguments.gauge, settings.gauge_columns);
+  calib::JoinedTest joined = calib::join_logger(file.test, logger.test);
+  file.test = std::move(joined.test);
+  Imported imported{std::move(file), std::move(joined.clocks), {{}, std::move(joined.problems)}};
+  if (imported.reduction.problems.empty())
+    imported.reduction = calib::reduce_test(imported.file.test, settings.reduction);
+  return imported;
+}
+
+// What is wrong with one of several specimens names it.
+void collect(const std::vector<Imported>& tests, std::vector<io::Problem>& problems) {
+  for (const Imported& test : tests) {
+    const calib::RawTest& raw = test.file.test;
+    const bool sized = (raw.area || (raw.width && raw.thickness)) && raw.gauge_length;
+    const std::string where =
+        tests.size() == 1 ? test.file.file
+                          : fmt::format("{}, specimen \"{}\"", test.file.file, raw.specimen_id);
+    for (const std::string& problem : test.reduction.problems)
+      problems.push_back({where, problem,
+                          sized ? ""
+                                : "--width-mm, --thickness-mm, --gauge-length-mm give sizes "
+                                  "that the file lacks"});
+  }
+}
+
+// Files that can be read are shown even when others cannot.
+std::vector<Imported> import_all(const Arguments& arguments, const io::ImportSettings& settings,
+                                 std::vector<io::Problem>& problems) {
+  std::vector<Imported> all;
+  for (const auto& path : arguments.files) {
+    try {
+      std::vector<Imported> tests;
+      if (arguments.gauge)
+        tests.push_back(import_joined(settings, arguments));
+      else
+        tests = import_tests(path, settings, arguments);
+      collect(tests, problems);
+      std::ranges::move(tests, std::back_inserter(all));
+    } catch (const io::InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  return all;
+}
+
 void print_columns(const io::TestFile& file) {
-  fmt::print("{}\n  {}, {}, delimiter '{}', decimal '{}', {} rows\n", file.file, file.layout,
-             file.encoding, file.delimiter, file.decimal, file.rows);
+  fmt::print("{}{}\n  {}, {}, delimiter '{}', decimal '{}', {} rows\n", file.file,
+             file.test.specimen_id.empty() ? "" : ", specimen " + file.test.specimen_id,
+             file.layout, file.encoding, file.delimiter == "\t" ? "tab" : file.delimiter,
+             file.decimal, file.rows);
   for (const io::Column& column : file.columns)
     fmt::print("  {:<34}{:<10}{}\n", column.name, column.unit, io::to_string(column.quantity));
 }
@@ -68,7 +124,7 @@ void print_columns(const io::TestFile& file) {
 void print_test(const Imported& imported) {
   print_columns(imported.file);
   const calib::MeasuredTest& test = imported.reduction.test;
-  if (imported.reduction.problems.empty()) {
+  if (!test.strain.empty()) {
     fmt::print(
         "  strength {:.3f} MPa at a strain of {:.4f} %, largest force {:.2f} N on {:.4f} mm2\n",
         1e-6 * test.strength, 100.0 * test.failure_strain, test.max_force, 1e6 * test.area);
@@ -80,13 +136,27 @@ void print_test(const Imported& imported) {
   }
   for (const calib::Correction& correction : test.corrections)
     fmt::print("  corrected: {}: {}\n", correction.what, correction.detail);
-  for (const auto* list : {&imported.file.test.warnings, &test.warnings})
-    for (const std::string& warning : *list) fmt::print("  note: {}\n", warning);
+  for (const std::string& warning : test.warnings) fmt::print("  note: {}\n", warning);
+}
+
+nlohmann::json clocks_json(const calib::ClockFit& clocks) {
+  nlohmann::json json{{"offset_s", clocks.offset - clocks.rate * clocks.reference},
+                      {"rate", clocks.rate},
+                      {"rate_fitted", clocks.rate_fitted},
+                      {"rate_standard_error", clocks.rate_standard_error},
+                      {"reference_s", clocks.reference},
+                      {"machine_time_at_reference_s", clocks.offset},
+                      {"machine_time_standard_error_s", clocks.offset_standard_error},
+                      {"correlation", clocks.correlation}};
+  return json;
 }
 
 nlohmann::json json_of(const std::vector<Imported>& tests) {
   nlohmann::json all = nlohmann::json::array();
-  for (const Imported& test : tests) all.push_back(io::import_json(test.file, test.reduction));
+  for (const Imported& test : tests) {
+    all.push_back(io::import_json(test.file, test.reduction));
+    if (test.clocks) all.back()["clocks"] = clocks_json(*test.clocks);
+  }
   if (all.size() == 1) return all.front();
   return {{"files", all}};
 }
@@ -103,42 +173,52 @@ std::string figure_name(const std::vector<Imported>& tests, std::size_t i) {
   return all == 1 ? stem + ".svg" : fmt::format("{}_{}.svg", stem, before + 1);
 }
 
-void write_page(const Arguments& arguments, const std::vector<Imported>& tests,
-                const CommonOptions& common, const Stopwatch& watch) {
+void write_figures(const OutputFolder& output, const std::vector<Imported>& tests,
+                   const reports::Provenance& facts) {
+  std::vector<reports::ImportReport> pages;
+  for (const Imported& test : tests)
+    pages.push_back({test.file.file, test.file.test, test.reduction.test, test.reduction.problems,
+                     test.clocks ? &*test.clocks : nullptr});
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    io::write_file(output.stage(figure_name(tests, i)), reports::test_svg(pages[i]));
+    if (pages[i].clocks != nullptr)
+      io::write_file(output.stage("clocks.svg"), reports::clocks_svg(*pages[i].clocks));
+  }
+  io::write_file(output.stage("report.html"), reports::import_page(pages, facts));
+}
+
+void write_results(const Arguments& arguments, const std::vector<Imported>& tests,
+                   const CommonOptions& common, const Stopwatch& watch) {
   OutputFolder output(arguments.folder, common.force);
   io::write_file(output.stage("import.json"), json_of(tests).dump(2) + "\n");
-  if (reports::available()) {
-    std::vector<reports::ImportReport> pages;
-    for (const Imported& imported : tests)
-      pages.push_back({imported.file.file, imported.file.test, imported.reduction.test});
-    for (std::size_t i = 0; i < pages.size(); ++i)
-      io::write_file(output.stage(figure_name(tests, i)), reports::test_svg(pages[i]));
-    const io::Provenance provenance = provenance_of(common, arguments.files, watch);
-    io::write_file(output.stage("report.html"),
-                   reports::import_page(pages, page_facts(provenance)));
-  } else {
+  std::vector<std::filesystem::path> inputs = arguments.files;
+  if (arguments.gauge) inputs.push_back(*arguments.gauge);
+  std::erase_if(inputs, [](const auto& file) { return !std::filesystem::exists(file); });
+  if (reports::available())
+    write_figures(output, tests, page_facts(provenance_of(common, inputs, watch)));
+  else
     note(common, "no figures and no page: this build makes none (havers --version)");
-  }
   output.publish();
+  if (!common.json)
+    fmt::print(
+        "{}\n",
+        (arguments.folder / (reports::available() ? "report.html" : "import.json")).string());
 }
 
 int run_import(const Arguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
+  const io::ImportSettings settings = io::read_import_settings(common.set);
+  if (arguments.gauge && arguments.files.size() != 1)
+    throw io::InputError("--gauge", "is the second file of one test", "import the others alone");
   std::vector<io::Problem> problems;
-  const std::vector<Imported> tests = import_all(arguments, problems);
+  const std::vector<Imported> tests = import_all(arguments, settings, problems);
   if (common.json) {
     fmt::print("{}\n", json_of(tests).dump(2));
   } else {
     for (const Imported& test : tests) print_test(test);
   }
+  if (!arguments.folder.empty() && !tests.empty()) write_results(arguments, tests, common, watch);
   if (!problems.empty()) throw io::InputError(std::move(problems));
-  if (!arguments.folder.empty()) {
-    write_page(arguments, tests, common, watch);
-    if (!common.json)
-      fmt::print(
-          "{}\n",
-          (arguments.folder / (reports::available() ? "report.html" : "import.json")).string());
-  }
   return done;
 }
 
@@ -149,6 +229,10 @@ Command import_command(CLI::App& app, CommonOptions& common) {
       add_command(app, common, "import", "what is in a test file, as read and as used", examples);
   const auto arguments = std::make_shared<Arguments>();
   parser->add_option("FILE", arguments->files, "test files")->required();
+  parser
+      ->add_option("--gauge", arguments->gauge,
+                   "second logger's file of one test, with a clock of its own")
+      ->type_name("FILE");
   parser->add_option("-o,--output", arguments->folder, "folder for a page with a figure per file")
       ->type_name("DIR");
   parser->add_option("--width-mm", arguments->width_mm, "instead of the file's")

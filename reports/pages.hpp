@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "calib/experiment/clocks.hpp"
 #include "calib/fit/calibration.hpp"
 #include "sim/simulation.hpp"
 
@@ -39,6 +40,8 @@ struct ImportReport {
   std::string file;
   const calib::RawTest& raw;
   const calib::MeasuredTest& test;
+  std::vector<std::string> problems{};      ///< Why it cannot be used.
+  const calib::ClockFit* clocks = nullptr;  ///< Of a second logger, where there is one.
 };
 
 struct PorosityReport {
@@ -53,6 +56,9 @@ std::string fracture_svg(const sim::Assembly& assembly, const sim::Simulation& s
 
 /// One measured test as read and as used. SVG.
 std::string test_svg(const ImportReport& report);
+
+/// The clocks of machine and logger: both signals as recorded, aligned, and what is left. SVG.
+std::string clocks_svg(const calib::ClockFit& clocks);
 
 std::string simulation_page(const SimulationReport& report);
 std::string fit_page(const FitReport& report);

@@ -21,6 +21,9 @@ std::string fracture_svg(const sim::Assembly& /*assembly*/, const sim::Simulatio
 std::string test_svg(const ImportReport& /*report*/) {
   return how_to_get_pages();
 }
+std::string clocks_svg(const calib::ClockFit& /*clocks*/) {
+  return how_to_get_pages();
+}
 std::string simulation_page(const SimulationReport& /*report*/) {
   return how_to_get_pages();
 }

@@ -86,6 +86,15 @@ void take_back(Record& record, std::size_t before, std::size_t after, SlipRepair
   const double jump = record.strain[before] - record.strain[after] +
                       std::max(0.0, rise) * record.compliance(before);
   for (std::size_t i = after; i < record.strain.size(); ++i) record.strain[i] += jump;
+  if (after == record.peak) {  // a row later the load has gone too
+    repair.corrections.push_back(
+        {"gauge at the break",
+         fmt::format("it saw the break a row before the load did: the last strain goes on with the "
+                     "load, by {:.5f} %",
+                     jump * 100.0)});
+    return;
+  }
+  ++repair.slips;
   repair.corrections.push_back(
       {"gauge slip",
        fmt::format("{}: the strain jumped back by {:.5f} % while the load went on; the rows after "
@@ -110,10 +119,10 @@ SlipRepair mend_slips(std::vector<double>& strain, std::span<const double> stres
     take_back(record, row, after, repair);
     row = after;
   }
-  if (!repair.corrections.empty() && repair.warnings.empty())
+  if (repair.slips > 0)
     repair.warnings.push_back(
-        fmt::format("the gauge slipped {} times: strains after that are uncertain by the jumps",
-                    repair.corrections.size()));
+        fmt::format("the gauge slipped ({} jumps): strains after that are uncertain by the jumps",
+                    repair.slips));
   return repair;
 }
 

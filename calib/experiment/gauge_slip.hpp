@@ -13,6 +13,7 @@ namespace havers::calib {
 struct SlipRepair {
   std::vector<Correction> corrections;
   std::vector<std::string> warnings;
+  int slips = 0;        ///< How many jumps were taken back.
   std::string problem;  ///< Not empty: the gauge fell off and nothing tells the strain after it.
 };
 

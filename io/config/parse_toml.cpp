@@ -61,7 +61,7 @@ void merge(toml::table& top, toml::table&& overrides) {
 }  // namespace
 
 toml::table parse_toml(const std::filesystem::path& file, const Overrides& overrides) {
-  toml::table table = parse_file(file);
+  toml::table table = file.empty() ? toml::table{} : parse_file(file);
   std::vector<Problem> problems;
   for (const std::string& text : overrides) {
     try {

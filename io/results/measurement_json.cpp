@@ -17,7 +17,10 @@ nlohmann::json size_json(std::optional<double> size) {
 
 nlohmann::json import_json(const TestFile& file, const calib::Reduction& reduction) {
   calib::MeasuredTest test = reduction.test;
-  nlohmann::json json = json_of(test);  // modulus_Pa, strength_Pa, ... and the corrections
+  nlohmann::json json = json_of(test);  // modulus_Pa, strength_Pa, ... , corrections and warnings
+  for (auto& [key, value] : json.items())  // what is not known is null
+    if (value == 0.0 || (value.is_number() && test.strain.empty() && key != "area_m2"))
+      value = nullptr;
   json["file"] = file.file;
   json["layout"] = file.layout;
   json["encoding"] = file.encoding;
@@ -30,8 +33,6 @@ nlohmann::json import_json(const TestFile& file, const calib::Reduction& reducti
   json["width_m"] = size_json(file.test.width);
   json["thickness_m"] = size_json(file.test.thickness);
   json["gauge_length_m"] = size_json(file.test.gauge_length);
-  json["warnings"] = file.test.warnings;
-  for (const std::string& warning : test.warnings) json["warnings"].push_back(warning);
   json["problems"] = reduction.problems;
   return json;
 }

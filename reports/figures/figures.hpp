@@ -25,6 +25,9 @@ Figure simulation_figure(const sim::Simulation& simulation, const std::string& i
 /// A test as read and as used, with the modulus line and the strength.
 Figure test_figure(const ImportReport& report, const std::string& id);
 
+/// Two recorders' signals as recorded and on one clock; below, their difference.
+Figure clocks_figure(const calib::ClockFit& clocks, const std::string& id);
+
 /// An interval between its bounds, small enough for a table. SVG.
 std::string interval_bar(const calib::CalibratedParameter& parameter);
 

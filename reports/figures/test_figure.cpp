@@ -6,6 +6,7 @@
 
 #include "reports/figures/figures.hpp"
 #include "reports/figures/thin.hpp"
+#include "reports/text/format.hpp"
 
 namespace havers::reports {
 namespace {
@@ -32,6 +33,30 @@ Points raw_points(const calib::RawTest& raw, double area) {
   return thin(strain, stress, 2000);
 }
 
+constexpr std::string_view record_commands = R"gnuplot(
+set xlabel '{x_label}' offset 0,0.5
+set ylabel '{y_label}'
+unset key
+plot $raw using 1:2 with lines lw 1.6 lc rgb dark
+)gnuplot";
+
+// What was recorded, where it cannot be turned into stress and strain.
+void draw_record(const calib::RawTest& raw, Figure& figure) {
+  const bool travelled = !raw.extension.empty(), loaded = !raw.force.empty();
+  std::vector<double> x = travelled ? raw.extension : raw.time;
+  std::vector<double> y = loaded ? raw.force : raw.stress;
+  for (double& value : x) value /= travelled ? in::mm : 1.0;
+  for (double& value : y) value /= loaded ? 1.0 : in::MPa;
+  const Points points = thin(x, y, 2000);
+  const std::string range = x_range({points.x}, 1.0);
+  if (range.empty()) return;
+  figure.description = "The test as read";
+  figure.commands =
+      data_block("raw", {points.x, points.y}) + range + panel(0.155, 0.95) +
+      fmt::format(record_commands, fmt::arg("x_label", travelled ? "Extension (mm)" : "Time (s)"),
+                  fmt::arg("y_label", loaded ? "Force (N)" : "Stress (MPa)"));
+}
+
 // The line of the modulus' slope through the middle of the points in its window.
 Points modulus_line(const calib::MeasuredTest& test) {
   double strain = 0.0, stress = 0.0, inside = 0.0;
@@ -52,6 +77,10 @@ Figure test_figure(const ImportReport& report, const std::string& id) {
   const calib::MeasuredTest& test = report.test;
   Figure figure{
       .id = id, .description = "Stress against strain, as read and as used", .height = 400};
+  if (test.strain.empty()) {
+    draw_record(report.raw, figure);
+    return figure;
+  }
   const Points raw = raw_points(report.raw, test.area);
   const Points used = thin(test.strain, test.stress);
   const std::string range = x_range({raw.x, used.x}, 100.0);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "reports/figures/figures.hpp"
 #include "reports/pages/page.hpp"
@@ -16,45 +17,89 @@ std::string length(const std::optional<double>& metres) {
 Facts facts_of(const ImportReport& report) {
   const calib::MeasuredTest& test = report.test;
   const calib::RawTest& raw = report.raw;
-  return {{"Width, thickness", fmt::format("{}, {}", length(raw.width), length(raw.thickness))},
-          {"Area", setting(test.area / in::mm2, "mm²")},
-          {"Gauge length", length(raw.gauge_length)},
-          {"Modulus",
-           fmt::format("{} GPa, in the window {} %",
-                       plus_minus(test.modulus / in::GPa, test.modulus_standard_error / in::GPa),
-                       interval(test.window_low / in::percent, test.window_high / in::percent))},
-          {"Strength", fmt::format("{} MPa", plus_minus(test.strength / in::MPa,
-                                                        test.strength_standard_error / in::MPa))},
-          {"Largest force", quantity(test.max_force, "N")},
-          {"Failure strain", quantity(test.failure_strain / in::percent, "%")},
-          {"Strain rate",
-           test.strain_rate > 0.0 ? quantity(test.strain_rate, "1/s", 3) : "time not recorded"},
-          {"Strength / (modulus · failure strain)", number(test.linearity, 3)}};
+  const Facts sizes{
+      {"Width, thickness", fmt::format("{}, {}", length(raw.width), length(raw.thickness))},
+      {"Area", test.area > 0.0 ? setting(test.area / in::mm2, "mm²") : "not known"},
+      {"Gauge length", length(raw.gauge_length)}};
+  if (test.strain.empty()) return sizes;
+  Facts facts{
+      {"Modulus",
+       fmt::format("{} GPa, in the window {} %",
+                   plus_minus(test.modulus / in::GPa, test.modulus_standard_error / in::GPa),
+                   interval(test.window_low / in::percent, test.window_high / in::percent))},
+      {"Strength", fmt::format("{} MPa", plus_minus(test.strength / in::MPa,
+                                                    test.strength_standard_error / in::MPa))},
+      {"Largest force", quantity(test.max_force, "N")},
+      {"Failure strain", quantity(test.failure_strain / in::percent, "%")},
+      {"Energy to failure", quantity(test.energy_to_failure / in::MPa, "MJ/m³")},
+      {"Strain rate",
+       test.strain_rate > 0.0 ? quantity(test.strain_rate, "1/s", 3) : "time not recorded"},
+      {"Strength / (modulus · failure strain)", number(test.linearity, 3)}};
+  facts.insert(facts.begin(), sizes.begin(), sizes.end());
+  return facts;
+}
+
+// A dash for what was not reduced.
+double known(const ImportReport& report, double value) {
+  return report.test.strain.empty() ? std::numeric_limits<double>::quiet_NaN() : value;
+}
+
+std::string clocks_caption(const calib::ClockFit& clocks) {
+  std::string caption = fmt::format(
+      "The two clocks. When the logger's shows {} s, the machine's shows {} s. ",
+      number(clocks.reference), plus_minus(clocks.offset, clocks.offset_standard_error));
+  caption +=
+      clocks.rate_fitted
+          ? fmt::format("The machine's runs {} times as fast. ",
+                        plus_minus(clocks.rate, clocks.rate_standard_error))
+          : "The signals do not tell how much faster one runs: the rates are taken as equal. ";
+  return caption + fmt::format(
+                       "The rates of the signals correlate by {}. Below: what is left "
+                       "between the aligned signals, without the rows at the break.",
+                       number(clocks.correlation, 3));
+}
+
+mstch::node clocks_section(const ImportReport& report, std::size_t index) {
+  mstch::array figures;
+  if (report.clocks != nullptr)
+    figures.emplace_back(
+        mstch::map{{"figure", text(draw(clocks_figure(*report.clocks, fmt::format("c{}", index))))},
+                   {"caption", text(clocks_caption(*report.clocks))}});
+  return section(figures);
 }
 
 mstch::map content_of(const ImportReport& report, std::size_t index) {
   const calib::MeasuredTest& test = report.test;
-  std::vector<std::string> warnings = report.raw.warnings;
-  warnings.insert(warnings.end(), test.warnings.begin(), test.warnings.end());
   return {
       {"file", text(base_name(report.file))},
       {"specimen", text(report.raw.specimen_id)},
       {"rows", text(std::to_string(report.raw.rows()))},
-      {"modulus", text(plus_minus(test.modulus / in::GPa, test.modulus_standard_error / in::GPa))},
-      {"strength",
-       text(plus_minus(test.strength / in::MPa, test.strength_standard_error / in::MPa))},
-      {"failure_strain", text(number(test.failure_strain / in::percent))},
-      {"warning_count", text(std::to_string(warnings.size()))},
+      {"modulus", text(plus_minus(known(report, test.modulus) / in::GPa,
+                                  test.modulus_standard_error / in::GPa))},
+      {"strength", text(plus_minus(known(report, test.strength) / in::MPa,
+                                   test.strength_standard_error / in::MPa))},
+      {"failure_strain", text(number(known(report, test.failure_strain) / in::percent))},
+      {"warning_count", text(std::to_string(test.warnings.size()))},
+      {"caption", text(test.strain.empty()
+                           ? "As read; it cannot be turned into stress and strain."
+                           : "As read, and as used after the corrections below. The shaded window "
+                             "holds the points that the modulus was fitted to.")},
+      {"clocks", clocks_section(report, index)},
+      {"problems", text_section(report.problems)},
       {"figure", text(draw(test_figure(report, fmt::format("t{}", index))))},
       {"facts", mstch::node{fact_list(facts_of(report))}},
       {"corrections", correction_section(test.corrections)},
-      {"warnings", text_section(warnings)}};
+      {"warnings", text_section(test.warnings)}};
 }
 
 }  // namespace
 
 std::string test_svg(const ImportReport& report) {
   return draw(test_figure(report, "test"));
+}
+
+std::string clocks_svg(const calib::ClockFit& clocks) {
+  return draw(clocks_figure(clocks, "clocks"));
 }
 
 std::string import_page(const std::vector<ImportReport>& reports, const Provenance& provenance) {

@@ -129,6 +129,19 @@ TEST(Corrections, TakesBackTheJumpsOfASlippingGauge) {
   }
 }
 
+// Two recorders do not sample at the same instants: one of them sees the break first.
+TEST(Corrections, KnowsABreakThatTheGaugeSawFirst) {
+  RawTest raw = record(fine);
+  for (std::size_t i = raw.rows() - 6; i < raw.rows(); ++i)
+    raw.strain[i] = 0.0;  // from the strength on
+  const MeasuredTest test = reduced(raw);
+  expect_the_truth(test, 1e-3);
+  EXPECT_EQ(detail_of(test, "gauge slip"), "");
+  EXPECT_NE(detail_of(test, "gauge at the break").find("a row before the load did"),
+            std::string::npos);
+  EXPECT_TRUE(test.warnings.empty());
+}
+
 TEST(Corrections, TakesNoNoiseForASlip) {
   for (unsigned seed = 1; seed <= 50; ++seed) {
     const RawTest raw =

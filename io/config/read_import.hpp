@@ -1,0 +1,21 @@
+// What a study says of a test and its reduction, for a test that is in no study.
+#pragma once
+
+#include "calib/experiment/measured_test.hpp"
+#include "io/config/read_scene.hpp"
+#include "io/machine/read_test.hpp"
+
+namespace havers::io {
+
+struct ImportSettings {
+  ReadOptions columns{};
+  ReadOptions gauge_columns{.logger = true};
+  calib::ReductionOptions reduction;
+};
+
+/// The keys of a [[specimen]], `columns.force`, `gauge_columns.strain_unit`, `specimen_in_file`,
+/// and those of [reduction], `reduction.remove_toe`, each as key=value. @throws InputError with
+/// every problem.
+ImportSettings read_import_settings(const Overrides& overrides);
+
+}  // namespace havers::io
