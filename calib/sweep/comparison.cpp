@@ -1,0 +1,167 @@
+#include "calib/sweep/comparison.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "calib/sweep/law.hpp"
+
+namespace havers::calib {
+namespace {
+
+constexpr double risk = 0.05;
+
+std::size_t column_of(const SweepPlan& plan, const std::string& key) {
+  return static_cast<std::size_t>(std::ranges::find(plan.keys, key, &SweepKey::name) -
+                                  plan.keys.begin());
+}
+
+// The values that tell a point of the sweep from others, but for one column.
+std::string label(const SweepPlan& plan, const SweepPoint& point, std::size_t without) {
+  std::string text;
+  for (std::size_t i = 0; i < plan.keys.size(); ++i)
+    if (i != without)
+      text +=
+          fmt::format("{}{} = {}", text.empty() ? "" : ", ", plan.keys[i].name, point.values[i]);
+  return text;
+}
+
+Statistics at(const Evidence& evidence, std::size_t point) {
+  return statistics_of(values_of(evidence.runs, point, evidence.request.response));
+}
+
+struct Pair {
+  std::size_t first, second;
+};
+
+// Points that differ in the key alone: every pair, or only that of the smallest and the largest.
+std::vector<Pair> pairs_of(const Evidence& evidence, const PointGroup& group, std::size_t column,
+                           bool ends_only) {
+  std::map<std::string, std::vector<std::size_t>> alike;
+  for (const std::size_t point : group.points) {
+    const bool zipped = evidence.plan.sampling == Sampling::list;
+    alike[zipped ? "" : label(evidence.plan, evidence.points[point], column)].push_back(point);
+  }
+  std::vector<Pair> pairs;
+  for (auto& [others, points] : alike) {
+    std::ranges::stable_sort(points, {}, [&](std::size_t p) {
+      const double number = evidence.points[p].numbers[column];
+      return std::isnan(number) ? 0.0 : number;
+    });
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t j = i + 1; j < points.size(); ++j)
+        if (!ends_only || (i == 0 && j + 1 == points.size()))
+          pairs.push_back({points[i], points[j]});
+  }
+  return pairs;
+}
+
+// (W3) Relative difference of two means, by the logarithm of their ratio and Welch's t.
+Comparison difference(const Evidence& evidence, Pair pair, std::size_t column, double share) {
+  const Statistics a = at(evidence, pair.first), b = at(evidence, pair.second);
+  const SweepPoint& first = evidence.points[pair.first];
+  const SweepPoint& second = evidence.points[pair.second];
+  const std::string others = label(evidence.plan, second, column);
+  const bool zipped = evidence.plan.sampling == Sampling::list;
+  const double va = std::pow(a.standard_error() / a.mean, 2);
+  const double vb = std::pow(b.standard_error() / b.mean, 2);
+  const double freedom = va + vb > 0.0
+                             ? std::pow(va + vb, 2) / (va * va / static_cast<double>(a.n - 1) +
+                                                       vb * vb / static_cast<double>(b.n - 1))
+                             : 1.0;
+  const double log_ratio = std::log(b.mean / a.mean);
+  const double half = gsl_cdf_tdist_Qinv(0.5 * share, freedom) * std::sqrt(va + vb);
+  return {.what = fmt::format("{} = {} against {}{}", evidence.plan.keys[column].name,
+                              second.values[column], first.values[column],
+                              others.empty() || zipped ? "" : ", " + others),
+          .value = std::expm1(log_ratio),
+          .low = std::expm1(log_ratio - half),
+          .high = std::expm1(log_ratio + half)};
+}
+
+std::vector<Comparison> differences(const Evidence& evidence, const PointGroup& group) {
+  const std::size_t column = column_of(evidence.plan, evidence.request.keys.front());
+  const bool ends_only =
+      evidence.request.test == FindingTest::rises || evidence.request.test == FindingTest::falls;
+  const std::vector<Pair> pairs = pairs_of(evidence, group, column, ends_only);
+  std::vector<Comparison> all;
+  for (const Pair pair : pairs)
+    all.push_back(difference(evidence, pair, column, risk / static_cast<double>(pairs.size())));
+  return all;
+}
+
+// (W4) Coefficient of variation of each point, its interval by χ².
+std::vector<Comparison> variations(const Evidence& evidence, const PointGroup& group) {
+  const double share = risk / static_cast<double>(group.points.size());
+  std::vector<Comparison> all;
+  for (const std::size_t point : group.points) {
+    const Statistics s = at(evidence, point);
+    if (s.n < 2) continue;
+    const auto freedom = static_cast<double>(s.n - 1);
+    const double cv = s.sd / std::abs(s.mean);
+    all.push_back({.what = label(evidence.plan, evidence.points[point], evidence.plan.keys.size()),
+                   .value = cv,
+                   .low = cv * std::sqrt(freedom / gsl_cdf_chisq_Qinv(0.5 * share, freedom)),
+                   .high = cv * std::sqrt(freedom / gsl_cdf_chisq_Pinv(0.5 * share, freedom))});
+  }
+  return all;
+}
+
+std::vector<Comparison> means(const Evidence& evidence, const PointGroup& group) {
+  const double share = risk / static_cast<double>(group.points.size());
+  std::vector<Comparison> all;
+  for (const std::size_t point : group.points) {
+    const Statistics s = at(evidence, point);
+    if (s.n < 2) continue;
+    const double half = s.half_width(share);
+    all.push_back({label(evidence.plan, evidence.points[point], evidence.plan.keys.size()), s.mean,
+                   s.mean - half, s.mean + half});
+  }
+  return all;
+}
+
+// (W5) Distance of each point's mean from the law, over the mean of all.
+std::vector<Comparison> deviations(const Evidence& evidence, const PointGroup& group) {
+  const LawRequest request{evidence.request.response, evidence.request.keys, evidence.request.per};
+  const double share = risk / static_cast<double>(group.points.size());
+  std::vector<Comparison> all;
+  for (const Law& law : fit_laws(request, evidence.plan, evidence.points, evidence.runs)) {
+    if (law.at != group.value || law.status != LawStatus::fitted) continue;
+    Statistics level{};
+    for (const std::size_t point : group.points) level.mean += at(evidence, point).mean;
+    level.mean /= static_cast<double>(group.points.size());
+    for (const std::size_t point : group.points) {
+      const Statistics s = at(evidence, point);
+      const double value = (s.mean - law.value(evidence.points[point], evidence.plan)) / level.mean;
+      const double half = s.half_width(share) / std::abs(level.mean);
+      all.push_back({label(evidence.plan, evidence.points[point], evidence.plan.keys.size()), value,
+                     value - half, value + half});
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Comparison> comparisons_of(const Evidence& evidence, const PointGroup& group) {
+  switch (evidence.request.test) {
+    case FindingTest::same:
+    case FindingTest::matters:
+    case FindingTest::rises:
+    case FindingTest::falls:
+      return differences(evidence, group);
+    case FindingTest::linear:
+      return deviations(evidence, group);
+    case FindingTest::steady:
+      return variations(evidence, group);
+    case FindingTest::above:
+    case FindingTest::below:
+      return means(evidence, group);
+  }
+  return {};
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,25 @@
+// The comparisons behind a finding: a value with an interval, each.
+#pragma once
+
+#include "calib/sweep/finding.hpp"
+
+namespace havers::calib {
+
+struct Comparison {
+  std::string what;
+  double value = 0.0, low = 0.0, high = 0.0;
+};
+
+/// What a claim is judged by.
+struct Evidence {
+  const FindingRequest& request;
+  const SweepPlan& plan;
+  const std::vector<SweepPoint>& points;
+  const std::vector<SweepRun>& runs;
+};
+
+/// All comparisons of a claim among a group of points; their intervals hold together with 95 %
+/// (Bonferroni).
+std::vector<Comparison> comparisons_of(const Evidence& evidence, const PointGroup& group);
+
+}  // namespace havers::calib

@@ -1,0 +1,156 @@
+#include "calib/sweep/finding.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "calib/sweep/comparison.hpp"
+
+namespace havers::calib {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Where a value must lie for the claim to hold; for `matters`, for it not to hold.
+struct Range {
+  double low = -infinity, high = infinity;
+};
+
+Range range_of(const FindingRequest& request) {
+  const double margin = request.margin;
+  switch (request.test) {
+    case FindingTest::same:
+    case FindingTest::matters:
+    case FindingTest::linear:
+      return {-margin, margin};
+    case FindingTest::rises:
+      return {0.0, infinity};
+    case FindingTest::falls:
+      return {-infinity, 0.0};
+    case FindingTest::steady:
+    case FindingTest::below:
+      return {-infinity, margin};
+    case FindingTest::above:
+      return {margin, infinity};
+  }
+  return {};
+}
+
+double excess(const Comparison& comparison, Range range) {
+  return std::max(range.low - comparison.value, comparison.value - range.high);
+}
+
+// Every interval inside: agrees. One wholly outside: disagrees.
+FindingOutcome outcome_of(const std::vector<Comparison>& comparisons, Range range) {
+  const auto inside = [range](const Comparison& c) {
+    return c.low >= range.low && c.high <= range.high;
+  };
+  const auto outside = [range](const Comparison& c) {
+    return c.high < range.low || c.low > range.high;
+  };
+  if (std::ranges::any_of(comparisons, outside)) return FindingOutcome::disagrees;
+  return std::ranges::all_of(comparisons, inside) ? FindingOutcome::agrees
+                                                  : FindingOutcome::undecided;
+}
+
+FindingOutcome opposite(FindingOutcome outcome) {
+  if (outcome == FindingOutcome::undecided) return outcome;
+  return outcome == FindingOutcome::agrees ? FindingOutcome::disagrees : FindingOutcome::agrees;
+}
+
+std::string ground_of(const FindingRequest& request) {
+  const double percent = 100.0 * request.margin;
+  switch (request.test) {
+    case FindingTest::same:
+      return fmt::format("all differences within ±{:g} %", percent);
+    case FindingTest::matters:
+      return fmt::format("a difference beyond ±{:g} %", percent);
+    case FindingTest::rises:
+      return "all differences above 0";
+    case FindingTest::falls:
+      return "all differences below 0";
+    case FindingTest::linear:
+      return fmt::format("all means within ±{:g} % of the line", percent);
+    case FindingTest::steady:
+      return fmt::format("all coefficients of variation below {:g} %", percent);
+    case FindingTest::above:
+      return fmt::format("all means above {:g}", request.margin);
+    case FindingTest::below:
+      return fmt::format("all means below {:g}", request.margin);
+  }
+  return "";
+}
+
+std::string meaning_of(const FindingRequest& request, FindingOutcome outcome) {
+  switch (outcome) {
+    case FindingOutcome::agrees:
+      return request.if_agrees;
+    case FindingOutcome::disagrees:
+      return request.if_disagrees;
+    case FindingOutcome::undecided:
+      return request.if_undecided;
+  }
+  return "";
+}
+
+Finding judge_group(const Evidence& evidence, const PointGroup& group) {
+  const FindingRequest& request = evidence.request;
+  Finding finding;
+  finding.id = request.id;
+  finding.claim = request.claim;
+  finding.at = group.value;
+  finding.test = request.test;
+  finding.response = request.response;
+  finding.ground = ground_of(request);
+  finding.value = finding.low = finding.high = std::numeric_limits<double>::quiet_NaN();
+  finding.inertia_low = infinity;
+  for (const std::size_t point : group.points) {
+    finding.runs += static_cast<long>(values_of(evidence.runs, point, request.response).size());
+    const double inertia = evidence.points[point].inertia_number;
+    finding.inertia_low = std::min(finding.inertia_low, inertia);
+    finding.inertia_high = std::max(finding.inertia_high, inertia);
+  }
+  const std::vector<Comparison> comparisons = comparisons_of(evidence, group);
+  finding.comparisons = static_cast<int>(comparisons.size());
+  if (!comparisons.empty()) {
+    const Range range = range_of(request);
+    const auto worst = std::ranges::max_element(
+        comparisons, {}, [range](const Comparison& c) { return excess(c, range); });
+    finding.what = worst->what;
+    finding.value = worst->value;
+    finding.low = worst->low;
+    finding.high = worst->high;
+    finding.outcome = outcome_of(comparisons, range);
+    if (request.test == FindingTest::matters) finding.outcome = opposite(finding.outcome);
+  }
+  finding.meaning = meaning_of(request, finding.outcome);
+  return finding;
+}
+
+}  // namespace
+
+std::string to_string(FindingOutcome outcome) {
+  switch (outcome) {
+    case FindingOutcome::agrees:
+      return "agrees";
+    case FindingOutcome::disagrees:
+      return "disagrees";
+    case FindingOutcome::undecided:
+      return "undecided";
+  }
+  return "";
+}
+
+std::vector<Finding> judge(const FindingRequest& request, const SweepPlan& plan,
+                           const std::vector<SweepPoint>& points,
+                           const std::vector<SweepRun>& runs) {
+  const Evidence evidence{request, plan, points, runs};
+  std::vector<Finding> findings;
+  for (const PointGroup& group : groups_of(points, plan, request.per))
+    findings.push_back(judge_group(evidence, group));
+  return findings;
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,58 @@
+// A claim about the model, judged by the runs of a sweep alone (W3 to W5).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/sweep/measure.hpp"
+
+namespace havers::calib {
+
+/// What a claim says of a response; `margin` is what counts as a difference.
+enum class FindingTest {
+  same,     ///< Whatever the key, within the margin of one another.
+  matters,  ///< The key makes a difference beyond the margin.
+  rises,    ///< From the key's smallest value to its largest.
+  falls,
+  linear,  ///< Linear in the keys, within the margin of the mean.
+  steady,  ///< The coefficient of variation over the seeds is below the margin.
+  above,   ///< The mean is above the margin.
+  below,
+};
+
+struct FindingRequest {
+  std::string id, claim;
+  FindingTest test = FindingTest::same;
+  Measure response = Measure::strength;
+  std::vector<std::string> keys;  ///< What is compared; `linear` takes several.
+  std::string per;                ///< Key with a judgement for each of its values; empty: one.
+  double margin = 0.05;           ///< Relative; of `above` and `below` in SI units.
+  std::string if_agrees, if_disagrees, if_undecided;  ///< What it means, in words.
+};
+
+enum class FindingOutcome { agrees, disagrees, undecided };
+
+std::string to_string(FindingOutcome outcome);
+
+/// A claim judged for one value of `per`. Value and interval are those of the comparison that
+/// speaks most against the claim; the intervals of all comparisons hold together with 95 %.
+struct Finding {
+  std::string id, claim, at;
+  FindingTest test = FindingTest::same;
+  Measure response = Measure::strength;
+  FindingOutcome outcome = FindingOutcome::undecided;
+  double value = 0.0, low = 0.0, high = 0.0;  ///< NaN where nothing could be compared.
+  std::string what;                           ///< The comparison: "joints.ratio = 3.0 against 1.0".
+  std::string ground;                         ///< The test, in words.
+  std::string meaning;                        ///< The words given for this outcome.
+  int comparisons = 0;
+  long runs = 0;                                 ///< That the judgement rests on.
+  double inertia_low = 0.0, inertia_high = 0.0;  ///< I (M12) of its points. [-]
+};
+
+/// The claim, once for each value of `per`.
+std::vector<Finding> judge(const FindingRequest& request, const SweepPlan& plan,
+                           const std::vector<SweepPoint>& points,
+                           const std::vector<SweepRun>& runs);
+
+}  // namespace havers::calib

@@ -1,0 +1,154 @@
+#include "calib/sweep/law.hpp"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_multifit.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace havers::calib {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+template <auto Free, class T>
+std::unique_ptr<T, decltype(Free)> owned(T* pointer) {
+  return {pointer, Free};
+}
+
+// The columns of the terms at a point, and the constant.
+std::vector<double> row_of(const LawRequest& request, const SweepPlan& plan,
+                           const SweepPoint& point) {
+  std::vector<double> row;
+  for (const std::string& term : request.terms) {
+    const auto key = std::ranges::find(plan.keys, term, &SweepKey::name);
+    row.push_back(point.numbers.at(static_cast<std::size_t>(key - plan.keys.begin())));
+  }
+  row.push_back(1.0);
+  return row;
+}
+
+struct Rows {
+  std::vector<std::vector<double>> x;
+  std::vector<double> y;
+  std::vector<std::size_t> point;
+};
+
+Rows rows_of(const Law& law, const SweepPlan& plan, const std::vector<SweepPoint>& points,
+             const std::vector<SweepRun>& runs) {
+  Rows rows;
+  for (const std::size_t point : law.points)
+    for (const double value : values_of(runs, point, law.request.response)) {
+      rows.x.push_back(row_of(law.request, plan, points[point]));
+      rows.y.push_back(value);
+      rows.point.push_back(point);
+    }
+  return rows;
+}
+
+// (W1), by GSL's singular value decomposition with balanced columns. Returns the residual sum of
+// squares.
+double least_squares(const Rows& rows, Law& law) {
+  const std::size_t n = rows.y.size(), k = rows.x.front().size();
+  const auto x = owned<gsl_matrix_free>(gsl_matrix_alloc(n, k));
+  const auto y = owned<gsl_vector_free>(gsl_vector_alloc(n));
+  const auto c = owned<gsl_vector_free>(gsl_vector_alloc(k));
+  const auto covariance = owned<gsl_matrix_free>(gsl_matrix_alloc(k, k));
+  const auto work = owned<gsl_multifit_linear_free>(gsl_multifit_linear_alloc(n, k));
+  for (std::size_t i = 0; i < n; ++i) {
+    gsl_vector_set(y.get(), i, rows.y[i]);
+    for (std::size_t j = 0; j < k; ++j) gsl_matrix_set(x.get(), i, j, rows.x[i][j]);
+  }
+  double squares = 0.0;
+  std::size_t rank = 0;
+  gsl_multifit_linear_tsvd(x.get(), y.get(), 1e-10, c.get(), covariance.get(), &squares, &rank,
+                           work.get());
+  if (rank < k) law.status = LawStatus::terms_do_not_vary;
+  for (std::size_t j = 0; j < k; ++j) {
+    law.coefficients.push_back(gsl_vector_get(c.get(), j));
+    law.standard_errors.push_back(std::sqrt(gsl_matrix_get(covariance.get(), j, j)));
+  }
+  return squares;
+}
+
+// (W2)
+void test_lack_of_fit(const SweepPlan& plan, const std::vector<SweepPoint>& points,
+                      const std::vector<SweepRun>& runs, Law& law) {
+  double pure = 0.0, lack = 0.0;
+  double within = 0.0, levels = 0.0;
+  for (const std::size_t point : law.points) {
+    const Statistics mean = statistics_of(values_of(runs, point, law.request.response));
+    if (mean.n == 0) continue;
+    const auto n = static_cast<double>(mean.n);
+    const double deviation = mean.mean - law.value(points[point], plan);
+    if (mean.n > 1) pure += (n - 1.0) * mean.sd * mean.sd;
+    lack += n * deviation * deviation;
+    within += n - 1.0;
+    levels += 1.0;
+    if (std::abs(deviation) > law.worst_deviation) {
+      law.worst_deviation = std::abs(deviation);
+      law.worst_deviation_error = mean.standard_error();
+    }
+  }
+  const double freedom = levels - static_cast<double>(law.coefficients.size());
+  law.lack_of_fit = law.lack_of_fit_p = unknown;
+  if (freedom < 1.0 || within < 1.0 || !(pure > 0.0)) return;
+  law.lack_of_fit = (lack / freedom) / (pure / within);
+  law.lack_of_fit_p = gsl_cdf_fdist_Q(law.lack_of_fit, freedom, within);
+}
+
+void fit(const SweepPlan& plan, const std::vector<SweepPoint>& points,
+         const std::vector<SweepRun>& runs, Law& law) {
+  const Rows rows = rows_of(law, plan, points, runs);
+  law.runs = static_cast<long>(rows.y.size());
+  const std::size_t k = law.request.terms.size() + 1;
+  if (rows.y.size() <= k) return;
+  law.status = LawStatus::fitted;
+  const double squares = least_squares(rows, law);
+  const double freedom = static_cast<double>(rows.y.size() - k);
+  const Statistics all = statistics_of(rows.y);
+  law.residual_sd = std::sqrt(squares / freedom);
+  law.explained = 1.0 - squares / (static_cast<double>(all.n - 1) * all.sd * all.sd);
+  law.confidence_factor = gsl_cdf_tdist_Qinv(0.025, freedom);
+  test_lack_of_fit(plan, points, runs, law);
+}
+
+}  // namespace
+
+std::string explain(LawStatus status) {
+  switch (status) {
+    case LawStatus::fitted:
+      return "fitted";
+    case LawStatus::too_few_runs:
+      return "there are not more runs than coefficients";
+    case LawStatus::terms_do_not_vary:
+      return "the terms do not vary enough to be told apart";
+  }
+  return "";
+}
+
+double Law::value(const SweepPoint& point, const SweepPlan& plan) const {
+  const std::vector<double> row = row_of(request, plan, point);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < row.size(); ++i) sum += coefficients[i] * row[i];
+  return sum;
+}
+
+std::vector<Law> fit_laws(const LawRequest& request, const SweepPlan& plan,
+                          const std::vector<SweepPoint>& points,
+                          const std::vector<SweepRun>& runs) {
+  std::vector<Law> laws;
+  for (PointGroup& group : groups_of(points, plan, request.per)) {
+    Law law;
+    law.request = request;
+    law.at = group.value;
+    law.points = std::move(group.points);
+    fit(plan, points, runs, law);
+    laws.push_back(std::move(law));
+  }
+  return laws;
+}
+
+}  // namespace havers::calib

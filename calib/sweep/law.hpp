@@ -1,0 +1,47 @@
+// Linear laws of what a sweep measured, by least squares (W1).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/sweep/measure.hpp"
+
+namespace havers::calib {
+
+/// response = Σ coefficient · term + constant, one law for each value of the key `per`.
+struct LawRequest {
+  Measure response = Measure::failure_strain;
+  std::vector<std::string> terms;  ///< Keys of the sweep, with numbers.
+  std::string per;                 ///< Empty: one law.
+};
+
+enum class LawStatus { fitted, too_few_runs, terms_do_not_vary };
+
+struct Law {
+  LawRequest request;
+  std::string at;  ///< The value of `per`.
+  LawStatus status = LawStatus::too_few_runs;
+  std::vector<double> coefficients;     ///< Those of the terms, then the constant. SI units.
+  std::vector<double> standard_errors;  ///< Of each, from the replicates.
+  double confidence_factor = 0.0;       ///< Half a 95 % interval over the standard error. [-]
+  double residual_sd = 0.0;             ///< Of the runs around the law. SI units.
+  double explained = 0.0;               ///< R². [-]
+  long runs = 0;
+  std::vector<std::size_t> points;
+
+  // Lack of fit (W2): the points' means around the law against the runs around their means.
+  double lack_of_fit = 0.0;            ///< F; NaN where it cannot be tested. [-]
+  double lack_of_fit_p = 0.0;          ///< Its probability if the law held. [-]
+  double worst_deviation = 0.0;        ///< Largest |mean of a point − law|. SI units.
+  double worst_deviation_error = 0.0;  ///< Standard error of that mean. SI units.
+
+  [[nodiscard]] double value(const SweepPoint& point, const SweepPlan& plan) const;
+};
+
+std::string explain(LawStatus status);
+
+/// The laws asked for, fitted to the runs that did not fail.
+std::vector<Law> fit_laws(const LawRequest& request, const SweepPlan& plan,
+                          const std::vector<SweepPoint>& points, const std::vector<SweepRun>& runs);
+
+}  // namespace havers::calib

@@ -1,0 +1,110 @@
+#include "calib/sweep/measure.hpp"
+
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace havers::calib {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+// Up to which strain the curve keeps within 1 % of the modulus's line.
+double linear_until(const Response& response) {
+  double until = 0.0;
+  for (std::size_t i = 0; i < response.strain.size(); ++i) {
+    const double line = response.modulus * response.strain[i];
+    if (std::abs(response.stress[i] - line) > 0.01 * response.strength) return until;
+    until = std::min(response.strain[i], response.failure_strain);
+  }
+  return until;
+}
+
+}  // namespace
+
+std::array<double, measure_count> measures_of(const Response& response, const Pattern* pattern) {
+  std::array<double, measure_count> measures{};
+  measures.fill(unknown);
+  if (response.failed || response.strain.empty()) return measures;
+  const double failure = response.failure_strain;
+  measures = {response.strength,
+              failure,
+              response.modulus,
+              linear_until(response) / failure,
+              response.broke ? (response.strain.back() - failure) / failure : unknown,
+              unknown,
+              unknown,
+              unknown,
+              unknown};
+  if (pattern != nullptr) {
+    measures[5] = pattern->head_tail;
+    measures[6] = pattern->flank;
+    measures[7] = pattern->span;
+    measures[8] = pattern->linked;
+  }
+  return measures;
+}
+
+double Statistics::standard_error() const {
+  return n > 1 ? sd / std::sqrt(static_cast<double>(n)) : unknown;
+}
+
+double Statistics::half_width(double risk) const {
+  if (n < 2) return unknown;
+  return gsl_cdf_tdist_Qinv(0.5 * risk, static_cast<double>(n - 1)) * standard_error();
+}
+
+Statistics statistics_of(const std::vector<double>& values) {
+  Statistics statistics{.n = 0, .mean = 0.0, .sd = 0.0};
+  double squares = 0.0;  // of the deviations [Welford 1962]
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    ++statistics.n;
+    const double step = value - statistics.mean;
+    statistics.mean += step / static_cast<double>(statistics.n);
+    squares += step * (value - statistics.mean);
+  }
+  if (statistics.n == 0) statistics.mean = unknown;
+  statistics.sd =
+      statistics.n > 1 ? std::sqrt(squares / static_cast<double>(statistics.n - 1)) : unknown;
+  return statistics;
+}
+
+std::vector<double> values_of(const std::vector<SweepRun>& runs, std::size_t point, Measure m) {
+  std::vector<double> values;
+  for (const SweepRun& run : runs)
+    if (run.point == point && !run.failed && std::isfinite(run[m])) values.push_back(run[m]);
+  return values;
+}
+
+PointSummary summary_of(const std::vector<SweepRun>& runs, std::size_t point) {
+  PointSummary summary;
+  for (const SweepRun& run : runs) {
+    if (run.point != point) continue;
+    ++summary.runs;
+    summary.failed += run.failed ? 1 : 0;
+    summary.unbroken += !run.failed && !run.broke ? 1 : 0;
+  }
+  for (std::size_t m = 0; m < measure_count; ++m)
+    summary.measures.at(m) = statistics_of(values_of(runs, point, static_cast<Measure>(m)));
+  return summary;
+}
+
+std::vector<PointGroup> groups_of(const std::vector<SweepPoint>& points, const SweepPlan& plan,
+                                  const std::string& key) {
+  const auto found = std::ranges::find(plan.keys, key, &SweepKey::name);
+  const auto column = static_cast<std::size_t>(found - plan.keys.begin());
+  std::vector<PointGroup> groups;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].level > 1) continue;
+    const std::string value = found == plan.keys.end() ? "" : points[i].values[column];
+    auto group = std::ranges::find(groups, value, &PointGroup::value);
+    if (group == groups.end()) group = groups.insert(group, {value, {}});
+    group->points.push_back(i);
+  }
+  return groups;
+}
+
+}  // namespace havers::calib

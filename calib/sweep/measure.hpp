@@ -1,0 +1,89 @@
+// What is measured on every run of a sweep, and what several runs of a point say together.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "calib/fit/evaluation_store.hpp"
+#include "calib/sweep/pattern.hpp"
+#include "calib/sweep/plan.hpp"
+#include "sim/scene.hpp"
+
+namespace havers::calib {
+
+enum class Measure {
+  strength,        ///< [Pa]
+  failure_strain,  ///< [-]
+  modulus,         ///< [Pa]
+  linear_part,     ///< Strain up to which the stress is within 1 % of Eε, over failure strain. [-]
+  fall_part,       ///< Strain from the strength to the end of the run, over failure strain. [-]
+  head_tail_broken,  ///< Broken head-tail joints.
+  flank_broken,      ///< Broken flank joints.
+  crack_span,        ///< Height that the largest chain of broken joints spans, over H. [-]
+  crack_linked,      ///< Part of the broken head-tail joints that a broken flank continues. [-]
+};
+inline constexpr std::size_t measure_count = 9;
+
+/// A point of a sweep: the values of its keys, and the scene they make.
+struct SweepPoint {
+  std::vector<std::string> values;  ///< As TOML values, in the order of the plan's keys.
+  std::vector<double> numbers;      ///< The same as numbers; NaN for words.
+  sim::Scene scene;
+  int level = 1;
+  double inertia_number = 0.0;  ///< I (M12). [-]
+};
+
+struct SweepRun {
+  std::size_t point = 0;
+  std::uint64_t seed = 0;
+  bool failed = true, broke = false;
+  std::string why;                               ///< It failed.
+  std::array<double, measure_count> measures{};  ///< NaN where not known; SI units.
+  std::vector<double> strain, stress;            ///< Curve of a point's first run. [-], [Pa]
+
+  [[nodiscard]] double operator[](Measure m) const {
+    return measures.at(static_cast<std::size_t>(m));
+  }
+};
+
+/// The measures of a response; those of the pattern where there is one.
+std::array<double, measure_count> measures_of(const Response& response, const Pattern* pattern);
+
+struct Statistics {
+  long n = 0;
+  double mean = 0.0, sd = 0.0;  ///< NaN without enough runs.
+
+  [[nodiscard]] double standard_error() const;
+  /// Half width of the interval of confidence 1 − `risk`, by Student's t.
+  [[nodiscard]] double half_width(double risk = 0.05) const;
+};
+
+/// Of the values that are numbers.
+Statistics statistics_of(const std::vector<double>& values);
+
+struct PointSummary {
+  long runs = 0, failed = 0, unbroken = 0;  ///< Unbroken: the strain limit came first.
+  std::array<Statistics, measure_count> measures{};
+
+  [[nodiscard]] const Statistics& operator[](Measure m) const {
+    return measures.at(static_cast<std::size_t>(m));
+  }
+};
+
+/// A measure of all runs of a point that did not fail.
+std::vector<double> values_of(const std::vector<SweepRun>& runs, std::size_t point, Measure m);
+
+PointSummary summary_of(const std::vector<SweepRun>& runs, std::size_t point);
+
+/// Which points share the value of a key: their value and their indices, in order; one group of
+/// all, without a value, for an empty key. Points of the second level are in no group.
+struct PointGroup {
+  std::string value;
+  std::vector<std::size_t> points;
+};
+std::vector<PointGroup> groups_of(const std::vector<SweepPoint>& points, const SweepPlan& plan,
+                                  const std::string& key);
+
+}  // namespace havers::calib

@@ -1,0 +1,125 @@
+#include "calib/sweep/plan.hpp"
+
+#include <Random123/philox.h>
+#include <fmt/format.h>
+#include <gsl/gsl_qrng.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+namespace havers::calib {
+namespace {
+
+using Unit = std::vector<std::vector<double>>;  // points in [0, 1)^keys
+
+bool is_sample(Sampling sampling) {
+  return sampling == Sampling::latin_hypercube || sampling == Sampling::sobol;
+}
+
+// The number that a TOML value is; NaN when it is none.
+double number_in(const std::string& value) {
+  double number = std::nan("");
+  std::from_chars(value.data(), value.data() + value.size(), number);
+  return number;
+}
+
+// A permutation of the strata for each key, and a place in each stratum. [MCB79]
+Unit latin_hypercube(std::size_t points, std::size_t keys, std::uint64_t seed) {
+  Unit unit(points, std::vector<double>(keys));
+  for (std::size_t key = 0; key < keys; ++key) {
+    std::vector<std::pair<std::uint64_t, std::size_t>> order(points);
+    std::vector<double> place(points);
+    for (std::size_t i = 0; i < points; ++i) {
+      const auto bits = r123::Philox2x64()({{i, key}}, {{seed}});
+      order[i] = {bits[0], i};
+      place[i] = static_cast<double>(bits[1] >> 11) * 0x1p-53;
+    }
+    std::ranges::sort(order);
+    for (std::size_t stratum = 0; stratum < points; ++stratum) {
+      const std::size_t i = order[stratum].second;
+      unit[i][key] = (static_cast<double>(stratum) + place[i]) / static_cast<double>(points);
+    }
+  }
+  return unit;
+}
+
+Unit sobol(std::size_t points, std::size_t keys) {
+  const std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> sequence(
+      gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(keys)), gsl_qrng_free);
+  Unit unit(points, std::vector<double>(keys));
+  for (auto& point : unit) gsl_qrng_get(sequence.get(), point.data());
+  return unit;
+}
+
+std::string between(const SweepKey& key, double part) {
+  const double low = number_in(key.values[0]), high = number_in(key.values[1]);
+  const bool by_logarithm = low > 0.0 && high >= 100.0 * low;
+  return fmt::format("{:.9g}",
+                     by_logarithm ? low * std::pow(high / low, part) : low + part * (high - low));
+}
+
+std::vector<std::vector<std::string>> sample(const SweepPlan& plan) {
+  const auto points = static_cast<std::size_t>(plan.points);
+  const Unit unit = plan.sampling == Sampling::sobol
+                        ? sobol(points, plan.keys.size())
+                        : latin_hypercube(points, plan.keys.size(), plan.seed);
+  std::vector<std::vector<std::string>> rows(points);
+  for (std::size_t i = 0; i < points; ++i)
+    for (std::size_t key = 0; key < plan.keys.size(); ++key)
+      rows[i].push_back(between(plan.keys[key], unit[i][key]));
+  return rows;
+}
+
+// The last key runs fastest.
+std::vector<std::vector<std::string>> grid(const std::vector<SweepKey>& keys) {
+  std::vector<std::vector<std::string>> rows{{}};
+  for (const SweepKey& key : keys) {
+    std::vector<std::vector<std::string>> longer;
+    for (const auto& row : rows)
+      for (const std::string& value : key.values) {
+        longer.push_back(row);
+        longer.back().push_back(value);
+      }
+    rows = std::move(longer);
+  }
+  return rows;
+}
+
+std::vector<std::vector<std::string>> list(const std::vector<SweepKey>& keys) {
+  std::vector<std::vector<std::string>> rows(keys.front().values.size());
+  for (const SweepKey& key : keys)
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].push_back(key.values[i]);
+  return rows;
+}
+
+}  // namespace
+
+std::vector<std::string> SweepPlan::problems() const {
+  std::vector<std::string> all;
+  if (keys.empty()) all.emplace_back("names no keys to vary");
+  if (seeds < 1) all.push_back(fmt::format("asks for {} seeds, must be 1 or more", seeds));
+  if (is_sample(sampling) && points < 1)
+    all.push_back(fmt::format("asks for {} points, must be 1 or more", points));
+  if (sampling == Sampling::sobol && keys.size() > 40)
+    all.emplace_back("has more keys than the 40 dimensions of the Sobol sequence");
+  for (const SweepKey& key : keys) {
+    if (key.values.empty()) all.push_back(fmt::format("gives {} no values", key.name));
+    if (sampling == Sampling::list && key.values.size() != keys.front().values.size())
+      all.push_back(fmt::format("is a list, but {} has {} values and {} has {}", key.name,
+                                key.values.size(), keys.front().name, keys.front().values.size()));
+    if (is_sample(sampling) &&
+        !(key.values.size() == 2 && number_in(key.values.front()) < number_in(key.values.back())))
+      all.push_back(fmt::format("is a sample, but {} has no lower and upper bound", key.name));
+  }
+  return all;
+}
+
+std::vector<std::vector<std::string>> points_of(const SweepPlan& plan) {
+  if (plan.sampling == Sampling::list) return list(plan.keys);
+  return plan.sampling == Sampling::grid ? grid(plan.keys) : sample(plan);
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,35 @@
+// Where a sweep looks: the points of a list, a grid or a sample.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace havers::calib {
+
+/// list: the first values of all keys, the second ones, ...; grid: every combination; the samples
+/// fill the box between two bounds for each key.
+enum class Sampling { list, grid, latin_hypercube, sobol };
+
+/// A key of a scene and what it takes, as TOML values.
+struct SweepKey {
+  std::string name;                 ///< Dotted: "joints.scatter".
+  std::vector<std::string> values;  ///< Of a sample: lower and upper bound.
+};
+
+struct SweepPlan {
+  Sampling sampling = Sampling::grid;
+  std::vector<SweepKey> keys;
+  int points = 32;         ///< Of a sample.
+  int seeds = 20;          ///< Runs for each point, every run with a seed of its own.
+  std::uint64_t seed = 1;  ///< Of the first run, and of the Latin hypercube.
+
+  /// What is wrong, each complaint a sentence without its subject; empty when it can be run.
+  [[nodiscard]] std::vector<std::string> problems() const;
+};
+
+/// The values of every key, point by point, as TOML values. Bounds of a sample that are a factor
+/// of 100 apart are filled by the logarithm. Precondition: plan.problems() is empty.
+std::vector<std::vector<std::string>> points_of(const SweepPlan& plan);
+
+}  // namespace havers::calib

@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "calib/fit/normal_form.hpp"
+#include "calib/fit/simulation_batch.hpp"
+#include "calib/sweep/sweep.hpp"
+#include "sim/simulate.hpp"
+#include "sim/simulation.hpp"
+
+namespace havers::calib {
+namespace {
+
+// Simulations between two looks at the observer.
+constexpr std::size_t chunk = 32;
+
+// The fibre model, which leaves the pattern of every scene's broken joints in a map.
+class PatternedModel {
+ public:
+  Simulator simulator() {
+    return {.run = [this](const sim::Scene& scene) { return run(scene); },
+            .quasi_static = fibre_model().quasi_static};
+  }
+  [[nodiscard]] const Pattern* find(const std::string& key) const {
+    const auto found = patterns_.find(key);
+    return found == patterns_.end() ? nullptr : &found->second;
+  }
+
+ private:
+  Response run(const sim::Scene& scene) {
+    const sim::Simulation simulation = sim::simulate(scene);
+    const Pattern pattern =
+        pattern_of(sim::build_assembly(scene.assembly, scene.loading.lateral), simulation.joints);
+    const std::scoped_lock lock(mutex_);
+    patterns_[key_of(scene)] = pattern;
+    return response_of(simulation);
+  }
+
+  std::mutex mutex_;
+  std::map<std::string, Pattern> patterns_;
+};
+
+// Runs levels of points, as long as the observer wants to.
+class Runner {
+ public:
+  Runner(const Sweep& sweep, EvaluationStore* store, int threads, const SweepObserver& observer)
+      : sweep_(sweep),
+        observer_(observer),
+        batch_(sweep.patterns ? model_.simulator() : fibre_model(),
+               sweep.patterns ? nullptr : store, threads),
+        seeds_(static_cast<std::size_t>(sweep.plan.seeds)),
+        all_(sweep.points.size() * seeds_ * static_cast<std::size_t>(sweep.levels)) {}
+
+  // The runs of the points from `first` on.
+  void run(SweepResult& result, std::size_t first) {
+    std::vector<sim::Scene> scenes;
+    for (std::size_t point = first; point < result.points.size(); ++point)
+      for (std::size_t k = 0; k < seeds_; ++k) {
+        scenes.push_back(result.points[point].scene);
+        scenes.back().joints.seed = sweep_.plan.seed + point * seeds_ + k;
+        result.runs.push_back({.point = point, .seed = scenes.back().joints.seed, .why = {}});
+      }
+    const std::size_t offset = first * seeds_;
+    for (std::size_t at = 0; at < scenes.size() && !result.cancelled; at += chunk) {
+      const std::size_t end = std::min(at + chunk, scenes.size());
+      const std::vector<sim::Scene> some(scenes.begin() + static_cast<std::ptrdiff_t>(at),
+                                         scenes.begin() + static_cast<std::ptrdiff_t>(end));
+      const std::vector<Response> responses = batch_.run(some);
+      const std::vector<std::string> keys = batch_.keys(some);
+      for (std::size_t i = 0; i < some.size(); ++i)
+        keep(responses[i], keys[i], result.runs[offset + at + i]);
+      result.cancelled = observer_ && !observer_(offset + end, all_);
+    }
+    result.simulated = batch_.simulated();
+    result.failed = batch_.failed();
+  }
+
+ private:
+  void keep(const Response& response, const std::string& key, SweepRun& run) {
+    run.failed = response.failed;
+    run.broke = response.broke;
+    run.why = response.why;
+    run.measures = measures_of(response, sweep_.patterns ? model_.find(key) : nullptr);
+    if ((run.seed - sweep_.plan.seed) % seeds_ != 0) return;
+    run.strain = response.strain;
+    run.stress = response.stress;
+  }
+
+  const Sweep& sweep_;
+  const SweepObserver& observer_;
+  PatternedModel model_;
+  SimulationBatch batch_;
+  std::size_t seeds_, all_;
+};
+
+void summarise(SweepResult& result, std::size_t first) {
+  for (std::size_t point = first; point < result.points.size(); ++point) {
+    result.summaries.push_back(summary_of(result.runs, point));
+    result.strengths.push_back(strength_law(values_of(result.runs, point, Measure::strength)));
+  }
+}
+
+// A point above every point from `first` on.
+void climb(SweepResult& result, std::size_t first) {
+  const std::size_t end = result.points.size();
+  for (std::size_t point = first; point < end; ++point) {
+    SweepPoint above = result.points[point];
+    if (result.summaries[point][Measure::strength].n < 2) continue;
+    above.scene = scale_above(above.scene, result.summaries[point]);
+    ++above.level;
+    result.points.push_back(std::move(above));
+  }
+}
+
+}  // namespace
+
+sim::Scene scale_above(const sim::Scene& scene, const PointSummary& below) {
+  const Statistics& strength = below[Measure::strength];
+  sim::Scene above = scene;
+  above.joints.flank *= strength.mean / scene.joints.head_tail;
+  above.joints.head_tail = strength.mean;
+  above.joints.distribution = sim::Distribution::weibull;
+  above.joints.scatter = std::min(strength.sd / strength.mean * std::sqrt(12.0), 1.99);
+  return above;
+}
+
+SweepResult run_sweep(const Sweep& sweep, EvaluationStore* store, int threads,
+                      const SweepObserver& observer) {
+  SweepResult result;
+  result.points = sweep.points;
+  Runner runner(sweep, store, threads, observer);
+  std::size_t first = 0;
+  for (int level = 1; level <= sweep.levels && !result.cancelled; ++level) {
+    if (level > 1) {
+      const std::size_t end = result.points.size();
+      climb(result, first);
+      first = end;
+    }
+    runner.run(result, first);
+    if (!result.cancelled) summarise(result, first);
+  }
+  if (result.cancelled) return result;
+  for (const LawRequest& request : sweep.laws)
+    for (Law& law : fit_laws(request, sweep.plan, result.points, result.runs))
+      result.laws.push_back(std::move(law));
+  for (const FindingRequest& request : sweep.findings)
+    for (Finding& finding : judge(request, sweep.plan, result.points, result.runs))
+      result.findings.push_back(std::move(finding));
+  return result;
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,182 @@
+// havers sweep: the model over many scenes, and what they say together.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/command.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/output_folder.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/provenance.hpp"
+#include "io/input_error.hpp"
+#include "io/store/sqlite_store.hpp"
+#include "io/sweep/read_sweep.hpp"
+#include "io/sweep/sweep_files.hpp"
+#include "reports/sweep/sweep_page.hpp"
+
+namespace havers::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* examples =
+    "  havers sweep scatter.toml -o runs/scatter\n"
+    "  havers sweep scatter.toml -o runs/scatter      # after Ctrl-C: goes on where it stopped\n"
+    "  havers sweep data_samples/paper/R*.toml -o runs/paper --title 'What the paper found'\n";
+
+struct Arguments {
+  std::vector<fs::path> files;
+  fs::path folder;
+  std::string title = "havers sweep";
+};
+
+struct Done {
+  std::string stem;
+  calib::Sweep sweep;
+  calib::SweepResult result;
+};
+
+std::vector<Done> read_all(const Arguments& arguments, const CommonOptions& common) {
+  std::vector<Done> all;
+  std::vector<io::Problem> problems;
+  std::set<std::string> stems;
+  for (const fs::path& file : arguments.files) {
+    if (!stems.insert(file.stem().string()).second)
+      problems.push_back({file.string(), "has the name of another sweep", "rename one"});
+    try {
+      all.push_back({file.stem().string(), io::read_sweep(file, common.set, common.seed), {}});
+    } catch (const io::InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw io::InputError(std::move(problems));
+  return all;
+}
+
+// False when the user stopped it.
+bool run_all(std::vector<Done>& all, calib::EvaluationStore& store, const CommonOptions& common) {
+  ProgressLine line(common);
+  for (Done& one : all) {
+    one.result = calib::run_sweep(
+        one.sweep, &store, common.threads, [&](std::size_t done, std::size_t runs) {
+          if (line.due()) line.show(fmt::format("{}: {} of {} runs", one.stem, done, runs));
+          return !interrupted();
+        });
+    if (one.result.cancelled) return false;
+  }
+  return true;
+}
+
+long runs_of(const std::vector<Done>& all) {
+  long runs = 0;
+  for (const Done& one : all) runs += static_cast<long>(one.result.runs.size());
+  return runs;
+}
+
+long failed_of(const std::vector<Done>& all) {
+  long failed = 0;
+  for (const Done& one : all)
+    for (const calib::PointSummary& summary : one.result.summaries) failed += summary.failed;
+  return failed;
+}
+
+// A few runs may fail; their points say so.
+bool trusted(const std::vector<Done>& all) {
+  return 20 * failed_of(all) <= runs_of(all);
+}
+
+nlohmann::json json_of_all(const std::vector<Done>& all, const io::Provenance& provenance) {
+  nlohmann::json sweeps = nlohmann::json::array(), inputs;
+  for (const Done& one : all) sweeps.push_back(io::sweep_json(one.sweep, one.result));
+  for (const auto& [name, digest] : provenance.inputs) inputs[name] = digest;
+  return {{"status", "finished"},
+          {"trusted", trusted(all)},
+          {"evaluations", runs_of(all)},
+          {"failed_simulations", failed_of(all)},
+          {"wall_s", provenance.wall_seconds},
+          {"sweeps", sweeps},
+          {"provenance",
+           {{"havers", provenance.havers},
+            {"compiler", provenance.compiler},
+            {"command", provenance.command},
+            {"inputs", inputs},
+            {"wall_s", provenance.wall_seconds},
+            {"cpu_s", provenance.cpu_seconds}}}};
+}
+
+void write_all(const OutputFolder& output, const Arguments& arguments, const std::vector<Done>& all,
+               const io::Provenance& provenance) {
+  std::vector<reports::SweepReport> parts;
+  for (const Done& one : all) {
+    io::write_file(output.stage(fs::path(one.stem) / "runs.csv"),
+                   io::runs_csv(one.sweep, one.result));
+    io::write_file(output.stage(fs::path(one.stem) / "summary.csv"),
+                   io::summary_csv(one.sweep, one.result));
+    if (!one.result.laws.empty())
+      io::write_file(output.stage(fs::path(one.stem) / "laws.json"),
+                     io::laws_json(one.result).dump(2) + "\n");
+    parts.push_back({one.stem, one.sweep, one.result});
+  }
+  if (reports::available())
+    io::write_file(output.stage("report.html"),
+                   reports::sweep_page(arguments.title, parts, page_facts(provenance),
+                                       provenance.wall_seconds));
+  io::write_file(output.stage("result.json"), json_of_all(all, provenance).dump(2) + "\n");
+}
+
+void print_summary(const std::vector<Done>& all, double wall_seconds) {
+  fmt::print("{}: {} runs, {} failed, in {:.3g} s\n",
+             trusted(all) ? "to be trusted" : "NOT to be trusted: too many runs failed",
+             runs_of(all), failed_of(all), wall_seconds);
+  for (const Done& one : all)
+    for (const calib::Finding& finding : one.result.findings)
+      fmt::print("{:<6}{:<12}{:<11}{:>11.4g} ({:.4g} to {:.4g}; {} runs)  {}\n", finding.id,
+                 calib::to_string(finding.outcome), finding.at, finding.value, finding.low,
+                 finding.high, finding.runs, finding.claim);
+}
+
+int run_sweeps(const Arguments& arguments, const CommonOptions& common) {
+  const Stopwatch watch;
+  std::vector<Done> all = read_all(arguments, common);
+  const bool resumes = fs::exists(arguments.folder / "evaluations.sqlite") &&
+                       !fs::exists(arguments.folder / "result.json");
+  OutputFolder output(arguments.folder, common.force || resumes);
+  if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
+  const auto store = io::open_store(output.keep("evaluations.sqlite"));
+  if (!run_all(all, *store, common)) {
+    note(common, "stopped by you; the runs so far are kept in " + output.folder().string() +
+                     ": the same command goes on from there");
+    return answer_is_no;
+  }
+  const io::Provenance provenance = provenance_of(common, arguments.files, watch);
+  write_all(output, arguments, all, provenance);
+  output.publish();
+  if (common.json) {
+    fmt::print("{}\n", json_of_all(all, provenance).dump(2));
+  } else {
+    print_summary(all, provenance.wall_seconds);
+    fmt::print("{}\n",
+               (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
+  }
+  return trusted(all) ? done : answer_is_no;
+}
+
+}  // namespace
+
+Command sweep_command(CLI::App& app, CommonOptions& common) {
+  CLI::App* parser =
+      add_command(app, common, "sweep",
+                  "the model over a grid or sample of parameters; laws fitted to it", examples);
+  const auto arguments = std::make_shared<Arguments>();
+  parser->add_option("SWEEP", arguments->files, "sweep files (TOML)")->required();
+  parser->add_option("-o,--output", arguments->folder, "folder for the results")
+      ->required()
+      ->type_name("DIR");
+  parser->add_option("--title", arguments->title, "of the page")->type_name("TEXT");
+  return {parser, [arguments, &common] { return run_sweeps(*arguments, common); }};
+}
+
+}  // namespace havers::cli

@@ -1,0 +1,133 @@
+#include "io/sweep/read_sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "io/config/parse_toml.hpp"
+#include "io/config/scene_tables.hpp"
+#include "io/sweep/sweep_keys.hpp"
+#include "sim/simulate.hpp"
+
+namespace havers::io {
+namespace {
+
+void read_plan(TableReader& top, calib::Sweep& sweep) {
+  TableReader table = top.table("sweep");
+  table.key("name", sweep.name);
+  table.key("text", sweep.text);
+  table.key("sample", sweep.plan.sampling);
+  table.key("points", sweep.plan.points);
+  table.key("seeds", sweep.plan.seeds);
+  table.key("seed", sweep.plan.seed);
+  table.key("levels", sweep.levels);
+  table.key("patterns", sweep.patterns);
+  if (sweep.levels < 1 || sweep.levels > 2) table.complain("levels", "must be 1 or 2");
+  for (auto& [name, values] : table.lists("keys"))
+    sweep.plan.keys.push_back({name, std::move(values)});
+  for (const std::string& problem : sweep.plan.problems()) table.complain("keys", problem);
+}
+
+// A key that a question is about must be one of those that vary.
+void require_varied(TableReader& table, const calib::SweepPlan& plan, const std::string& key,
+                    const char* name) {
+  if (!key.empty() && std::ranges::find(plan.keys, key, &calib::SweepKey::name) == plan.keys.end())
+    table.complain(name, fmt::format("names {}, which does not vary", key),
+                   "name a key of [sweep.keys]");
+}
+
+void read_questions(TableReader& top, calib::Sweep& sweep) {
+  for (TableReader& table : top.tables("law")) {
+    calib::LawRequest& law = sweep.laws.emplace_back();
+    keys(table, law);
+    for (const std::string& term : law.terms) require_varied(table, sweep.plan, term, "terms");
+    require_varied(table, sweep.plan, law.per, "per");
+  }
+  for (TableReader& table : top.tables("finding")) {
+    calib::FindingRequest& finding = sweep.findings.emplace_back();
+    keys(table, finding);
+    for (const std::string& key : finding.keys) require_varied(table, sweep.plan, key, "keys");
+    require_varied(table, sweep.plan, finding.per, "per");
+    const bool of_keys = finding.test <= calib::FindingTest::linear;
+    if (of_keys && finding.keys.empty())
+      table.complain("keys", "is missing", "name the key whose effect is judged");
+  }
+  for (TableReader& table : top.tables("figure")) {
+    calib::SweepFigure& figure = sweep.figures.emplace_back();
+    keys(table, figure);
+    require_varied(table, sweep.plan, figure.x, "x");
+    require_varied(table, sweep.plan, figure.series, "series");
+    require_varied(table, sweep.plan, figure.per, "per");
+  }
+}
+
+double number_in(const std::string& value) {
+  double number = std::nan("");
+  std::from_chars(value.data(), value.data() + value.size(), number);
+  return number;
+}
+
+// The scene with a point's values on top, as if they were given by --set.
+calib::SweepPoint read_point(const std::filesystem::path& file, Overrides overrides,
+                             const calib::SweepPlan& plan, std::vector<std::string> values) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    overrides.push_back(fmt::format("{}={}", plan.keys[i].name, values[i]));
+  ConfigFile config(file, overrides);
+  TableReader top = config.top();
+  calib::Sweep again;
+  read_plan(top, again);
+  read_questions(top, again);
+  calib::SweepPoint point;
+  read_scene_tables(top, point.scene);
+  config.finish();
+  for (const std::string& value : values) point.numbers.push_back(number_in(value));
+  point.values = std::move(values);
+  point.inertia_number = sim::choose_regime(point.scene).inertia_number;
+  return point;
+}
+
+// What is wrong with a point's value is said of the sweep's key.
+Problem of_sweep(Problem problem, const std::filesystem::path& file, const calib::SweepPlan& plan) {
+  for (const calib::SweepKey& key : plan.keys)
+    if (problem.where == std::string(override_mark) + key.name)
+      problem.where = fmt::format("{}: sweep.keys.\"{}\"", file.string(), key.name);
+  return problem;
+}
+
+}  // namespace
+
+calib::Sweep read_sweep(const std::filesystem::path& file, const Overrides& overrides,
+                        std::optional<std::uint64_t> seed) {
+  ConfigFile config(file, overrides);
+  TableReader top = config.top();
+  calib::Sweep sweep;
+  read_plan(top, sweep);
+  if (!sweep.plan.problems().empty()) {  // no points, so the scene is read as it stands
+    sim::Scene scene;
+    read_scene_tables(top, scene);
+    read_questions(top, sweep);
+    config.finish();
+  }
+  read_questions(top, sweep);
+  if (seed) sweep.plan.seed = *seed;
+  if (sweep.name.empty()) sweep.name = file.stem().string();
+
+  std::vector<Problem> problems;
+  for (std::vector<std::string>& values : points_of(sweep.plan)) {
+    try {
+      sweep.points.push_back(read_point(file, overrides, sweep.plan, std::move(values)));
+    } catch (const InputError& error) {
+      for (const Problem& problem : error.problems()) {
+        Problem said = of_sweep(problem, file, sweep.plan);
+        const auto same = [&said](const Problem& p) { return to_string(p) == to_string(said); };
+        if (std::ranges::none_of(problems, same)) problems.push_back(std::move(said));
+      }
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return sweep;
+}
+
+}  // namespace havers::io

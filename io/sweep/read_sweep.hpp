@@ -1,0 +1,19 @@
+// Sweep files (TOML): a scene, the keys that vary, and what is asked of the outcome.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "calib/sweep/sweep.hpp"
+#include "io/config/read_scene.hpp"
+
+namespace havers::io {
+
+/// Reads a sweep; every point's scene is complete and possible.
+/// @param seed  of the first run, instead of the file's.
+/// @throws InputError with every problem, as read_scene; a problem of several points is named once.
+calib::Sweep read_sweep(const std::filesystem::path& file, const Overrides& overrides = {},
+                        std::optional<std::uint64_t> seed = {});
+
+}  // namespace havers::io

@@ -1,0 +1,125 @@
+#include "io/sweep/sweep_files.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "io/results/csv_numbers.hpp"
+#include "io/results/json_table.hpp"
+#include "io/sweep/sweep_keys.hpp"
+
+namespace havers::io {
+namespace {
+
+using calib::Measure;
+
+Measure measure(std::size_t m) {
+  return static_cast<Measure>(m);
+}
+
+bool is_known(const calib::SweepResult& result, std::size_t m) {
+  for (const calib::PointSummary& summary : result.summaries)
+    if (summary[measure(m)].n > 0) return true;
+  return false;
+}
+
+// TOML texts keep their quotes, which hold a comma together in CSV as well.
+std::string point_cells(const calib::SweepPoint& point, std::size_t index) {
+  std::string cells = fmt::format("{},{}", index, point.level);
+  for (const std::string& value : point.values) cells += "," + value;
+  return cells;
+}
+
+std::string point_header(const calib::Sweep& sweep) {
+  std::string header = "point,level";
+  for (const calib::SweepKey& key : sweep.plan.keys) header += "," + key.name;
+  return header;
+}
+
+}  // namespace
+
+std::string name_of(Measure m) {
+  const bool stress = m == Measure::strength || m == Measure::modulus;
+  return fmt::format("{}{}", word(m), stress ? "_Pa" : "");
+}
+
+std::string runs_csv(const calib::Sweep& sweep, const calib::SweepResult& result) {
+  std::string text = point_header(sweep) + ",seed,outcome";
+  for (std::size_t m = 0; m < calib::measure_count; ++m)
+    if (is_known(result, m)) text += "," + name_of(measure(m));
+  text += '\n';
+  for (const calib::SweepRun& run : result.runs) {
+    const std::string_view outcome = run.failed ? "failed" : run.broke ? "broken" : "unbroken";
+    text += fmt::format("{},{},{}", point_cells(result.points[run.point], run.point), run.seed,
+                        outcome);
+    for (std::size_t m = 0; m < calib::measure_count; ++m)
+      if (is_known(result, m)) text += "," + csv_number(run[measure(m)]);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string summary_csv(const calib::Sweep& sweep, const calib::SweepResult& result) {
+  std::string text = point_header(sweep) + ",inertia_number,measure,n,mean,sd,standard_error\n";
+  for (std::size_t point = 0; point < result.points.size(); ++point)
+    for (std::size_t m = 0; m < calib::measure_count; ++m) {
+      const calib::Statistics& s = result.summaries[point][measure(m)];
+      if (s.n == 0) continue;
+      text += fmt::format("{},{},{},{},{},{},{}\n", point_cells(result.points[point], point),
+                          csv_number(result.points[point].inertia_number), name_of(measure(m)), s.n,
+                          csv_number(s.mean), csv_number(s.sd), csv_number(s.standard_error()));
+    }
+  return text;
+}
+
+nlohmann::json laws_json(const calib::SweepResult& result) {
+  std::vector<calib::Law> laws = result.laws;
+  return {{"form",
+           "response = sum of coefficients[i] * terms[i] + coefficients.back(); the "
+           "terms as in a scene file, the response in SI units"},
+          {"laws", json_of(laws)}};
+}
+
+nlohmann::json sweep_json(const calib::Sweep& sweep, const calib::SweepResult& result) {
+  nlohmann::json points = nlohmann::json::array();
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    const calib::SweepPoint& point = result.points[i];
+    const calib::PointSummary& summary = result.summaries[i];
+    nlohmann::json values, measures;
+    for (std::size_t k = 0; k < point.values.size(); ++k)
+      values[sweep.plan.keys[k].name] =
+          point.values[k].front() == '"' || point.values[k].front() == '\''
+              ? nlohmann::json(point.values[k].substr(1, point.values[k].size() - 2))
+              : nlohmann::json::parse(point.values[k], nullptr, false);
+    for (std::size_t m = 0; m < calib::measure_count; ++m) {
+      calib::Statistics s = summary[measure(m)];
+      double error = s.standard_error();
+      if (s.n > 0)
+        measures[name_of(measure(m))] = {{"n", s.n},
+                                         {"mean", json_of(s.mean)},
+                                         {"sd", json_of(s.sd)},
+                                         {"standard_error", json_of(error)}};
+    }
+    calib::StrengthLaw strength = result.strengths[i];
+    points.push_back({{"level", point.level},
+                      {"keys", values},
+                      {"inertia_number", point.inertia_number},
+                      {"runs", summary.runs},
+                      {"failed", summary.failed},
+                      {"unbroken", summary.unbroken},
+                      {"measures", measures},
+                      {"strength_law", json_of(strength)}});
+  }
+  std::vector<calib::Law> laws = result.laws;
+  std::vector<calib::Finding> findings = result.findings;
+  return {{"name", sweep.name},
+          {"points", points},
+          {"laws", json_of(laws)},
+          {"findings", json_of(findings)},
+          {"evaluations", result.runs.size()},
+          {"simulated", result.simulated},
+          {"failed_simulations", result.failed},
+          {"scene", scene_json(sweep.points.front().scene)}};
+}
+
+}  // namespace havers::io

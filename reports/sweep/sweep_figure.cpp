@@ -1,0 +1,162 @@
+#include "reports/sweep/sweep_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "reports/figures/thin.hpp"
+#include "reports/sweep/sweep_words.hpp"
+#include "reports/text/format.hpp"
+
+namespace havers::reports {
+namespace {
+
+using calib::PointGroup;
+
+constexpr std::array<std::string_view, 7> colours{"blue",   "red",  "green", "orange",
+                                                  "purple", "dark", "grey"};
+
+// What a panel is drawn from.
+struct Panel {
+  const calib::Sweep& sweep;
+  const calib::SweepResult& result;
+  const calib::SweepFigure& wanted;
+  const PointGroup& group;
+};
+
+std::string title_of(const Panel& panel, const std::string& value) {
+  if (panel.wanted.series.empty()) return {};
+  return plain(fmt::format("{} = {}", name_of_key(panel.wanted.series), bare(value)));
+}
+
+std::vector<PointGroup> series_of(const Panel& panel) {
+  std::vector<PointGroup> all =
+      calib::groups_of(panel.result.points, panel.sweep.plan, panel.wanted.series);
+  for (PointGroup& series : all)
+    std::erase_if(series.points, [&](std::size_t point) {
+      return std::ranges::find(panel.group.points, point) == panel.group.points.end();
+    });
+  return all;
+}
+
+struct Line {
+  std::vector<double> x, mean, low, high;
+};
+
+Line line_of(const Panel& panel, std::vector<std::size_t> points) {
+  const auto& keys = panel.sweep.plan.keys;
+  const auto column = static_cast<std::size_t>(
+      std::ranges::find(keys, panel.wanted.x, &calib::SweepKey::name) - keys.begin());
+  const auto x_of = [&](std::size_t point) { return panel.result.points[point].numbers[column]; };
+  std::ranges::stable_sort(points, {}, x_of);
+  const double scale = words_of(panel.wanted.response).scale;
+  Line line;
+  for (const std::size_t point : points) {
+    const calib::Statistics& s = panel.result.summaries[point][panel.wanted.response];
+    if (s.n == 0) continue;
+    const double half = s.n > 1 ? s.half_width() : 0.0;
+    line.x.push_back(x_of(point));
+    line.mean.push_back(s.mean / scale);
+    line.low.push_back((s.mean - half) / scale);
+    line.high.push_back((s.mean + half) / scale);
+  }
+  return line;
+}
+
+std::string x_axis(const std::vector<Line>& lines) {
+  double low = INFINITY, high = -INFINITY;
+  for (const Line& line : lines)
+    for (const double x : line.x) {
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+  if (low > 0.0 && high >= 100.0 * low)
+    return fmt::format("set logscale x\nset format x '10^{{%T}}'\nset xrange [{}:{}]\n", 0.7 * low,
+                       1.4 * high);
+  const double margin = high > low ? 0.04 * (high - low) : 1.0;
+  return fmt::format("set xrange [{}:{}]\n", low - margin, high + margin);
+}
+
+// Means with the band of their 95 % intervals, a line for each series.
+std::string mean_commands(const Panel& panel) {
+  std::string data, bands, marks;
+  std::vector<Line> lines;
+  const bool sample = panel.sweep.plan.sampling != calib::Sampling::grid &&
+                      panel.sweep.plan.sampling != calib::Sampling::list;
+  for (const PointGroup& series : series_of(panel)) {
+    const Line line = line_of(panel, series.points);
+    if (line.x.empty()) continue;
+    const std::size_t i = lines.size();
+    const std::string_view colour = colours.at(i % colours.size());
+    data += data_block(fmt::format("s{}", i), {line.x, line.mean, line.low, line.high});
+    if (!sample)
+      bands += fmt::format(
+          "$s{} using 1:3:4 with filledcurves fs transparent solid 0.25 lc rgb {} notitle, ", i,
+          colour);
+    marks += fmt::format(
+        "{}$s{} using 1:2:3:4 with yerrorbars pt {} ps 0.7 lw 1.2 lc rgb {} "
+        "notitle, $s{} using 1:2 with {} lw 1.6 pt {} ps 0.7 lc rgb {} title '{}'",
+        marks.empty() ? "" : ", ", i, 4 + 2 * (i % 5) + 1, colour, i,
+        sample ? "points" : "linespoints", 4 + 2 * (i % 5) + 1, colour,
+        title_of(panel, series.value));
+    lines.push_back(line);
+  }
+  if (lines.empty()) return {};
+  const MeasureWords words = words_of(panel.wanted.response);
+  return data + x_axis(lines) +
+         fmt::format(
+             "set xlabel '{}' offset 0,0.4\nset ylabel '{}{}' offset 0.5,0\n"
+             "set offsets 0, 0, graph 0.06, graph 0.06\nplot {}{}\n",
+             plain(name_of_key(panel.wanted.x)), plain(words.name),
+             words.unit.empty() ? "" : fmt::format(" ({})", words.unit), bands, marks);
+}
+
+// Stress against strain of the first seed of each series.
+std::string curve_commands(const Panel& panel) {
+  std::string data, plots;
+  std::size_t i = 0;
+  for (const PointGroup& series : series_of(panel)) {
+    if (series.points.empty()) continue;
+    const auto run =
+        std::ranges::find(panel.result.runs, series.points.front(), &calib::SweepRun::point);
+    if (run == panel.result.runs.end() || run->strain.empty()) continue;
+    const Points points = thin(run->strain, run->stress);
+    data += data_block(fmt::format("s{}", i), {points.x, points.y});
+    plots += fmt::format("{}$s{} using ($1*100):($2*1e-6) with lines lw 1.6 lc rgb {} title '{}'",
+                         plots.empty() ? "" : ", ", i, colours.at(i % colours.size()),
+                         title_of(panel, series.value));
+    ++i;
+  }
+  if (plots.empty()) return {};
+  return data + fmt::format(
+                    "set xlabel 'Strain (%)' offset 0,0.4\nset ylabel 'Stress (MPa)' offset 0.5,0\n"
+                    "set yrange [0:*]\nset offsets 0, graph 0.03, graph 0.06, 0\nplot {}\n",
+                    plots);
+}
+
+}  // namespace
+
+std::vector<SweepPanel> sweep_figures(const calib::Sweep& sweep, const calib::SweepResult& result,
+                                      const calib::SweepFigure& wanted, const std::string& id) {
+  std::vector<SweepPanel> panels;
+  for (const PointGroup& group : calib::groups_of(result.points, sweep.plan, wanted.per)) {
+    const Panel panel{sweep, result, wanted, group};
+    SweepPanel made{.at = wanted.per.empty()
+                              ? ""
+                              : fmt::format("{} = {}", name_of_key(wanted.per), bare(group.value)),
+                    .figure = {.id = fmt::format("{}-{}", id, panels.size()),
+                               .description = wanted.caption,
+                               .width = wanted.per.empty() ? 640 : 420,
+                               .height = wanted.per.empty() ? 360 : 340}};
+    made.figure.commands = wanted.x.empty() ? curve_commands(panel) : mean_commands(panel);
+    if (!wanted.per.empty() && !made.figure.commands.empty())
+      made.figure.commands =
+          "set lmargin at screen 0.17\nset key maxcols 2\n" + made.figure.commands;
+    panels.push_back(std::move(made));
+  }
+  return panels;
+}
+
+}  // namespace havers::reports

@@ -1,0 +1,20 @@
+// The figures of a sweep.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calib/sweep/sweep.hpp"
+#include "reports/figures/gnuplot.hpp"
+
+namespace havers::reports {
+
+/// A figure for each panel, in the order of its value.
+struct SweepPanel {
+  std::string at;  ///< "angle θ = 45"; empty for the only one.
+  Figure figure;
+};
+std::vector<SweepPanel> sweep_figures(const calib::Sweep& sweep, const calib::SweepResult& result,
+                                      const calib::SweepFigure& wanted, const std::string& id);
+
+}  // namespace havers::reports

@@ -1,0 +1,23 @@
+// The page of one sweep, or of several with what they found.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "calib/sweep/sweep.hpp"
+#include "reports/pages.hpp"
+
+namespace havers::reports {
+
+struct SweepReport {
+  std::string id;  ///< Unique on the page, a word.
+  const calib::Sweep& sweep;
+  const calib::SweepResult& result;
+};
+
+/// @param wall_seconds  NaN where not recorded. [s]
+std::string sweep_page(const std::string& title, const std::vector<SweepReport>& sweeps,
+                       const Provenance& provenance, double wall_seconds);
+
+}  // namespace havers::reports

@@ -1,0 +1,53 @@
+#include "reports/sweep/sweep_words.hpp"
+
+#include <map>
+#include <vector>
+
+#include "reports/text/format.hpp"
+
+namespace havers::reports {
+
+std::string name_of_key(const std::string& key) {
+  static const std::map<std::string, std::string> names{
+      {"joints.scatter", "scatter d"},
+      {"joints.ratio", "ratio r"},
+      {"joints.distribution", "distribution"},
+      {"assembly.layers", "layers N"},
+      {"assembly.fibres", "fibres n"},
+      {"assembly.orientation_deg", "angle θ (°)"},
+      {"material.viscosity_s", "viscosity τ (s)"},
+      {"loading.strain_rate_per_s", "strain rate (1/s)"}};
+  const auto found = names.find(key);
+  return found == names.end() ? key.substr(key.rfind('.') + 1) : found->second;
+}
+
+std::string bare(const std::string& value) {
+  const bool quoted = value.size() >= 2 && (value.front() == '"' || value.front() == '\'');
+  return quoted ? value.substr(1, value.size() - 2) : value;
+}
+
+MeasureWords words_of(calib::Measure measure) {
+  switch (measure) {
+    case calib::Measure::strength:
+      return {"Strength", "MPa", in::MPa};
+    case calib::Measure::failure_strain:
+      return {"Failure strain", "%", in::percent};
+    case calib::Measure::modulus:
+      return {"Modulus", "GPa", in::GPa};
+    case calib::Measure::linear_part:
+      return {"Linear part of the curve", "%", in::percent};
+    case calib::Measure::fall_part:
+      return {"Strain from strength to end / failure strain", "%", in::percent};
+    case calib::Measure::head_tail_broken:
+      return {"Broken head-tail joints", "", 1.0};
+    case calib::Measure::flank_broken:
+      return {"Broken flank joints", "", 1.0};
+    case calib::Measure::crack_span:
+      return {"Height of the crack / H", "%", in::percent};
+    case calib::Measure::crack_linked:
+      return {"Head-tail joints continued by a flank", "%", in::percent};
+  }
+  return {};
+}
+
+}  // namespace havers::reports

@@ -1,0 +1,23 @@
+// Keys and measures as a reader of the page knows them.
+#pragma once
+
+#include <string>
+
+#include "calib/sweep/measure.hpp"
+
+namespace havers::reports {
+
+/// "scatter d" for "joints.scatter"; what is behind the dot for keys without a symbol.
+std::string name_of_key(const std::string& key);
+
+/// A TOML value without its quotes.
+std::string bare(const std::string& value);
+
+/// A measure as tables and axes show it.
+struct MeasureWords {
+  std::string name, unit;
+  double scale = 1.0;  ///< SI value over the shown one.
+};
+MeasureWords words_of(calib::Measure measure);
+
+}  // namespace havers::reports
