@@ -36,8 +36,8 @@ std::string text(const std::optional<double>& value) {
 // The structured bindings name every member: a new one does not compile until it is part of the
 // key.
 std::string text(const sim::AssemblyOptions& options) {
-  const auto& [layers, fibres, length, height, orientation] = options;
-  return fmt::format("{} {} {} {} {}", layers, fibres, length, height, orientation);
+  const auto& [layers, fibres, length, height, orientation, refinement] = options;
+  return fmt::format("{} {} {} {} {} {}", layers, fibres, length, height, orientation, refinement);
 }
 
 std::string text(const sim::Material& material) {
