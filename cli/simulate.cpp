@@ -10,6 +10,7 @@
 #include "cli/progress_line.hpp"
 #include "cli/provenance.hpp"
 #include "io/snapshots/snapshots.hpp"
+#include "reports/figures/avalanche.hpp"
 
 namespace havers::cli {
 namespace {
@@ -49,6 +50,7 @@ void write_results(const OutputFolder& output, const sim::Scene& scene,
                   snapshot.displacements, snapshot.joints);
   if (reports::available()) {
     io::write_file(output.stage("fracture.svg"), reports::fracture_svg(assembly, simulation));
+    io::write_file(output.stage("avalanche.svg"), reports::avalanche_svg(assembly, simulation));
     io::write_file(output.stage("report.html"),
                    reports::simulation_page({scene, assembly, simulation, page_facts(provenance),
                                              provenance.wall_seconds}));

@@ -12,8 +12,9 @@ namespace {
 // A dynamic run records thousands of rows; a store keeps what a figure shows.
 constexpr std::size_t rows_kept = 1000;
 
-Response respond(const sim::Scene& scene) {
-  const sim::Simulation run = sim::simulate(scene);
+}  // namespace
+
+Response response_of(const sim::Simulation& run) {
   Response response;
   response.failed = !run.trusted();
   response.broke = run.status == sim::SimulationStatus::broken;
@@ -32,12 +33,12 @@ Response respond(const sim::Scene& scene) {
   return response;
 }
 
-}  // namespace
-
 Simulator fibre_model() {
-  return {.run = respond, .quasi_static = [](const sim::Scene& scene) {
-            return sim::choose_regime(scene).regime == sim::Regime::quasi_static;
-          }};
+  return {.run = [](const sim::Scene& scene) { return response_of(sim::simulate(scene)); },
+          .quasi_static =
+              [](const sim::Scene& scene) {
+                return sim::choose_regime(scene).regime == sim::Regime::quasi_static;
+              }};
 }
 
 CalibrationResult calibrate(const Study& study, EvaluationStore* store,

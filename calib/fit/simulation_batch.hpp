@@ -9,6 +9,10 @@
 #include "calib/fit/evaluation_store.hpp"
 #include "sim/scene.hpp"
 
+namespace havers::sim {
+struct Simulation;
+}
+
 namespace havers::calib {
 
 /// The model, as a calibration sees it. Both functions are called from several threads.
@@ -19,6 +23,9 @@ struct Simulator {
 
 /// havers' own simulator.
 Simulator fibre_model();
+
+/// What is kept of a run of it.
+Response response_of(const sim::Simulation& run);
 
 /// A simulator with a memory. The answers come in the order asked, the same for any number of
 /// threads, and each simulation runs once, whoever asks and however often.

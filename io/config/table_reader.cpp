@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "io/config/nearest.hpp"
 #include "io/config/parse_toml.hpp"
@@ -228,6 +229,23 @@ std::vector<TableReader> TableReader::tables(std::string_view name) {
   std::vector<TableReader> readers;
   for (const toml::node& item : *list) readers.emplace_back(*file_, item.as_table(), full(name));
   return readers;
+}
+
+std::vector<TableReader::List> TableReader::lists(std::string_view name) {
+  const toml::node* node = ask(name);
+  std::vector<List> all;
+  if (node == nullptr || !node->is_table()) return all;
+  for (auto&& [key, item] : *node->as_table()) {
+    all.emplace_back(key.str(), std::vector<std::string>{});
+    if (!item.is_array()) wrong_type(join(name, key.str()), item, "a list");
+    if (!item.is_array()) continue;
+    for (const toml::node& value : *item.as_array()) {
+      std::ostringstream text;
+      text << toml::node_view<const toml::node>(value);
+      all.back().second.push_back(text.str());
+    }
+  }
+  return all;
 }
 
 ConfigFile::ConfigFile(std::filesystem::path file, const Overrides& overrides)

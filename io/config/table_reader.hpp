@@ -70,6 +70,10 @@ class TableReader {
   /// The tables [[name]].
   std::vector<TableReader> tables(std::string_view name);
 
+  /// The lists of an inner table whose keys are the user's own; every item as a TOML value.
+  using List = std::pair<std::string, std::vector<std::string>>;
+  std::vector<List> lists(std::string_view name);
+
   [[nodiscard]] bool has(std::string_view name) const;
   /// Whether the key holds a text, for keys that take a text or something else.
   [[nodiscard]] bool is_text(std::string_view name) const;

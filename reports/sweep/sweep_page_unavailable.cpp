@@ -1,4 +1,5 @@
-// Stands in for the page in a build without mstch.
+// Stands in for the page and the avalanche in a build without mstch.
+#include "reports/figures/avalanche.hpp"
 #include "reports/sweep/sweep_page.hpp"
 
 namespace havers::reports {
@@ -7,6 +8,11 @@ std::string sweep_page(const std::string& /*title*/, const std::vector<SweepRepo
                        const Provenance& /*provenance*/, double /*wall_seconds*/) {
   return "Pages are not part of this build: apt-get install libmstch-dev gnuplot-nox, then "
          "configure again.\n";
+}
+
+std::string avalanche_svg(const sim::Assembly& /*assembly*/,
+                          const sim::Simulation& /*simulation*/) {
+  return {};
 }
 
 }  // namespace havers::reports

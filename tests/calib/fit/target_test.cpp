@@ -9,6 +9,13 @@
 namespace havers::calib {
 namespace {
 
+Target target_of(const MeasuredTest& test, bool broke = true) {
+  Specimen specimen;
+  specimen.broke = broke;
+  specimen.test = test;
+  return calib::target_of(specimen, CalibrateOptions{}.terms);
+}
+
 TEST(Target, AddsHalfARowToATestThatPartsBetweenTwo) {
   const auto test = test::straight_test(10e9, 100e6);
   const auto target = target_of(test);
@@ -34,6 +41,23 @@ TEST(Target, KnowsTheStrengthNoBetterThanItsRows) {
     test.stress.push_back(i * 5e6);
   }
   EXPECT_NEAR(target_of(test).noise[strength], 5.0 / 102.5 / std::sqrt(12.0), 1e-4);
+}
+
+// A test that was stopped bounds the strength and knows nothing of the break.
+TEST(Target, OfATestThatDidNotBreakKeepsModulusAndABound) {
+  const auto target = target_of(test::straight_test(10e9, 100e6), false);
+  EXPECT_TRUE(target.censored);
+  EXPECT_NEAR(target.value[strength], std::log(100e6), 1e-12);
+  EXPECT_TRUE(target.present[modulus] && target.present[strength]);
+  EXPECT_FALSE(target.present.tail<4>().any());
+}
+
+TEST(Target, HasOnlyTheTermsAskedFor) {
+  Specimen specimen;
+  specimen.test = test::straight_test(10e9, 100e6);
+  const auto target = calib::target_of(specimen, {"modulus", "energy"});
+  EXPECT_EQ(target.present.count(), 2);
+  EXPECT_TRUE(target.present[modulus] && target.present[energy]);
 }
 
 TEST(Target, IsOfNoUseWithoutAModulus) {

@@ -8,10 +8,33 @@ namespace {
 TEST(Parameter, ReadsBackWhatItSet) {
   for (const auto& info : all_parameters()) {
     sim::Scene scene;
+    PorosityOptions laws;
     const double value = 0.3 * info.lower + 0.7 * info.upper;
     apply(scene, info.name, value);
-    EXPECT_NEAR(value_of(scene, info.name), value, 1e-12 * value) << info.name;
+    apply(laws, info.name, value);
+    EXPECT_NEAR(info.of_porosity ? value_of(laws, info.name) : value_of(scene, info.name), value,
+                1e-12 * value)
+        << info.name;
   }
+}
+
+TEST(Parameter, AspectRatioAndResultantKeepTheRatio) {
+  for (const char* name : {"aspect_ratio", "resultant_MPa"}) {
+    sim::Scene scene;
+    const double ratio = sim::ratio(scene.assembly, scene.joints);
+    apply(scene, name, 1.5 * value_of(scene, name));
+    EXPECT_NEAR(sim::ratio(scene.assembly, scene.joints), ratio, 1e-12) << name;
+  }
+}
+
+// Set apart to what it is by default, a pair changes no threshold.
+TEST(Parameter, PairsSetApartStartAtTheirDefaults) {
+  const sim::Scene scene;
+  const auto& [assembly, material, joints, loading, solver] = scene;
+  EXPECT_DOUBLE_EQ(value_of(scene, "head_tail_shear_MPa") * 1e6 * assembly.fibre_height,
+                   joints.flank * 0.5 * assembly.fibre_length);
+  EXPECT_DOUBLE_EQ(value_of(scene, "flank_tension_MPa") * 1e6 * 0.5 * assembly.fibre_length,
+                   joints.head_tail * assembly.fibre_height);
 }
 
 TEST(Parameter, IsInSIInsideTheScene) {
@@ -46,8 +69,10 @@ TEST(Parameter, RatioKeepsTheHeadTailStress) {
 
 TEST(Parameter, HasBoundsThatHoldTheDefaultScene) {
   for (const auto& info : all_parameters()) {
-    EXPECT_LT(info.lower, value_of({}, info.name)) << info.name;
-    EXPECT_GT(info.upper, value_of({}, info.name)) << info.name;
+    const double value = info.of_porosity ? value_of(PorosityOptions{}, info.name)
+                                          : value_of(sim::Scene{}, info.name);
+    EXPECT_LE(info.lower, value) << info.name;
+    EXPECT_GT(info.upper, value) << info.name;
   }
 }
 

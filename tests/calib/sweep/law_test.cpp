@@ -1,0 +1,81 @@
+#include "calib/sweep/law.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/support/sweeps.hpp"
+
+namespace havers::calib {
+namespace {
+
+using support::deviation;
+using support::KnownSweep;
+
+const std::vector<SweepKey> two_keys{{"d", {"0.2", "0.4", "0.8"}}, {"r", {"1", "3"}}};
+
+Law only_law(const LawRequest& request, const KnownSweep& known) {
+  auto laws = fit_laws(request, known.plan, known.points, known.runs);
+  EXPECT_EQ(laws.size(), 1U);
+  return laws.front();
+}
+
+TEST(Law, FindsAPlaneAgainToRounding) {
+  const KnownSweep known(two_keys, 2, [](const SweepPoint& p, int) {
+    return 3.0 * p.numbers[0] - 2.0 * p.numbers[1] + 7.0;
+  });
+  const Law law = only_law({Measure::strength, {"d", "r"}, ""}, known);
+  EXPECT_EQ(law.status, LawStatus::fitted);
+  EXPECT_NEAR(law.coefficients[0], 3.0, 1e-12);
+  EXPECT_NEAR(law.coefficients[1], -2.0, 1e-12);
+  EXPECT_NEAR(law.coefficients[2], 7.0, 1e-12);
+  EXPECT_NEAR(law.explained, 1.0, 1e-12);
+}
+
+// Slope's standard error: σ/√Σ(x − x̄)², with σ² = Σ residual²/(n − 2).
+TEST(Law, StandardErrorIsTheTextbookOne) {
+  const KnownSweep known({{"d", {"0", "1"}}}, 20, [](const SweepPoint& p, int k) {
+    return 5.0 * p.numbers[0] + deviation(k);
+  });
+  const Law law = only_law({Measure::strength, {"d"}, ""}, known);
+  double squares = 0.0;
+  for (int k = 0; k < 20; ++k) squares += 2.0 * deviation(k) * deviation(k);
+  EXPECT_NEAR(law.standard_errors[0], std::sqrt(squares / 38.0) / std::sqrt(40 * 0.25), 1e-12);
+  EXPECT_NEAR(law.coefficients[0], 5.0, 1e-12);
+}
+
+TEST(Law, LackOfFitIsSeenInAParabolaAndNotInALine) {
+  const std::vector<SweepKey> keys{{"d", {"0", "1", "2", "3"}}};
+  const auto fitted = [&](double bend) {
+    const KnownSweep known(keys, 20, [bend](const SweepPoint& p, int k) {
+      return p.numbers[0] + bend * p.numbers[0] * p.numbers[0] + deviation(k);
+    });
+    return only_law({Measure::strength, {"d"}, ""}, known);
+  };
+  EXPECT_NEAR(fitted(0.0).lack_of_fit, 0.0, 1e-12);
+  EXPECT_GT(fitted(0.0).lack_of_fit_p, 0.99);
+  EXPECT_LT(fitted(1.0).lack_of_fit_p, 1e-3);
+  EXPECT_NEAR(fitted(1.0).worst_deviation, 1.0, 1e-12);  // of x² from its line over 0, 1, 2, 3
+}
+
+TEST(Law, IsFittedForEveryValueOfPer) {
+  const KnownSweep known(two_keys, 2,
+                         [](const SweepPoint& p, int) { return p.numbers[0] * p.numbers[1]; });
+  const auto laws = fit_laws({Measure::strength, {"d"}, "r"}, known.plan, known.points, known.runs);
+  ASSERT_EQ(laws.size(), 2U);
+  EXPECT_EQ(laws[1].at, "3");
+  EXPECT_NEAR(laws[1].coefficients[0], 3.0, 1e-12);
+}
+
+TEST(Law, SaysWhenItCannotBeFitted) {
+  const KnownSweep few({{"d", {"0", "1"}}}, 1, [](const SweepPoint&, int) { return 1.0; });
+  EXPECT_EQ(only_law({Measure::strength, {"d"}, ""}, few).status, LawStatus::too_few_runs);
+  const KnownSweep same({{"d", {"1", "1"}}}, 5, [](const SweepPoint&, int k) { return k; });
+  EXPECT_EQ(only_law({Measure::strength, {"d"}, ""}, same).status, LawStatus::terms_do_not_vary);
+  for (const LawStatus status :
+       {LawStatus::fitted, LawStatus::too_few_runs, LawStatus::terms_do_not_vary})
+    EXPECT_FALSE(explain(status).empty());
+}
+
+}  // namespace
+}  // namespace havers::calib

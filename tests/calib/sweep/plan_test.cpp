@@ -1,0 +1,77 @@
+#include "calib/sweep/plan.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+
+namespace havers::calib {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(Plan, GridHoldsEveryCombinationTheLastKeyFastest) {
+  const SweepPlan plan{.keys = {{"a", {"1", "2"}}, {"b", {"x", "y", "z"}}}};
+  const auto rows = points_of(plan);
+  ASSERT_EQ(rows.size(), 6U);
+  EXPECT_THAT(rows[1], ElementsAre("1", "y"));
+  EXPECT_THAT(rows[5], ElementsAre("2", "z"));
+}
+
+TEST(Plan, ListTakesTheValuesTogether) {
+  const SweepPlan plan{.sampling = Sampling::list, .keys = {{"a", {"1", "2"}}, {"b", {"3", "4"}}}};
+  EXPECT_THAT(points_of(plan), ElementsAre(ElementsAre("1", "3"), ElementsAre("2", "4")));
+}
+
+TEST(Plan, LatinHypercubeHasOnePointInEveryStratumOfEveryKey) {
+  const SweepPlan plan{.sampling = Sampling::latin_hypercube,
+                       .keys = {{"a", {"0", "20"}}, {"b", {"0", "20"}}},
+                       .points = 20};
+  const auto rows = points_of(plan);
+  for (std::size_t key = 0; key < 2; ++key) {
+    std::vector<int> strata;
+    for (const auto& row : rows) strata.push_back(static_cast<int>(std::stod(row[key])));
+    std::ranges::sort(strata);
+    for (int i = 0; i < 20; ++i) EXPECT_EQ(strata[static_cast<std::size_t>(i)], i);
+  }
+}
+
+TEST(Plan, LatinHypercubePairsTheKeysByTheSeed) {
+  SweepPlan plan{.sampling = Sampling::latin_hypercube,
+                 .keys = {{"a", {"0", "1"}}, {"b", {"0", "1"}}},
+                 .points = 20};
+  const auto first = points_of(plan);
+  EXPECT_EQ(first, points_of(plan));
+  plan.seed = 2;
+  EXPECT_NE(first, points_of(plan));
+}
+
+TEST(Plan, SobolFillsEveryQuarterOfTheSquareAlike) {
+  const SweepPlan plan{
+      .sampling = Sampling::sobol, .keys = {{"a", {"0", "2"}}, {"b", {"0", "2"}}}, .points = 63};
+  std::array<int, 4> quarters{};
+  for (const auto& row : points_of(plan))
+    ++quarters.at(static_cast<std::size_t>(2 * static_cast<int>(std::stod(row[0])) +
+                                           static_cast<int>(std::stod(row[1]))));
+  for (const int count : quarters) EXPECT_NEAR(count, 16, 1);
+}
+
+TEST(Plan, BoundsFarApartAreSampledByTheirLogarithm) {
+  const SweepPlan plan{.sampling = Sampling::sobol, .keys = {{"a", {"1", "10000"}}}, .points = 1};
+  EXPECT_NEAR(std::stod(points_of(plan)[0][0]), 100.0, 1e-6);
+}
+
+TEST(Plan, EveryComplaintIsMade) {
+  const SweepPlan unequal{
+      .sampling = Sampling::list, .keys = {{"a", {"1"}}, {"b", {"1", "2"}}}, .seeds = 0};
+  EXPECT_THAT(unequal.problems(),
+              ElementsAre(HasSubstr("0 seeds"), HasSubstr("b has 2 values and a has 1")));
+  const SweepPlan turned{.sampling = Sampling::sobol, .keys = {{"a", {"2", "1"}}}, .points = 0};
+  EXPECT_THAT(turned.problems(),
+              ElementsAre(HasSubstr("0 points"), HasSubstr("no lower and upper bound")));
+  EXPECT_THAT(SweepPlan{}.problems(), ElementsAre("names no keys to vary"));
+}
+
+}  // namespace
+}  // namespace havers::calib

@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "calib/sweep/sweep.hpp"
+
+namespace havers::calib {
+namespace {
+
+class MemoryStore : public EvaluationStore {
+ public:
+  std::optional<Response> find(const std::string& key) override {
+    const std::scoped_lock lock(mutex_);
+    const auto found = rows_.find(key);
+    return found == rows_.end() ? std::nullopt : std::optional(found->second);
+  }
+  void save(const std::string& key, const Response& response) override {
+    const std::scoped_lock lock(mutex_);
+    rows_[key] = response;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, Response> rows_;
+};
+
+Sweep small_sweep() {
+  Sweep sweep;
+  sweep.plan = {.keys = {{"joints.scatter", {"0.2", "0.8"}}}, .seeds = 6};
+  for (const double d : {0.2, 0.8}) {
+    SweepPoint point;
+    point.values = {std::to_string(d)};
+    point.numbers = {d};
+    point.scene.assembly.layers = 5;
+    point.scene.assembly.fibres = 4;
+    point.scene.joints.scatter = d;
+    point.scene.solver.regime = sim::Regime::quasi_static;
+    sweep.points.push_back(point);
+  }
+  return sweep;
+}
+
+TEST(RunSweep, AnswersTheSameForAnyNumberOfThreads) {
+  const SweepResult one = run_sweep(small_sweep(), nullptr, 1, {});
+  const SweepResult two = run_sweep(small_sweep(), nullptr, 2, {});
+  ASSERT_EQ(one.runs.size(), 12U);
+  for (std::size_t i = 0; i < one.runs.size(); ++i)
+    EXPECT_EQ(one.runs[i][Measure::strength], two.runs[i][Measure::strength]);
+  EXPECT_EQ(one.summaries[0][Measure::strength].n, 6);
+}
+
+TEST(RunSweep, GivesEveryRunASeedOfItsOwn) {
+  const SweepResult result = run_sweep(small_sweep(), nullptr, 1, {});
+  for (std::size_t i = 0; i < result.runs.size(); ++i) EXPECT_EQ(result.runs[i].seed, i + 1);
+}
+
+TEST(RunSweep, GoesOnWithWhatTheStoreKeeps) {
+  MemoryStore store;
+  EXPECT_TRUE(run_sweep(small_sweep(), &store, 1, [](auto, auto) { return false; }).cancelled);
+  const SweepResult again = run_sweep(small_sweep(), &store, 1, {});
+  EXPECT_FALSE(again.cancelled);
+  EXPECT_EQ(again.simulated, 0);
+}
+
+TEST(RunSweep, TellsTheObserverHowFarItIs) {
+  std::size_t last = 0;
+  run_sweep(small_sweep(), nullptr, 1, [&](std::size_t done, std::size_t all) {
+    EXPECT_EQ(all, 12U);
+    last = done;
+    return true;
+  });
+  EXPECT_EQ(last, 12U);
+}
+
+TEST(RunSweep, SeesThePatternsOfBrokenJointsWhenAsked) {
+  Sweep sweep = small_sweep();
+  EXPECT_TRUE(std::isnan(run_sweep(sweep, nullptr, 1, {}).runs[0][Measure::crack_span]));
+  sweep.patterns = true;
+  const SweepResult result = run_sweep(sweep, nullptr, 1, {});
+  for (const SweepRun& run : result.runs)
+    EXPECT_GT(run[Measure::head_tail_broken] + run[Measure::flank_broken], 0.0);
+}
+
+TEST(RunSweep, TheScaleAboveHasTheStrengthsAsThresholds) {
+  Sweep sweep = small_sweep();
+  sweep.levels = 2;
+  const SweepResult result = run_sweep(sweep, nullptr, 1, {});
+  ASSERT_EQ(result.points.size(), 4U);
+  const Statistics& below = result.summaries[1][Measure::strength];
+  const sim::JointOptions& above = result.points[3].scene.joints;
+  EXPECT_EQ(result.points[3].level, 2);
+  EXPECT_EQ(above.head_tail, below.mean);
+  EXPECT_NEAR(above.scatter / std::sqrt(12.0), below.sd / below.mean, 1e-12);
+  EXPECT_NEAR(sim::ratio(result.points[3].scene.assembly, above),
+              sim::ratio(sweep.points[1].scene.assembly, sweep.points[1].scene.joints), 1e-12);
+}
+
+}  // namespace
+}  // namespace havers::calib

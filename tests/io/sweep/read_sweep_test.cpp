@@ -1,0 +1,119 @@
+#include "io/sweep/read_sweep.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "io/sweep/sweep_files.hpp"
+#include "tests/io/config/complaints.hpp"
+
+namespace havers::io {
+namespace {
+
+using test::complaints_of;
+using test::ScratchFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const std::string good = R"(
+[sweep]
+name = "Small"
+sample = "grid"
+seeds = 3
+[sweep.keys]
+"joints.scatter" = [0.2, 0.8]
+"joints.distribution" = ["uniform", "weibull"]
+[assembly]
+layers = 4
+fibres = 3
+[solver]
+regime = "quasi-static"
+[[law]]
+response = "strength"
+terms = ["joints.scatter"]
+[[finding]]
+id = "A"
+test = "falls"
+keys = ["joints.scatter"]
+[[figure]]
+x = "joints.scatter"
+)";
+
+TEST(ReadSweep, MakesASceneOfEveryPoint) {
+  const ScratchFolder folder;
+  const calib::Sweep sweep = read_sweep(folder.write("s.toml", good));
+  EXPECT_EQ(sweep.name, "Small");
+  EXPECT_EQ(sweep.plan.seeds, 3);
+  ASSERT_EQ(sweep.points.size(), 4U);
+  EXPECT_EQ(sweep.points[3].scene.assembly.layers, 4);
+  EXPECT_EQ(sweep.points[3].scene.joints.scatter, 0.8);
+  EXPECT_EQ(sweep.points[3].scene.joints.distribution, sim::Distribution::weibull);
+  EXPECT_EQ(sweep.points[3].numbers[0], 0.8);
+  EXPECT_TRUE(std::isnan(sweep.points[3].numbers[1]));
+  EXPECT_EQ(sweep.laws.size(), 1U);
+  EXPECT_EQ(sweep.findings.front().test, calib::FindingTest::falls);
+  EXPECT_EQ(sweep.figures.front().x, "joints.scatter");
+}
+
+TEST(ReadSweep, TakesTheSeedOfTheCommandLine) {
+  const ScratchFolder folder;
+  EXPECT_EQ(read_sweep(folder.write("s.toml", good), {}, 7).plan.seed, 7U);
+}
+
+TEST(ReadSweep, NamesAnImpossibleValueOnceAndByTheSweepsKey) {
+  const ScratchFolder folder;
+  const auto file = folder.write("s.toml",
+                                 "[sweep.keys]\n\"joints.scatter\" = [0.2, 2.5]\n"
+                                 "\"assembly.layers\" = [3, 4]\n");
+  EXPECT_THAT(complaints_of(folder, [&] { read_sweep(file); }),
+              ElementsAre(HasSubstr("s.toml: sweep.keys.\"joints.scatter\"")));
+}
+
+TEST(ReadSweep, NamesUnknownKeysAndQuestionsAboutWhatDoesNotVary) {
+  const ScratchFolder folder;
+  const auto file = folder.write("s.toml",
+                                 "[sweep.keys]\n\"joints.scater\" = [0.2]\n"
+                                 "[[law]]\nterms = [\"joints.ratio\"]\n"
+                                 "[[finding]]\ntest = \"same\"\n");
+  EXPECT_THAT(complaints_of(folder, [&] { read_sweep(file); }),
+              testing::UnorderedElementsAre(HasSubstr("did you mean scatter?"),
+                                            HasSubstr("joints.ratio, which does not vary"),
+                                            HasSubstr("finding.keys is missing")));
+}
+
+TEST(ReadSweep, NamesWhatIsWrongWithThePlan) {
+  const ScratchFolder folder;
+  const auto file = folder.write("s.toml", "[sweep]\nseeds = 0\n");
+  EXPECT_THAT(complaints_of(folder, [&] { read_sweep(file); }),
+              ElementsAre(HasSubstr("names no keys to vary"), HasSubstr("0 seeds")));
+}
+
+TEST(SweepFiles, HaveARowForEveryRunAndForEveryPointAndMeasure) {
+  const ScratchFolder folder;
+  const calib::Sweep sweep = read_sweep(folder.write("s.toml", good));
+  const calib::SweepResult result = calib::run_sweep(sweep, nullptr, 1, {});
+  const std::string runs = runs_csv(sweep, result);
+  EXPECT_THAT(runs, testing::StartsWith("point,level,joints.scatter,joints.distribution,seed,"
+                                        "outcome,strength_Pa,failure_strain,modulus_Pa"));
+  EXPECT_EQ(std::ranges::count(runs, '\n'), 1 + 4 * 3);
+  EXPECT_EQ(std::ranges::count(summary_csv(sweep, result), '\n'), 1 + 4 * 5);
+}
+
+TEST(SweepFiles, ExportTheLawsAndTheFindings) {
+  const ScratchFolder folder;
+  const calib::Sweep sweep = read_sweep(folder.write("s.toml", good));
+  const calib::SweepResult result = calib::run_sweep(sweep, nullptr, 1, {});
+  const nlohmann::json laws = laws_json(result);
+  EXPECT_EQ(laws["laws"][0]["terms"][0], "joints.scatter");
+  EXPECT_EQ(laws["laws"][0]["coefficients"].size(), 2U);
+  const nlohmann::json json = sweep_json(sweep, result);
+  EXPECT_EQ(json["points"][1]["keys"]["joints.distribution"], "weibull");
+  EXPECT_EQ(json["points"][1]["measures"]["strength_Pa"]["n"], 3);
+  EXPECT_EQ(json["findings"][0]["id"], "A");
+}
+
+}  // namespace
+}  // namespace havers::io
