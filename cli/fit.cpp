@@ -61,7 +61,8 @@ int run_fit(const Arguments& arguments, const CommonOptions& common) {
   OutputFolder output(arguments.folder, common.force || resumes);
   if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
   const auto store = io::open_store(output.keep("evaluations.sqlite"));
-  const calib::CalibrationResult result = watched_fit(loaded.study, *store, common);
+  calib::CalibrationResult result = watched_fit(loaded.study, *store, common);
+  result.left_out.insert(result.left_out.begin(), loaded.left_out.begin(), loaded.left_out.end());
   if (result.status == calib::CalibrationStatus::cancelled) {
     fmt::print(stderr,
                "stopped by you; the simulations so far are kept in {}: the same command goes on "

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/provenance.hpp"
+#include "io/read_text.hpp"
 
 namespace havers::cli {
 namespace {
@@ -22,6 +23,35 @@ std::vector<std::uint8_t> read_bytes(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+fs::path test_file(const std::string& id, std::size_t figure) {
+  return fmt::format("tests/{}{}.svg", id, figure == 0 ? "" : "_clocks");
+}
+
+using TestFigures = std::map<std::string, std::vector<std::string>>;
+
+TestFigures draw_tests(const LoadedStudy& loaded) {
+  TestFigures figures;
+  for (const calib::Specimen& specimen : loaded.study.specimens) {
+    const TestRecord& record = loaded.records.at(specimen.id);
+    const std::string id = fmt::format("r{}", figures.size());
+    std::vector<std::string>& drawn = figures[specimen.id];
+    drawn.push_back(reports::test_svg({specimen.id, record.raw, specimen.test}, id));
+    if (record.clocks) drawn.push_back(reports::clocks_svg(*record.clocks, id + "c"));
+  }
+  return figures;
+}
+
+void write_page(const OutputFolder& output, const LoadedStudy& loaded,
+                const calib::CalibrationResult& result, const io::Provenance& provenance) {
+  const TestFigures tests = draw_tests(loaded);
+  for (const auto& [id, figures] : tests)
+    for (std::size_t i = 0; i < figures.size(); ++i)
+      io::write_file(output.stage(test_file(id, i)), figures[i]);
+  io::write_file(output.stage("report.html"),
+                 reports::fit_page({loaded.study, result, loaded.overlays, page_facts(provenance),
+                                    provenance.wall_seconds, tests}));
+}
+
 }  // namespace
 
 void write_fit(const OutputFolder& output, const LoadedStudy& loaded,
@@ -30,27 +60,31 @@ void write_fit(const OutputFolder& output, const LoadedStudy& loaded,
     io::write_band(output.stage(io::band_file(specimen.id)), specimen.band);
     io::write_measured(output.stage(io::measured_file(specimen.id)), specimen.measured);
   }
+  io::write_terms(output.stage("terms.csv"), result.specimens);
+  io::write_replicates(output.stage("replicates.csv"), result.specimens);
   for (const auto& [id, images] : loaded.overlays)
     for (std::size_t i = 0; i < images.size(); ++i)
       io::write_file(output.stage(overlay_file(id, i)), {images[i].begin(), images[i].end()});
   io::write_file(output.stage("scene.toml"), io::scene_toml(result.scene));
-  if (reports::available())
-    io::write_file(output.stage("report.html"),
-                   reports::fit_page({loaded.study, result, loaded.overlays, page_facts(provenance),
-                                      provenance.wall_seconds}));
+  if (reports::available()) write_page(output, loaded, result, provenance);
   io::write_file(output.stage("result.json"),
                  io::calibration_json(loaded.study, result, provenance).dump(2) + "\n");
 }
 
 reports::FitReport FinishedFit::report() const {
-  return {fit.study, fit.result, overlays, page_facts(fit.provenance), fit.provenance.wall_seconds};
+  return {fit.study, fit.result, overlays, page_facts(fit.provenance), fit.provenance.wall_seconds,
+          tests};
 }
 
 FinishedFit read_fit(const fs::path& folder) {
-  FinishedFit finished{.fit = io::read_fit_folder(folder), .overlays = {}};
-  for (const calib::SpecimenResult& specimen : finished.fit.result.specimens)
-    for (std::size_t i = 0; fs::exists(folder / overlay_file(specimen.id, i)); ++i)
-      finished.overlays[specimen.id].push_back(read_bytes(folder / overlay_file(specimen.id, i)));
+  FinishedFit finished{.fit = io::read_fit_folder(folder), .overlays = {}, .tests = {}};
+  for (const calib::SpecimenResult& specimen : finished.fit.result.specimens) {
+    const std::string& id = specimen.id;
+    for (std::size_t i = 0; fs::exists(folder / overlay_file(id, i)); ++i)
+      finished.overlays[id].push_back(read_bytes(folder / overlay_file(id, i)));
+    for (std::size_t i = 0; i < 2 && fs::exists(folder / test_file(id, i)); ++i)
+      finished.tests[id].push_back(io::read_text(folder / test_file(id, i), ""));
+  }
   return finished;
 }
 

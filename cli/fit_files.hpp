@@ -18,6 +18,7 @@ void write_fit(const OutputFolder& output, const LoadedStudy& loaded,
 struct FinishedFit {
   io::FitFolder fit;
   std::map<std::string, std::vector<std::vector<std::uint8_t>>> overlays;  ///< Specimen id to PNGs.
+  std::map<std::string, std::vector<std::string>> tests;                   ///< And to SVGs.
 
   [[nodiscard]] reports::FitReport report() const;
 };

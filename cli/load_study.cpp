@@ -1,7 +1,9 @@
 #include "cli/load_study.hpp"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "calib/experiment/join_logger.hpp"
@@ -18,6 +20,8 @@ struct Outcome {
   std::vector<std::vector<std::uint8_t>> overlays;
   std::vector<std::string> warnings;
   std::vector<io::Problem> problems;
+  std::vector<std::string> rejections;  // why the test cannot be used, though it can be read
+  TestRecord record;
 };
 
 void collect(std::vector<io::Problem>& all, const std::vector<io::Problem>& more) {
@@ -30,24 +34,27 @@ void override_sizes(calib::RawTest& test, const io::SpecimenFiles& files) {
   if (files.gauge_length) test.gauge_length = files.gauge_length;
 }
 
-calib::RawTest read_specimen(const io::SpecimenFiles& files, Outcome& outcome) {
-  calib::RawTest raw = io::read_test(files.test, files.columns).test;
+void read_specimen(const io::SpecimenFiles& files, Outcome& outcome) {
+  io::ReadOptions options = files.columns;
+  options.has_logger = files.gauge.has_value();
+  calib::RawTest& raw = outcome.record.raw;
+  raw = io::read_test(files.test, options).test;
   override_sizes(raw, files);
-  if (!files.gauge) return raw;
+  if (!files.gauge) return;
   const io::TestFile logger = io::read_test(*files.gauge, files.gauge_columns);
   calib::JoinedTest joined = calib::join_logger(raw, logger.test);
-  for (const std::string& problem : joined.problems)
-    outcome.problems.push_back({files.gauge->string(), problem, ""});
-  return std::move(joined.test);
+  raw = std::move(joined.test);
+  outcome.record.clocks = std::move(joined.clocks);
+  outcome.rejections = std::move(joined.problems);
 }
 
 void read_and_reduce(const io::SpecimenFiles& files, const calib::ReductionOptions& options,
                      Outcome& outcome) {
   try {
-    const calib::RawTest raw = read_specimen(files, outcome);
-    calib::Reduction reduction = calib::reduce_test(raw, options);
-    for (const std::string& problem : reduction.problems)
-      outcome.problems.push_back({files.test.string(), problem, ""});
+    read_specimen(files, outcome);
+    if (!outcome.rejections.empty()) return;
+    calib::Reduction reduction = calib::reduce_test(outcome.record.raw, options);
+    outcome.rejections = std::move(reduction.problems);
     for (const std::string& warning : reduction.test.warnings)
       outcome.warnings.push_back(files.test.string() + ": " + warning);
     outcome.specimen.test = std::move(reduction.test);
@@ -59,29 +66,71 @@ void read_and_reduce(const io::SpecimenFiles& files, const calib::ReductionOptio
 void measure(const std::filesystem::path& section, const io::SectionOptions& options,
              Outcome& outcome) {
   try {
-    io::SectionMeasurement measured = io::measure_section(section, options);
-    for (const std::string& warning : measured.porosity.warnings)
-      outcome.warnings.push_back(section.string() + ": " + warning);
-    outcome.specimen.sections.push_back(std::move(measured.porosity));
-    outcome.overlays.push_back(std::move(measured.overlay_png));
+    for (io::SectionMeasurement& measured : io::measure_sections(section, options)) {
+      for (const std::string& warning : measured.porosity.warnings)
+        outcome.warnings.push_back(measured.porosity.file + ": " + warning);
+      outcome.specimen.sections.push_back(std::move(measured.porosity));
+      outcome.overlays.push_back(std::move(measured.overlay_png));
+    }
   } catch (const io::InputError& error) {
     collect(outcome.problems, error.problems());
   }
 }
 
 Outcome load_specimen(const calib::Specimen& declared, const io::SpecimenFiles& files,
-                      const sim::AssemblyOptions& fibres,
-                      const calib::ReductionOptions& reduction) {
+                      const io::StudyFile& study) {
   Outcome outcome;
   outcome.specimen = declared;
-  read_and_reduce(files, reduction, outcome);
-  io::SectionOptions options;
+  read_and_reduce(files, study.reduction, outcome);
+  io::SectionOptions options = study.sections;
   options.pixel_size = files.pixel_size;
-  options.window_length = fibres.fibre_length;
-  options.window_height = fibres.fibre_height;
+  options.mask = files.mask;
+  options.window_length = study.study.model.assembly.fibre_length;
+  options.window_height = study.study.model.assembly.fibre_height;
   for (const auto& section : files.sections) measure(section, options, outcome);
   if (!files.sections.empty()) outcome.specimen.porosity.reset();  // what is measured counts
   return outcome;
+}
+
+void list_inputs(const io::SpecimenFiles& files, std::vector<std::filesystem::path>& inputs) {
+  inputs.push_back(files.test);
+  if (files.gauge) inputs.push_back(*files.gauge);
+  if (files.mask) inputs.push_back(*files.mask);
+  inputs.insert(inputs.end(), files.sections.begin(), files.sections.end());
+}
+
+// A test that cannot be used does not stop the others.
+void leave_out(const io::SpecimenFiles& files, const Outcome& outcome, LoadedStudy& loaded) {
+  std::string why;
+  for (const std::string& rejection : outcome.rejections)
+    why += (why.empty() ? "" : "; ") + rejection;
+  loaded.warnings.push_back(
+      fmt::format("{}: specimen {} is left out: {}", files.test.string(), files.id, why));
+  loaded.left_out.push_back({"specimen " + files.id, why});
+}
+
+void take_specimen(const io::SpecimenFiles& files, Outcome outcome, LoadedStudy& loaded) {
+  list_inputs(files, loaded.inputs);
+  loaded.warnings.insert(loaded.warnings.end(), outcome.warnings.begin(), outcome.warnings.end());
+  if (!outcome.rejections.empty()) {
+    leave_out(files, outcome, loaded);
+    return;
+  }
+  if (!outcome.overlays.empty()) loaded.overlays[files.id] = std::move(outcome.overlays);
+  loaded.records[files.id] = std::move(outcome.record);
+  loaded.study.specimens.push_back(std::move(outcome.specimen));
+}
+
+// Rejections are problems where they leave nothing to fit.
+void require_specimens(const LoadedStudy& loaded, const std::filesystem::path& file) {
+  const bool some = std::ranges::any_of(
+      loaded.study.specimens, [](const auto& specimen) { return specimen.use == calib::Use::fit; });
+  if (some || loaded.left_out.empty()) return;
+  std::vector<io::Problem> problems;
+  for (const sim::LeftOut& specimen : loaded.left_out)
+    problems.push_back({file.string(), specimen.what + ": " + specimen.why, ""});
+  problems.push_back({file.string(), "no specimen is left to fit", ""});
+  throw io::InputError(std::move(problems));
 }
 
 }  // namespace
@@ -90,26 +139,20 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   io::StudyFile read = io::read_study(file, overrides);
   std::vector<Outcome> outcomes(read.specimens.size());
   tbb::parallel_for(std::size_t{0}, outcomes.size(), [&](std::size_t i) {
-    outcomes[i] = load_specimen(read.study.specimens[i], read.specimens[i],
-                                read.study.model.assembly, read.reduction);
+    outcomes[i] = load_specimen(read.study.specimens[i], read.specimens[i], read);
   });
+
+  std::vector<io::Problem> problems;
+  for (const Outcome& outcome : outcomes) collect(problems, outcome.problems);
+  if (!problems.empty()) throw io::InputError(std::move(problems));
 
   LoadedStudy loaded;
   loaded.study = std::move(read.study);
+  loaded.study.specimens.clear();
   loaded.inputs = {file};
-  std::vector<io::Problem> problems;
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    collect(problems, outcomes[i].problems);
-    const io::SpecimenFiles& files = read.specimens[i];
-    loaded.inputs.push_back(files.test);
-    if (files.gauge) loaded.inputs.push_back(*files.gauge);
-    loaded.inputs.insert(loaded.inputs.end(), files.sections.begin(), files.sections.end());
-    loaded.warnings.insert(loaded.warnings.end(), outcomes[i].warnings.begin(),
-                           outcomes[i].warnings.end());
-    if (!outcomes[i].overlays.empty()) loaded.overlays[files.id] = std::move(outcomes[i].overlays);
-    loaded.study.specimens[i] = std::move(outcomes[i].specimen);
-  }
-  if (!problems.empty()) throw io::InputError(std::move(problems));
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    take_specimen(read.specimens[i], std::move(outcomes[i]), loaded);
+  require_specimens(loaded, file);
   return loaded;
 }
 

@@ -4,23 +4,35 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "calib/experiment/clocks.hpp"
 #include "calib/study/study.hpp"
 #include "io/config/read_study.hpp"
+#include "sim/simulation.hpp"
 
 namespace havers::cli {
 
+/// A specimen's test before its reduction, for the figures.
+struct TestRecord {
+  calib::RawTest raw;
+  std::optional<calib::ClockFit> clocks;  ///< Of a second logger, where there is one.
+};
+
 struct LoadedStudy {
-  calib::Study study;
+  calib::Study study;                         ///< Without the specimens that are left out.
+  std::vector<sim::LeftOut> left_out;         ///< Specimens that cannot be used, and why.
+  std::map<std::string, TestRecord> records;  ///< By specimen id.
   std::map<std::string, std::vector<std::vector<std::uint8_t>>> overlays;  ///< Specimen id to PNGs.
   std::vector<std::filesystem::path> inputs;  ///< Every file that was read.
   std::vector<std::string> warnings;          ///< A sentence each.
 };
 
-/// Reads a study, its tests and its sections, the sections in parallel.
-/// @throws io::InputError with the problems of all files together.
+/// Reads a study, its tests and its sections, the specimens in parallel. A test that cannot be
+/// reduced, or that quality control rejects, is left out. @throws io::InputError with the problems
+/// of all files together, or why no specimen can be fitted.
 LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& overrides);
 
 }  // namespace havers::cli

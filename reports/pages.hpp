@@ -34,6 +34,8 @@ struct FitReport {
   std::map<std::string, std::vector<std::vector<std::uint8_t>>> overlays;  ///< Specimen id to PNGs.
   Provenance provenance;
   double wall_seconds = std::numeric_limits<double>::quiet_NaN();  ///< NaN where not recorded. [s]
+  /// Specimen id to SVGs: its test as read and as used, the clocks of a second logger.
+  std::map<std::string, std::vector<std::string>> tests{};
 };
 
 struct ImportReport {
@@ -44,21 +46,30 @@ struct ImportReport {
   const calib::ClockFit* clocks = nullptr;  ///< Of a second logger, where there is one.
 };
 
+/// How many of a section's bone pixels are how deep: 0 in bone, 1 in pores.
+struct DepthHistogram {
+  std::vector<double> depth;  ///< Middle of each bin. [-]
+  std::vector<double> share;  ///< Of the pixels, one a bin. [-]
+  double threshold = 0.0;     ///< [-]
+};
+
 struct PorosityReport {
   std::vector<calib::SectionPorosity> sections;
   std::vector<std::vector<std::uint8_t>> overlays;  ///< PNG, one per section.
   std::vector<double> scatter;                      ///< d, one per section. [-]
+  std::vector<DepthHistogram> histograms;           ///< One per section.
+  calib::SpecimenPorosity mean;                     ///< Over all sections.
   Provenance provenance;
 };
 
 /// The broken assembly: fibres displaced, broken joints by kind. SVG.
 std::string fracture_svg(const sim::Assembly& assembly, const sim::Simulation& simulation);
 
-/// One measured test as read and as used. SVG.
-std::string test_svg(const ImportReport& report);
+/// One measured test as read and as used. SVG; the id keeps it apart from others on its page.
+std::string test_svg(const ImportReport& report, const std::string& id = "test");
 
 /// The clocks of machine and logger: both signals as recorded, aligned, and what is left. SVG.
-std::string clocks_svg(const calib::ClockFit& clocks);
+std::string clocks_svg(const calib::ClockFit& clocks, const std::string& id = "clocks");
 
 std::string simulation_page(const SimulationReport& report);
 std::string fit_page(const FitReport& report);

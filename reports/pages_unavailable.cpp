@@ -1,4 +1,5 @@
 // Stands in for the pages in a build without mstch.
+#include "reports/bench_pages.hpp"
 #include "reports/pages.hpp"
 
 namespace havers::reports {
@@ -18,10 +19,10 @@ bool available() {
 std::string fracture_svg(const sim::Assembly& /*assembly*/, const sim::Simulation& /*simulation*/) {
   return how_to_get_pages();
 }
-std::string test_svg(const ImportReport& /*report*/) {
+std::string test_svg(const ImportReport& /*report*/, const std::string& /*id*/) {
   return how_to_get_pages();
 }
-std::string clocks_svg(const calib::ClockFit& /*clocks*/) {
+std::string clocks_svg(const calib::ClockFit& /*clocks*/, const std::string& /*id*/) {
   return how_to_get_pages();
 }
 std::string simulation_page(const SimulationReport& /*report*/) {
@@ -34,6 +35,15 @@ std::string import_page(const std::vector<ImportReport>& /*reports*/, const Prov
   return how_to_get_pages();
 }
 std::string porosity_page(const PorosityReport& /*report*/) {
+  return how_to_get_pages();
+}
+std::string work_precision_svg(const sim::WorkPrecision& /*study*/) {
+  return how_to_get_pages();
+}
+std::string work_precision_page(const WorkPrecisionReport& /*report*/) {
+  return how_to_get_pages();
+}
+std::string stability_page(const StabilityReport& /*report*/) {
   return how_to_get_pages();
 }
 std::string comparison_page(const std::vector<FitReport>& /*reports*/) {

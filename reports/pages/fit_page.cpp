@@ -96,6 +96,21 @@ mstch::array section_items(const FitReport& report, const std::string& id) {
   return items;
 }
 
+// The test as read and as used, then the clocks of a second logger.
+mstch::array test_items(const FitReport& report, const std::string& id) {
+  mstch::array items;
+  const auto found = report.tests.find(id);
+  if (found == report.tests.end()) return items;
+  for (const std::string& figure : found->second)
+    items.emplace_back(mstch::map{
+        {"figure", text(figure)},
+        {"caption", text(items.empty()
+                             ? "The test as read, and as used after the corrections."
+                             : "The clocks of machine and logger: as recorded, aligned, and the "
+                               "difference that is left.")}});
+  return items;
+}
+
 mstch::map specimen_content(const FitReport& report, std::size_t index) {
   const calib::SpecimenResult& s = report.result.specimens[index];
   const std::string use = s.use == calib::Use::fit ? "fit" : "validate";
@@ -115,6 +130,7 @@ mstch::map specimen_content(const FitReport& report, std::size_t index) {
                                                           " of this specimen failed.")},
           {"corrections", correction_section(s.measured.corrections)},
           {"warnings", text_section(s.measured.warnings)},
+          {"tests", section(test_items(report, s.id))},
           {"sections", section(section_items(report, s.id))}};
 }
 

@@ -94,12 +94,12 @@ mstch::map content_of(const ImportReport& report, std::size_t index) {
 
 }  // namespace
 
-std::string test_svg(const ImportReport& report) {
-  return draw(test_figure(report, "test"));
+std::string test_svg(const ImportReport& report, const std::string& id) {
+  return draw(test_figure(report, id));
 }
 
-std::string clocks_svg(const calib::ClockFit& clocks) {
-  return draw(clocks_figure(clocks, "clocks"));
+std::string clocks_svg(const calib::ClockFit& clocks, const std::string& id) {
+  return draw(clocks_figure(clocks, id));
 }
 
 std::string import_page(const std::vector<ImportReport>& reports, const Provenance& provenance) {
