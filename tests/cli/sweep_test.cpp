@@ -1,0 +1,73 @@
+// havers sweep, as its user runs it.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_havers.hpp"
+
+namespace havers {
+namespace {
+
+namespace fs = std::filesystem;
+using test::own_folder;
+using test::run_havers;
+using testing::HasSubstr;
+
+constexpr const char* small = R"(
+[sweep]
+seeds = 4
+[sweep.keys]
+"joints.scatter" = [0.2, 0.8]
+[assembly]
+layers = 4
+fibres = 3
+[solver]
+regime = "quasi-static"
+[[law]]
+response = "strength"
+terms = ["joints.scatter"]
+[[finding]]
+id = "F1"
+claim = "Strength falls with the scatter"
+test = "falls"
+keys = ["joints.scatter"]
+[[figure]]
+x = "joints.scatter"
+)";
+
+TEST(Sweep, LeavesTablesLawsResultAndStore) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "small.toml", small);
+  const auto answer = run_havers(folder, "sweep small.toml -o out");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  for (const char* file : {"small/runs.csv", "small/summary.csv", "small/laws.json", "result.json",
+                           "evaluations.sqlite"})
+    EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
+  const auto result = nlohmann::json::parse(test::read_text(folder / "out/result.json"));
+  EXPECT_EQ(result["evaluations"], 8);
+  EXPECT_EQ(result["sweeps"][0]["simulated"], 8);
+  EXPECT_THAT(answer.out, HasSubstr("F1"));
+}
+
+TEST(Sweep, AgainTakesItsRunsFromTheStore) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "small.toml", small);
+  const std::string first = run_havers(folder, "sweep small.toml -o out").out;
+  const auto again = run_havers(folder, "sweep small.toml -o out --force --json");
+  EXPECT_EQ(nlohmann::json::parse(again.out)["sweeps"][0]["simulated"], 0);
+}
+
+TEST(Sweep, NamesTheProblemsOfAllFilesTogether) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "a.toml", "[sweep]\nseeds = 0\n");
+  test::write_text(folder / "b.toml", "[sweep.keys]\n\"joints.scater\" = [0.1]\n");
+  const auto answer = run_havers(folder, "sweep a.toml b.toml -o out");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("a.toml"));
+  EXPECT_THAT(answer.err, HasSubstr("did you mean scatter?"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+}  // namespace
+}  // namespace havers
