@@ -47,6 +47,7 @@ using enum Quantity;
 constexpr std::array quantity_words{
     QuantityWord{"rate", other, Match::alone},
     QuantityWord{"speed", other},
+    QuantityWord{"cycle", other},
     QuantityWord{"temperat", other},
     QuantityWord{"températ", other},
     QuantityWord{"strain", strain},
