@@ -10,7 +10,7 @@ namespace havers::calib {
 namespace {
 
 constexpr int grid_points = 121;
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_stress = std::numeric_limits<double>::quiet_NaN();
 
 // Linear between rows; `beyond` after the last. Strains need not rise strictly: a break is a
 // vertical step.
@@ -43,14 +43,14 @@ CurveBand band_of(std::span<const Response> replicates, const MeasuredTest& meas
     for (const auto& response : replicates)
       if (!response.failed && !response.strain.empty())
         stresses.push_back(
-            stress_at(response.strain, response.stress, strain, response.broke ? 0.0 : unknown));
+            stress_at(response.strain, response.stress, strain, response.broke ? 0.0 : no_stress));
     std::erase_if(stresses, [](double stress) { return std::isnan(stress); });
     std::ranges::sort(stresses);
     const auto quantile = [&](double part) {
-      if (stresses.empty()) return unknown;
+      if (stresses.empty()) return no_stress;
       return gsl_stats_quantile_from_sorted_data(stresses.data(), 1, stresses.size(), part);
     };
-    const double measured_stress = stress_at(measured.strain, measured.stress, strain, unknown);
+    const double measured_stress = stress_at(measured.strain, measured.stress, strain, no_stress);
     band.strain.push_back(strain);
     band.median.push_back(quantile(0.5));
     band.lower.push_back(quantile(0.025));
