@@ -1,29 +1,36 @@
-// havers check: every problem of a study or a scene, nothing run.
+// havers check: every problem of a study, a scene or a sweep, nothing run.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "cli/command.hpp"
 #include "cli/load_study.hpp"
 #include "io/input_error.hpp"
+#include "io/sweep/read_sweep.hpp"
 
 namespace havers::cli {
 namespace {
 
 constexpr const char* examples =
     "  havers check study.toml\n"
-    "  havers check scene.toml --json\n";
+    "  havers check scene.toml --json\n"
+    "  havers check data_samples/paper/R5_rates.toml\n";
 
-// Only a study has specimens. Looked for as text, so that a file with a syntax error is told apart
-// as well.
-bool is_study(const std::filesystem::path& file) {
+// Looked for as text, so that a file with a syntax error is told apart as well.
+bool has_table(const std::filesystem::path& file, std::string_view table) {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);)
-    if (line.rfind("[[specimen]]", 0) == 0 || line.rfind("[study]", 0) == 0) return true;
+    if (line.starts_with(table)) return true;
   return false;
+}
+
+// Only a study has specimens.
+bool is_study(const std::filesystem::path& file) {
+  return has_table(file, "[[specimen]]") || has_table(file, "[study]");
 }
 
 struct Findings {
@@ -34,7 +41,10 @@ struct Findings {
 Findings look_at(const std::filesystem::path& file, const io::Overrides& overrides) {
   try {
     if (is_study(file)) return {.problems = {}, .warnings = load_study(file, overrides).warnings};
-    io::read_scene(file, overrides);
+    if (has_table(file, "[sweep"))
+      io::read_sweep(file, overrides);
+    else
+      io::read_scene(file, overrides);
     return {};
   } catch (const io::InputError& error) {
     return {.problems = error.problems(), .warnings = {}};
@@ -66,9 +76,9 @@ int run_check(const std::filesystem::path& file, const CommonOptions& common) {
 
 Command check_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(app, common, "check",
-                                 "every problem of a study or a scene, nothing run", examples);
+                                 "every problem of a study, scene or sweep, nothing run", examples);
   const auto file = std::make_shared<std::filesystem::path>();
-  parser->add_option("INPUT", *file, "study or scene file (TOML)")->required();
+  parser->add_option("INPUT", *file, "study, scene or sweep file (TOML)")->required();
   return {parser, [file, &common] { return run_check(*file, common); }};
 }
 

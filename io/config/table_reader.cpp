@@ -237,7 +237,7 @@ std::vector<TableReader::List> TableReader::lists(std::string_view name) {
   if (node == nullptr || !node->is_table()) return all;
   for (auto&& [key, item] : *node->as_table()) {
     all.emplace_back(key.str(), std::vector<std::string>{});
-    if (!item.is_array()) wrong_type(join(name, key.str()), item, "a list");
+    if (!item.is_array()) wrong_type(join(std::string(name), key.str()), item, "a list");
     if (!item.is_array()) continue;
     for (const toml::node& value : *item.as_array()) {
       std::ostringstream text;

@@ -46,14 +46,14 @@ std::string name_of(Measure m) {
 std::string runs_csv(const calib::Sweep& sweep, const calib::SweepResult& result) {
   std::string text = point_header(sweep) + ",seed,outcome";
   for (std::size_t m = 0; m < calib::measure_count; ++m)
-    if (is_known(result, m)) text += "," + name_of(measure(m));
+    if (is_known(result, m)) text += fmt::format(",{}", name_of(measure(m)));
   text += '\n';
   for (const calib::SweepRun& run : result.runs) {
     const std::string_view outcome = run.failed ? "failed" : run.broke ? "broken" : "unbroken";
     text += fmt::format("{},{},{}", point_cells(result.points[run.point], run.point), run.seed,
                         outcome);
     for (std::size_t m = 0; m < calib::measure_count; ++m)
-      if (is_known(result, m)) text += "," + csv_number(run[measure(m)]);
+      if (is_known(result, m)) text += fmt::format(",{}", csv_number(run[measure(m)]));
     text += '\n';
   }
   return text;
