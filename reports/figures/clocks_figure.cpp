@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "reports/figures/figures.hpp"
 #include "reports/figures/thin.hpp"
 #include "reports/text/format.hpp"
@@ -41,13 +38,6 @@ std::string block(std::string_view name, const calib::ClockTrace& trace) {
   return data_block(name, {points.x, points.y});
 }
 
-// Few enough tics for a low panel.
-std::string residual_tics(const std::vector<double>& residual) {
-  double largest = 0.0;
-  for (const double part : residual) largest = std::max(largest, std::abs(part));
-  return largest > 0.0 ? fmt::format("set ytics {}\n", round_down(100.0 * largest)) : "";
-}
-
 }  // namespace
 
 Figure clocks_figure(const calib::ClockFit& clocks, const std::string& id) {
@@ -63,8 +53,9 @@ Figure clocks_figure(const calib::ClockFit& clocks, const std::string& id) {
       fmt::format(
           commands, fmt::arg("aligned_range", aligned_range),
           fmt::arg("recorded_range", x_range({clocks.machine.time, clocks.logger.time}, 1.0)),
-          fmt::arg("tics", residual_tics(clocks.residual.part)), fmt::arg("top", panel(0.73, 0.90)),
-          fmt::arg("middle", panel(0.36, 0.57)), fmt::arg("bottom", panel(0.11, 0.32)));
+          fmt::arg("tics", few_tics(clocks.residual.part, 100.0)),
+          fmt::arg("top", panel(0.73, 0.90)), fmt::arg("middle", panel(0.36, 0.57)),
+          fmt::arg("bottom", panel(0.11, 0.32)));
   return figure;
 }
 

@@ -120,4 +120,14 @@ std::string x_range(std::initializer_list<std::span<const double>> values, doubl
   return fmt::format("set xrange [{:.6g}:{:.6g}]\n", low - margin, high + margin);
 }
 
+std::string few_tics(std::span<const double> values, double scale) {
+  double low = 0.0, high = 0.0;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value * scale);
+    high = std::max(high, value * scale);
+  }
+  return high > low ? fmt::format("set ytics {}\n", round_down((high - low) / 2.0)) : "";
+}
+
 }  // namespace havers::reports

@@ -36,4 +36,7 @@ std::string panel(double bottom, double top);
 /// `set xrange [low:high]`, a little wider than the finite values times `scale`; empty without any.
 std::string x_range(std::initializer_list<std::span<const double>> values, double scale);
 
+/// Few enough tics for a low panel that shows `values` times `scale`.
+std::string few_tics(std::span<const double> values, double scale);
+
 }  // namespace havers::reports

@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "reports/figures/figures.hpp"
 #include "reports/figures/thin.hpp"
 #include "reports/text/format.hpp"
@@ -24,7 +21,7 @@ plot $band using ($1*100):($2*1e-6):($3*1e-6) with filledcurves lc rgb band titl
 unset key
 set xtics format '%g'
 set xlabel 'Strain (%)' offset 0,0.5
-set ylabel "Simulated −\nmeasured (MPa)" offset 0,0
+set ylabel 'Residual (MPa)' offset 0.5,0
 {tics}set yrange [*:*]
 set xzeroaxis lt 1 lw 1 lc rgb grey
 plot $residual using ($1*100):($2*1e-6) with filledcurves y1=0 lc rgb band, \
@@ -37,17 +34,6 @@ Points measured_points(const calib::SpecimenResult& specimen) {
   if (!specimen.measured.strain.empty())
     return thin(specimen.measured.strain, specimen.measured.stress);
   return thin(specimen.band.strain, specimen.band.measured);
-}
-
-// Few enough tics for a low panel.
-std::string residual_tics(const std::vector<double>& residual) {
-  double low = 0.0, high = 0.0;
-  for (const double value : residual) {
-    if (!std::isfinite(value)) continue;
-    low = std::min(low, value / in::MPa);
-    high = std::max(high, value / in::MPa);
-  }
-  return high > low ? fmt::format("set ytics {}\n", round_down((high - low) / 2.0)) : "";
 }
 
 }  // namespace
@@ -69,7 +55,7 @@ Figure specimen_figure(const calib::SpecimenResult& specimen, const std::string&
       data_block("residual", {band.strain, band.residual}) +
       data_block("peak", {peak_strain, peak_stress}) +
       fmt::format(specimen_commands, fmt::arg("range", range), fmt::arg("top", panel(0.40, 0.89)),
-                  fmt::arg("tics", residual_tics(band.residual)),
+                  fmt::arg("tics", few_tics(band.residual, 1.0 / in::MPa)),
                   fmt::arg("bottom", panel(0.145, 0.365)));
   return figure;
 }

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -30,14 +32,46 @@ double or_zero(double error) {
   return std::isfinite(error) ? error : 0.0;
 }
 
-std::string group_data(int number, const std::vector<const calib::SpecimenResult*>& group) {
+// Whether another specimen lies so near that the two names would be printed on top of each other.
+bool crowded(const calib::SpecimenResult& one, const Groups& groups) {
+  constexpr double near = 0.08;  // of the strength
+  for (const auto& [group, members] : groups)
+    for (const auto* other : members)
+      if (other != &one &&
+          std::abs(other->measured.strength / one.measured.strength - 1.0) < near &&
+          std::abs(other->strength.mean / one.strength.mean - 1.0) < near)
+        return true;
+  return false;
+}
+
+std::string group_data(int number, const Group& group, const Groups& groups) {
   std::string block = fmt::format("$group{} << EOD\n", number);
-  for (const auto* specimen : group)
-    block +=
-        fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} \"{}\"\n", specimen->measured.strength,
-                    specimen->strength.mean, or_zero(specimen->measured.strength_standard_error),
-                    or_zero(specimen->strength.sd), plain(specimen->id));
+  for (const auto* specimen : groups.at(group))
+    block += fmt::format(
+        "{:.6g} {:.6g} {:.6g} {:.6g} \"{}\"\n", specimen->measured.strength,
+        specimen->strength.mean, or_zero(specimen->measured.strength_standard_error),
+        or_zero(specimen->strength.sd), crowded(*specimen, groups) ? "" : plain(specimen->id));
   return block + "EOD\n";
+}
+
+// Equal axes; logarithmic ones where orientations differ so much that the weak would huddle in a
+// corner.
+std::string axes(const Groups& groups) {
+  double low = std::numeric_limits<double>::infinity(), high = 0.0;
+  for (const auto& [group, members] : groups)
+    for (const auto* specimen : members) {
+      low =
+          std::min({low, specimen->measured.strength / in::MPa, specimen->strength.mean / in::MPa});
+      high = std::max(
+          {high, specimen->measured.strength / in::MPa, specimen->strength.mean / in::MPa});
+    }
+  if (low > 0.0 && high > 3.0 * low)
+    return fmt::format(
+        "set logscale xy\nset xtics (1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100, 150, 200, 300)\n"
+        "set ytics (1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100, 150, 200, 300)\n"
+        "set xrange [{0:.4g}:{1:.4g}]\nset yrange [{0:.4g}:{1:.4g}]\n",
+        0.8 * low, 1.35 * high);
+  return "set offsets graph 0.08, graph 0.14, graph 0.08, graph 0.08\n";
 }
 
 // Filled symbols were fitted, open ones only validated; the shape tells the orientation.
@@ -70,15 +104,14 @@ Figure strength_figure(const std::vector<calib::SpecimenResult>& specimens, cons
   for (const auto& [group, members] : groups) {
     const int shape =
         shapes.try_emplace(group.first, static_cast<int>(shapes.size())).first->second;
-    data += group_data(number, members);
+    data += group_data(number, group, groups);
     plots += group_plot(number, group, shape);
     ++number;
   }
-  figure.commands = data + panel(0.145, 0.97) + R"(
+  figure.commands = data + panel(0.145, 0.97) + axes(groups) + R"(
 set xlabel 'Measured strength (MPa)' offset 0,0.5
-set ylabel 'Simulated strength (MPa)'
+set ylabel 'Simulated strength (MPa)' offset 1,0
 set key inside at graph 0.02, graph 0.98 left top vertical
-set offsets graph 0.08, graph 0.14, graph 0.08, graph 0.08
 plot x with lines lw 1.2 dt 2 lc rgb grey title 'equal')" +
                     plots + "\n";
   return figure;

@@ -67,7 +67,8 @@ std::string quantity(double value, std::string_view unit, int digits) {
 }
 
 std::string plus_minus(double value, double error) {
-  if (!std::isfinite(value) || !std::isfinite(error) || error <= 0.0) return number(value);
+  if (!std::isfinite(value) || !std::isfinite(error) || error <= 1e-9 * std::abs(value))
+    return number(value);  // not known, or no more than rounding
   if (!shows_plainly(value, error)) return fmt::format("{} ± {}", number(value), number(error, 2));
   const int decimals = decimals_for(error);
   return fmt::format("{} ± {}", fixed(value, decimals), fixed(error, decimals));

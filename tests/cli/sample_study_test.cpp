@@ -77,7 +77,7 @@ TEST(SampleScenes, HaveNoProblemsAndRunToTheBreak) {
             0);
 }
 
-// A thousand steps to complete failure, the same bytes each time.
+// Complete failure in some 200 steps, the same bytes each time.
 TEST(SampleScenes, ImpactBreaksTheSameWayAgainAndForAnyNumberOfThreads) {
   const fs::path folder = own_folder();
   const std::string scene = HAVERS_SOURCE_DIR "/data_samples/scenes/impact.toml";

@@ -49,6 +49,7 @@ TEST(PlusMinus, ShowsTwoDigitsOfTheError) {
 TEST(PlusMinus, LeavesOutAnErrorThatIsNotKnown) {
   EXPECT_EQ(plus_minus(13.1234, nan), "13.12");
   EXPECT_EQ(plus_minus(13.1234, 0.0), "13.12");
+  EXPECT_EQ(plus_minus(13.1234, 2e-15), "13.12");
   EXPECT_EQ(plus_minus(nan, 0.1), "–");
 }
 
