@@ -241,7 +241,10 @@ std::vector<TableReader::List> TableReader::lists(std::string_view name) {
     if (!item.is_array()) continue;
     for (const toml::node& value : *item.as_array()) {
       std::ostringstream text;
-      text << toml::node_view<const toml::node>(value);
+      if (value.is_floating_point())  // the shortest that reads back the same
+        text << fmt::format("{}", **value.as_floating_point());
+      else
+        text << toml::node_view<const toml::node>(value);
       all.back().second.push_back(text.str());
     }
   }

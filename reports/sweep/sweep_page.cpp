@@ -123,8 +123,7 @@ std::string sentence_of(const std::vector<Row>& rows, long runs) {
   }
   std::string sentence =
       fmt::format("Of {}: ", count(static_cast<long>(outcomes.size()), "finding"));
-  const std::array<std::string_view, 3> say{"hold", "contradicted",
-                                            "in part or where, as told below"};
+  const std::array<std::string_view, 3> say{"agree", "disagree", "depend or cannot be decided"};
   bool first = true;
   for (std::size_t kind = 0; kind < 3; ++kind) {
     if (counts.at(kind) == 0) continue;
