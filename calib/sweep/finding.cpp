@@ -14,11 +14,11 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Where a value must lie for the claim to hold; for `matters`, for it not to hold.
-struct Range {
+struct Bracket {
   double low = -infinity, high = infinity;
 };
 
-Range range_of(const FindingRequest& request) {
+Bracket range_of(const FindingRequest& request) {
   const double margin = request.margin;
   switch (request.test) {
     case FindingTest::same:
@@ -38,12 +38,12 @@ Range range_of(const FindingRequest& request) {
   return {};
 }
 
-double excess(const Comparison& comparison, Range range) {
+double excess(const Comparison& comparison, Bracket range) {
   return std::max(range.low - comparison.value, comparison.value - range.high);
 }
 
 // Every interval inside: agrees. One wholly outside: disagrees.
-FindingOutcome outcome_of(const std::vector<Comparison>& comparisons, Range range) {
+FindingOutcome outcome_of(const std::vector<Comparison>& comparisons, Bracket range) {
   const auto inside = [range](const Comparison& c) {
     return c.low >= range.low && c.high <= range.high;
   };
@@ -115,7 +115,7 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
   const std::vector<Comparison> comparisons = comparisons_of(evidence, group);
   finding.comparisons = static_cast<int>(comparisons.size());
   if (!comparisons.empty()) {
-    const Range range = range_of(request);
+    const Bracket range = range_of(request);
     const auto worst = std::ranges::max_element(
         comparisons, {}, [range](const Comparison& c) { return excess(c, range); });
     finding.what = worst->what;

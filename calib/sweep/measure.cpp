@@ -9,7 +9,7 @@
 namespace havers::calib {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 // Up to which strain the curve keeps within 1 % of the modulus's line.
 double linear_until(const Response& response) {
@@ -26,18 +26,18 @@ double linear_until(const Response& response) {
 
 std::array<double, measure_count> measures_of(const Response& response, const Pattern* pattern) {
   std::array<double, measure_count> measures{};
-  measures.fill(unknown);
+  measures.fill(not_measured);
   if (response.failed || response.strain.empty()) return measures;
   const double failure = response.failure_strain;
   measures = {response.strength,
               failure,
               response.modulus,
               linear_until(response) / failure,
-              response.broke ? (response.strain.back() - failure) / failure : unknown,
-              unknown,
-              unknown,
-              unknown,
-              unknown};
+              response.broke ? (response.strain.back() - failure) / failure : not_measured,
+              not_measured,
+              not_measured,
+              not_measured,
+              not_measured};
   if (pattern != nullptr) {
     measures[5] = pattern->head_tail;
     measures[6] = pattern->flank;
@@ -48,11 +48,11 @@ std::array<double, measure_count> measures_of(const Response& response, const Pa
 }
 
 double Statistics::standard_error() const {
-  return n > 1 ? sd / std::sqrt(static_cast<double>(n)) : unknown;
+  return n > 1 ? sd / std::sqrt(static_cast<double>(n)) : not_measured;
 }
 
 double Statistics::half_width(double risk) const {
-  if (n < 2) return unknown;
+  if (n < 2) return not_measured;
   return gsl_cdf_tdist_Qinv(0.5 * risk, static_cast<double>(n - 1)) * standard_error();
 }
 
@@ -66,9 +66,9 @@ Statistics statistics_of(const std::vector<double>& values) {
     statistics.mean += step / static_cast<double>(statistics.n);
     squares += step * (value - statistics.mean);
   }
-  if (statistics.n == 0) statistics.mean = unknown;
+  if (statistics.n == 0) statistics.mean = not_measured;
   statistics.sd =
-      statistics.n > 1 ? std::sqrt(squares / static_cast<double>(statistics.n - 1)) : unknown;
+      statistics.n > 1 ? std::sqrt(squares / static_cast<double>(statistics.n - 1)) : not_measured;
   return statistics;
 }
 

@@ -13,9 +13,9 @@
 namespace havers::reports {
 namespace {
 
-constexpr double width = 760.0;     // of the specimen [px]
-constexpr double duration = 8.0;    // of one turn of the animation [s]
-constexpr double part_shown = 0.8;  // of it, while joints break; then the crack stands still
+constexpr double width = 760.0;       // of the specimen [px]
+constexpr double turn_seconds = 8.0;  // of one turn of the animation [s]
+constexpr double part_shown = 0.8;    // of it, while joints break; then the crack stands still
 constexpr std::size_t moments = 48;
 
 struct Broken {
@@ -59,7 +59,8 @@ std::string moment(const std::string& path, double part) {
                      R"(values="0;0;1;1" keyTimes="0;{:.4f};{:.4f};1" dur="{}s" )"
                      R"(repeatCount="indefinite"/></path>
 )",
-                     path, colour_at(part), part_shown * part, part_shown * part + 0.01, duration);
+                     path, colour_at(part), part_shown * part, part_shown * part + 0.01,
+                     turn_seconds);
 }
 
 std::string legend(const std::vector<Broken>& broken, double y) {
