@@ -13,8 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // What a run of havers may have left: an earlier run's must not stand beside a later one's.
-constexpr std::array results{"result.json",  "scene.toml", "report.html", "curve.csv", "joints.csv",
-                             "fracture.svg", "curves",     "overlays",    "snapshots"};
+constexpr std::array results{"result.json",    "scene.toml",   "report.html",   "curve.csv",
+                             "joints.csv",     "fracture.svg", "avalanche.svg", "terms.csv",
+                             "replicates.csv", "curves",       "overlays",      "snapshots"};
 
 fs::path without_trailing_slash(const fs::path& path) {
   const fs::path full = fs::absolute(path).lexically_normal();
