@@ -16,7 +16,7 @@ struct StrengthLaw {
   double log_likelihood_gain = 0.0;  ///< Of Gumbel over Weibull; above 2 it is clearly better. [-]
 };
 
-/// By maximum likelihood.
+/// By maximum likelihood. Precondition: strengths are positive.
 StrengthLaw strength_law(std::span<const double> strengths);
 
 }  // namespace havers::calib

@@ -27,7 +27,9 @@ struct KnownSweep {
     }
     for (std::size_t point = 0; point < points.size(); ++point)
       for (int k = 0; k < seeds; ++k) {
-        calib::SweepRun run{.point = point, .failed = false, .why = {}};
+        calib::SweepRun run;
+        run.point = point;
+        run.failed = false;
         run.measures.fill(value(points[point], k));
         runs.push_back(run);
       }
