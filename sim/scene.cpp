@@ -124,6 +124,8 @@ void check_loading(const Loading& loading, Checker& checker) {
 
 void check_solver(const SolverOptions& solver, Checker& checker) {
   if (solver.step) checker.positive("solver.step_s", *solver.step);
+  checker.require(solver.step_accuracy > 0.0 && solver.step_accuracy < 1.0, "solver.step_accuracy",
+                  solver.step_accuracy, "above 0 and below 1");
   checker.require(solver.tolerance > 0.0 && solver.tolerance < 1.0, "solver.tolerance",
                   solver.tolerance, "above 0 and below 1");
   checker.require(solver.max_iterations >= 1, "solver.max_iterations", solver.max_iterations,

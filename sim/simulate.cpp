@@ -60,6 +60,9 @@ std::vector<LeftOut> left_out(const Scene& scene, const Simulation& simulation) 
                     "they carry nothing, and without inertia their position is not determined"});
     return list;
   }
+  if (simulation.leapt_strain > 0.0)
+    list.push_back({fmt::format("time steps up to a strain of {:.4g}", simulation.leapt_strain),
+                    "until the first break the motion is uniform and known"});
   if (scene.solver.contact == ContactMethod::gauss_seidel) return list;
   list.push_back({"the friction problem of joints inside their cone",
                   "they hold, which is a linear condition"});
@@ -76,7 +79,7 @@ Simulation simulate(const Scene& scene, const Observer& observer) {
   Simulation simulation = choice.regime == Regime::quasi_static
                               ? simulate_quasi_static(scene, observer)
                               : simulate_dynamic(scene, observer);
-  simulation.regime_ground = choice.ground;
+  simulation.regime_ground = choice.ground + simulation.regime_ground;
   simulation.tolerance = scene.solver.tolerance;
   summarise(simulation);
   simulation.left_out = left_out(scene, simulation);

@@ -68,11 +68,14 @@ struct Simulation {
   double first_break_strain = 0.0;  ///< NaN when nothing broke. [-]
   int broken_joints = 0;
 
-  int steps = 0;                   ///< Time steps, or events of the quasi-static sequence.
-  long iterations = 0;             ///< Of the contact solver, all steps together.
-  double energy_defect = 0.0;      ///< Largest relative defect of (M4) over the steps. [-]
-  double worst_residual = 0.0;     ///< Largest (M11) over the steps. [-]
-  double tolerance = 0.0;          ///< Of the residual, as asked for. [-]
+  double step_error = 0.0;  ///< Change of the failure strain by the last halving of a chosen step;
+                            ///< NaN when it was never halved. [-]
+  double leapt_strain = 0.0;    ///< What was stretched without steps, before the first break. [-]
+  int steps = 0;                ///< Time steps, or events of the quasi-static sequence.
+  long iterations = 0;          ///< Of the contact solver, all steps together.
+  double energy_defect = 0.0;   ///< Largest relative defect of (M4) over the steps. [-]
+  double worst_residual = 0.0;  ///< Largest (M11) over the steps. [-]
+  double tolerance = 0.0;       ///< Of the residual, as asked for. [-]
   double worst_penetration = 0.0;  ///< Largest −g. [m]
   int events_without_contact =
       0;  ///< Quasi-static: events whose contact had no solution and was left out.

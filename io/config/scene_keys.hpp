@@ -53,6 +53,7 @@ template <class Table>
 void keys(Table& table, sim::SolverOptions& solver) {
   table.key("regime", solver.regime);
   table.key("step_s", solver.step);
+  table.key("step_accuracy", solver.step_accuracy);
   table.key("contact", solver.contact);
   table.key("tolerance", solver.tolerance);
   table.key("max_iterations", solver.max_iterations);

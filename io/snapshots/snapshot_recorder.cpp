@@ -20,6 +20,12 @@ SnapshotRecorder::SnapshotRecorder(int count) : count_(static_cast<std::size_t>(
 }
 
 void SnapshotRecorder::record(const sim::Progress& progress) {
+  if (progress.point.time < time_) {
+    rows_ = 0;
+    stride_ = 1;
+    held_.clear();
+  }
+  time_ = progress.point.time;
   const int row = rows_++;
   if (count_ == 0 || progress.displacements.size() == 0 || row % stride_ != 0) return;
   held_.push_back({.row = row, .displacements = progress.displacements, .joints = progress.joints});

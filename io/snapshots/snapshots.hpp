@@ -26,8 +26,9 @@ class SnapshotRecorder {
   /// @throws InputError when snapshots are asked for and VTK is not built in.
   explicit SnapshotRecorder(int count);
 
-  /// To be called for every row, in order. Rows without displacements (the quasi-static sequence
-  /// finds them at its end only) are passed over.
+  /// To be called for every row, in order. A row of an earlier time begins another run, as when a
+  /// chosen step is halved; what the one before left is dropped. Rows without displacements (the
+  /// quasi-static sequence finds them at its end only) are passed over.
   void record(const sim::Progress& progress);
 
   /// To be called once after the run: its last state is the last moment.
@@ -39,6 +40,7 @@ class SnapshotRecorder {
  private:
   std::size_t count_;
   int rows_ = 0, stride_ = 1;
+  double time_ = 0.0;  // of the last row [s]
   std::vector<Snapshot> held_;
 };
 

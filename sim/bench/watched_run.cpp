@@ -29,6 +29,8 @@ class Watcher {
   Watcher(double bonded_strain, WatchedRun& run) : bonded_strain_(bonded_strain), run_(&run) {}
 
   void record(const Progress& progress) {
+    if (progress.point.time < time_) begin_again();
+    time_ = progress.point.time;
     const double strain = progress.point.strain;
     const bool intact = progress.point.broken_joints == 0;
     if (run_->bonded_forces.size() == 0 &&
@@ -46,6 +48,16 @@ class Watcher {
   }
 
  private:
+  // A chosen step is halved: another run.
+  void begin_again() {
+    run_->bonded_forces.resize(0);
+    run_->order.clear();
+    run_->forces_at_break.clear();
+    seen_.clear();
+    before_.resize(0);
+    strain_ = 0.0;
+  }
+
   // Before the first row everything is 0.
   void take_bonded(double strain, const VectorXd& forces) {
     if (before_.size() == 0) before_ = VectorXd::Zero(forces.size());
@@ -60,7 +72,7 @@ class Watcher {
     return was;
   }
 
-  double bonded_strain_, strain_ = 0.0;
+  double bonded_strain_, strain_ = 0.0, time_ = 0.0;
   VectorXd before_;
   std::vector<char> seen_;
   WatchedRun* run_;

@@ -10,6 +10,7 @@
 #include "sim/contact/active_set.hpp"
 #include "sim/contact/gauss_seidel.hpp"
 #include "sim/dynamics/energy.hpp"
+#include "sim/dynamics/step_control.hpp"
 #include "sim/joint/thresholds.hpp"
 #include "sim/outcome.hpp"
 
@@ -32,6 +33,9 @@ class DynamicRun {
 
   /// One step; false when the joints' problem was not solved.
   bool advance();
+  /// After two steps of uniform motion, whose reactions change linearly: on to one step before the
+  /// first break. Returns the strain leapt over. [-]
+  double leap();
   [[nodiscard]] CurvePoint point() const;
   [[nodiscard]] const EnergyBalance& energy() const { return energy_; }
   [[nodiscard]] const VectorXd& displacements() const { return motion_.q; }
@@ -48,6 +52,12 @@ class DynamicRun {
   void move(const JointStepResult& result);
   void account(const JointStepResult& result, const Motion& before);
   void break_joints(const JointStepResult& result);
+  [[nodiscard]] double time() const { return leapt_ + steps * h_; }
+  [[nodiscard]] double strain() const {
+    const double rate = scene_.loading.strain_rate;
+    return rate * leapt_ + rate * steps * h_;
+  }
+  [[nodiscard]] double time_to_first_break() const;
 
   const Scene& scene_;
   const Assembly& assembly_;
@@ -57,6 +67,9 @@ class DynamicRun {
   Motion motion_;
   JointStep step_;
   EnergyBalance energy_;
+  VectorXd reactions_, slope_;                   // of the last step, and their change in it [N/m]
+  double acceleration_force_ = 0.0;              // norm of M dv/h in the last step [N/m]
+  double leapt_ = 0.0;                           // time that passed without steps [s]
   double force_right_ = 0.0, force_left_ = 0.0;  // of the machine on the specimen, along x [N/m]
   int broken_ = 0;
 };
@@ -86,7 +99,7 @@ void DynamicRun::start() {
   energy_.start(motion_, bodies_.mass());
 
   joints = initial_outcomes(draw_thresholds(scene_, assembly_));
-  step_.gaps = step_.held_at = VectorXd::Zero(rows);
+  step_.gaps = step_.held_at = reactions_ = slope_ = VectorXd::Zero(rows);
   step_.states.assign(joints.size(), JointState::stick);
   step_.broken.assign(joints.size(), 0);
   for (const JointOutcome& joint : joints) step_.laws.push_back(intact_law(joint.threshold));
@@ -113,8 +126,9 @@ void DynamicRun::move(const JointStepResult& result) {
 
 // Forces of the machine, from the momentum balance of the held nodes, and the energies.
 void DynamicRun::account(const JointStepResult& result, const Motion& before) {
-  const VectorXd reaction = bodies_.mass().cwiseProduct(motion_.v - before.v) / h_ + motion_.Kq +
-                            scene_.material.viscosity * motion_.Kv -
+  const VectorXd inertia = bodies_.mass().cwiseProduct(motion_.v - before.v) / h_;
+  acceleration_force_ = inertia.norm();
+  const VectorXd reaction = inertia + motion_.Kq + scene_.material.viscosity * motion_.Kv -
                             joint_forces_on_nodes(bodies_, result.reactions);
   const auto along_x = [&](const std::vector<int>& nodes) {
     double sum = 0.0;
@@ -132,12 +146,12 @@ void DynamicRun::account(const JointStepResult& result, const Motion& before) {
 
 // (M6): what has reached the boundary of its cone in the solution is broken from the next step on.
 void DynamicRun::break_joints(const JointStepResult& result) {
-  const double strain = scene_.loading.strain_rate * steps * h_;
+  const double now = strain();
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const auto row = static_cast<Index>(2 * j);
     if (!joints[j].broken && result.states[j] != JointState::stick) {
       joints[j].broken = true;
-      joints[j].broken_at_strain = strain;
+      joints[j].broken_at_strain = now;
       step_.broken[j] = 1;
       step_.laws[j] = broken_law(scene_.joints.friction);
       ++broken_;
@@ -165,14 +179,46 @@ bool DynamicRun::advance() {
   move(result);
   account(result, before);
   ++steps;
+  slope_ = result.reactions - reactions_;
+  reactions_ = result.reactions;
   break_joints(result);
   step_.force_scale = std::max(step_.force_scale, result.reactions.norm());
   return result.converged;
 }
 
+// Margins of the cones, μ (R_N + c) ∓ R_T, change linearly: when the first is used up. [s]
+double DynamicRun::time_to_first_break() const {
+  const double noise = 1e-9 * slope_.lpNorm<Eigen::Infinity>();
+  double first = (scene_.loading.max_strain / scene_.loading.strain_rate) - time();
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const Local r = reactions_.segment<2>(static_cast<Index>(2 * j)),
+                change = slope_.segment<2>(static_cast<Index>(2 * j));
+    const JointLaw& law = step_.laws[j];
+    for (const double side : {1.0, -1.0}) {
+      const double used = side * change.y() - law.friction * change.x();  // of the margin, a step
+      if (used > noise * std::max(1.0, law.friction))
+        first = std::min(first, h_ * (law.friction * (r.x() + law.cohesion) - side * r.y()) / used);
+    }
+  }
+  return first;
+}
+
+double DynamicRun::leap() {
+  constexpr double uniform = 1e-9, beyond = 1.0 + 1e-9;  // so that the step then breaks the joint
+  if (broken_ > 0 || acceleration_force_ > uniform * motion_.Kq.norm()) return 0.0;
+  const double time = beyond * time_to_first_break() - h_;
+  if (!(time > h_)) return 0.0;
+  energy_.viscous += scene_.material.viscosity * time * motion_.v.dot(motion_.Kv);
+  motion_.q += time * motion_.v;
+  motion_.Kq += time * motion_.Kv;
+  energy_.start(motion_, bodies_.mass());
+  leapt_ += time;
+  return scene_.loading.strain_rate * time;
+}
+
 CurvePoint DynamicRun::point() const {
-  return {.time = steps * h_,
-          .strain = scene_.loading.strain_rate * steps * h_,
+  return {.time = time(),
+          .strain = strain(),
           .stress_right = force_right_ / assembly_.height,
           .stress_left = -force_left_ / assembly_.height,
           .broken_joints = broken_,
@@ -183,17 +229,16 @@ CurvePoint DynamicRun::point() const {
 
 }  // namespace
 
-double choose_step(const Scene& scene) {
-  const double wave = std::sqrt(scene.material.young / scene.material.density);
-  const double strain = 1e-3 * scene.joints.head_tail / scene.material.young;
-  return std::min(strain / scene.loading.strain_rate, 0.5 * scene.assembly.fibre_length / wave);
+Simulation simulate_dynamic(const Scene& scene, const Observer& observer) {
+  return scene.solver.step ? run_in_steps(scene, {*scene.solver.step}, observer)
+                           : run_in_chosen_steps(scene, observer);
 }
 
-Simulation simulate_dynamic(const Scene& scene, const Observer& observer) {
+Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Observer& observer) {
   const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
   Simulation simulation;
   simulation.regime = Regime::dynamic;
-  simulation.step = scene.solver.step.value_or(choose_step(scene));
+  simulation.step = stepping.step;
   DynamicRun run(scene, assembly, simulation.step);
   simulation.curve.push_back(run.point());
   simulation.status = SimulationStatus::strain_limit;
@@ -217,6 +262,7 @@ Simulation simulate_dynamic(const Scene& scene, const Observer& observer) {
       simulation.status = SimulationStatus::broken;
       break;
     }
+    if (stepping.leap && run.steps == 2) simulation.leapt_strain = run.leap();
   }
   simulation.joints = run.joints;
   simulation.displacements = run.displacements();

@@ -6,11 +6,16 @@
 
 namespace havers::sim {
 
-/// h that `step_s` omitted stands for: a thousandth of the strain σ₁/E a step, and at most half the
-/// time a wave takes along a fibre. [s]
-double choose_step(const Scene& scene);
+/// How one run is stepped.
+struct Stepping {
+  double step = 0.0;  ///< h. [s]
+  bool leap = false;  ///< Whether uniform motion before the first break is leapt over.
+};
 
-/// Runs a scene by time steps.
+Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Observer& observer);
+
+/// Runs a scene by its own time step, or by one that is halved until the failure strain stands
+/// (step_control.hpp).
 Simulation simulate_dynamic(const Scene& scene, const Observer& observer);
 
 }  // namespace havers::sim

@@ -59,6 +59,7 @@ class Structure {
   [[nodiscard]] const std::vector<Held>& held() const { return held_; }
   [[nodiscard]] Eigen::Index joints() const { return static_cast<Eigen::Index>(held_.size()); }
   [[nodiscard]] const Cholesky& factor() const { return *factor_; }
+  [[nodiscard]] Eigen::Index unknowns() const { return unknowns_; }  ///< Rows of the factor.
 
   [[nodiscard]] StructureResponse solve(const StructureLoads& loads) const;
 

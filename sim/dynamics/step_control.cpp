@@ -1,0 +1,62 @@
+#include "sim/dynamics/step_control.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/dynamics/time_stepping.hpp"
+#include "sim/outcome.hpp"
+
+namespace havers::sim {
+namespace {
+
+constexpr int most_halvings = 10;
+constexpr int most_steps = 4000;  // of one run: seconds to a minute
+
+// From rest the motion is a shock, and without leaving out every step is taken.
+bool may_leap(const Scene& scene) {
+  return scene.solver.leave_out && scene.loading.start == Start::uniform;
+}
+
+bool has_ended(const Simulation& run) {
+  return run.status == SimulationStatus::broken || run.status == SimulationStatus::strain_limit;
+}
+
+std::string ground_of(const Simulation& run) {
+  const std::string step = fmt::format("; the step of {:.3g} ns is chosen: ", 1e9 * run.step);
+  if (std::isnan(run.step_error)) return step + "half of it would take too long";
+  return step + fmt::format("halving to it changed the failure strain by {:.2g} %",
+                            100.0 * run.step_error);
+}
+
+}  // namespace
+
+double first_step(const Scene& scene) {
+  const double wave = std::sqrt(scene.material.young / scene.material.density);
+  const double transit = may_leap(scene) ? 0.25 * scene.assembly.fibre_height / wave
+                                         : 0.5 * scene.assembly.fibre_length / wave;
+  const double strain = 0.02 * scene.joints.head_tail / scene.material.young;
+  return std::min(transit, strain / scene.loading.strain_rate);
+}
+
+Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer) {
+  Stepping stepping{.step = first_step(scene), .leap = may_leap(scene)};
+  Simulation run;
+  double before = std::numeric_limits<double>::quiet_NaN();
+  int agreed = 0;
+  for (int halving = 0; halving <= most_halvings; ++halving) {
+    run = run_in_steps(scene, stepping, observer);
+    summarise(run);
+    run.step_error = std::abs(run.failure_strain - before) / run.failure_strain;
+    agreed = run.step_error < 0.5 * scene.solver.step_accuracy ? agreed + 1 : 0;
+    if (!has_ended(run) || agreed == 2 || 2 * run.steps > most_steps) break;
+    before = run.failure_strain;
+    stepping.step *= 0.5;
+  }
+  run.regime_ground = ground_of(run);
+  return run;
+}
+
+}  // namespace havers::sim

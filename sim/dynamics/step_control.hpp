@@ -1,0 +1,18 @@
+// The choice of the time step by what it does to the failure strain. Section 7 of sim/README.md.
+#pragma once
+
+#include "sim/simulation.hpp"
+
+namespace havers::sim {
+
+/// Where halving starts: a quarter of the time a wave takes across a fibre or, where steps cannot
+/// be leapt over, half of that along it; at most a fiftieth of the strain σ₁/E a step. [s]
+double first_step(const Scene& scene);
+
+/// Runs a scene with first_step and ever half of it, until two halvings in turn have changed the
+/// failure strain by less than half of `step_accuracy`: implicit Euler is of first order, so what
+/// is left is about the last change. Ends as well where the next run would be too long. The last
+/// run is the answer; `step_error` and `regime_ground` say what its last halving changed.
+Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer);
+
+}  // namespace havers::sim

@@ -1,0 +1,83 @@
+// CPU time of the simulator's parts and of whole runs.
+#include <benchmark/benchmark.h>
+
+#include "sim/bench/watched_run.hpp"
+#include "sim/contact/active_set.hpp"
+#include "tests/support/bonded_wall.hpp"
+
+namespace havers::sim {
+namespace {
+
+// Layers of 30 k, fibres of 21 k.
+Scene contract_wall(const benchmark::State& state) {
+  const auto k = static_cast<int>(state.range(0));
+  return test::wall(30 * k, 21 * k);
+}
+
+void BondedStep(benchmark::State& state) {
+  const Scene scene = contract_wall(state);
+  const test::WallStep wall(scene, 0.5 * first_break_by_uniform_stress(scene),
+                            test::step_of(scene, 1.0));
+  ActiveSetSolver solver(wall.bodies, 1000);
+  JointStepResult result;
+  for (auto _ : state) benchmark::DoNotOptimize(result = solver.solve(wall.step));
+  state.counters["residual"] = result.residual;
+}
+BENCHMARK(BondedStep)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond);
+
+// What a bonded step cannot do without.
+void TriangularSolveOfItsFactor(benchmark::State& state) {
+  const Scene scene = contract_wall(state);
+  const test::WallStep wall(scene, 0.0, test::step_of(scene, 1.0));
+  const Structure structure(wall.bodies);
+  const Eigen::MatrixXd load = Eigen::MatrixXd::Ones(structure.unknowns(), 1);
+  for (auto _ : state) benchmark::DoNotOptimize(structure.factor().solve(load));
+  state.counters["nonzeros"] = static_cast<double>(structure.factor().nonzeros());
+}
+BENCHMARK(TriangularSolveOfItsFactor)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond);
+
+void report(benchmark::State& state, const Simulation& run) {
+  state.counters["broken"] = run.broken_joints;
+  state.counters["steps"] = run.steps;
+  state.counters["residual"] = run.worst_residual;
+  state.counters["energy_defect"] = run.energy_defect;
+  if (!run.trusted()) state.SkipWithError("the run is not to be trusted");
+}
+
+void DynamicToFailure(benchmark::State& state) {
+  Scene scene = contract_wall(state);
+  scene.solver.regime = Regime::dynamic;
+  scene.solver.step = 2e-8;
+  Simulation run;
+  for (auto _ : state) run = simulate(scene);
+  report(state, run);
+}
+BENCHMARK(DynamicToFailure)->Arg(1)->Unit(benchmark::kMillisecond);
+
+// Poisson's ratio differs from run to run in a digit without meaning, so that no factor is shared.
+void QuasiStaticFirstSeed(benchmark::State& state) {
+  Scene scene = contract_wall(state);
+  scene.solver.regime = Regime::quasi_static;
+  Simulation run;
+  for (auto _ : state) {
+    scene.material.poisson += 1e-12;
+    run = simulate(scene);
+  }
+  report(state, run);
+}
+BENCHMARK(QuasiStaticFirstSeed)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond);
+
+void QuasiStaticFurtherSeed(benchmark::State& state) {
+  Scene scene = contract_wall(state);
+  scene.solver.regime = Regime::quasi_static;
+  Simulation run = simulate(scene);
+  for (auto _ : state) {
+    ++scene.joints.seed;
+    run = simulate(scene);
+  }
+  report(state, run);
+}
+BENCHMARK(QuasiStaticFurtherSeed)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace havers::sim

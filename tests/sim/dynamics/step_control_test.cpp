@@ -1,0 +1,107 @@
+#include "sim/dynamics/step_control.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/bench/watched_run.hpp"
+#include "sim/dynamics/time_stepping.hpp"
+#include "sim/outcome.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+Scene without_step(double orientation_deg) {
+  Scene scene = test::dynamic_scene(orientation_deg);
+  scene.solver.step.reset();
+  return scene;
+}
+
+class StepControl : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Orientation, StepControl, testing::Values(0.0, 45.0, 90.0));
+
+// The bonded specimen's stress is uniform, so the first break is known in closed form.
+TEST_P(StepControl, LeapsToTheFirstBreakAndNotPastIt) {
+  const Scene scene = without_step(GetParam());
+  const double first = first_break_by_uniform_stress(scene);
+  Simulation run = run_in_steps(scene, {.step = 1e-9, .leap = true}, {});
+  summarise(run);
+  EXPECT_NEAR(run.first_break_strain / first, 1.0, 1e-7);
+  EXPECT_GT(run.leapt_strain, 0.9 * first);
+  EXPECT_NEAR(run.modulus / scene.material.young, 1.0, 1e-9);
+  EXPECT_LE(run.energy_defect, 1e-10);
+}
+
+TEST_P(StepControl, FindsTheFailureStrainOfMuchSmallerSteps) {
+  const Scene scene = without_step(GetParam());
+  const Simulation run = run_in_chosen_steps(scene, {});
+  ASSERT_LT(run.step_error, 0.5e-3);
+  Simulation finer = run_in_steps(scene, {.step = run.step / 4.0, .leap = true}, {});
+  summarise(finer);
+  EXPECT_NEAR(run.failure_strain / finer.failure_strain, 1.0, 2e-3);
+}
+
+// τε̇ more stress from the first moment on, and no other motion.
+TEST_P(StepControl, LeapsWithViscosityToo) {
+  Scene scene = without_step(GetParam());
+  scene.material.viscosity = 1e-8;
+  scene.loading.strain_rate = 1e4;
+  const double first = first_break_by_uniform_stress(scene) - 1e-4;
+  Simulation run = run_in_steps(scene, {.step = 1e-10, .leap = true}, {});
+  summarise(run);
+  EXPECT_NEAR(run.first_break_strain / first, 1.0, 1e-6);
+  EXPECT_LE(run.energy_defect, 1e-10);
+}
+
+TEST(StepChosen, IsNotLeaptOverWhereTheMotionIsNotUniform) {
+  Scene scene = without_step(0.0);
+  scene.loading.start = Start::rest;
+  EXPECT_EQ(run_in_steps(scene, {.step = 1e-8, .leap = true}, {}).leapt_strain, 0.0);
+}
+
+TEST(StepChosen, LeavesNothingOutWhenAskedNotTo) {
+  Scene scene = without_step(0.0);
+  scene.solver.leave_out = false;
+  EXPECT_EQ(run_in_chosen_steps(scene, {}).leapt_strain, 0.0);
+}
+
+TEST(StepChosen, SaysWhatItsLastHalvingChanged) {
+  Scene scene = without_step(0.0);
+  scene.solver.step_accuracy = 0.5;
+  const Simulation run = simulate(scene);
+  EXPECT_EQ(run.step, first_step(scene) / 4.0) << "two halvings agree to a quarter";
+  EXPECT_NE(run.regime_ground.find("halving to it changed the failure strain by"),
+            std::string::npos);
+  EXPECT_TRUE(std::any_of(run.left_out.begin(), run.left_out.end(), [](const LeftOut& left_out) {
+    return left_out.what.starts_with("time steps up to a strain of");
+  }));
+}
+
+TEST(StepChosen, IsNotTrustedWhereItStillChangesTheAnswer) {
+  Simulation run = run_in_chosen_steps(without_step(90.0), {});
+  run.strength = 1.0;
+  run.tolerance = 1e-8;
+  EXPECT_TRUE(run.trusted());
+  run.step_error = 0.02;
+  EXPECT_FALSE(run.trusted());
+}
+
+TEST(StepChosen, EndsWhenTheObserverAsksTo) {
+  EXPECT_EQ(run_in_chosen_steps(without_step(0.0), [](const Progress&) { return false; }).status,
+            SimulationStatus::cancelled);
+}
+
+TEST(FirstStep, IsAQuarterOfTheTimeThatAWaveTakesAcrossAFibre) {
+  Scene scene = without_step(0.0);
+  const double wave = std::sqrt(13e9 / 2000.0);
+  EXPECT_NEAR(first_step(scene), 0.25 * 10e-6 / wave, 1e-20);
+  scene.loading.start = Start::rest;
+  EXPECT_NEAR(first_step(scene), 0.5 * 100e-6 / wave, 1e-20);
+  scene.loading.strain_rate = 1e6;
+  EXPECT_NEAR(first_step(scene), 0.02 * (50e6 / 13e9) / 1e6, 1e-20);
+}
+
+}  // namespace
+}  // namespace havers::sim
