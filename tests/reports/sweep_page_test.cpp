@@ -1,0 +1,94 @@
+#include "reports/sweep/sweep_page.hpp"
+
+#include <gmock/gmock.h>
+
+#include "reports/figures/avalanche.hpp"
+#include "reports/sweep/sweep_figure.hpp"
+#include "tests/support/sweeps.hpp"
+
+namespace havers::reports {
+namespace {
+
+using support::deviation;
+using support::KnownSweep;
+using testing::HasSubstr;
+using testing::Not;
+
+// Strength falls with the scatter, at two ratios.
+struct Case {
+  calib::Sweep sweep;
+  calib::SweepResult result;
+
+  Case() {
+    const KnownSweep known({{"joints.ratio", {"1", "3"}}, {"joints.scatter", {"0.2", "0.8"}}}, 20,
+                           [](const calib::SweepPoint& p, int k) {
+                             return 1e6 * (50.0 - 10.0 * p.numbers[1] + deviation(k));
+                           });
+    sweep.name = "A <sweep>";
+    sweep.plan = known.plan;
+    sweep.points = known.points;
+    sweep.laws = {{calib::Measure::strength, {"joints.scatter"}, "joints.ratio"}};
+    sweep.findings.emplace_back();
+    sweep.findings.front().id = "F7";
+    sweep.findings.front().test = calib::FindingTest::falls;
+    sweep.findings.front().keys = {"joints.scatter"};
+    result.points = known.points;
+    result.runs = known.runs;
+    for (std::size_t i = 0; i < known.points.size(); ++i) {
+      result.summaries.push_back(calib::summary_of(known.runs, i));
+      result.strengths.emplace_back();
+    }
+    result.laws = fit_laws(sweep.laws.front(), known.plan, known.points, known.runs);
+    result.findings = judge(sweep.findings.front(), known.plan, known.points, known.runs);
+  }
+};
+
+TEST(SweepPage, SaysTheOutcomeFirstAndEscapesWhatUsersWrote) {
+  const Case known;
+  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
+  EXPECT_THAT(page, HasSubstr("Of 1 finding: 1 agree (F7)."));
+  EXPECT_THAT(page, HasSubstr("80 runs, 0 failed"));
+  EXPECT_THAT(page, HasSubstr("A &lt;sweep&gt;"));
+  EXPECT_THAT(page, Not(HasSubstr("<sweep>")));
+}
+
+TEST(SweepPage, GivesEveryLawWithItsIntervals) {
+  const Case known;
+  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
+  EXPECT_THAT(page, HasSubstr("scatter d: −10.0 ("));
+  EXPECT_THAT(page, HasSubstr("ratio r = 3"));
+}
+
+TEST(SweepFigures, HaveAPanelForEveryValueOfPer) {
+  const Case known;
+  const calib::SweepFigure wanted{.caption = "c", .x = "joints.scatter", .per = "joints.ratio"};
+  const auto panels = sweep_figures(known.sweep, known.result, wanted, "f");
+  ASSERT_EQ(panels.size(), 2U);
+  EXPECT_EQ(panels[1].at, "ratio r = 3");
+  EXPECT_THAT(panels[0].figure.commands, HasSubstr("Strength (MPa)"));
+}
+
+TEST(Avalanche, IsASentenceWhereNothingBroke) {
+  EXPECT_THAT(avalanche_svg({}, {}), HasSubstr("no joint broke"));
+}
+
+TEST(Avalanche, ShowsEveryBrokenJointInItsTurn) {
+  const sim::Assembly assembly =
+      sim::build_assembly({.layers = 4, .fibres = 3}, sim::Lateral::free);
+  sim::Simulation run;
+  run.joints.resize(assembly.joints.size());
+  for (std::size_t i = 0; i < 3; ++i) {
+    run.joints[i].broken = true;
+    run.joints[i].broken_at_strain = 0.003 + 0.001 * static_cast<double>(i);
+  }
+  const std::string svg = avalanche_svg(assembly, run);
+  EXPECT_THAT(svg, HasSubstr("3 broken joints"));
+  EXPECT_THAT(svg, HasSubstr("at 0.3000\u00a0%, to the last, at 0.5000\u00a0%"));
+  std::size_t animated = 0;
+  for (std::size_t at = svg.find("<animate"); at != svg.npos; at = svg.find("<animate", at + 1))
+    ++animated;
+  EXPECT_EQ(animated, 3U);
+}
+
+}  // namespace
+}  // namespace havers::reports
