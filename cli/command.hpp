@@ -48,6 +48,7 @@ Command porosity_command(CLI::App& app, CommonOptions& common);
 Command check_command(CLI::App& app, CommonOptions& common);
 Command synthesize_command(CLI::App& app, CommonOptions& common);
 Command report_command(CLI::App& app, CommonOptions& common);
+Command sweep_command(CLI::App& app, CommonOptions& common);
 
 /// Adds a sub-command with the common options, a sentence of what it does, and examples under -h.
 CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& name,
