@@ -1,8 +1,10 @@
 // import, and what it says of good and bad test files.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "io/machine/read_test.hpp"
 #include "tests/cli/run_havers.hpp"
 
 namespace havers {
@@ -47,6 +49,79 @@ TEST(Import, ShowsTheReadableFilesAndNamesTheOthers) {
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_NE(answer.out.find("B0.csv"), std::string::npos);
   EXPECT_NE(answer.err.find("empty.csv"), std::string::npos);
+}
+
+// The gauge's columns as a logger would have written them, 5.5 s later on its own clock.
+void split_off_logger(const fs::path& folder) {
+  const fs::path whole = folder / "made/B0.csv";
+  const io::TestFile file = io::read_test(whole);
+  std::string machine = "Width,4.0,mm\nThickness,2.0,mm\n\nTime (s),Load (N)\n";
+  std::string logger = "Time (s),Strain\n";
+  const double end = file.test.time.back() + 3.0;
+  const auto add = [&](double time, double force, double strain) {
+    machine += fmt::format("{},{}\n", time, force);
+    logger += fmt::format("{},{}\n", time + 5.5, strain);
+  };
+  for (std::size_t i = 0; i < file.rows; ++i)
+    add(file.test.time[i], file.test.force[i], file.test.strain[i]);
+  for (double time = file.test.time.back() + 0.1; time < end; time += 0.1) add(time, 0.0, 0.0);
+  test::write_text(folder / "machine.csv", machine);
+  test::write_text(folder / "logger.csv", logger);
+}
+
+TEST(Import, JoinsASecondLogger) {
+  const fs::path folder = folder_with_tests();
+  split_off_logger(folder);
+  const auto whole = nlohmann::json::parse(run_havers(folder, "import made/B0.csv --json").out);
+  const auto answer = run_havers(folder, "import machine.csv --gauge logger.csv --json -o clocks");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const auto joined = nlohmann::json::parse(answer.out);
+  EXPECT_NEAR(joined["clocks"]["offset_s"].get<double>(), -5.5, 0.1);
+  EXPECT_NEAR(joined["modulus_Pa"].get<double>() / whole["modulus_Pa"].get<double>(), 1.0, 0.02);
+  EXPECT_TRUE(fs::exists(folder / "clocks/import.json"));
+}
+
+TEST(Import, TakesWhatAStudyCouldSay) {
+  const fs::path folder = folder_with_tests();
+  const auto corrections = [&](const std::string& options) {
+    const auto answer = run_havers(folder, "import made/B0.csv --json " + options);
+    return nlohmann::json::parse(answer.out).at("corrections").dump();
+  };
+  EXPECT_NE(corrections("").find("toe"), std::string::npos);
+  EXPECT_EQ(corrections("--set reduction.remove_toe=false").find("\"toe\""), std::string::npos);
+  EXPECT_NE(
+      run_havers(folder, "import made/B0.csv --set reduction.remove_to=1").err.find("remove_toe"),
+      std::string::npos);
+  test::write_text(folder / "bare.csv", "0,1\n1,2\n2,3\n");
+  EXPECT_NE(run_havers(folder, "import bare.csv").err.find("[specimen.columns]"),
+            std::string::npos);
+  const auto named = run_havers(
+      folder, "import bare.csv --set columns.force=2 --set columns.force_unit=kN --json");
+  EXPECT_EQ(nlohmann::json::parse(named.out).at("columns").at(1).at("quantity"), "force");
+}
+
+// What is not known is null, and what was read is shown.
+TEST(Import, ShowsATestThatCannotBeReduced) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "bare.csv", "Time (s),Load (N)\n0,1\n1,2\n2,3\n");
+  const auto answer = run_havers(folder, "import bare.csv --json -o out");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_NE(answer.err.find("--width-mm"), std::string::npos);
+  EXPECT_TRUE(nlohmann::json::parse(answer.out)["strength_Pa"].is_null());
+  EXPECT_TRUE(fs::exists(folder / "out/import.json"));
+}
+
+TEST(Study, LeavesOutASpecimenThatCannotBeUsedAndSaysWhy) {
+  const fs::path folder = folder_with_tests();
+  test::write_text(folder / "made/B90.csv",
+                   "Width,4,mm\nThickness,2,mm\n\nTime (s),Load (N),Strain\n0,0,0\n1,1,1e-6\n");
+  const auto answer = run_havers(folder, "check made/study.toml");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_NE(answer.out.find("specimen B90 is left out: 2 rows are too few"), std::string::npos)
+      << answer.out;
+  const auto none = run_havers(folder, "check made/study.toml --set reduction.largest_noise=1e-12");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("no specimen is left to fit"), std::string::npos) << none.err;
 }
 
 TEST(Import, TakesSizesFromTheCommandLine) {
