@@ -49,6 +49,7 @@ Command check_command(CLI::App& app, CommonOptions& common);
 Command synthesize_command(CLI::App& app, CommonOptions& common);
 Command report_command(CLI::App& app, CommonOptions& common);
 Command sweep_command(CLI::App& app, CommonOptions& common);
+Command bench_command(CLI::App& app, CommonOptions& common);
 
 /// Adds a sub-command with the common options, a sentence of what it does, and examples under -h.
 CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& name,

@@ -66,7 +66,8 @@ int main(int argc, char** argv) {
   const std::array commands{fit_command(app, common),    simulate_command(app, common),
                             import_command(app, common), porosity_command(app, common),
                             check_command(app, common),  synthesize_command(app, common),
-                            report_command(app, common), sweep_command(app, common)};
+                            report_command(app, common), bench_command(app, common),
+                            sweep_command(app, common)};
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text, "version and what is built in");
   app.footer(examples);

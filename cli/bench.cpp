@@ -1,0 +1,48 @@
+// havers bench: which mode the flags ask for.
+#include "cli/bench.hpp"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <memory>
+
+#include "io/input_error.hpp"
+
+namespace havers::cli {
+namespace {
+
+constexpr const char* examples =
+    "  havers bench data_samples/scenes/bench.toml -o runs/bench\n"
+    "  havers bench scene.toml -o runs/bench --seeds 5 --set assembly.layers=10\n"
+    "  havers bench --stability -o runs/stability   # stiff and extreme scenes of known answer\n";
+
+struct Flag {
+  const char* name;
+  const char* help;
+  BenchMode run;
+};
+
+constexpr std::array flags{
+    Flag{"--stability", "stiff and extreme scenes whose answer is known; needs no SCENE",
+         bench_stability},
+};
+
+}  // namespace
+
+Command bench_command(CLI::App& app, CommonOptions& common) {
+  CLI::App* parser = add_command(app, common, "bench", "error against run time", examples);
+  const auto arguments = std::make_shared<BenchArguments>();
+  const auto mode = std::make_shared<BenchMode>(bench_scene);
+  parser->add_option("SCENE", arguments->scene, "scene file (TOML)");
+  parser->add_option("-o,--output", arguments->folder, "folder for the results")
+      ->required()
+      ->type_name("DIR");
+  parser->add_option("--seeds", arguments->seeds, "runs of each setting (default: 3)")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  for (const Flag& flag : flags)
+    parser->add_flag_callback(
+        flag.name, [mode, run = flag.run] { *mode = run; }, flag.help);
+  return {parser, [arguments, mode, &common] { return (*mode)(*arguments, common); }};
+}
+
+}  // namespace havers::cli

@@ -1,0 +1,22 @@
+// havers bench has modes: error against run time of a scene, and one more for each flag.
+#pragma once
+
+#include <filesystem>
+
+#include "cli/command.hpp"
+
+namespace havers::cli {
+
+struct BenchArguments {
+  std::filesystem::path scene;  ///< Empty in modes that need none.
+  std::filesystem::path folder;
+  int seeds = 3;  ///< Runs of each setting.
+};
+
+/// A mode is one function that returns the exit code; bench.cpp lists them with their flags.
+using BenchMode = int (*)(const BenchArguments& arguments, const CommonOptions& common);
+
+int bench_scene(const BenchArguments& arguments, const CommonOptions& common);
+int bench_stability(const BenchArguments& arguments, const CommonOptions& common);
+
+}  // namespace havers::cli

@@ -1,0 +1,127 @@
+#include "io/results/bench_files.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "io/results/csv_numbers.hpp"
+#include "io/results/json_table.hpp"
+#include "io/results/result_keys.hpp"
+
+namespace havers::io {
+namespace {
+
+using nlohmann::json;
+
+// The columns of a row: median over the seeds, with the extremes of what the figure shows.
+std::vector<std::pair<std::string, double>> row_numbers(const sim::BenchRow& row) {
+  std::vector<std::pair<std::string, double>> list;
+  const auto add_range = [&](const std::string& name, const sim::BenchSpread& spread) {
+    list.insert(
+        list.end(),
+        {{name, spread.median}, {name + "_low", spread.low}, {name + "_high", spread.high}});
+  };
+  add_range("joint_force_error", row.errors.bonded_forces);
+  add_range("last_common_break_force_error", row.errors.forces);
+  add_range("strength_error", row.errors.strength);
+  add_range("failure_strain_error", row.errors.failure_strain);
+  add_range("curve_error", row.errors.curve);
+  add_range("wall_s", row.wall);
+  add_range("cpu_s", row.cpu);
+  list.insert(list.end(), {{"steps", row.steps.median},
+                           {"iterations", row.iterations.median},
+                           {"common_breaks", row.same_breaks.median},
+                           {"runs", row.runs},
+                           {"trusted_runs", row.trusted},
+                           {"runs_out_of_time", row.out_of_time}});
+  return list;
+}
+
+json setting_json(const sim::BenchSetting& setting) {
+  return {{"text", to_string(setting)},       {"regime", word(setting.regime)},
+          {"contact", word(setting.contact)}, {"tolerance", setting.tolerance},
+          {"step_s", setting.step},           {"refinement", setting.refinement},
+          {"leave_out", setting.leave_out}};
+}
+
+json row_json(const sim::BenchRow& row) {
+  json object = setting_json(row.setting);
+  for (auto& [name, value] : row_numbers(row)) object[name] = json_of(value);
+  return object;
+}
+
+json provenance_object(Provenance provenance) {
+  return json_of(provenance);
+}
+
+}  // namespace
+
+nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPrecision& study,
+                                   const Provenance& provenance) {
+  json rows = json::array(), cheapest = json::array();
+  for (const sim::BenchRow& row : study.rows) rows.push_back(row_json(row));
+  for (const sim::CheapestSetting& entry : study.cheapest)
+    cheapest.push_back(
+        {{"quantity", entry.quantity},
+         {"error_below", entry.target},
+         {"setting",
+          entry.row < 0
+              ? json()
+              : json(to_string(study.rows[static_cast<std::size_t>(entry.row)].setting))}});
+  return {{"complete", study.complete},
+          {"summary", summary(study)},
+          {"reference", setting_json(study.reference)},
+          {"reference_ground", study.reference_ground},
+          {"joint_forces_at_strain", study.bonded_strain},
+          {"seeds", study.seeds},
+          {"cheapest", cheapest},
+          {"rows", rows},
+          {"scene", scene_json(scene)},
+          {"provenance", provenance_object(provenance)}};
+}
+
+nlohmann::json stability_json(const std::vector<sim::StabilityResult>& results,
+                              const Provenance& provenance) {
+  json scenes = json::array();
+  for (const sim::StabilityResult& result : results)
+    scenes.push_back({{"name", result.name},
+                      {"outcome", to_string(result.outcome)},
+                      {"as_it_must", result.as_it_must},
+                      {"reason", result.reason},
+                      {"error", result.error},
+                      {"residual", result.residual},
+                      {"energy_defect", result.energy_defect},
+                      {"penetration", result.penetration},
+                      {"wall_s", result.wall}});
+  return {{"summary", sim::summary(results)},
+          {"scenes", scenes},
+          {"provenance", provenance_object(provenance)}};
+}
+
+std::string work_precision_csv(const sim::WorkPrecision& study) {
+  std::string text;
+  for (const sim::BenchRow& row : study.rows) {
+    std::string header = "setting", line = fmt::format("\"{}\"", to_string(row.setting));
+    for (const auto& [name, value] : row_numbers(row)) {
+      header += "," + name;
+      line += "," + csv_number(value);
+    }
+    if (text.empty()) text = header + "\n";
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string stability_csv(const std::vector<sim::StabilityResult>& results) {
+  std::string text =
+      "scene,outcome,as_it_must,error,residual,energy_defect,penetration,wall_s,reason\n";
+  for (const sim::StabilityResult& r : results)
+    text += fmt::format("\"{}\",{},{:d},{},{},{},{},{},\"{}\"\n", r.name, to_string(r.outcome),
+                        r.as_it_must, csv_number(r.error), csv_number(r.residual),
+                        csv_number(r.energy_defect), csv_number(r.penetration), csv_number(r.wall),
+                        r.reason);
+  return text;
+}
+
+}  // namespace havers::io

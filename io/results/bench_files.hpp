@@ -1,0 +1,23 @@
+// What havers bench leaves in its folder.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "io/results/result_files.hpp"
+#include "sim/bench/stability.hpp"
+#include "sim/bench/work_precision.hpp"
+
+namespace havers::io {
+
+nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPrecision& study,
+                                   const Provenance& provenance);
+nlohmann::json stability_json(const std::vector<sim::StabilityResult>& results,
+                              const Provenance& provenance);
+
+/// One line a setting, and one a scene.
+std::string work_precision_csv(const sim::WorkPrecision& study);
+std::string stability_csv(const std::vector<sim::StabilityResult>& results);
+
+}  // namespace havers::io

@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/bench_pages.hpp"
+#include "reports/pages/page.hpp"
+#include "reports/text/format.hpp"
+
+namespace havers::reports {
+namespace {
+
+// Two digits are plenty for an error.
+std::string error_text(double error) {
+  return std::isfinite(error) ? fmt::format("{:.1e}", error) : "–";
+}
+
+std::string spread_text(const sim::BenchSpread& spread) {
+  if (!std::isfinite(spread.median) || spread.low == spread.high) return error_text(spread.median);
+  return fmt::format("{} ({} to {})", error_text(spread.median), error_text(spread.low),
+                     error_text(spread.high));
+}
+
+mstch::map work_row(const sim::BenchRow& row, bool reference) {
+  const std::string state =
+      row.trusted == row.runs ? ""
+      : row.out_of_time > 0
+          ? fmt::format("{} of {} stopped at the time limit", row.out_of_time, row.runs)
+          : fmt::format("{} of {} not to be trusted", row.runs - row.trusted, row.runs);
+  return {{"setting", text(to_string(row.setting) + (reference ? " (reference)" : ""))},
+          {"state", text(state)},
+          {"forces", text(spread_text(row.errors.bonded_forces))},
+          {"forces_end", text(error_text(row.errors.forces.median))},
+          {"breaks", text(number(row.same_breaks.median, 3))},
+          {"strength", text(error_text(row.errors.strength.median))},
+          {"failure_strain", text(spread_text(row.errors.failure_strain))},
+          {"curve", text(error_text(row.errors.curve.median))},
+          {"wall", text(number(row.wall.median, 3))},
+          {"cpu", text(number(row.cpu.median, 3))},
+          {"steps", text(number(row.steps.median, 4))},
+          {"iterations", text(number(row.iterations.median, 4))}};
+}
+
+mstch::array cheapest_rows(const sim::WorkPrecision& study) {
+  mstch::array rows;
+  for (const sim::CheapestSetting& cheapest : study.cheapest) {
+    const bool found = cheapest.row >= 0;
+    const sim::BenchRow* row =
+        found ? &study.rows[static_cast<std::size_t>(cheapest.row)] : nullptr;
+    rows.emplace_back(
+        mstch::map{{"quantity", text(cheapest.quantity)},
+                   {"target", text(fmt::format("{:g}", cheapest.target))},
+                   {"setting", text(found ? to_string(row->setting) : "no setting reaches it")},
+                   {"cpu", text(found ? number(row->cpu.median, 3) : "–")}});
+  }
+  return rows;
+}
+
+mstch::map stability_row(const sim::StabilityResult& result) {
+  const bool ran = result.outcome != sim::StabilityOutcome::refused;
+  const auto if_ran = [&](double value) { return text(ran ? error_text(value) : "–"); };
+  return {{"name", text(result.name)},
+          {"grade", text(result.as_it_must ? "pass" : "fail")},
+          {"outcome", text(to_string(result.outcome))},
+          {"reason", text(result.reason)},
+          {"error", if_ran(result.error)},
+          {"residual", if_ran(result.residual)},
+          {"energy", if_ran(result.energy_defect)},
+          {"penetration", if_ran(result.penetration)},
+          {"wall", text(ran ? number(result.wall, 2) : "–")}};
+}
+
+}  // namespace
+
+std::string work_precision_page(const WorkPrecisionReport& report) {
+  const sim::WorkPrecision& study = report.study;
+  mstch::array rows;
+  for (const sim::BenchRow& row : study.rows) rows.emplace_back(work_row(row, rows.empty()));
+  return render_page(
+      "havers bench: error against run time", "bench",
+      {{"sentence", text(summary(study))},
+       {"detail",
+        text(fmt::format("{} × {} fibres, {}. Errors are relative to {}, {}, of the same seed.",
+                         report.scene.assembly.fibres, report.scene.assembly.layers,
+                         count(static_cast<long>(study.seeds.size()), "seed"),
+                         study.reference_ground, to_string(study.reference)))},
+       {"grade", text(study.complete ? "good" : "bad")},
+       {"figure", text(work_precision_svg(study))},
+       {"strain", text(quantity(study.bonded_strain / in::percent, "%", 3))},
+       {"cheapest", mstch::node{cheapest_rows(study)}},
+       {"rows", mstch::node{rows}}},
+      report.provenance);
+}
+
+std::string stability_page(const StabilityReport& report) {
+  mstch::array rows;
+  for (const sim::StabilityResult& result : report.results)
+    rows.emplace_back(stability_row(result));
+  const bool good = std::all_of(report.results.begin(), report.results.end(),
+                                [](const sim::StabilityResult& r) { return r.as_it_must; });
+  return render_page("havers bench: stiff and extreme scenes", "stability",
+                     {{"sentence", text(sim::summary(report.results))},
+                      {"detail", text("")},
+                      {"grade", text(good ? "good" : "bad")},
+                      {"rows", mstch::node{rows}}},
+                     report.provenance);
+}
+
+}  // namespace havers::reports

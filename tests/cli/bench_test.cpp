@@ -1,0 +1,55 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_havers.hpp"
+
+namespace havers {
+namespace {
+
+namespace fs = std::filesystem;
+using test::own_folder;
+using test::run_havers;
+
+TEST(Bench, LeavesPageFigureTableAndResult) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "scene.toml", test::small_scene());
+  const auto answer = run_havers(folder, "bench scene.toml -o out --seeds 1");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const auto result = nlohmann::json::parse(test::read_text(folder / "out/result.json"));
+  EXPECT_TRUE(result["complete"]);
+  EXPECT_EQ(result["cheapest"].size(), 9U);
+  const std::string table = test::read_text(folder / "out/bench.csv");
+  EXPECT_EQ(std::ranges::count(table, '\n'), static_cast<long>(result["rows"].size()) + 1);
+  EXPECT_TRUE(answer.out.starts_with(result["summary"].get<std::string>())) << answer.out;
+}
+
+TEST(Bench, NeedsASceneUnlessAFlagSaysOtherwise) {
+  const fs::path folder = own_folder();
+  const auto answer = run_havers(folder, "bench -o out");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_NE(answer.err.find("no scene is given"), std::string::npos) << answer.err;
+}
+
+TEST(Bench, RunsTheStabilityScenesWithoutAScene) {
+  const fs::path folder = own_folder();
+  const auto answer = run_havers(folder, "bench --stability -o out --json");
+  const auto result = nlohmann::json::parse(answer.out);
+  EXPECT_GE(result["scenes"].size(), 40U);
+  const bool good = std::ranges::all_of(result["scenes"], [](const auto& scene) {
+    return scene["as_it_must"].template get<bool>();
+  });
+  EXPECT_EQ(answer.exit_code, good ? 0 : 1);
+  EXPECT_TRUE(fs::exists(folder / "out/stability.csv"));
+}
+
+TEST(Bench, ReadsTheSceneThatIsShippedForIt) {
+  const fs::path folder = own_folder();
+  const auto answer = run_havers(
+      folder, "check " + std::string(HAVERS_SOURCE_DIR) + "/data_samples/scenes/bench.toml");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+}
+
+}  // namespace
+}  // namespace havers
