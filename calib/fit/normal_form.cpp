@@ -12,7 +12,7 @@ namespace {
 
 // Raised whenever the same scene gives another response than before: older stores are then not
 // used.
-constexpr std::string_view model_version = "havers-model-1";
+constexpr std::string_view model_version = "havers-model-2";
 
 // Reference values (F3). Any would do; with these a joint breaks at a strain of some 1e-5, so that
 // the largest strain limit that a scene may have is far away, and the limit asked for can be
@@ -63,8 +63,8 @@ std::string text(const sim::Loading& loading) {
 }
 
 std::string text(const sim::SolverOptions& solver) {
-  const auto& [regime, step, contact, tolerance, max_iterations, leave_out] = solver;
-  return fmt::format("{} {} {} {} {} {}", static_cast<int>(regime), text(step),
+  const auto& [regime, step, accuracy, contact, tolerance, max_iterations, leave_out] = solver;
+  return fmt::format("{} {} {} {} {} {} {}", static_cast<int>(regime), text(step), accuracy,
                      static_cast<int>(contact), tolerance, max_iterations, leave_out);
 }
 
