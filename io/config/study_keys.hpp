@@ -64,7 +64,11 @@ void keys(Table& table, ReadOptions& options) {
   for (const Quantity quantity :
        {Quantity::time, Quantity::force, Quantity::extension, Quantity::strain, Quantity::stress}) {
     ColumnHint hint;
-    const bool given = table.key(to_string(quantity), hint.column);
+    int number = 0;
+    const bool numbered = table.has(to_string(quantity)) && !table.is_text(to_string(quantity));
+    const bool given = numbered ? table.key(to_string(quantity), number)
+                                : table.key(to_string(quantity), hint.column);
+    if (numbered) hint.column = std::to_string(number);
     table.key(to_string(quantity) + "_unit", hint.unit);
     if (given) options.columns[quantity] = hint;
   }
