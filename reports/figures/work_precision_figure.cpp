@@ -81,7 +81,8 @@ std::string work_precision_svg(const sim::WorkPrecision& study) {
   const std::string strain = work_panel(study, "strain", &sim::BenchErrors::failure_strain);
   if (!forces.empty() && !strain.empty())
     figure.commands =
-        "set multiplot\nset logscale xy\nset format y '10^{%L}'\nset offsets 0.1,0.1,0.1,0.1\n" +
+        "set multiplot\nset logscale xy\nset format y '10^{%L}'\nset offsets graph 0.06,graph "
+        "0.06,graph 0.06,graph 0.06\n" +
         panel(0.56, 0.95) + "set ylabel 'Error of joint forces'\n" + forces + panel(0.09, 0.48) +
         "set xlabel 'CPU time of a run (s)' offset 0,0.5\n"
         "set ylabel 'Error of the failure strain'\nunset key\n" +

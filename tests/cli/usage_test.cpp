@@ -12,7 +12,7 @@ using test::own_folder;
 using test::run_havers;
 
 constexpr std::array commands{"fit",   "simulate",   "import", "porosity",
-                              "check", "synthesize", "report"};
+                              "check", "synthesize", "report", "bench"};
 
 TEST(Usage, HelpListsEveryCommandAndNoOther) {
   const auto answer = run_havers(own_folder(), "-h");
