@@ -27,8 +27,17 @@ struct Panel {
 };
 
 std::string title_of(const Panel& panel, const std::string& value) {
-  if (panel.wanted.series.empty()) return {};
-  return plain(fmt::format("{} = {}", name_of_key(panel.wanted.series), bare(value)));
+  return panel.wanted.series.empty() ? "" : plain(bare(value));
+}
+
+// The series' values beside the graph, under the name of their key.
+std::string key_of(const Panel& panel) {
+  if (panel.wanted.series.empty()) return "set tmargin at screen 0.96\n";
+  const double edge = panel.wanted.per.empty() ? 0.82 : 0.74;
+  return fmt::format(
+      "set tmargin at screen 0.96\nset rmargin at screen {}\n"
+      "set key at screen {}, screen 0.96 left top vertical title '{}' left\n",
+      edge, edge + 0.01, plain(name_of_key(panel.wanted.series)));
 }
 
 std::vector<PointGroup> series_of(const Panel& panel) {
@@ -105,7 +114,7 @@ std::string mean_commands(const Panel& panel) {
   }
   if (lines.empty()) return {};
   const MeasureWords words = words_of(panel.wanted.response);
-  return data + x_axis(lines) +
+  return data + x_axis(lines) + key_of(panel) +
          fmt::format(
              "set xlabel '{}' offset 0,0.4\nset ylabel '{}{}' offset 0.5,0\n"
              "set offsets 0, 0, graph 0.06, graph 0.06\nplot {}{}\n",
@@ -130,10 +139,11 @@ std::string curve_commands(const Panel& panel) {
     ++i;
   }
   if (plots.empty()) return {};
-  return data + fmt::format(
-                    "set xlabel 'Strain (%)' offset 0,0.4\nset ylabel 'Stress (MPa)' offset 0.5,0\n"
-                    "set yrange [0:*]\nset offsets 0, graph 0.03, graph 0.06, 0\nplot {}\n",
-                    plots);
+  return data + key_of(panel) +
+         fmt::format(
+             "set xlabel 'Strain (%)' offset 0,0.4\nset ylabel 'Stress (MPa)' offset 0.5,0\n"
+             "set yrange [0:*]\nset offsets 0, graph 0.03, graph 0.06, 0\nplot {}\n",
+             plots);
 }
 
 }  // namespace
@@ -152,8 +162,7 @@ std::vector<SweepPanel> sweep_figures(const calib::Sweep& sweep, const calib::Sw
                                .height = wanted.per.empty() ? 360 : 340}};
     made.figure.commands = wanted.x.empty() ? curve_commands(panel) : mean_commands(panel);
     if (!wanted.per.empty() && !made.figure.commands.empty())
-      made.figure.commands =
-          "set lmargin at screen 0.17\nset key maxcols 2\n" + made.figure.commands;
+      made.figure.commands = "set lmargin at screen 0.15\n" + made.figure.commands;
     panels.push_back(std::move(made));
   }
   return panels;
