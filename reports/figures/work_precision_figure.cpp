@@ -83,9 +83,10 @@ std::string work_precision_svg(const sim::WorkPrecision& study) {
     figure.commands =
         "set multiplot\nset logscale xy\nset format y '10^{%L}'\nset offsets graph 0.06,graph "
         "0.06,graph 0.06,graph 0.06\n" +
-        panel(0.56, 0.95) + "set ylabel 'Error of joint forces'\n" + forces + panel(0.09, 0.48) +
+        panel(0.56, 0.95) + "set ylabel 'Error of joint forces' offset 1.5,0\n" + forces +
+        panel(0.09, 0.48) +
         "set xlabel 'CPU time of a run (s)' offset 0,0.5\n"
-        "set ylabel 'Error of the failure strain'\nunset key\n" +
+        "set ylabel 'Error of the failure strain' offset 1.5,0\nunset key\n" +
         strain + "unset multiplot\n";
   return draw(figure);
 }
