@@ -140,7 +140,8 @@ nlohmann::json truth_of(const io::StudyFile& file, const std::vector<Made>& made
   nlohmann::json parameters;
   const bool one_scatter = file.study.porosity.to_scatter == calib::ToScatter::none;
   for (const calib::ParameterInfo& parameter : calib::all_parameters())
-    if (parameter.name != "scatter" || one_scatter)  // otherwise each specimen has its own
+    if (parameter.automatic &&  // otherwise each specimen has its own scatter
+        (parameter.name != "scatter" || one_scatter))
       parameters[std::string(parameter.name)] = calib::value_of(file.study.model, parameter.name);
   nlohmann::json specimens = nlohmann::json::array();
   for (const Made& one : made) {

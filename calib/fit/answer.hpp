@@ -19,8 +19,11 @@ struct Answer {
   std::vector<LeftUnknown> left;  ///< Unknowns that were not.
   std::vector<Evaluation> ends;   ///< Where the refined starts came to, best first.
   std::vector<StageLog> stages;
+  std::vector<double> starts;  ///< Costs of all starts, lowest first.
+  int replicates = 0;
   Differences slopes;       ///< At the best point; failed where it could not be had.
   Uncertainty uncertainty;  ///< Empty when `slopes` failed.
+  std::vector<Profile> profiles;
 };
 
 /// Values, errors and intervals of all unknowns.
@@ -29,6 +32,15 @@ std::vector<CalibratedParameter> parameters_of(const FitProblem& problem, const 
 /// Every specimen simulated at the answer, those kept for validation too.
 std::vector<SpecimenResult> specimens_of(const FitProblem& problem, SimulationBatch& batch,
                                          const Answer& answer);
+
+/// ½ Σ residual² over the terms of the fitted specimens, which have the weights of the answer;
+/// `otherwise` where there are no terms.
+double cost_of(const std::vector<SpecimenResult>& specimens, double otherwise);
+
+/// Correlations of the fitted parameters, what is determined in words, intervals by other means,
+/// and what a further test would tell: all that follows from the slopes at the answer.
+void add_hindsight(const FitProblem& problem, SimulationBatch& batch, const Answer& answer,
+                   CalibrationResult& result);
 
 /// What the calibration did without.
 std::vector<sim::LeftOut> left_out_of(const FitProblem& problem, const SimulationBatch& batch,

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "calib/fit/answer.hpp"
+#include "calib/fit/profile.hpp"
+#include "calib/fit/randomness.hpp"
 #include "calib/fit/search.hpp"
 #include "calib/fit/specimen_effect.hpp"
 
@@ -56,7 +58,8 @@ std::vector<LeftUnknown> screen(Trail& trail, const Active& all) {
 void search(Trail& trail, const Active& active, bool polish, Answer& answer) {
   const auto split = split_by_cost(trail.problem(), trail.batch(), trail.best().point, active);
   trail.enter("least squares");
-  answer.stages.push_back(search_ceres(trail, trail.best(), active).log);
+  if (trail.problem().study.calibrate.smooth)
+    answer.stages.push_back(search_ceres(trail, trail.best(), active).log);
   if (!polish || split.costly.empty()) return;
   trail.enter("polish");
   answer.stages.push_back(search_nlopt(trail, trail.best(), split, Stride::polish).log);
@@ -81,9 +84,17 @@ void reweigh(Trail& trail, const Landmarks& effect) {
                 trail.best());
 }
 
-// All replicates from here on, at the best point of the scouts.
-bool settle_down(const FitProblem& problem, Trail& trail) {
-  trail.set_replicates(problem.study.calibrate.replicates);
+// All replicates from here on, at the best point of the scouts; as many as asked for or needed.
+bool settle_down(const FitProblem& problem, Trail& trail, Answer& answer) {
+  if (answer.replicates == replicates_by_need) {
+    Landmarks effect = Landmarks::Zero();
+    const auto slopes = differentiate(trail, trail.best(), answer.active, slope_step);
+    if (!slopes.failed)
+      effect = specimen_effect(problem, trail.weights(), trail.best(), slopes.jacobian);
+    reweigh(trail, effect);
+    answer.replicates = replicates_needed(problem, trail.weights());
+  }
+  trail.set_replicates(answer.replicates);
   auto here = predict(problem, trail.batch(), {trail.best().point}, trail.replicates()).front();
   if (here.failed) return false;
   trail.restart(trail.weights(), std::move(here));
@@ -94,7 +105,7 @@ bool settle_down(const FitProblem& problem, Trail& trail) {
 // where the scouts ended: without them the first search would chase what is a specimen's own.
 void refine(Trail& trail, Answer& answer) {
   Landmarks effect = Landmarks::Zero();
-  bool rough = false, polished = false;
+  bool rough = !trail.problem().study.calibrate.smooth, polished = false;
   const auto first = differentiate(trail, trail.best(), answer.active, slope_step);
   if (!first.failed)
     effect = specimen_effect(trail.problem(), trail.weights(), trail.best(), first.jacobian);
@@ -127,9 +138,11 @@ void look_back(Trail& trail, Answer& answer) {
   trail.enter("uncertainty");
   answer.slopes = differentiate(trail, answer.best, answer.active, slope_step);
   answer.best = trail.best();
-  if (!answer.slopes.failed)
-    answer.uncertainty = uncertainty_of(trail.problem(), answer.weights, answer.best, answer.active,
-                                        answer.slopes.jacobian);
+  if (answer.slopes.failed) return;
+  answer.uncertainty = uncertainty_of(trail.problem(), answer.weights, answer.best, answer.active,
+                                      answer.slopes.jacobian);
+  trail.enter("profiles");
+  if (trail.problem().study.calibrate.profiles) answer.profiles = profiles_of(trail, answer);
 }
 
 CalibrationStatus status_of(const Trail& trail, const Answer& answer) {
@@ -141,13 +154,13 @@ CalibrationStatus status_of(const Trail& trail, const Answer& answer) {
 }
 
 Answer solve(const FitProblem& problem, Trail& trail) {
-  Answer answer;
+  Answer answer{.replicates = problem.study.calibrate.replicates};
   answer.best.point = start_point(problem.unknowns);
   if (problem.fitted.empty() || problem.unknowns.empty()) {
     answer.status = CalibrationStatus::nothing_to_fit;
     return answer;
   }
-  const int all = problem.study.calibrate.replicates;
+  const int all = answer.replicates > 0 ? answer.replicates : std::max(scouting_replicates, 8);
   if (!begin(problem, trail, std::min(scouting_replicates, all)) && !begin(problem, trail, all))
     return answer;
 
@@ -156,10 +169,11 @@ Answer solve(const FitProblem& problem, Trail& trail) {
   answer.left = screen(trail, answer.active);
   answer.active = without(answer.active, answer.left);
   if (!answer.active.empty()) {
-    auto [ends, logs] = search_globally(trail, answer.active);
+    auto [starts, ends, logs] = search_globally(trail, answer.active);
+    answer.starts = std::move(starts);
     answer.ends = std::move(ends);
     answer.stages = std::move(logs);
-    if (settle_down(problem, trail)) refine(trail, answer);
+    if (settle_down(problem, trail, answer)) refine(trail, answer);
   }
   look_back(trail, answer);
   answer.status = status_of(trail, answer);
@@ -181,9 +195,9 @@ CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
   result.left_out = left_out_of(problem, batch, answer);
   if (!problem.fitted.empty())
     result.scene = replicate_scenes(problem, answer.best.point, problem.fitted.front(), 1).front();
-  result.cost = answer.best.cost;
-  result.specimen_effect = {answer.weights.specimen[0], answer.weights.specimen[1],
-                            answer.weights.specimen[2]};
+  result.cost = cost_of(result.specimens, answer.best.cost);
+  std::ranges::copy(answer.weights.specimen, result.specimen_effect.begin());
+  add_hindsight(problem, batch, answer, result);
   result.evaluations = batch.asked();
   result.simulated = batch.simulated();
   result.failed_simulations = batch.failed();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "calib/fit/evaluation_store.hpp"
+#include "calib/fit/landmarks.hpp"
 #include "calib/study/study.hpp"
 #include "sim/simulation.hpp"
 
@@ -33,6 +35,12 @@ struct CalibratedParameter {
   double standard_error = 0.0;          ///< NaN where not identifiable.
   std::array<double, 2> interval_95{};  ///< NaN where not identifiable.
   std::array<double, 2> bounds{};
+  /// 95 % intervals by profile likelihood (F15) and by bootstrap over specimens (F16); NaN, with
+  /// the reason, where there is none.
+  std::array<double, 2> profile_95{std::numeric_limits<double>::quiet_NaN(),
+                                   std::numeric_limits<double>::quiet_NaN()};
+  std::array<double, 2> bootstrap_95 = profile_95;
+  std::string profile_missing{}, bootstrap_missing{};
   bool at_bound = false;
   bool identifiable = false;
   std::string left_out_because{};  ///< Empty when fitted.
@@ -51,6 +59,37 @@ struct CurveBand {
   std::vector<double> residual;  ///< Simulated − measured; NaN beyond either end. [Pa]
 };
 
+/// One term of the objective for one specimen: a landmark (F4), its weight and what it costs.
+struct TermResult {
+  std::string term;         ///< name_of(Landmark).
+  double measured = 0.0;    ///< Landmark of the test.
+  double simulated = 0.0;   ///< Mean over the replicates.
+  double machine = 0.0;     ///< Standard deviations by source (F6): of the measurement,
+  double replicates = 0.0;  ///< of one draw of the model against a mean of n,
+  double scatter = 0.0;     ///< by the error of the specimen's scatter,
+  double specimens = 0.0;   ///< between specimens beyond all that.
+  double sd = 0.0;          ///< All together.
+  double residual = 0.0;    ///< (simulated − measured)/sd; 0 where a bound is not contradicted.
+  double share = 0.0;       ///< Of the cost ½ Σ residual² of all fitted specimens. [-]
+};
+
+/// One simulation at the answer.
+struct ReplicateResult {
+  std::uint64_t seed = 0;
+  bool failed = true;
+  bool broke = false;
+  double modulus = 0.0;                                  ///< [Pa]
+  double strength = 0.0;                                 ///< [Pa]
+  double failure_strain = 0.0;                           ///< [-]
+  double pre_peak = 0.0, energy = 0.0, post_peak = 0.0;  ///< Landmarks of the curve (F4).
+};
+
+/// How a parameter would move without a specimen.
+struct Influence {
+  std::string parameter;
+  double shift = 0.0;  ///< In standard errors; NaN where the others do not determine it. [-]
+};
+
 struct SpecimenResult {
   std::string id;
   Use use = Use::fit;
@@ -62,6 +101,9 @@ struct SpecimenResult {
   Spread strength;                   ///< Simulated. [Pa]
   Spread failure_strain;             ///< Simulated. [-]
   std::array<double, 3> residual{};  ///< Standardised, of modulus, strength, failure strain. [-]
+  std::vector<TermResult> terms{};   ///< Those that count for this specimen.
+  std::vector<ReplicateResult> replicates{};
+  std::vector<Influence> influence{};  ///< Of this specimen on each fitted parameter.
   CurveBand band{};
   int failed_simulations = 0;
 };
@@ -85,6 +127,42 @@ struct StageLog {
   double wall_seconds = std::numeric_limits<double>::quiet_NaN();  ///< NaN where not recorded. [s]
 };
 
+/// Rise of the cost along one parameter, the others refitted.
+struct Profile {
+  std::string parameter;
+  std::vector<double> value, rise;      ///< In order of the value; in its unit, and [-].
+  double level = 0.0;                   ///< Rise at the ends of the 95 % interval. [-]
+  std::array<double, 2> interval_95{};  ///< NaN where the rise does not reach the level.
+};
+
+/// What of the answer is the simulations' own chance (F17).
+struct Randomness {
+  int replicates = 0, replicates_needed = 0;
+  /// Variance of differences between points with independent seeds over that with common ones. [-]
+  double common_gain = std::numeric_limits<double>::quiet_NaN();
+  /// Largest part of a parameter's variance that the replicates' chance makes. [-]
+  double simulator_share = std::numeric_limits<double>::quiet_NaN();
+  /// With fresh seeds: the cost, and the largest shift of a parameter in standard errors. [-]
+  double fresh_cost = std::numeric_limits<double>::quiet_NaN();
+  double fresh_shift = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// One replicate in the quasi-static limit and step by step in time.
+struct Confirmation {
+  std::string specimen;
+  std::uint64_t seed = 0;
+  double strain_rate = 0.0;  ///< Of the simulation in time. [1/s]
+  bool failed = true;
+  double strength_limit = 0.0, strength_in_time = 0.0;              ///< [Pa]
+  double failure_strain_limit = 0.0, failure_strain_in_time = 0.0;  ///< [-]
+};
+
+/// A further test, and what it would make of the errors.
+struct NextTest {
+  std::string what;
+  std::vector<double> width{};  ///< Standard error of each fitted parameter, after over before. [-]
+};
+
 struct CalibrationResult {
   CalibrationStatus status = CalibrationStatus::all_failed;
   std::vector<Check> verdict{};
@@ -92,11 +170,19 @@ struct CalibrationResult {
   std::vector<SpecimenResult> specimens{};
   std::vector<StageLog> stages;
   std::vector<sim::LeftOut> left_out{};
+  std::vector<std::string> fitted{};               ///< Parameters with an interval, in order.
+  std::vector<std::vector<double>> correlation{};  ///< Of `fitted`. [-]
+  std::vector<std::string> directions{};  ///< What is determined, best first, a sentence each.
+  std::vector<Profile> profiles{};
+  std::vector<double> starts{}, ends{};  ///< Costs of all starts, and of those refined; best first.
+  Randomness randomness{};
+  std::vector<Confirmation> confirmations{};
+  std::vector<NextTest> next_tests{};
   sim::Scene scene;   ///< The calibrated model, ready to simulate.
   double cost = 0.0;  ///< ½ Σ residual² at the optimum. [-]
-  /// Standard deviation between specimens beyond noise and the model's own randomness, of log
-  /// modulus, log strength and log linearity (F9). [-]
-  std::array<double, 3> specimen_effect{};
+  /// Standard deviation between specimens beyond noise and the model's own randomness, of each
+  /// landmark (F9). [-]
+  std::array<double, landmark_count> specimen_effect{};
   long evaluations = 0;  ///< Simulations asked for.
   long simulated = 0;    ///< Of these, run and not found in the store.
   long failed_simulations = 0;

@@ -27,8 +27,15 @@ void set_column(const FitProblem& problem, const Weights& weights, const Evaluat
   result.jacobian.col(column) = (high.residuals - low.residuals) / span;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const Landmarks scale = span * weights.sd[problem.fitted[f]];
-    result.variance.col(column).segment<3>(landmark_count * static_cast<Eigen::Index>(f)) =
-        variance_of_difference(high.predictions[f], low.predictions[f]) / scale.square();
+    const auto &one = low.predictions[f], &other = high.predictions[f];
+    const Landmarks paired = variance_of_difference(other, one) / scale.square();
+    result.variance.col(column).segment<landmark_count>(landmark_count *
+                                                        static_cast<Eigen::Index>(f)) = paired;
+    // Moves that need no new simulation cancel altogether, and say nothing of the gain.
+    if (paired.maxCoeff() < 1e-20) continue;
+    result.paired += paired.sum();
+    result.independent +=
+        ((one.sd.square() + other.sd.square()) / one.usable / scale.square()).sum();
   }
 }
 

@@ -16,6 +16,8 @@ struct Differences {
   bool failed = true;
   Eigen::MatrixXd jacobian;
   Eigen::MatrixXd variance;  ///< Of each entry, from the spread of its replicates.
+  /// Sum of the variances, and what it would be with seeds of their own at every point.
+  double paired = 0.0, independent = 0.0;
 };
 
 /// @param step  in the scale of the search; large enough to see through the replicates' noise,

@@ -16,7 +16,15 @@ bool searched(const FitProblem& problem, std::string_view name) {
 }
 
 sim::Scene scene_at(const FitProblem& problem, const Point& point, std::size_t specimen) {
-  const auto& model = problem.models[specimen];
+  PorosityOptions laws = problem.study.porosity;
+  bool new_laws = false;
+  for (const auto& unknown : problem.unknowns) new_laws = new_laws || unknown.info->of_porosity;
+  for (const auto& unknown : problem.unknowns)
+    if (unknown.info->of_porosity)
+      apply(laws, unknown.info->name,
+            value_at(problem.unknowns, point, *unknown.info, specimen).value());
+  const SpecimenModel model =
+      new_laws ? model_of(problem.study, specimen, laws) : problem.models[specimen];
   sim::Scene scene = model.scene;
   for (const auto& info : all_parameters())
     if (const auto value = value_at(problem.unknowns, point, info, specimen))
@@ -54,11 +62,17 @@ FitProblem make_problem(const Study& study) {
   FitProblem problem{.study = study, .unknowns = unknowns_of(study)};
   for (std::size_t s = 0; s < study.specimens.size(); ++s) {
     problem.models.push_back(model_of(study, s));
-    problem.targets.push_back(target_of(study.specimens[s].test));
+    problem.targets.push_back(target_of(study.specimens[s], study.calibrate.terms));
     if (study.specimens[s].use == Use::fit && problem.targets.back().usable)
       problem.fitted.push_back(s);
   }
   return problem;
+}
+
+Landmarks landmarks_present(const FitProblem& problem) {
+  Landmarks count = Landmarks::Zero();
+  for (const std::size_t s : problem.fitted) count += problem.targets[s].present.cast<double>();
+  return count;
 }
 
 std::vector<sim::Scene> replicate_scenes(const FitProblem& problem, const Point& point,
@@ -90,11 +104,13 @@ std::vector<Evaluation> predict(const FitProblem& problem, SimulationBatch& batc
 
 Landmarks difference(const Prediction& prediction, const Target& target) {
   Landmarks result = prediction.mean - target.value;
+  // What did not break gives a bound on the strength, and no landmark of a break.
   if (prediction.censored) {
     result[strength] = std::max(result[strength], 0.0);
-    result[linearity] = 0.0;
+    result.tail<4>() = 0.0;
   }
-  return result;
+  if (target.censored) result[strength] = std::min(result[strength], 0.0);
+  return target.present.select(result, 0.0);
 }
 
 void score(const FitProblem& problem, const Weights& weights, Evaluation& evaluation) {
@@ -103,7 +119,7 @@ void score(const FitProblem& problem, const Weights& weights, Evaluation& evalua
   evaluation.residuals.resize(landmark_count * static_cast<Eigen::Index>(problem.fitted.size()));
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
-    evaluation.residuals.segment<3>(landmark_count * static_cast<Eigen::Index>(f)) =
+    evaluation.residuals.segment<landmark_count>(landmark_count * static_cast<Eigen::Index>(f)) =
         difference(evaluation.predictions[f], problem.targets[s]) / weights.sd[s];
   }
   const double cost = 0.5 * evaluation.residuals.squaredNorm();

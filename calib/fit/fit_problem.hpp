@@ -23,6 +23,9 @@ struct FitProblem {
 };
 FitProblem make_problem(const Study& study);
 
+/// How many fitted specimens have each landmark.
+Landmarks landmarks_present(const FitProblem& problem);
+
 /// The scenes of a specimen at a point, one per replicate.
 std::vector<sim::Scene> replicate_scenes(const FitProblem& problem, const Point& point,
                                          std::size_t specimen, int replicates);
@@ -41,7 +44,7 @@ struct Evaluation {
   Point point;
   bool failed = true;                   ///< Too many simulations of a specimen failed.
   std::vector<Prediction> predictions;  ///< One per fitted specimen.
-  Eigen::VectorXd residuals;            ///< Standardised, three per fitted specimen (F7). [-]
+  Eigen::VectorXd residuals;  ///< Standardised, landmark_count per fitted specimen (F7). [-]
   double cost = std::numeric_limits<double>::infinity();  ///< ½ Σ residual². [-]
 };
 
@@ -52,8 +55,8 @@ std::vector<Evaluation> predict(const FitProblem& problem, SimulationBatch& batc
 /// Residuals and cost of an evaluation (F7).
 void score(const FitProblem& problem, const Weights& weights, Evaluation& evaluation);
 
-/// simulated − measured, as differences of logarithms; 0 where a censored strength contradicts
-/// nothing.
+/// simulated − measured; 0 where the test does not have the landmark, and where a censored strength
+/// contradicts nothing.
 Landmarks difference(const Prediction& prediction, const Target& target);
 
 /// How much the standard error of its scatter moves each specimen (F6), by simulation at another

@@ -33,6 +33,7 @@ Grouped group(const FitProblem& problem, const Answer& answer, Eigen::Index q) {
       members;  // orientation, residual without the specimen effect
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
+    if (!problem.targets[s].present[q]) continue;
     const double variance =
         std::pow(answer.weights.sd[s][q], 2) - std::pow(answer.weights.specimen[q], 2);
     const double residual =
@@ -67,13 +68,16 @@ double chance(const Grouped& grouped, double parameters) {
 Check check_brittle(const FitProblem& problem, const Answer& answer) {
   if (answer.best.predictions.empty()) return nothing_compared("brittle");
   double measured = 0.0, simulated = 0.0, variance = 0.0;
+  double n = 0.0;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const auto& target = problem.targets[problem.fitted[f]];
+    if (target.censored) continue;
+    ++n;
     measured += target.value[linearity];
     simulated += answer.best.predictions[f].mean[linearity];
     variance += std::pow(target.noise[linearity], 2);
   }
-  const auto n = static_cast<double>(problem.fitted.size());
+  if (n == 0.0) return nothing_compared("brittle");
   const double gap = (measured - simulated) / n, error = std::sqrt(variance) / n;
   const double part = std::exp(gap);
   const std::string numbers = fmt::format(

@@ -10,8 +10,11 @@ Landmarks landmarks_of(const Response& response) {
   assert(!response.failed);
   const double log_modulus = std::log(response.modulus);
   const double log_strength = std::log(response.strength);
-  return {log_modulus, log_strength,
-          log_strength - log_modulus - std::log(response.failure_strain)};
+  Landmarks landmarks = shape_of(response.strain, response.stress);
+  landmarks[modulus] = log_modulus;
+  landmarks[strength] = log_strength;
+  landmarks[linearity] = log_strength - log_modulus - std::log(response.failure_strain);
+  return landmarks;
 }
 
 Prediction summarise(std::span<const Response> responses) {

@@ -1,19 +1,13 @@
 // What the replicates of one specimen say together.
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
 #include <vector>
 
 #include "calib/fit/evaluation_store.hpp"
+#include "calib/fit/landmarks.hpp"
 
 namespace havers::calib {
-
-/// The three numbers by which a simulated and a measured curve are compared, as logarithms (F4):
-/// modulus, strength, and linearity = strength / (modulus · failure strain).
-using Landmarks = Eigen::Array3d;
-enum Landmark : Eigen::Index { modulus, strength, linearity };
-inline constexpr Eigen::Index landmark_count = 3;
 
 /// Landmarks of a response. Precondition: it has not failed.
 Landmarks landmarks_of(const Response& response);

@@ -5,18 +5,17 @@
 #include <limits>
 
 #include "calib/fit/answer.hpp"
-#include "calib/fit/curve_band.hpp"
 
 namespace havers::calib {
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 CalibratedParameter unfitted(const Unknown& unknown, double position) {
   CalibratedParameter parameter{.name = unknown.label, .unit = std::string(unknown.info->unit)};
   parameter.value = from_search(*unknown.info, position);
-  parameter.standard_error = nothing;
-  parameter.interval_95 = {nothing, nothing};
+  parameter.standard_error = not_given;
+  parameter.interval_95 = {not_given, not_given};
   parameter.bounds = {from_search(*unknown.info, unknown.lower),
                       from_search(*unknown.info, unknown.upper)};
   return parameter;
@@ -30,60 +29,6 @@ void set_error(const Unknown& unknown, const Uncertainty& uncertainty, Eigen::In
   parameter.standard_error = uncertainty.standard_error[i] * (logarithmic ? parameter.value : 1.0);
   parameter.interval_95 = {from_search(*unknown.info, position - half),
                            from_search(*unknown.info, position + half)};
-}
-
-/// Responses that answered, and one of their numbers over them.
-Spread spread_of(const std::vector<Response>& responses, double Response::*number) {
-  Spread spread;
-  double n = 0.0;
-  for (const auto& response : responses) {
-    if (response.failed) continue;
-    spread.mean += response.*number;
-    ++n;
-  }
-  if (n == 0.0) return {nothing, nothing};
-  spread.mean /= n;
-  for (const auto& response : responses)
-    if (!response.failed) spread.sd += std::pow(response.*number - spread.mean, 2);
-  spread.sd = std::sqrt(spread.sd / std::max(n - 1.0, 1.0));
-  return spread;
-}
-
-// Modulus, strength, failure strain; the last follows from the landmarks, ε = σ / (E · linearity).
-std::array<double, 3> standardised(const Prediction& prediction, const Target& target,
-                                   const Landmarks& extra_variance) {
-  if (!target.usable || prediction.usable == 0) return {nothing, nothing, nothing};
-  const Landmarks distance = difference(prediction, target);
-  const Landmarks own = prediction.sd.square() * (1.0 + 1.0 / prediction.usable);
-  const Landmarks variance = target.noise.square() + own + extra_variance;
-  const double strain = distance[strength] - distance[modulus] - distance[linearity];
-  return {distance[modulus] / std::sqrt(variance[modulus]),
-          distance[strength] / std::sqrt(variance[strength]), strain / std::sqrt(variance.sum())};
-}
-
-SpecimenResult result_of(const FitProblem& problem, const Answer& answer, std::size_t s,
-                         const std::vector<Response>& responses) {
-  const auto& specimen = problem.study.specimens[s];
-  const auto& model = problem.models[s];
-  SpecimenResult result{.id = specimen.id,
-                        .use = specimen.use,
-                        .orientation = specimen.orientation,
-                        .porosity = model.porosity,
-                        .scatter = model.scene.joints.scatter,
-                        .measured = specimen.test,
-                        .modulus = spread_of(responses, &Response::modulus),
-                        .strength = spread_of(responses, &Response::strength),
-                        .failure_strain = spread_of(responses, &Response::failure_strain)};
-  if (const auto scatter =
-          value_at(problem.unknowns, answer.best.point, *find_parameter("scatter"), s))
-    result.scatter = *scatter;
-  const auto prediction = summarise(responses);
-  Landmarks extra = answer.weights.specimen.square();
-  if (!answer.weights.scatter.empty()) extra += answer.weights.scatter[s].square();
-  result.residual = standardised(prediction, problem.targets[s], extra);
-  result.band = band_of(responses, specimen.test);
-  result.failed_simulations = prediction.failed();
-  return result;
 }
 
 }  // namespace
@@ -107,17 +52,6 @@ std::vector<CalibratedParameter> parameters_of(const FitProblem& problem, const 
     parameters.push_back(std::move(parameter));
   }
   return parameters;
-}
-
-std::vector<SpecimenResult> specimens_of(const FitProblem& problem, SimulationBatch& batch,
-                                         const Answer& answer) {
-  std::vector<SpecimenResult> results;
-  for (std::size_t s = 0; s < problem.study.specimens.size(); ++s) {
-    const auto responses = batch.run(
-        replicate_scenes(problem, answer.best.point, s, problem.study.calibrate.replicates));
-    results.push_back(result_of(problem, answer, s, responses));
-  }
-  return results;
 }
 
 std::vector<sim::LeftOut> left_out_of(const FitProblem& problem, const SimulationBatch& batch,

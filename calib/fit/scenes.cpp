@@ -32,6 +32,10 @@ void set_scatter(SpecimenModel& model, const Specimen& specimen, const PorosityO
 }  // namespace
 
 SpecimenModel model_of(const Study& study, std::size_t s) {
+  return model_of(study, s, study.porosity);
+}
+
+SpecimenModel model_of(const Study& study, std::size_t s, const PorosityOptions& laws) {
   const auto& specimen = study.specimens[s];
   SpecimenModel model{.scene = study.model};
   model.scene.assembly.orientation = specimen.orientation;
@@ -41,8 +45,8 @@ SpecimenModel model_of(const Study& study, std::size_t s) {
   if (specimen.porosity) model.porosity = *specimen.porosity;
   if (!specimen.sections.empty()) model.porosity = pool_sections(specimen.sections).porosity;
   if (std::isfinite(model.porosity))
-    model.modulus_factor = modulus_factor({.porosity = model.porosity}, study.porosity);
-  set_scatter(model, specimen, study.porosity);
+    model.modulus_factor = modulus_factor({.porosity = model.porosity}, laws);
+  set_scatter(model, specimen, laws);
   return model;
 }
 

@@ -23,6 +23,9 @@ struct SpecimenModel {
 /// Porosity, scatter, rate and orientation of specimen `s` set in the study's model.
 SpecimenModel model_of(const Study& study, std::size_t s);
 
+/// The same with other laws of porosity.
+SpecimenModel model_of(const Study& study, std::size_t s, const PorosityOptions& laws);
+
 /// Seed of a replicate: of the study's seed, the specimen's id and the replicate alone, so that a
 /// change of parameters, or one more specimen, never reshuffles the joints (common random numbers).
 std::uint64_t replicate_seed(std::uint64_t study_seed, std::string_view id, int replicate);

@@ -25,14 +25,18 @@ Split split_by_cost(const FitProblem& problem, const SimulationBatch& batch, con
                     const Active& active);
 
 /// Derivative-free minimisation by NLopt over the costly unknowns; at each point the free ones are
-/// solved for by search_ceres. BOBYQA where there are two or more, Sbplx for one and for `polish`,
-/// which begins with small steps.
+/// solved for by search_ceres. By the study's local method; Sbplx for `polish`, which begins with
+/// small steps.
 enum class Stride { wide, polish };
 SearchResult search_nlopt(Trail& trail, const Evaluation& start, const Split& split, Stride stride);
+
+/// The same over the whole bounds, by the study's global method. Precondition: it has one.
+SearchResult search_nlopt_globally(Trail& trail, const Evaluation& start, const Split& split);
 
 /// Starts spread over the bounds, the best of them refined; what each refined one came to, best
 /// first.
 struct MultiStart {
+  std::vector<double> starts;  ///< Costs of all starts, lowest first.
   std::vector<Evaluation> ends;
   std::vector<StageLog> logs;
 };

@@ -8,7 +8,7 @@ namespace havers::calib {
 namespace {
 
 // What the search may leave on the table, as a cost: less than a tenth of a standard deviation.
-constexpr double cost_tolerance = 5e-3;
+constexpr double left_on_the_table = 5e-3;
 
 }  // namespace
 
@@ -43,7 +43,7 @@ SearchResult search_ceres(Trail& trail, const Evaluation& start, const Active& a
   };
   const auto end = least_squares(
       problem, from,
-      {.step = slope_step, .cost_tolerance = std::min(cost_tolerance / start.cost, 0.1)});
+      {.step = slope_step, .cost_tolerance = std::min(left_on_the_table / start.cost, 0.1)});
   result.log.cost_after = result.best.cost;
   result.log.evaluations = trail.points() - points_before;
   result.log.wall_seconds = trail.wall_seconds() - seconds_before;

@@ -46,16 +46,24 @@ MultiStart search_globally(Trail& trail, const Active& active) {
     if (!all_free) start = search_ceres(trail, start, split.free).best;
   std::ranges::stable_sort(starts, cheaper);
   std::erase_if(starts, [](const Evaluation& e) { return e.failed; });
+  MultiStart result;
+  if (trail.problem().study.calibrate.global != GlobalSearch::starts && !starts.empty()) {
+    trail.enter("global search");
+    auto found = search_nlopt_globally(trail, starts.front(),
+                                       all_free ? Split{.costly = split.free, .free = {}} : split);
+    result.logs.push_back(found.log);
+    starts.insert(starts.begin(), std::move(found.best));
+  }
+  for (const auto& start : starts) result.starts.push_back(start.cost);
   starts.resize(std::min(starts.size(), refined_starts));
 
-  MultiStart result;
   for (const auto& start : starts) {
     trail.enter("search");
     auto end = all_free ? search_ceres(trail, start, split.free)
                         : search_nlopt(trail, start, split, Stride::wide);
     result.logs.push_back(end.log);
     // Several costly unknowns: the derivative-free search stops in the valley, not at its bottom.
-    if (split.costly.size() > 1) {
+    if (split.costly.size() > 1 && trail.problem().study.calibrate.smooth) {
       end = search_ceres(trail, end.best, active);
       result.logs.push_back(end.log);
     }

@@ -10,7 +10,8 @@ namespace {
 constexpr double cost_of_failure = 1e30;
 // A change of ½χ² that no test could tell; of a wide search's coarser one even less.
 constexpr double polish_cost_tolerance = 1e-3, wide_cost_tolerance = 2e-2;
-constexpr int max_points = 200, max_polish_points = 12;  // the latter for each unknown
+constexpr int max_points = 200, max_polish_points = 12, max_global_points = 40;  // the last two
+                                                                                 // for each unknown
 
 struct Objective {
   Trail& trail;
@@ -64,6 +65,72 @@ void set_box(nlopt::opt& optimiser, const std::vector<Unknown>& unknowns, const 
   optimiser.set_initial_step(step);
 }
 
+/// One use of NLopt.
+struct Plan {
+  nlopt::algorithm algorithm;
+  const char* name;
+  Stride stride = Stride::wide;
+  int max_points = 0;
+};
+
+Plan local_plan(LocalSearch local, std::size_t unknowns) {
+  if (local == LocalSearch::automatic)
+    local = unknowns > 1 ? LocalSearch::bobyqa : LocalSearch::sbplx;
+  // BOBYQA cannot do with one unknown.
+  if (local == LocalSearch::bobyqa && unknowns > 1) return {nlopt::LN_BOBYQA, "NLopt BOBYQA"};
+  if (local == LocalSearch::cobyla) return {nlopt::LN_COBYLA, "NLopt COBYLA"};
+  return {nlopt::LN_SBPLX, "NLopt Sbplx"};
+}
+
+Plan global_plan(GlobalSearch global) {
+  switch (global) {
+    case GlobalSearch::crs2:
+      return {nlopt::GN_CRS2_LM, "NLopt CRS2"};
+    case GlobalSearch::mlsl:
+      return {nlopt::GN_MLSL_LDS, "NLopt MLSL"};
+    case GlobalSearch::esch:
+      return {nlopt::GN_ESCH, "NLopt ESCH"};
+    case GlobalSearch::direct:
+    case GlobalSearch::starts:
+      break;
+  }
+  return {nlopt::GN_DIRECT_L, "NLopt DIRECT-L"};
+}
+
+SearchResult follow(const Plan& plan, Trail& trail, const Evaluation& start, const Split& split) {
+  SearchResult result{.best = start};
+  result.log = {.optimiser = plan.name, .cost_before = start.cost, .cost_after = start.cost};
+  if (split.costly.empty()) return result;
+  const int points_before = trail.points();
+  const double seconds_before = trail.wall_seconds();
+
+  const auto count = static_cast<unsigned>(split.costly.size());
+  nlopt::opt optimiser(plan.algorithm, count);
+  if (plan.algorithm == nlopt::GN_MLSL_LDS) {
+    nlopt::opt local(nlopt::LN_SBPLX, count);
+    local.set_ftol_abs(wide_cost_tolerance);
+    local.set_xtol_abs(2e-2);
+    optimiser.set_local_optimizer(local);
+  }
+  Objective objective{.trail = trail, .split = split, .optimiser = optimiser, .best = start};
+  optimiser.set_min_objective(Objective::call, &objective);
+  set_box(optimiser, trail.problem().unknowns, split.costly, plan.stride);
+  // Of the logarithm of a parameter; what a wide search leaves, least squares and polish find.
+  const bool wide = plan.stride == Stride::wide;
+  optimiser.set_xtol_abs(wide ? 2e-2 : 2e-3);
+  optimiser.set_ftol_abs(wide ? wide_cost_tolerance : polish_cost_tolerance);
+  optimiser.set_maxeval(plan.max_points);
+  std::vector<double> values;
+  for (const Eigen::Index k : split.costly) values.push_back(start.point[k]);
+
+  result.log.message = run(optimiser, values);
+  result.best = objective.best;
+  result.log.cost_after = result.best.cost;
+  result.log.evaluations = trail.points() - points_before;
+  result.log.wall_seconds = trail.wall_seconds() - seconds_before;
+  return result;
+}
+
 }  // namespace
 
 Split split_by_cost(const FitProblem& problem, const SimulationBatch& batch, const Point& at,
@@ -88,33 +155,21 @@ Split split_by_cost(const FitProblem& problem, const SimulationBatch& batch, con
 
 SearchResult search_nlopt(Trail& trail, const Evaluation& start, const Split& split,
                           Stride stride) {
-  const bool quadratic = split.costly.size() > 1 && stride == Stride::wide;
-  SearchResult result{.best = start};
-  result.log = {.optimiser = quadratic ? "NLopt BOBYQA" : "NLopt Sbplx", .cost_before = start.cost};
-  const int points_before = trail.points();
-  const double seconds_before = trail.wall_seconds();
-  if (split.costly.empty()) return result;
+  const auto count = split.costly.size();
+  Plan plan = stride == Stride::polish ? Plan{nlopt::LN_SBPLX, "NLopt Sbplx"}
+                                       : local_plan(trail.problem().study.calibrate.local, count);
+  plan.stride = stride;
+  plan.max_points =
+      stride == Stride::wide ? max_points : max_polish_points * static_cast<int>(count);
+  return follow(plan, trail, start, split);
+}
 
-  nlopt::opt optimiser(quadratic ? nlopt::LN_BOBYQA : nlopt::LN_SBPLX,
-                       static_cast<unsigned>(split.costly.size()));
-  Objective objective{.trail = trail, .split = split, .optimiser = optimiser, .best = start};
-  optimiser.set_min_objective(Objective::call, &objective);
-  set_box(optimiser, trail.problem().unknowns, split.costly, stride);
-  // Of the logarithm of a parameter; what a wide search leaves, least squares and polish find.
-  optimiser.set_xtol_abs(stride == Stride::wide ? 2e-2 : 2e-3);
-  optimiser.set_ftol_abs(stride == Stride::wide ? wide_cost_tolerance : polish_cost_tolerance);
-  optimiser.set_maxeval(stride == Stride::wide
-                            ? max_points
-                            : max_polish_points * static_cast<int>(split.costly.size()));
-  std::vector<double> values;
-  for (const Eigen::Index k : split.costly) values.push_back(start.point[k]);
-
-  result.log.message = run(optimiser, values);
-  result.best = objective.best;
-  result.log.cost_after = result.best.cost;
-  result.log.evaluations = trail.points() - points_before;
-  result.log.wall_seconds = trail.wall_seconds() - seconds_before;
-  return result;
+SearchResult search_nlopt_globally(Trail& trail, const Evaluation& start, const Split& split) {
+  const auto& options = trail.problem().study.calibrate;
+  Plan plan = global_plan(options.global);
+  plan.max_points = max_global_points * static_cast<int>(split.costly.size());
+  nlopt::srand(static_cast<unsigned long>(options.seed));
+  return follow(plan, trail, start, split);
 }
 
 }  // namespace havers::calib

@@ -36,23 +36,33 @@ double squared(double x) {
 
 }  // namespace
 
-Target target_of(const MeasuredTest& test) {
+Target target_of(const Specimen& specimen, const std::vector<std::string>& terms) {
+  const MeasuredTest& test = specimen.test;
   Target target;
+  target.present.setConstant(false);
   target.usable = test.modulus > 0.0 && test.strength > 0.0 && test.failure_strain > 0.0;
   if (!target.usable) return target;
 
-  const Row row = row_at_break(test);
+  const Row row = specimen.broke ? row_at_break(test) : Row{};
   const double peak_stress = test.strength + 0.5 * row.stress;
   const double strain = test.failure_strain + 0.5 * row.strain;
-  target.value = {std::log(test.modulus), std::log(peak_stress),
-                  std::log(peak_stress / (test.modulus * strain))};
+  target.value = shape_of(test.strain, test.stress);
+  target.value[modulus] = std::log(test.modulus);
+  target.value[strength] = std::log(peak_stress);
+  target.value[linearity] = std::log(peak_stress / (test.modulus * strain));
 
   const double by_modulus = squared(test.modulus_standard_error / test.modulus);
   const double by_strength =
       (squared(test.strength_standard_error) + squared(row.stress) / 12.0) / squared(peak_stress);
   const double by_strain = squared(row.strain / strain) / 12.0;
-  const Landmarks variance{by_modulus, by_strength, by_modulus + by_strength + by_strain};
+  const double by_end = by_strength + by_strain;
+  Landmarks variance;
+  variance << by_modulus, by_strength, by_modulus + by_end, 0.25 * by_end, by_end, by_strain;
   target.noise = (variance + squared(machine_class)).sqrt();
+  target.censored = !specimen.broke;
+  for (Eigen::Index q = 0; q < landmark_count; ++q)
+    target.present[q] = std::ranges::find(terms, name_of(static_cast<Landmark>(q))) != terms.end();
+  if (target.censored) target.present.tail<4>() = false;
   return target;
 }
 

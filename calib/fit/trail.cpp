@@ -1,12 +1,14 @@
 #include "calib/fit/trail.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace havers::calib {
 
 std::vector<Evaluation> Trail::evaluate(const std::vector<Point>& points) {
   const auto& options = problem_.study.calibrate;
-  const auto sets = static_cast<long>(problem_.fitted.size()) * options.replicates;
+  const auto sets =
+      static_cast<long>(problem_.fitted.size()) * std::max(options.replicates, replicates_);
   budget_spent_ = budget_spent_ || batch_.distinct() >= options.budget * sets;
   if (stopped()) return std::vector<Evaluation>(points.size());
 

@@ -50,7 +50,7 @@ Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, co
   // Row k of the pseudo-inverse says how unknown k follows each residual, which has unit variance.
   const Eigen::MatrixXd follow =
       svd.solve(Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.rows()));
-  const Landmarks freedom = static_cast<double>(problem.fitted.size()) - parameters_spent(jacobian);
+  const Landmarks freedom = landmarks_present(problem) - parameters_spent(jacobian);
 
   Uncertainty result;
   result.standard_error = follow.rowwise().norm();

@@ -10,7 +10,7 @@ namespace havers::calib {
 namespace {
 
 bool searched(const CalibrateOptions& options, const ParameterInfo& info) {
-  return options.automatic ||
+  return (options.automatic && info.automatic) ||
          std::ranges::find(options.parameters, info.name) != options.parameters.end();
 }
 
@@ -32,8 +32,9 @@ Unknown bounded(const Study& study, const ParameterInfo& info) {
   Unknown unknown{.info = &info, .label = std::string(info.name)};
   unknown.lower = to_search(info, bounds.first);
   unknown.upper = to_search(info, bounds.second);
-  unknown.start =
-      std::clamp(to_search(info, value_of(study.model, info.name)), unknown.lower, unknown.upper);
+  const double value =
+      info.of_porosity ? value_of(study.porosity, info.name) : value_of(study.model, info.name);
+  unknown.start = std::clamp(to_search(info, value), unknown.lower, unknown.upper);
   return unknown;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calib/fit/answer.hpp"
+#include "calib/fit/answer_checks.hpp"
 #include "calib/fit/model_checks.hpp"
 
 namespace havers::calib {
@@ -121,6 +122,13 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_identifiable(problem, answer));
   checks.push_back(check_orientations(problem, answer));
   checks.push_back(check_specimen_spread(problem, answer));
+  checks.back().text += weibull_sentence(result);
+  checks.push_back(check_plain_law(problem, answer));
+  checks.push_back(check_correlation(result));
+  checks.push_back(check_intervals(result));
+  checks.push_back(check_influence(result));
+  checks.push_back(check_randomness(result));
+  checks.push_back(check_confirmation(result));
   checks.push_back(check_validation(result));
   checks.push_back(check_censored(problem, answer));
   checks.push_back(check_failures(result, result.distinct_simulations));

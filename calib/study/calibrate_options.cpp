@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "calib/study/parameter.hpp"
@@ -34,6 +35,18 @@ void check_parameters(const CalibrateOptions& options, Complaints& found) {
   }
 }
 
+// Two names for one quantity: the later would undo the earlier.
+void check_rivals(const CalibrateOptions& options, Complaints& found) {
+  const auto asked = [&](std::string_view name) {
+    return std::ranges::find(options.parameters, name) != options.parameters.end();
+  };
+  for (const auto& [one, other] :
+       {std::pair("ratio", "flank_MPa"), std::pair("head_tail_MPa", "resultant_MPa")})
+    if (asked(one) && asked(other))
+      found.push_back(fmt::format("parameters names {} and {}, which set the same stress; keep one",
+                                  one, other));
+}
+
 void check_bounds(const CalibrateOptions& options, Complaints& found) {
   for (const auto& [name, bounds] : options.bounds) {
     const auto [lower, upper] = bounds;
@@ -49,16 +62,28 @@ void check_bounds(const CalibrateOptions& options, Complaints& found) {
   }
 }
 
+void check_terms(const CalibrateOptions& options, Complaints& found) {
+  const auto known = CalibrateOptions{}.terms;
+  if (options.terms.empty()) found.emplace_back("terms is empty, must name at least one");
+  for (const auto& term : options.terms)
+    if (std::ranges::find(known, term) == known.end())
+      found.push_back(
+          fmt::format("terms names \"{}\", must be one of {}", term, fmt::join(known, ", ")));
+}
+
 }  // namespace
 
 Complaints CalibrateOptions::problems() const {
   Complaints found;
   check_parameters(*this, found);
+  check_rivals(*this, found);
   check_bounds(*this, found);
+  check_terms(*this, found);
   for (const auto& [name, value] : level) check_name(name, "level", found);
-  if (replicates < 2)
+  if (replicates < 2 && replicates != replicates_by_need)
     found.push_back(
         fmt::format("replicates = {}, must be ≥ 2: their spread weighs the residuals", replicates));
+  if (confirm < 0) found.push_back(fmt::format("confirm = {}, must be ≥ 0", confirm));
   if (budget < 1) found.push_back(fmt::format("budget = {}, must be ≥ 1", budget));
   if (threads < 0) found.push_back(fmt::format("threads = {}, must be ≥ 0", threads));
   return found;

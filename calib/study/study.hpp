@@ -20,6 +20,7 @@ enum class Use { fit, validate };
 struct Specimen {
   std::string id;
   Use use = Use::fit;
+  bool broke = true;         ///< false: the test was stopped; its strength is a lower bound.
   double orientation = 0.0;  ///< θ. [rad]
   MeasuredTest test;
   std::vector<SectionPorosity> sections;  ///< May be empty.
@@ -29,14 +30,33 @@ struct Specimen {
 /// Over what a calibrated value is shared.
 enum class Level { shared, orientation, specimen };
 
+/// How the neighbourhood of the answer is found: starts spread over the bounds, or one of NLopt's
+/// global methods.
+enum class GlobalSearch { starts, crs2, direct, mlsl, esch };
+
+/// How a start is refined where new simulations are needed. `automatic`: Sbplx for one unknown,
+/// BOBYQA for more.
+enum class LocalSearch { automatic, bobyqa, sbplx, cobyla };
+
+/// As many replicates as it takes for their chance not to matter.
+inline constexpr int replicates_by_need = 0;
+
 /// What to calibrate, and how. Values in the parameters' own units.
 struct CalibrateOptions {
   std::vector<std::string> parameters{"young_GPa", "head_tail_MPa", "ratio"};
   bool automatic = false;  ///< parameters = "auto": try all, keep what the specimens inform.
   std::map<std::string, std::pair<double, double>> bounds;  ///< Overrides of the defaults.
   std::map<std::string, Level> level;                       ///< Default: shared.
-  int replicates = 8;                                       ///< Seeds per specimen.
-  int budget = 400;                                         ///< Simulations of one specimen's set.
+  /// Terms of the objective (F4) that count.
+  std::vector<std::string> terms{"modulus",        "strength", "failure strain",
+                                 "pre-peak curve", "energy",   "post-peak drop"};
+  int replicates = 8;  ///< Seeds per specimen, or replicates_by_need.
+  GlobalSearch global = GlobalSearch::starts;
+  LocalSearch local = LocalSearch::automatic;
+  bool smooth = true;      ///< Least squares by Ceres after the derivative-free search.
+  bool profiles = true;    ///< Profile likelihood of every parameter.
+  int confirm = 0;         ///< Simulations step by step in time that check the quasi-static answer.
+  int budget = 400;        ///< Simulations of one specimen's set.
   std::uint64_t seed = 1;  ///< Of the replicates' seeds and of the optimisers' random starts.
   int threads = 0;         ///< 0: as many as the machine has. Never changes a number.
 

@@ -178,6 +178,7 @@ calib::Specimen without_tests(const SpecimenFiles& files) {
   calib::Specimen specimen;
   specimen.id = files.id;
   specimen.use = files.use;
+  specimen.broke = files.broke;
   specimen.orientation = files.orientation;
   specimen.porosity = files.porosity;
   return specimen;

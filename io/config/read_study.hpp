@@ -26,6 +26,7 @@ struct SpecimenFiles {
   std::optional<double> pixel_size;  ///< [m]
   std::optional<double> porosity;  ///< For specimens without sections; what `synthesize` draws. [-]
   calib::Use use = calib::Use::fit;
+  bool broke = true;  ///< false: the test was stopped; its strength is a lower bound.
 };
 
 /// [synthesize]: how `havers synthesize` dresses the model's answers as a laboratory's files. SI

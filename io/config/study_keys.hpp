@@ -21,7 +21,13 @@ void keys(Table& table, calib::PorosityOptions& porosity) {
 /// number.
 template <class Table>
 void keys(Table& table, calib::CalibrateOptions& options) {
+  table.key("terms", options.terms);
   table.key("replicates", options.replicates);
+  table.key("global", options.global);
+  table.key("local", options.local);
+  table.key("smooth", options.smooth);
+  table.key("profiles", options.profiles);
+  table.key("confirm", options.confirm);
   table.key("budget", options.budget);
   table.key("seed", options.seed);
 }
@@ -88,6 +94,7 @@ void keys(Table& table, SpecimenFiles& specimen) {
   table.key("pixel_size_um", specimen.pixel_size, micrometre);
   table.key("porosity", specimen.porosity);
   table.key("use", specimen.use);
+  table.key("broke", specimen.broke);
 }
 
 }  // namespace havers::io

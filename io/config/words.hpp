@@ -34,6 +34,10 @@ inline constexpr Words<2> words<calib::Use>{"fit", "validate"};
 template <>
 inline constexpr Words<3> words<calib::Level>{"shared", "orientation", "specimen"};
 template <>
+inline constexpr Words<5> words<calib::GlobalSearch>{"starts", "crs2", "direct", "mlsl", "esch"};
+template <>
+inline constexpr Words<4> words<calib::LocalSearch>{"auto", "bobyqa", "sbplx", "cobyla"};
+template <>
 inline constexpr Words<3> words<calib::ToScatter>{"window", "linear", "none"};
 template <>
 inline constexpr Words<2> words<calib::ToModulus>{"none", "power"};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calib/fit/calibration.hpp"
+#include "calib/synthetic/chain_benchmark.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/machine/read_test.hpp"
 #include "io/results/sha256.hpp"
@@ -36,6 +37,9 @@ nlohmann::json calibration_json(const calib::Study& study, const calib::Calibrat
                                 const Provenance& provenance);
 nlohmann::json import_json(const TestFile& file, const calib::Reduction& reduction);
 nlohmann::json porosity_json(const calib::SectionPorosity& section, double scatter);
+
+/// `porosity --json` of several sections: their mean, pooled.
+nlohmann::json mean_porosity_json(const calib::SpecimenPorosity& mean);
 /// A scene in the keys of a scene file. Thresholds given joint by joint are named as the file
 /// joints.csv.
 nlohmann::json scene_json(const sim::Scene& scene);
@@ -55,6 +59,15 @@ std::vector<sim::Threshold> read_thresholds(const std::filesystem::path& file);
 /// residual on a common grid; and the whole measured curve as it was used.
 void write_band(const std::filesystem::path& file, const calib::CurveBand& band);
 void write_measured(const std::filesystem::path& file, const calib::MeasuredTest& test);
+/// Every term of the objective of every specimen, with what its weight is made of, and every
+/// replicate at the answer: with them and the curves a fit's cost can be computed by hand.
+void write_terms(const std::filesystem::path& file,
+                 const std::vector<calib::SpecimenResult>& specimens);
+void write_replicates(const std::filesystem::path& file,
+                      const std::vector<calib::SpecimenResult>& specimens);
+/// Optimiser chains against each other: one row per fit, and a summary per chain.
+std::string chains_csv(const calib::ChainBenchmark& benchmark);
+nlohmann::json chains_json(const calib::ChainBenchmark& benchmark, const Provenance& provenance);
 std::string band_file(const std::string& id);      ///< "curves/ID.csv"
 std::string measured_file(const std::string& id);  ///< "curves/ID_measured.csv"
 

@@ -115,6 +115,10 @@ void keys(Table& table, calib::CalibratedParameter& parameter) {
   table.key("unit", parameter.unit);
   table.key("standard_error", parameter.standard_error);
   table.key("interval_95", parameter.interval_95);
+  table.key("profile_95", parameter.profile_95);
+  table.key("bootstrap_95", parameter.bootstrap_95);
+  table.key("profile_missing", parameter.profile_missing);
+  table.key("bootstrap_missing", parameter.bootstrap_missing);
   table.key("bounds", parameter.bounds);
   table.key("at_bound", parameter.at_bound);
   table.key("identifiable", parameter.identifiable);
@@ -148,7 +152,47 @@ void keys(Table& table, calib::SpecimenResult& specimen) {
     residual.key("strength", specimen.residual[1]);
     residual.key("failure_strain", specimen.residual[2]);
   });
+  table.key("terms", specimen.terms);
+  table.key("replicates", specimen.replicates);
+  table.key("influence", specimen.influence);
   table.key("failed_simulations", specimen.failed_simulations);
+}
+
+template <class Table>
+void keys(Table& table, calib::Profile& profile) {
+  table.key("parameter", profile.parameter);
+  table.key("value", profile.value);
+  table.key("rise", profile.rise);
+  table.key("level", profile.level);
+  table.key("interval_95", profile.interval_95);
+}
+
+template <class Table>
+void keys(Table& table, calib::Randomness& randomness) {
+  table.key("replicates", randomness.replicates);
+  table.key("replicates_needed", randomness.replicates_needed);
+  table.key("common_gain", randomness.common_gain);
+  table.key("simulator_share", randomness.simulator_share);
+  table.key("fresh_cost", randomness.fresh_cost);
+  table.key("fresh_shift", randomness.fresh_shift);
+}
+
+template <class Table>
+void keys(Table& table, calib::Confirmation& confirmation) {
+  table.key("specimen", confirmation.specimen);
+  table.key("seed", confirmation.seed);
+  table.key("strain_rate_per_s", confirmation.strain_rate);
+  table.key("failed", confirmation.failed);
+  table.key("strength_quasi_static_Pa", confirmation.strength_limit);
+  table.key("strength_in_time_Pa", confirmation.strength_in_time);
+  table.key("failure_strain_quasi_static", confirmation.failure_strain_limit);
+  table.key("failure_strain_in_time", confirmation.failure_strain_in_time);
+}
+
+template <class Table>
+void keys(Table& table, calib::NextTest& test) {
+  table.key("what", test.what);
+  table.key("width", test.width);
 }
 
 template <class Table>
@@ -162,6 +206,39 @@ void keys(Table& table, calib::StageLog& stage) {
 }
 
 template <class Table>
+void keys(Table& table, calib::TermResult& term) {
+  table.key("term", term.term);
+  table.key("measured", term.measured);
+  table.key("simulated", term.simulated);
+  table.key("sd_machine", term.machine);
+  table.key("sd_replicates", term.replicates);
+  table.key("sd_scatter", term.scatter);
+  table.key("sd_specimens", term.specimens);
+  table.key("sd", term.sd);
+  table.key("residual", term.residual);
+  table.key("share", term.share);
+}
+
+template <class Table>
+void keys(Table& table, calib::ReplicateResult& replicate) {
+  table.key("seed", replicate.seed);
+  table.key("failed", replicate.failed);
+  table.key("broke", replicate.broke);
+  table.key("modulus_Pa", replicate.modulus);
+  table.key("strength_Pa", replicate.strength);
+  table.key("failure_strain", replicate.failure_strain);
+  table.key("pre_peak", replicate.pre_peak);
+  table.key("energy", replicate.energy);
+  table.key("post_peak", replicate.post_peak);
+}
+
+template <class Table>
+void keys(Table& table, calib::Influence& influence) {
+  table.key("parameter", influence.parameter);
+  table.key("shift", influence.shift);
+}
+
+template <class Table>
 void keys(Table& table, calib::CalibrationResult& result) {
   table.key("status", result.status);
   table.key("verdict", result.verdict);
@@ -169,6 +246,15 @@ void keys(Table& table, calib::CalibrationResult& result) {
   table.key("specimens", result.specimens);
   table.key("stages", result.stages);
   table.key("left_out", result.left_out);
+  table.key("fitted", result.fitted);
+  table.key("correlation", result.correlation);
+  table.key("directions", result.directions);
+  table.key("profiles", result.profiles);
+  table.key("starts", result.starts);
+  table.key("ends", result.ends);
+  table.key("randomness", result.randomness);
+  table.key("confirmations", result.confirmations);
+  table.key("next_tests", result.next_tests);
   table.key("scene", result.scene);
   table.key("cost", result.cost);
   table.key("specimen_effect", result.specimen_effect);

@@ -19,6 +19,12 @@ Figure strength_figure(const std::vector<calib::SpecimenResult>& specimens, cons
 /// 95 % intervals of the parameters of several fits, one panel a parameter.
 Figure intervals_figure(const std::vector<FitReport>& fits, const std::string& id);
 
+/// Rise of the cost along each parameter, with the level of the 95 % interval.
+Figure profile_figure(const std::vector<calib::Profile>& profiles, const std::string& id);
+
+/// Costs of all starts of a search and of those refined, lowest first.
+Figure waterfall_figure(const calib::CalibrationResult& result, const std::string& id);
+
 /// Stress, broken joints and energies of a simulation against strain.
 Figure simulation_figure(const sim::Simulation& simulation, const std::string& id);
 

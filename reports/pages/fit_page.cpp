@@ -20,6 +20,10 @@ std::string symbol_of(const std::string& name) {
   return info == nullptr ? level : std::string(info->symbol) + level;
 }
 
+std::string interval_or(const std::array<double, 2>& ends, const std::string& missing) {
+  return missing.empty() ? interval(ends[0], ends[1]) : "– (" + missing + ")";
+}
+
 mstch::map parameter_row(const calib::CalibratedParameter& p) {
   const bool held = !p.left_out_because.empty();
   std::string note = p.at_bound ? "at its bound" : "";
@@ -29,6 +33,8 @@ mstch::map parameter_row(const calib::CalibratedParameter& p) {
           {"unit", text(p.unit)},
           {"estimate", text(held ? number(p.value) : plus_minus(p.value, p.standard_error))},
           {"interval", text(held ? "held" : interval(p.interval_95[0], p.interval_95[1]))},
+          {"profile", text(held ? "" : interval_or(p.profile_95, p.profile_missing))},
+          {"bootstrap", text(held ? "" : interval_or(p.bootstrap_95, p.bootstrap_missing))},
           {"bar", text(held ? "" : interval_bar(p))},
           {"bounds",
            text(held ? "" : fmt::format("{} to {}", setting(p.bounds[0]), setting(p.bounds[1])))},
@@ -96,6 +102,71 @@ mstch::array section_items(const FitReport& report, const std::string& id) {
   return items;
 }
 
+mstch::array term_rows(const calib::SpecimenResult& specimen) {
+  mstch::array rows;
+  for (const calib::TermResult& term : specimen.terms)
+    rows.emplace_back(mstch::map{{"term", text(term.term)},
+                                 {"measured", text(number(term.measured))},
+                                 {"simulated", text(number(term.simulated))},
+                                 {"sd", text(number(term.sd, 2))},
+                                 {"residual", text(number(term.residual, 2))},
+                                 {"share", text(number(term.share / in::percent, 2))}});
+  return rows;
+}
+
+// Of the fitted parameters on each other, one row each.
+mstch::array correlation_rows(const calib::CalibrationResult& result) {
+  mstch::array rows;
+  for (std::size_t i = 0; i < result.correlation.size(); ++i) {
+    mstch::array cells;
+    for (const double value : result.correlation[i]) cells.push_back(text(number(value, 2)));
+    rows.emplace_back(mstch::map{{"name", text(result.fitted[i])}, {"cells", mstch::node{cells}}});
+  }
+  return rows;
+}
+
+// What a further test would leave of each standard error.
+mstch::array next_rows(const calib::CalibrationResult& result) {
+  mstch::array rows;
+  for (const calib::NextTest& test : result.next_tests) {
+    mstch::array cells;
+    for (const double part : test.width) cells.push_back(text(number(part, 2)));
+    rows.emplace_back(mstch::map{{"what", text(test.what)}, {"cells", mstch::node{cells}}});
+  }
+  return rows;
+}
+
+mstch::array influence_rows(const calib::CalibrationResult& result) {
+  mstch::array rows;
+  for (const calib::SpecimenResult& specimen : result.specimens) {
+    if (specimen.influence.empty()) continue;
+    mstch::array cells;
+    for (const calib::Influence& one : specimen.influence)
+      cells.push_back(text(number(one.shift, 2)));
+    rows.emplace_back(mstch::map{{"id", text(specimen.id)}, {"cells", mstch::node{cells}}});
+  }
+  return rows;
+}
+
+mstch::array names(const std::vector<std::string>& sentences) {
+  mstch::array list;
+  for (const std::string& sentence : sentences) list.push_back(text(sentence));
+  return list;
+}
+
+// Everything about how well the answer is known; vanishes where nothing was fitted.
+mstch::node knowledge(const calib::CalibrationResult& result) {
+  if (result.fitted.empty()) return section({});
+  return section({mstch::map{
+      {"directions", mstch::node{names(result.directions)}},
+      {"fitted", mstch::node{names(result.fitted)}},
+      {"correlation", mstch::node{correlation_rows(result)}},
+      {"next", section(next_rows(result))},
+      {"influence", section(influence_rows(result))},
+      {"profiles",
+       text(result.profiles.empty() ? "" : draw(profile_figure(result.profiles, "profiles")))}}});
+}
+
 // The test as read and as used, then the clocks of a second logger.
 mstch::array test_items(const FitReport& report, const std::string& id) {
   mstch::array items;
@@ -104,10 +175,10 @@ mstch::array test_items(const FitReport& report, const std::string& id) {
   for (const std::string& figure : found->second)
     items.emplace_back(mstch::map{
         {"figure", text(figure)},
-        {"caption", text(items.empty()
-                             ? "The test as read, and as used after the corrections."
-                             : "The clocks of machine and logger: as recorded, aligned, and the "
-                               "difference that is left.")}});
+        {"caption",
+         text(items.empty() ? "The test as read, and as used after the corrections."
+                            : "The clocks of machine and logger: as recorded, aligned, and the "
+                              "difference that is left.")}});
   return items;
 }
 
@@ -125,6 +196,7 @@ mstch::map specimen_content(const FitReport& report, std::size_t index) {
                                        degrees(s.orientation), porosity, number(s.scatter, 3)))},
           {"figure", text(draw(specimen_figure(s, fmt::format("s{}", index))))},
           {"rows", mstch::node{comparison_rows(s)}},
+          {"terms", section(term_rows(s))},
           {"failed", text(s.failed_simulations == 0 ? ""
                                                     : count(s.failed_simulations, "simulation") +
                                                           " of this specimen failed.")},
@@ -163,6 +235,9 @@ std::string fit_page(const FitReport& report) {
        {"parameters", mstch::node{parameters}},
        {"strength_figure", text(draw(strength_figure(result.specimens, "strength")))},
        {"specimens", mstch::node{specimens}},
+       {"knowledge", knowledge(result)},
+       {"waterfall",
+        text(result.starts.empty() ? "" : draw(waterfall_figure(result, "waterfall")))},
        {"search", text(search_sentence(report))},
        {"stages", mstch::node{stage_rows(result.stages)}},
        {"left_out", left_out_section(result.left_out)}},

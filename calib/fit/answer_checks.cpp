@@ -1,0 +1,192 @@
+#include "calib/fit/answer_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/fit/plain_law.hpp"
+#include "calib/fit/specimen_effect.hpp"
+
+namespace havers::calib {
+namespace {
+
+Check not_fitted(const char* check) {
+  return {check, Outcome::warn, "No parameter was fitted with an interval: nothing to look at."};
+}
+
+double width(const CalibratedParameter& parameter, const std::array<double, 2>& interval) {
+  const bool logarithmic = parameter.interval_95[0] > 0.0 && interval[0] > 0.0;
+  return logarithmic ? std::log(interval[1] / interval[0]) : interval[1] - interval[0];
+}
+
+}  // namespace
+
+Check check_randomness(const CalibrationResult& result) {
+  constexpr const char* name = "fresh seeds";
+  const Randomness& r = result.randomness;
+  if (result.fitted.empty()) return not_fitted(name);
+  if (!std::isfinite(r.fresh_shift))
+    return {name, Outcome::warn,
+            "Simulations with fresh seeds failed: the answer rests on its own."};
+  const std::string gain =
+      std::isfinite(r.common_gain)
+          ? fmt::format(
+                " Common random numbers make differences between points {:.3g} times less "
+                "noisy.",
+                r.common_gain)
+          : "";
+  const std::string numbers = fmt::format(
+      "{} fresh seeds per specimen move no parameter by more than {:.2g} standard errors, cost "
+      "{:.3g}; "
+      "the replicates' chance makes {:.2g} % of the variance.{}",
+      r.replicates, r.fresh_shift, r.fresh_cost, 100.0 * r.simulator_share, gain);
+  if (r.fresh_shift <= 1.0 && r.simulator_share <= 0.5) return {name, Outcome::pass, numbers};
+  return {name, Outcome::warn,
+          numbers + fmt::format(" Raise calibrate.options.replicates to {}.",
+                                std::max(r.replicates_needed, 2 * r.replicates))};
+}
+
+Check check_confirmation(const CalibrationResult& result) {
+  constexpr const char* name = "confirmed in time";
+  constexpr double close = 0.02;
+  double worst = 0.0;
+  int compared = 0;
+  for (const Confirmation& one : result.confirmations) {
+    if (one.failed) continue;
+    ++compared;
+    worst = std::max(worst, std::abs(one.strength_in_time / one.strength_limit - 1.0));
+  }
+  if (result.confirmations.empty())
+    return {
+        name, Outcome::pass,
+        "Not asked for: calibrate.options.confirm = 3 simulates three replicates step by step in "
+        "time."};
+  if (compared == 0)
+    return {name, Outcome::warn, "Every simulation in time failed: the limit stands unconfirmed."};
+  const std::string text = fmt::format(
+      "{} replicates step by step in time differ from the quasi-static limit by at most {:.2g} % "
+      "in "
+      "strength",
+      compared, 100.0 * worst);
+  if (worst <= close) return {name, Outcome::pass, text + "."};
+  return {name, Outcome::warn, text + ": inertia matters; fit with solver.regime = \"dynamic\"."};
+}
+
+Check check_influence(const CalibrationResult& result) {
+  constexpr const char* name = "no specimen decides";
+  if (result.fitted.empty()) return not_fitted(name);
+  std::string alone, strong;
+  for (const auto& specimen : result.specimens)
+    for (const auto& [parameter, shift] : specimen.influence) {
+      const bool undetermined = !std::isfinite(shift);
+      if (!undetermined && std::abs(shift) <= 2.0) continue;
+      std::string& list = undetermined ? alone : strong;
+      if (list.find(specimen.id) != std::string::npos && undetermined) continue;
+      list += fmt::format("{}{}{}", list.empty() ? "" : ", ", specimen.id,
+                          undetermined ? "" : fmt::format(" ({} by {:.1f})", parameter, shift));
+    }
+  if (alone.empty() && strong.empty())
+    return {name, Outcome::pass,
+            "Without any one specimen every parameter stays within two standard errors."};
+  std::string text;
+  if (!alone.empty()) text = fmt::format("Without {} the parameters are not determined. ", alone);
+  if (!strong.empty())
+    text += fmt::format("Left out, these move a parameter by more than two standard errors: {}. ",
+                        strong);
+  return {name, Outcome::warn, text + "Look at these tests, and test more like them."};
+}
+
+Check check_correlation(const CalibrationResult& result) {
+  constexpr const char* name = "parameters told apart";
+  constexpr double high = 0.9;
+  if (result.fitted.empty()) return not_fitted(name);
+  std::string pairs;
+  for (std::size_t i = 0; i < result.correlation.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (std::abs(result.correlation[i][j]) > high)
+        pairs += fmt::format("{}{} and {} ({:.2f})", pairs.empty() ? "" : ", ", result.fitted[j],
+                             result.fitted[i], result.correlation[i][j]);
+  if (pairs.empty())
+    return {name, Outcome::pass, "No two parameters are correlated by more than 0.9."};
+  std::string text = fmt::format("Correlated by more than 0.9: {}. {}", pairs,
+                                 result.directions.size() > 1 ? result.directions[1] : "");
+  if (result.next_tests.empty()) return {name, Outcome::warn, text};
+  const auto helps = std::ranges::min_element(result.next_tests, {}, [](const NextTest& test) {
+    return *std::ranges::min_element(test.width);
+  });
+  return {name, Outcome::warn, text + fmt::format(" Most would tell {}.", helps->what)};
+}
+
+Check check_intervals(const CalibrationResult& result) {
+  constexpr const char* name = "intervals agree";
+  if (result.fitted.empty()) return not_fitted(name);
+  std::string differ;
+  int compared = 0;
+  for (const auto& parameter : result.parameters) {
+    if (!parameter.identifiable || !parameter.profile_missing.empty()) continue;
+    ++compared;
+    const double part =
+        width(parameter, parameter.profile_95) / width(parameter, parameter.interval_95);
+    if (part < 0.5 || part > 2.0)
+      differ += fmt::format("{}{} ({:.2g} times as wide)", differ.empty() ? "" : ", ",
+                            parameter.name, part);
+  }
+  if (compared == 0) return {name, Outcome::pass, "No profile was asked for or could be had."};
+  if (differ.empty())
+    return {name, Outcome::pass, "Profile likelihood gives intervals about as wide."};
+  return {
+      name, Outcome::warn,
+      fmt::format("Profile likelihood gives other intervals: {}. Believe the wider one.", differ)};
+}
+
+Check check_plain_law(const FitProblem& problem, const Answer& answer) {
+  constexpr const char* name = "better than a plain law";
+  if (answer.slopes.failed) return not_fitted(name);
+  std::vector<Broken> specimens;
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+    const std::size_t s = problem.fitted[f];
+    const Target& target = problem.targets[s];
+    if (!target.present[strength] || target.censored) continue;
+    const auto scene = replicate_scenes(problem, answer.best.point, s, 1).front();
+    specimens.push_back({problem.study.specimens[s].orientation, scene.joints.scatter,
+                         target.value[strength], answer.best.predictions[f].mean[strength]});
+  }
+  const PlainLaw law =
+      specimens.empty()
+          ? PlainLaw{.criterion = INFINITY}
+          : best_plain_law(specimens, parameters_spent(answer.slopes.jacobian)[strength]);
+  if (!std::isfinite(law.criterion) || !std::isfinite(law.model_criterion))
+    return {name, Outcome::pass,
+            fmt::format("{} strengths are too few to compare the model with a law without fibres.",
+                        specimens.size())};
+  const double better = law.criterion - law.model_criterion;
+  const std::string numbers = fmt::format(
+      "AICc of the strengths is {:.1f} for the model and {:.1f} for the best linear "
+      "elastic brittle law ({})",
+      law.model_criterion, law.criterion, law.name);
+  if (better < -6.0)
+    return {name, Outcome::fail,
+            numbers + ": the law without fibres says it better, the model is rejected."};
+  if (better < 0.0) return {name, Outcome::warn, numbers + ": these tests do not need the fibres."};
+  return {name, Outcome::pass, numbers + "."};
+}
+
+std::string weibull_sentence(const CalibrationResult& result) {
+  std::vector<double> measured, simulated;
+  for (const auto& specimen : result.specimens) {
+    if (specimen.use != Use::fit || !(specimen.strength.mean > 0.0)) continue;
+    measured.push_back(specimen.measured.strength / specimen.strength.mean);
+    for (const auto& replicate : specimen.replicates)
+      if (!replicate.failed) simulated.push_back(replicate.strength / specimen.strength.mean);
+  }
+  if (measured.size() < 5 || simulated.size() < 5) return "";
+  const Weibull tests = weibull(measured), model = weibull(simulated);
+  return fmt::format(
+      " As Weibull's modulus, the strengths over those predicted have {:.3g} (95 % interval {:.3g} "
+      "to {:.3g}), the replicates {:.3g}.",
+      tests.modulus, tests.modulus * std::exp(-1.96 * tests.error),
+      tests.modulus * std::exp(1.96 * tests.error), model.modulus);
+}
+
+}  // namespace havers::calib

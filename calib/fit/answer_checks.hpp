@@ -1,0 +1,31 @@
+// The checks of the verdict that look at the answer itself: would it be the same with other seeds,
+// other specimens, another law?
+#pragma once
+
+#include "calib/fit/answer.hpp"
+
+namespace havers::calib {
+
+/// Fresh seeds give the same answer, and the simulations' chance is a small part of the errors
+/// (F17).
+Check check_randomness(const CalibrationResult& result);
+
+/// Quasi-static answers hold in time; asked for by calibrate.options.confirm.
+Check check_confirmation(const CalibrationResult& result);
+
+/// No single specimen decides a parameter (F16).
+Check check_influence(const CalibrationResult& result);
+
+/// Parameters are told apart: no correlation above 0.9 in size.
+Check check_correlation(const CalibrationResult& result);
+
+/// Wald's, the profile's and the bootstrap's intervals are about as wide.
+Check check_intervals(const CalibrationResult& result);
+
+/// The model describes the strengths better than laws without fibres (F19).
+Check check_plain_law(const FitProblem& problem, const Answer& answer);
+
+/// What spread the strengths show, beside that of the replicates, as Weibull's moduli.
+std::string weibull_sentence(const CalibrationResult& result);
+
+}  // namespace havers::calib

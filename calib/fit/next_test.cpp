@@ -1,0 +1,119 @@
+#include "calib/fit/next_test.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace havers::calib {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+MatrixXd rows_of(const Answer& answer, std::size_t fitted) {
+  return answer.slopes.jacobian.middleRows<landmark_count>(landmark_count *
+                                                           static_cast<Index>(fitted));
+}
+
+// Slopes of a specimen that does not exist: one of the study's, turned.
+MatrixXd simulated_rows(SimulationBatch& batch, const FitProblem& problem, const Answer& answer,
+                        double orientation) {
+  const std::size_t like = problem.fitted.front();
+  Study turned = problem.study;
+  turned.specimens = {problem.study.specimens[like]};
+  turned.specimens.front().orientation = orientation;
+  turned.specimens.front().id = fmt::format("next at {:.4g}", orientation / degree);
+  const FitProblem one = make_problem(turned);
+
+  std::vector<Point> points;
+  for (const Index k : answer.active)
+    for (const double side : {-slope_step, slope_step}) {
+      Point moved = answer.best.point;
+      moved[k] += side;
+      points.push_back(inside_bounds(problem.unknowns, moved));
+    }
+  const auto found = predict(one, batch, points, answer.replicates);
+  MatrixXd rows = MatrixXd::Zero(landmark_count, static_cast<Index>(answer.active.size()));
+  for (std::size_t i = 0; i < answer.active.size(); ++i) {
+    const auto &low = found[2 * i], &high = found[2 * i + 1];
+    const double span = (high.point - low.point).norm();
+    if (low.failed || high.failed || !(span > 0.0)) return {};
+    const Landmarks change = high.predictions.front().mean - low.predictions.front().mean;
+    rows.col(static_cast<Index>(i)) = change / answer.weights.sd[like] / span;
+  }
+  return rows;
+}
+
+bool all_shared(const FitProblem& problem) {
+  return std::ranges::all_of(problem.unknowns,
+                             [](const Unknown& u) { return u.label == u.info->name; });
+}
+
+// Slopes of one more specimen at an orientation; empty where they cannot be had.
+MatrixXd further_rows(SimulationBatch& batch, const FitProblem& problem, const Answer& answer,
+                      double orientation) {
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f)
+    if (std::abs(problem.study.specimens[problem.fitted[f]].orientation - orientation) < degree)
+      return rows_of(answer, f);
+  if (!all_shared(problem)) return {};
+  return simulated_rows(batch, problem, answer, orientation);
+}
+
+std::vector<double> errors(const MatrixXd& normal) {
+  const MatrixXd inverse = normal.ldlt().solve(MatrixXd::Identity(normal.rows(), normal.cols()));
+  std::vector<double> result;
+  for (Index k = 0; k < inverse.rows(); ++k) result.push_back(std::sqrt(inverse(k, k)));
+  return result;
+}
+
+NextTest compared(std::string what, const MatrixXd& now, const MatrixXd& then) {
+  NextTest test{.what = std::move(what)};
+  const auto before = errors(now), after = errors(then);
+  for (std::size_t k = 0; k < before.size(); ++k) test.width.push_back(after[k] / before[k]);
+  return test;
+}
+
+// JᵀJ if every specimen had one more section.
+MatrixXd with_more_sections(const FitProblem& problem, const Answer& answer) {
+  const auto count = answer.slopes.jacobian.cols();
+  MatrixXd normal = MatrixXd::Zero(count, count);
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+    const std::size_t s = problem.fitted[f];
+    const auto sections = static_cast<double>(problem.study.specimens[s].sections.size());
+    const Landmarks saved =
+        answer.weights.scatter[s].square() * (sections > 0.0 ? 1.0 / (sections + 1.0) : 0.0);
+    const Landmarks variance = answer.weights.sd[s].square();
+    const MatrixXd rows =
+        (variance / (variance - saved)).sqrt().matrix().asDiagonal() * rows_of(answer, f);
+    normal += rows.transpose() * rows;
+  }
+  return normal;
+}
+
+}  // namespace
+
+std::vector<NextTest> next_tests(SimulationBatch& batch, const FitProblem& problem,
+                                 const Answer& answer) {
+  const auto& jacobian = answer.slopes.jacobian;
+  const MatrixXd now = jacobian.transpose() * jacobian;
+  std::vector<NextTest> tests;
+  for (const double degrees : {0.0, 45.0, 90.0}) {
+    const MatrixXd rows = further_rows(batch, problem, answer, degrees * degree);
+    if (rows.size() == 0) continue;
+    tests.push_back(compared(fmt::format("one more specimen at {:g} deg", degrees), now,
+                             now + rows.transpose() * rows));
+  }
+  const bool have_sections = std::ranges::any_of(
+      problem.fitted, [&](std::size_t s) { return (answer.weights.scatter[s] > 0.0).any(); });
+  if (have_sections)
+    tests.push_back(
+        compared("one more section of every specimen", now, with_more_sections(problem, answer)));
+  return tests;
+}
+
+}  // namespace havers::calib

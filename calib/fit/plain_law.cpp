@@ -1,0 +1,100 @@
+#include "calib/fit/plain_law.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace havers::calib {
+namespace {
+
+using Eigen::Index;
+
+/// A law as the columns of its design matrix.
+struct Design {
+  std::string name;
+  Eigen::MatrixXd columns;
+};
+
+// Columns: one constant per orientation; then d, shared or per orientation.
+std::vector<Design> designs_of(std::span<const Broken> specimens) {
+  std::map<double, Index> groups;
+  for (const Broken& one : specimens) groups.emplace(one.orientation, 0);
+  Index next = 0;
+  for (auto& [orientation, column] : groups) column = next++;
+
+  const auto n = static_cast<Index>(specimens.size());
+  Eigen::MatrixXd strength = Eigen::MatrixXd::Zero(n, next), slope = strength;
+  Eigen::VectorXd scatter(n);
+  for (Index i = 0; i < n; ++i) {
+    const Broken& one = specimens[static_cast<std::size_t>(i)];
+    strength(i, groups[one.orientation]) = 1.0;
+    slope(i, groups[one.orientation]) = one.scatter;
+    scatter[i] = one.scatter;
+  }
+  std::vector<Design> designs{{"one strength per orientation", strength}};
+  designs.push_back({"one strength per orientation, falling with the scatter", {}});
+  designs.back().columns.resize(n, next + 1);
+  designs.back().columns << strength, scatter;
+  designs.push_back({"strength and slope per orientation", {}});
+  designs.back().columns.resize(n, 2 * next);
+  designs.back().columns << strength, slope;
+  return designs;
+}
+
+}  // namespace
+
+double aicc(double sum_of_squares, double specimens, double parameters) {
+  const double k = parameters + 1.0;
+  if (specimens - k - 1.0 < 0.5) return std::numeric_limits<double>::infinity();
+  return specimens * std::log(std::max(sum_of_squares, 1e-30) / specimens) + 2.0 * k +
+         2.0 * k * (k + 1.0) / (specimens - k - 1.0);
+}
+
+PlainLaw best_plain_law(std::span<const Broken> specimens, double model_parameters) {
+  const auto n = static_cast<double>(specimens.size());
+  Eigen::VectorXd strength(static_cast<Index>(specimens.size()));
+  double by_model = 0.0;
+  for (std::size_t i = 0; i < specimens.size(); ++i) {
+    strength[static_cast<Index>(i)] = specimens[i].strength;
+    by_model += std::pow(specimens[i].strength - specimens[i].model, 2);
+  }
+  PlainLaw best{.criterion = std::numeric_limits<double>::infinity(),
+                .model_criterion = aicc(by_model, n, model_parameters)};
+  for (const Design& design : designs_of(specimens)) {
+    const auto qr = design.columns.colPivHouseholderQr();
+    const double left = (design.columns * qr.solve(strength) - strength).squaredNorm();
+    const double criterion = aicc(left, n, static_cast<double>(qr.rank()));
+    if (criterion < best.criterion) {
+      best.name = design.name;
+      best.criterion = criterion;
+    }
+  }
+  return best;
+}
+
+// The likelihood's slope falls with m: bisection in log m.
+Weibull weibull(std::span<const double> values) {
+  const auto n = static_cast<double>(values.size());
+  const double largest = *std::ranges::max_element(values);
+  double mean_log = 0.0;
+  for (const double x : values) mean_log += std::log(x / largest) / n;
+  const auto slope = [&](double m) {
+    double sum = 0.0, weighted = 0.0;
+    for (const double x : values) {
+      const double power = std::pow(x / largest, m);
+      sum += power;
+      weighted += power * std::log(x / largest);
+    }
+    return 1.0 / m + mean_log - weighted / sum;
+  };
+  double low = std::log(1e-2), high = std::log(1e6);
+  for (int i = 0; i < 80; ++i) {
+    const double middle = 0.5 * (low + high);
+    (slope(std::exp(middle)) > 0.0 ? low : high) = middle;
+  }
+  return {.modulus = std::exp(low), .error = 0.78 / std::sqrt(n)};  // 0.78: √6/π, asymptotically
+}
+
+}  // namespace havers::calib

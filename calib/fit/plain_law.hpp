@@ -1,0 +1,41 @@
+// Laws without fibres, for the model to be better than.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace havers::calib {
+
+/// One specimen as a law without fibres sees it.
+struct Broken {
+  double orientation = 0.0;  ///< θ. [rad]
+  double scatter = 0.0;      ///< d. [-]
+  double strength = 0.0;     ///< log of the measured strength.
+  double model = 0.0;        ///< log of the strength that the fitted model gives.
+};
+
+/// Corrected information criterion of Akaike (F19); infinite where there are too few specimens.
+/// @param parameters  those of the mean; the variance is one more.
+double aicc(double sum_of_squares, double specimens, double parameters);
+
+/// The best law of those that are linear elastic and brittle, after the laws of failure strain of
+/// Pithioux et al.: per orientation a strength, and a slope in d or none.
+struct PlainLaw {
+  std::string name;
+  double criterion = 0.0;        ///< aicc of the law.
+  double model_criterion = 0.0;  ///< aicc of the model, on the same strengths.
+};
+
+/// @param model_parameters  spent by the model on the strengths.
+PlainLaw best_plain_law(std::span<const Broken> specimens, double model_parameters);
+
+/// Weibull's modulus of positive values by maximum likelihood, and its relative standard error.
+struct Weibull {
+  double modulus = 0.0;  ///< [-]
+  double error = 0.0;    ///< Part of the modulus. [-]
+};
+/// Precondition: at least two values that differ.
+Weibull weibull(std::span<const double> values);
+
+}  // namespace havers::calib

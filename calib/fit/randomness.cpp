@@ -1,0 +1,112 @@
+#include "calib/fit/randomness.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/simulate.hpp"
+
+namespace havers::calib {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double small_part = 0.05;  // of a residual's variance that replicates may make
+constexpr int fewest_replicates = 4, most_replicates = 32;
+
+// Every fitted specimen with seeds that no search has seen.
+Evaluation fresh_evaluation(SimulationBatch& batch, const FitProblem& problem,
+                            const Answer& answer) {
+  Evaluation fresh{.point = answer.best.point, .failed = false};
+  const auto count = static_cast<std::size_t>(answer.replicates);
+  for (const std::size_t s : problem.fitted) {
+    auto scenes = replicate_scenes(problem, fresh.point, s, 2 * answer.replicates);
+    scenes.erase(scenes.begin(), scenes.begin() + static_cast<std::ptrdiff_t>(count));
+    fresh.predictions.push_back(summarise(batch.run(scenes)));
+    fresh.failed = fresh.failed || fresh.predictions.back().failed_point();
+  }
+  score(problem, answer.weights, fresh);
+  return fresh;
+}
+
+// Variance of each residual by the chance of the replicates' mean.
+VectorXd variance_of_mean(const FitProblem& problem, const Answer& answer) {
+  VectorXd variance(answer.best.residuals.size());
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+    const Prediction& prediction = answer.best.predictions[f];
+    variance.segment<landmark_count>(landmark_count * static_cast<Index>(f)) =
+        prediction.sd.square() / prediction.usable / answer.weights.sd[problem.fitted[f]].square();
+  }
+  return variance;
+}
+
+}  // namespace
+
+Randomness randomness_of(SimulationBatch& batch, const FitProblem& problem, const Answer& answer) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(answer.slopes.jacobian,
+                                              Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const auto rows = answer.slopes.jacobian.rows();
+  const Eigen::MatrixXd follow = svd.solve(Eigen::MatrixXd::Identity(rows, rows));
+  Randomness result{.replicates = answer.replicates};
+  result.replicates_needed = replicates_needed(problem, answer.weights);
+  result.common_gain = answer.slopes.paired > 0.0 ? answer.slopes.independent / answer.slopes.paired
+                                                  : std::numeric_limits<double>::infinity();
+  const VectorXd chance = follow.array().square().matrix() * variance_of_mean(problem, answer);
+  const VectorXd whole = answer.uncertainty.standard_error.array().square();
+  result.simulator_share = (chance.array() / whole.array()).maxCoeff();
+
+  const Evaluation fresh = fresh_evaluation(batch, problem, answer);
+  if (fresh.failed) return result;
+  result.fresh_cost = fresh.cost;
+  const VectorXd shift = follow * (fresh.residuals - answer.best.residuals);
+  result.fresh_shift = (shift.array().abs() / answer.uncertainty.standard_error.array()).maxCoeff();
+  return result;
+}
+
+int replicates_needed(const FitProblem& problem, const Weights& weights) {
+  double worst = 0.0;
+  for (const std::size_t s : problem.fitted)
+    for (const Landmark q : {modulus, strength}) {
+      // weights.replicates is sd·√(1 + 1/n); the 1/n matters little here.
+      const double part = std::pow(weights.replicates[s][q] / weights.sd[s][q], 2);
+      if (problem.targets[s].present[q]) worst = std::max(worst, part);
+    }
+  return std::clamp(static_cast<int>(std::ceil(worst / small_part)), fewest_replicates,
+                    most_replicates);
+}
+
+std::vector<Confirmation> confirm_in_time(SimulationBatch& batch, const FitProblem& problem,
+                                          const Answer& answer) {
+  std::vector<sim::Scene> still, moving;
+  std::vector<std::string> ids;
+  const int runs = problem.study.calibrate.confirm;
+  for (int run = 0; run < runs; ++run) {
+    const std::size_t s = problem.fitted[static_cast<std::size_t>(run) % problem.fitted.size()];
+    const int replicate = run / static_cast<int>(problem.fitted.size());
+    sim::Scene scene = replicate_scenes(problem, answer.best.point, s, replicate + 1).back();
+    scene.solver.regime = sim::Regime::automatic;
+    const auto choice = sim::choose_regime(scene);
+    if (choice.regime != sim::Regime::quasi_static) continue;  // it was simulated in time
+    ids.push_back(problem.study.specimens[s].id);
+    still.push_back(scene);
+    scene.loading.strain_rate *= sim::quasi_static_below / choice.inertia_number;
+    scene.solver.regime = sim::Regime::dynamic;
+    moving.push_back(scene);
+  }
+  const auto limit = batch.run(still), in_time = batch.run(moving);
+  std::vector<Confirmation> confirmations;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    confirmations.push_back({.specimen = ids[i],
+                             .seed = still[i].joints.seed,
+                             .strain_rate = moving[i].loading.strain_rate,
+                             .failed = limit[i].failed || in_time[i].failed,
+                             .strength_limit = limit[i].strength,
+                             .strength_in_time = in_time[i].strength,
+                             .failure_strain_limit = limit[i].failure_strain,
+                             .failure_strain_in_time = in_time[i].failure_strain});
+  return confirmations;
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,144 @@
+// Each specimen at the answer: what was measured, what was simulated, what every term costs.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "calib/fit/answer.hpp"
+#include "calib/fit/curve_band.hpp"
+
+namespace havers::calib {
+namespace {
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+/// Responses that answered, and one of their numbers over them.
+Spread spread_of(const std::vector<Response>& responses, double Response::*number) {
+  Spread spread;
+  double n = 0.0;
+  for (const auto& response : responses) {
+    if (response.failed) continue;
+    spread.mean += response.*number;
+    ++n;
+  }
+  if (n == 0.0) return {no_number, no_number};
+  spread.mean /= n;
+  for (const auto& response : responses)
+    if (!response.failed) spread.sd += std::pow(response.*number - spread.mean, 2);
+  spread.sd = std::sqrt(spread.sd / std::max(n - 1.0, 1.0));
+  return spread;
+}
+
+std::vector<ReplicateResult> replicates_of(const std::vector<sim::Scene>& scenes,
+                                           const std::vector<Response>& responses) {
+  std::vector<ReplicateResult> results;
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    const Response& response = responses[i];
+    ReplicateResult& result = results.emplace_back();
+    result.seed = scenes[i].joints.seed;
+    result.failed = response.failed;
+    if (response.failed) continue;
+    const Landmarks landmarks = landmarks_of(response);
+    result.broke = response.broke;
+    result.modulus = response.modulus;
+    result.strength = response.strength;
+    result.failure_strain = response.failure_strain;
+    result.pre_peak = landmarks[pre_peak];
+    result.energy = landmarks[energy];
+    result.post_peak = landmarks[post_peak];
+  }
+  return results;
+}
+
+// (F6), (F7), term by term.
+std::vector<TermResult> terms_of(const Prediction& prediction, const Target& target,
+                                 const Landmarks& scatter, const Landmarks& between) {
+  std::vector<TermResult> terms;
+  if (!target.usable || prediction.usable == 0) return terms;
+  const Landmarks distance = difference(prediction, target);
+  for (Eigen::Index q = 0; q < landmark_count; ++q) {
+    if (!target.present[q]) continue;
+    TermResult term{.term = std::string(name_of(static_cast<Landmark>(q)))};
+    term.measured = target.value[q];
+    term.simulated = prediction.mean[q];
+    term.machine = target.noise[q];
+    term.replicates = prediction.sd[q] * std::sqrt(1.0 + 1.0 / prediction.usable);
+    term.scatter = scatter[q];
+    term.specimens = between[q];
+    term.sd = std::sqrt(std::pow(term.machine, 2) + std::pow(term.replicates, 2) +
+                        std::pow(term.scatter, 2) + std::pow(term.specimens, 2));
+    term.residual = distance[q] / term.sd;
+    terms.push_back(std::move(term));
+  }
+  return terms;
+}
+
+// Modulus, strength, failure strain; the last follows from the landmarks, ε = σ / (E · linearity).
+std::array<double, 3> standardised(const std::vector<TermResult>& terms) {
+  std::array<double, 3> distance{no_number, no_number, no_number}, sd{1.0, 1.0, 1.0};
+  for (const TermResult& term : terms)
+    for (const Landmark q : {modulus, strength, linearity})
+      if (term.term == name_of(q)) {
+        distance.at(q) = term.residual * term.sd;
+        sd.at(q) = term.sd;
+      }
+  const double strain = distance[strength] - distance[modulus] - distance[linearity];
+  return {distance[modulus] / sd[modulus], distance[strength] / sd[strength],
+          strain / std::hypot(sd[modulus], sd[strength], sd[linearity])};
+}
+
+SpecimenResult result_of(const FitProblem& problem, const Answer& answer, std::size_t s,
+                         SimulationBatch& batch) {
+  const auto scenes = replicate_scenes(problem, answer.best.point, s, answer.replicates);
+  const auto responses = batch.run(scenes);
+  const auto& specimen = problem.study.specimens[s];
+  SpecimenResult result{.id = specimen.id,
+                        .use = specimen.use,
+                        .orientation = specimen.orientation,
+                        .porosity = problem.models[s].porosity,
+                        .scatter = scenes.front().joints.scatter,
+                        .measured = specimen.test,
+                        .modulus = spread_of(responses, &Response::modulus),
+                        .strength = spread_of(responses, &Response::strength),
+                        .failure_strain = spread_of(responses, &Response::failure_strain)};
+  const auto prediction = summarise(responses);
+  const Landmarks scatter =
+      answer.weights.scatter.empty() ? Landmarks(Landmarks::Zero()) : answer.weights.scatter[s];
+  result.terms = terms_of(prediction, problem.targets[s], scatter, answer.weights.specimen);
+  result.residual = standardised(result.terms);
+  result.replicates = replicates_of(scenes, responses);
+  result.band = band_of(responses, specimen.test);
+  result.failed_simulations = prediction.failed();
+  return result;
+}
+
+void set_shares(std::vector<SpecimenResult>& specimens) {
+  const double sum = 2.0 * cost_of(specimens, 0.0);
+  for (auto& specimen : specimens)
+    for (auto& term : specimen.terms)
+      if (specimen.use == Use::fit && sum > 0.0) term.share = std::pow(term.residual, 2) / sum;
+}
+
+}  // namespace
+
+double cost_of(const std::vector<SpecimenResult>& specimens, double otherwise) {
+  double sum = 0.0;
+  bool any = false;
+  for (const auto& specimen : specimens)
+    for (const auto& term : specimen.terms) {
+      if (specimen.use != Use::fit) continue;
+      any = true;
+      sum += 0.5 * term.residual * term.residual;
+    }
+  return any ? sum : otherwise;
+}
+
+std::vector<SpecimenResult> specimens_of(const FitProblem& problem, SimulationBatch& batch,
+                                         const Answer& answer) {
+  std::vector<SpecimenResult> results;
+  for (std::size_t s = 0; s < problem.study.specimens.size(); ++s)
+    results.push_back(result_of(problem, answer, s, batch));
+  set_shares(results);
+  return results;
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,195 @@
+// What is said of the answer after it is found: other intervals, other specimens, other seeds.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "calib/fit/calibrate.hpp"
+#include "tests/support/studies.hpp"
+
+namespace havers::calib {
+namespace {
+
+const std::vector<double> three_orientations{0.0, 45.0, 90.0};
+
+CalibrationResult fit(const Study& study, const test::ClosedForm& law = {}) {
+  return calibrate_with(law.simulator(), study);
+}
+
+double log_width(const std::array<double, 2>& interval) {
+  return std::log(interval[1] / interval[0]);
+}
+
+// The law is a product of powers, so that in logarithms the cost is a parabola.
+TEST(Hindsight, ProfilesAgreeWithTheSlopesWhereTheCostIsAParabola) {
+  const auto result = fit(test::synthetic_study(three_orientations));
+  ASSERT_EQ(result.profiles.size(), 3U);
+  for (const char* name : {"young_GPa", "head_tail_MPa"}) {
+    const auto parameter = test::parameter_of(result, name);
+    EXPECT_TRUE(parameter.profile_missing.empty()) << parameter.profile_missing;
+    EXPECT_NEAR(log_width(parameter.profile_95) / log_width(parameter.interval_95), 1.0, 0.1)
+        << name;
+  }
+  for (const auto& profile : result.profiles) {
+    EXPECT_EQ(profile.value.size(), 5U);
+    EXPECT_GT(profile.rise.front(), 0.5 * profile.level);
+    EXPECT_EQ(profile.rise[2], 0.0);
+  }
+}
+
+TEST(Hindsight, NoProfileIsMadeThatWasNotAskedFor) {
+  auto study = test::synthetic_study(three_orientations);
+  study.calibrate.profiles = false;
+  const auto result = fit(study);
+  EXPECT_TRUE(result.profiles.empty());
+  EXPECT_FALSE(test::parameter_of(result, "ratio").profile_missing.empty());
+}
+
+TEST(Hindsight, BootstrapIntervalsAreLikeTheOthersOrSayWhyTheyAreMissing) {
+  auto study = test::synthetic_study({0.0, 0.0, 0.0, 45.0, 45.0, 45.0, 90.0, 90.0, 90.0},
+                                     {.specimen_effect = 0.05});
+  const auto many = test::parameter_of(fit(study), "young_GPa");
+  ASSERT_TRUE(many.bootstrap_missing.empty()) << many.bootstrap_missing;
+  EXPECT_NEAR(log_width(many.bootstrap_95) / log_width(many.interval_95), 1.0, 0.4);
+  const auto few = test::parameter_of(fit(test::synthetic_study({0.0})), "young_GPa");
+  EXPECT_NE(few.bootstrap_missing.find("too few"), std::string::npos);
+  EXPECT_TRUE(std::isnan(few.bootstrap_95[0]));
+}
+
+// One step with the slopes says what a fit without the specimen finds.
+TEST(Hindsight, TellsHowTheAnswerMovesWithoutASpecimen) {
+  const auto study = test::synthetic_study(three_orientations, {.specimen_effect = 0.05});
+  const auto whole = fit(study);
+  auto rest = study;
+  rest.specimens[1].use = Use::validate;
+  const auto without = test::parameter_of(fit(rest), "young_GPa");
+  const auto with = test::parameter_of(whole, "young_GPa");
+  ASSERT_EQ(whole.specimens[1].influence.front().parameter, "young_GPa");
+  EXPECT_NEAR(whole.specimens[1].influence.front().shift,
+              (without.value - with.value) / with.standard_error, 0.3);
+}
+
+TEST(Hindsight, KnowsWhichFurtherTestTellsMost) {
+  const auto result = fit(test::synthetic_study({0.0, 0.0, 45.0}, {.specimen_effect = 0.05}));
+  ASSERT_EQ(result.next_tests.size(), 3U);  // 90 degrees is simulated
+  const auto ratio =
+      static_cast<std::size_t>(std::ranges::find(result.fitted, "ratio") - result.fitted.begin());
+  ASSERT_LT(ratio, result.fitted.size());
+  for (const auto& test : result.next_tests)
+    for (const double width : test.width) EXPECT_LE(width, 1.0 + 1e-9) << test.what;
+  EXPECT_LT(result.next_tests[1].width[ratio], result.next_tests[0].width[ratio]);
+  EXPECT_LT(result.next_tests[1].width[ratio], 0.9);
+}
+
+TEST(Hindsight, SaysInWordsWhatIsDetermined) {
+  const auto result = fit(test::synthetic_study(three_orientations));
+  ASSERT_EQ(result.directions.size(), 4U);
+  EXPECT_NE(result.directions[0].find("3 of 3 directions"), std::string::npos);
+  ASSERT_EQ(result.correlation.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(result.correlation[i][i], 1.0, 1e-12);
+  EXPECT_NEAR(result.correlation[0][1], result.correlation[1][0], 1e-12);
+}
+
+// The closed form's noise is a factor of the seed alone: common seeds cancel it altogether.
+TEST(Hindsight, LooksAtTheAnswerWithFreshSeeds) {
+  const auto result = fit(test::synthetic_study(three_orientations));
+  EXPECT_TRUE(std::isinf(result.randomness.common_gain));
+  EXPECT_GT(result.randomness.fresh_shift, 0.0);
+  EXPECT_LT(result.randomness.fresh_shift, 1.5);
+  EXPECT_GT(result.randomness.simulator_share, 0.0);
+  EXPECT_LT(result.randomness.simulator_share, 0.5);
+}
+
+TEST(Hindsight, TakesAsManyReplicatesAsItNeeds) {
+  auto study = test::synthetic_study(three_orientations);
+  study.calibrate.replicates = replicates_by_need;
+  const auto few = fit(study, {.noise = 1e-5});
+  const auto many = fit(study, {.noise = 0.02});
+  EXPECT_EQ(few.randomness.replicates, 4);
+  EXPECT_GT(many.randomness.replicates, 8);
+  EXPECT_NEAR(test::parameter_of(many, "head_tail_MPa").value, 60.0, 2.0);
+}
+
+TEST(Hindsight, TermsAddUpToTheCost) {
+  const auto result = fit(test::synthetic_study(three_orientations));
+  double squares = 0.0, shares = 0.0;
+  for (const auto& specimen : result.specimens) {
+    EXPECT_EQ(specimen.terms.size(), 6U);
+    EXPECT_EQ(specimen.replicates.size(), 8U);
+    for (const auto& term : specimen.terms) {
+      EXPECT_NEAR(std::pow(term.sd, 2),
+                  std::pow(term.machine, 2) + std::pow(term.replicates, 2) +
+                      std::pow(term.scatter, 2) + std::pow(term.specimens, 2),
+                  1e-12);
+      EXPECT_NEAR(term.residual, (term.simulated - term.measured) / term.sd, 1e-9);
+      squares += std::pow(term.residual, 2);
+      shares += term.share;
+    }
+  }
+  EXPECT_NEAR(shares, 1.0, 1e-9);
+  EXPECT_NEAR(0.5 * squares, result.cost, 1e-9 * result.cost);
+}
+
+// A test that was stopped at half its strength knows the modulus and a bound.
+TEST(Hindsight, AStoppedTestIsABoundAndNoError) {
+  auto study = test::synthetic_study(three_orientations);
+  const auto whole = fit(study);
+  study.specimens.push_back(study.specimens[0]);
+  study.specimens.back().id = "stopped";
+  study.specimens.back().broke = false;
+  study.specimens.back().test = test::straight_test(14e9, 25e6, 2e-3, 2e-3);
+  const auto result = fit(study);
+  EXPECT_NEAR(test::parameter_of(result, "head_tail_MPa").value,
+              test::parameter_of(whole, "head_tail_MPa").value, 0.2);
+  ASSERT_EQ(result.specimens.back().terms.size(), 2U);
+  EXPECT_EQ(result.specimens.back().terms[1].residual, 0.0);
+}
+
+// Every chain comes to the same answer.
+TEST(Hindsight, AnyOptimisersFindTheSame) {
+  auto study = test::synthetic_study(three_orientations);
+  const auto usual = fit(study);
+  for (const auto global :
+       {GlobalSearch::crs2, GlobalSearch::direct, GlobalSearch::mlsl, GlobalSearch::esch})
+    for (const auto local : {LocalSearch::sbplx, LocalSearch::cobyla}) {
+      study.calibrate.global = global;
+      study.calibrate.local = local;
+      const auto result = fit(study);
+      for (const auto& parameter : usual.parameters)
+        EXPECT_NEAR(test::parameter_of(result, parameter.name).value, parameter.value,
+                    0.2 * parameter.standard_error)
+            << parameter.name << " " << static_cast<int>(global) << static_cast<int>(local);
+    }
+}
+
+TEST(Hindsight, DoesWithoutTheSmoothStage) {
+  auto study = test::synthetic_study(three_orientations);
+  study.calibrate.smooth = false;
+  const auto result = fit(study);
+  EXPECT_NEAR(test::parameter_of(result, "ratio").value, 2.0, 0.1);
+}
+
+// E = E₀ (1−p)^m over specimens whose porosity differs.
+TEST(Hindsight, FitsTheLawOfModulusAndPorosity) {
+  auto study = test::synthetic_study({0.0, 0.0, 0.0, 0.0, 0.0});
+  study.porosity.to_modulus = ToModulus::power;
+  study.calibrate.parameters = {"young_GPa", "head_tail_MPa", "modulus_exponent"};
+  for (std::size_t s = 0; s < study.specimens.size(); ++s) {
+    auto& specimen = study.specimens[s];
+    const double porosity = 0.02 + 0.03 * static_cast<double>(s);
+    const double factor = std::pow(1.0 - porosity, 2.2);
+    specimen.porosity = porosity;
+    specimen.test =
+        test::straight_test(factor * specimen.test.modulus, specimen.test.strength, 2e-3, 2e-3);
+  }
+  study.porosity.to_scatter = ToScatter::none;
+  const auto result = fit(study);
+  const auto exponent = test::parameter_of(result, "modulus_exponent");
+  EXPECT_TRUE(exponent.identifiable) << exponent.left_out_because;
+  EXPECT_LE(exponent.interval_95[0], 2.2);
+  EXPECT_GE(exponent.interval_95[1], 2.2);
+  EXPECT_NEAR(exponent.value, 2.2, 0.2);
+  EXPECT_NEAR(test::parameter_of(result, "young_GPa").value, 14.0, 0.2);
+}
+
+}  // namespace
+}  // namespace havers::calib

@@ -1,0 +1,54 @@
+#include "calib/fit/plain_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace havers::calib {
+namespace {
+
+// n ln(RSS/n) + 2k + 2k(k+1)/(n−k−1), by hand: 10 ln(0.1) + 6 + 24/6 with k = 3.
+TEST(PlainLaw, ComputesTheCorrectedCriterionOfAkaike) {
+  EXPECT_NEAR(aicc(1.0, 10.0, 2.0), 10.0 * std::log(0.1) + 6.0 + 4.0, 1e-12);
+  EXPECT_TRUE(std::isinf(aicc(1.0, 4.0, 3.0)));
+}
+
+std::vector<Broken> strengths(double slope, double noise, double model_bias) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  std::vector<Broken> specimens;
+  for (int i = 0; i < 30; ++i) {
+    const double orientation = 0.7 * (i % 3), scatter = 0.2 + 0.02 * i;
+    const double truth = 18.0 - orientation - slope * scatter;
+    specimens.push_back({orientation, scatter, truth + noise * normal(random),
+                         truth + (i % 3 == 1 ? model_bias : 0.0)});
+  }
+  return specimens;
+}
+
+TEST(PlainLaw, FindsTheSlopeInTheScatterWhereThereIsOne) {
+  EXPECT_EQ(best_plain_law(strengths(0.5, 0.02, 0.0), 2.0).name,
+            "one strength per orientation, falling with the scatter");
+  EXPECT_EQ(best_plain_law(strengths(0.0, 0.02, 0.0), 2.0).name, "one strength per orientation");
+}
+
+TEST(PlainLaw, LosesToAModelThatIsTrueAndBeatsOneThatIsNot) {
+  const PlainLaw loses = best_plain_law(strengths(0.5, 0.02, 0.0), 2.0);
+  EXPECT_GT(loses.criterion, loses.model_criterion);
+  const PlainLaw wins = best_plain_law(strengths(0.5, 0.02, 0.2), 2.0);
+  EXPECT_LT(wins.criterion, wins.model_criterion - 6.0);
+}
+
+TEST(Weibull, FindsItsModulusAgain) {
+  std::mt19937_64 random(7);
+  std::weibull_distribution<double> draw(12.0, 80e6);
+  std::vector<double> values;
+  for (int i = 0; i < 4000; ++i) values.push_back(draw(random));
+  const Weibull found = weibull(values);
+  EXPECT_NEAR(found.modulus, 12.0, 3.0 * 12.0 * found.error);
+  EXPECT_NEAR(found.error, 0.78 / std::sqrt(4000.0), 1e-12);
+}
+
+}  // namespace
+}  // namespace havers::calib
