@@ -58,16 +58,15 @@ int run(const Command& command, const CommonOptions& common) {
   return bad_input;
 }
 
-int main(int argc, char** argv) {
+int program(int argc, char** argv) {
   CLI::App app("Fits a fibre-level fracture model of compact bone to a laboratory's tensile tests.",
                "havers");
   CommonOptions common;
   common.command_line = typed(argc, argv);
-  const std::array commands{fit_command(app, common),    simulate_command(app, common),
-                            import_command(app, common), porosity_command(app, common),
-                            check_command(app, common),  synthesize_command(app, common),
-                            report_command(app, common), bench_command(app, common),
-                            sweep_command(app, common)};
+  const std::array commands{
+      fit_command(app, common),      simulate_command(app, common), import_command(app, common),
+      porosity_command(app, common), check_command(app, common),    synthesize_command(app, common),
+      report_command(app, common),   bench_command(app, common),    sweep_command(app, common)};
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text, "version and what is built in");
   app.footer(examples);
@@ -86,5 +85,10 @@ int main(int argc, char** argv) {
 }  // namespace havers::cli
 
 int main(int argc, char** argv) {
-  return havers::cli::main(argc, argv);
+  try {
+    return havers::cli::program(argc, argv);
+  } catch (...) {  // not even the command line could be read: out of memory
+    std::fputs("havers: cannot start\n", stderr);
+    return havers::cli::bad_input;
+  }
 }
