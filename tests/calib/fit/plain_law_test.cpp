@@ -33,9 +33,10 @@ TEST(PlainLaw, FindsTheSlopeInTheScatterWhereThereIsOne) {
   EXPECT_EQ(best_plain_law(strengths(0.0, 0.02, 0.0), 2.0).name, "one strength per orientation");
 }
 
-TEST(PlainLaw, LosesToAModelThatIsTrueAndBeatsOneThatIsNot) {
+// Six is where the verdict rejects: chance alone rarely gets there.
+TEST(PlainLaw, DoesNotRejectAModelThatIsTrueAndRejectsOneThatIsNot) {
   const PlainLaw loses = best_plain_law(strengths(0.5, 0.02, 0.0), 2.0);
-  EXPECT_GT(loses.criterion, loses.model_criterion);
+  EXPECT_GT(loses.criterion, loses.model_criterion - 6.0);
   const PlainLaw wins = best_plain_law(strengths(0.5, 0.02, 0.2), 2.0);
   EXPECT_LT(wins.criterion, wins.model_criterion - 6.0);
 }
