@@ -3,13 +3,17 @@
 #include <tbb/parallel_for.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "calib/porosity/scatter_map.hpp"
 #include "cli/command.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/provenance.hpp"
+#include "io/config/words.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/input_error.hpp"
 
@@ -18,47 +22,87 @@ namespace {
 
 constexpr const char* examples =
     "  havers porosity section.png --pixel-size-um 5\n"
-    "  havers porosity A1_*.png --pixel-size-um 5 -o runs/sections   # with overlays and a page\n";
+    "  havers porosity A1_*.png --pixel-size-um 5 -o runs/sections   # with overlays and a page\n"
+    "  havers porosity ct.tif --density 30=0 --density 140=1200      # grey level = kg/m³\n"
+    "  havers porosity ct.tif --density 10,10,40,40=0 --density 10,80,40,40=800   # phantom\n";
 
 struct Arguments {
   std::vector<std::filesystem::path> images;
   std::filesystem::path folder, mask;
   std::optional<double> pixel_size_um;
-  double fibre_length_um = 100.0, fibre_height_um = 10.0;
+  std::vector<std::string> density;
+  double fibre_length_um = 100.0, fibre_height_um = 10.0, rim_um = 0.0;
+  io::SectionOptions options;  // what needs no translation
 };
 
 struct Section {
+  std::filesystem::path image;
   io::SectionMeasurement measured;
   double scatter = 0.0;  ///< d that this section alone would give. [-]
+};
+
+/// What one image gave: a section a page.
+struct Outcome {
+  std::vector<io::SectionMeasurement> sections;
   std::vector<io::Problem> problems;
 };
 
+// GREY=DENSITY or X,Y,WIDTH,HEIGHT=DENSITY.
+io::DensityReference reference_of(const std::string& text) {
+  io::DensityReference known;
+  std::istringstream in(text);
+  char comma = 0;
+  const bool is_phantom = text.find(',') != std::string::npos;
+  if (is_phantom)
+    in >> known.x >> comma >> known.y >> comma >> known.width >> comma >> known.height;
+  else
+    in >> known.grey;
+  in >> comma >> known.density;
+  if (!in || comma != '=' || (is_phantom && (known.width < 1 || known.height < 1)))
+    throw io::InputError("--density " + text, "is not understood",
+                         "write GREY=DENSITY or X,Y,WIDTH,HEIGHT=DENSITY, in kg/m³");
+  return known;
+}
+
 io::SectionOptions options_of(const Arguments& arguments) {
-  io::SectionOptions options;
+  io::SectionOptions options = arguments.options;
   if (arguments.pixel_size_um) options.pixel_size = 1e-6 * *arguments.pixel_size_um;
   if (!arguments.mask.empty()) options.mask = arguments.mask;
+  options.rim = 1e-6 * arguments.rim_um;
   options.window_length = 1e-6 * arguments.fibre_length_um;
   options.window_height = 1e-6 * arguments.fibre_height_um;
+  for (const std::string& text : arguments.density) options.density.push_back(reference_of(text));
+  options.pictures = !arguments.folder.empty();
   return options;
 }
 
 std::vector<Section> measure_all(const Arguments& arguments) {
   const io::SectionOptions options = options_of(arguments);
-  std::vector<Section> sections(arguments.images.size());
-  tbb::parallel_for(std::size_t{0}, sections.size(), [&](std::size_t i) {
+  std::vector<Outcome> outcomes(arguments.images.size());
+  tbb::parallel_for(std::size_t{0}, outcomes.size(), [&](std::size_t i) {
     try {
-      sections[i].measured = io::measure_section(arguments.images[i], options);
-      sections[i].scatter =
-          calib::scatter_of(calib::pool_sections({sections[i].measured.porosity}), {});
+      outcomes[i].sections = io::measure_sections(arguments.images[i], options);
     } catch (const io::InputError& error) {
-      sections[i].problems = error.problems();
+      outcomes[i].problems = error.problems();
     }
   });
+  std::vector<Section> sections;
   std::vector<io::Problem> problems;
-  for (const Section& section : sections)
-    problems.insert(problems.end(), section.problems.begin(), section.problems.end());
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    problems.insert(problems.end(), outcomes[i].problems.begin(), outcomes[i].problems.end());
+    for (io::SectionMeasurement& measured : outcomes[i].sections) {
+      const double scatter = calib::scatter_of(calib::pool_sections({measured.porosity}), {});
+      sections.push_back({arguments.images[i], std::move(measured), scatter});
+    }
+  }
   if (!problems.empty()) throw io::InputError(std::move(problems));
   return sections;
+}
+
+calib::SpecimenPorosity mean_of(const std::vector<Section>& sections) {
+  std::vector<calib::SectionPorosity> all;
+  for (const Section& section : sections) all.push_back(section.measured.porosity);
+  return calib::pool_sections(all);
 }
 
 void print_table(const std::vector<Section>& sections) {
@@ -69,7 +113,20 @@ void print_table(const std::vector<Section>& sections) {
                100.0 * found.porosity_standard_error, found.pore_count, found.window_sd,
                section.scatter, found.file);
     for (const std::string& warning : found.warnings) fmt::print("  note: {}\n", warning);
+    if (std::isfinite(found.density))
+      fmt::print("  density of solid bone {:.0f} kg/m³, references {:.0f} kg/m³ about their line\n",
+                 found.density, found.density_residual);
   }
+  const calib::SpecimenPorosity mean = mean_of(sections);
+  if (sections.size() > 1)
+    fmt::print("{:>12.3f}{:>7.3f}{:>19.4f}{:>10.3f}  all, by area\n", 100.0 * mean.porosity,
+               100.0 * mean.porosity_standard_error, mean.window_sd, calib::scatter_of(mean, {}));
+  if (calib::removes_joints(mean, {}))
+    fmt::print(
+        "  note: pores are larger than a window of one fibre: they take away {:.1f} % of the "
+        "joints "
+        "rather than spread their strength\n",
+        100.0 * calib::missing_joints(mean, {}));
 }
 
 nlohmann::json json_of(const std::vector<Section>& sections) {
@@ -77,21 +134,33 @@ nlohmann::json json_of(const std::vector<Section>& sections) {
   for (const Section& section : sections)
     all.push_back(io::porosity_json(section.measured.porosity, section.scatter));
   if (all.size() == 1) return all.front();
-  return {{"sections", all}};
+  const calib::SpecimenPorosity mean = mean_of(sections);
+  return {{"sections", all}, {"mean", io::mean_porosity_json(mean)}};
+}
+
+// Names of one folder for images of any: what comes second of a name gets a number.
+std::string overlay_name(const std::filesystem::path& image, std::map<std::string, int>& used) {
+  const std::string stem = image.stem().string();
+  const int before = used[stem]++;
+  return before == 0 ? stem + "_overlay.png" : fmt::format("{}_{}_overlay.png", stem, before + 1);
 }
 
 void write_page(const Arguments& arguments, const std::vector<Section>& sections,
                 const CommonOptions& common, const Stopwatch& watch) {
   OutputFolder output(arguments.folder, common.force);
   reports::PorosityReport page;
-  for (std::size_t i = 0; i < sections.size(); ++i) {
-    const auto& overlay = sections[i].measured.overlay_png;
-    io::write_file(output.stage(arguments.images[i].stem().string() + "_overlay.png"),
+  std::map<std::string, int> used;
+  for (const Section& section : sections) {
+    const auto& overlay = section.measured.overlay_png;
+    io::write_file(output.stage(overlay_name(section.image, used)),
                    {overlay.begin(), overlay.end()});
-    page.sections.push_back(sections[i].measured.porosity);
+    page.sections.push_back(section.measured.porosity);
     page.overlays.push_back(overlay);
-    page.scatter.push_back(sections[i].scatter);
+    page.scatter.push_back(section.scatter);
+    page.histograms.push_back({section.measured.histogram.depth, section.measured.histogram.share,
+                               section.measured.histogram.threshold});
   }
+  page.mean = mean_of(sections);
   page.provenance = page_facts(provenance_of(common, arguments.images, watch));
   io::write_file(output.stage("porosity.json"), json_of(sections).dump(2) + "\n");
   if (reports::available())
@@ -115,19 +184,43 @@ int run_porosity(const Arguments& arguments, const CommonOptions& common) {
   return done;
 }
 
+// An option whose values are the words of input files.
+template <class E>
+void add_words(CLI::App& parser, const std::string& name, E& value, const std::string& meaning) {
+  std::map<std::string, E> known;
+  for (std::size_t i = 0; i < io::words<E>.size(); ++i)
+    known.emplace(io::words<E>.at(i), static_cast<E>(i));
+  parser.add_option(name, value, meaning)->transform(CLI::Transformer(known))->type_name("WORD");
+}
+
 }  // namespace
 
 Command porosity_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(app, common, "porosity",
                                  "porosity of sections, measured on their images", examples);
   const auto arguments = std::make_shared<Arguments>();
-  parser->add_option("IMAGE", arguments->images, "PNG, TIFF, JPEG or BMP")->required();
+  io::SectionOptions& options = arguments->options;
+  parser->add_option("IMAGE", arguments->images, "PNG, TIFF, JPEG, BMP or DICOM")->required();
   parser->add_option("-o,--output", arguments->folder, "folder for overlays and a page")
       ->type_name("DIR");
-  parser->add_option("--pixel-size-um", arguments->pixel_size_um, "size of a pixel")
+  parser
+      ->add_option("--pixel-size-um", arguments->pixel_size_um,
+                   "size of a pixel; default: the file's own tag")
       ->check(CLI::PositiveNumber);
+  parser->add_flag("--any-pixel-size", options.any_pixel_size, "sizes outside 0.1 to 200 um too");
   parser->add_option("--mask", arguments->mask, "image that is white where the bone is")
       ->type_name("FILE");
+  add_words(*parser, "--pores", options.pores, "whether pores are dark or bright");
+  add_words(*parser, "--threshold", options.threshold, "where pores end");
+  parser->add_option("--rim-um", arguments->rim_um, "depth of bone left out below its surfaces")
+      ->check(CLI::NonNegativeNumber);
+  parser
+      ->add_option("--crack-slenderness", options.crack_slenderness,
+                   "length over width from which on it is a crack; 0: none is")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  parser->add_option("--density", arguments->density, "a known material: grey level or rectangle")
+      ->type_name("GREY=KG_M3");
   parser
       ->add_option("--fibre-length-um", arguments->fibre_length_um,
                    "of the window whose porosity spreads")

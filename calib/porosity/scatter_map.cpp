@@ -81,10 +81,24 @@ void pool_window_sd(const std::vector<SectionPorosity>& sections, SpecimenPorosi
     specimen.window_sd_standard_error = variance.standard_error / (2.0 * specimen.window_sd);
 }
 
+// Σa²/Σa over the pores of all sections with a pixel size.
+void pool_pore_area_ratio(const std::vector<SectionPorosity>& sections,
+                          SpecimenPorosity& specimen) {
+  double area = 0.0, squares = 0.0;
+  for (const SectionPorosity& section : sections) {
+    if (!std::isfinite(section.pore_area)) continue;
+    area += section.pore_area;
+    squares += section.pore_area * section.pore_area_ratio;
+    specimen.window_area = section.window_area;
+  }
+  if (area > 0.0) specimen.pore_area_ratio = squares / area;
+}
+
 // Before it is held inside its bounds.
 double free_scatter(const SpecimenPorosity& porosity, const PorosityOptions& options) {
   switch (options.to_scatter) {
     case ToScatter::window:
+      if (removes_joints(porosity, options)) break;
       return std::sqrt(12.0) * options.strength_exponent * porosity.window_sd /
              (1.0 - porosity.porosity);
     case ToScatter::linear:
@@ -102,7 +116,18 @@ SpecimenPorosity pool_sections(const std::vector<SectionPorosity>& sections) {
   SpecimenPorosity specimen;
   pool_porosity(sections, specimen);
   pool_window_sd(sections, specimen);
+  pool_pore_area_ratio(sections, specimen);
   return specimen;
+}
+
+bool removes_joints(const SpecimenPorosity& porosity, const PorosityOptions& options) {
+  if (options.to_scatter != ToScatter::window) return false;
+  if (options.acts != PorosityActs::automatic) return options.acts == PorosityActs::missing;
+  return porosity.window_area < porosity.pore_area_ratio;
+}
+
+double missing_joints(const SpecimenPorosity& porosity, const PorosityOptions& options) {
+  return removes_joints(porosity, options) ? porosity.porosity : 0.0;
 }
 
 double scatter_of(const SpecimenPorosity& porosity, const PorosityOptions& options) {

@@ -11,8 +11,13 @@ namespace havers::calib {
 enum class ToScatter { window, linear, none };
 enum class ToModulus { none, power };
 
+/// What porosity does to joints with `window`: it spreads their thresholds, or it takes joints away.
+/// Automatic: away, where pores are larger than a window (K5).
+enum class PorosityActs { automatic, spread, missing };
+
 struct PorosityOptions {
   ToScatter to_scatter = ToScatter::window;
+  PorosityActs acts = PorosityActs::automatic;
   ToModulus to_modulus = ToModulus::none;
   double strength_exponent = 1.0;  ///< n of local strength ∝ (1−p)^n. [-]
   double linear_offset = 0.0;      ///< d₀ of d = d₀ + k p. [-]
@@ -26,14 +31,22 @@ struct SpecimenPorosity {
   double porosity_standard_error = 0.0;  ///< [-]
   double window_sd = 0.0;  ///< Over the windows of all sections (K1); NaN: no section gives it. [-]
   double window_sd_standard_error = 0.0;  ///< [-]
+  double pore_area_ratio = 0.0;           ///< a* over the pores of all sections (K2). [m²]
+  double window_area = 0.0;               ///< A. [m²]
 };
 
 /// Mean and pooled spread over a specimen's sections, weighted by bone area (equally, where a
 /// section has no pixel size). Precondition: at least one.
 SpecimenPorosity pool_sections(const std::vector<SectionPorosity>& sections);
 
+/// Whether porosity takes joints away instead of spreading their thresholds (K5).
+bool removes_joints(const SpecimenPorosity& porosity, const PorosityOptions& options);
+
+/// Fraction of joints that porosity takes away: p, or 0 where it spreads thresholds. [-]
+double missing_joints(const SpecimenPorosity& porosity, const PorosityOptions& options);
+
 /// d = √12 n SD/(1−p) (K3) with `window`, d₀ + k p with `linear`; held inside [0, 1.99]. With
-/// `none`, or where the window SD is unknown, NaN. [-]
+/// `none`, where the window SD is unknown, or where joints are taken away instead, NaN. [-]
 double scatter_of(const SpecimenPorosity& porosity, const PorosityOptions& options);
 
 /// Standard error of `scatter_of`, from those of window SD and porosity. [-]

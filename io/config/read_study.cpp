@@ -8,6 +8,7 @@
 
 #include "calib/study/parameter.hpp"
 #include "io/config/nearest.hpp"
+#include "io/config/reduction_table.hpp"
 #include "io/config/scene_tables.hpp"
 #include "io/config/study_keys.hpp"
 
@@ -121,7 +122,7 @@ void check_bounds(TableReader& bounds, std::string_view name, std::pair<double, 
   if (!problems.empty() || !model.problems().empty()) return;
   for (const double end : {value.first, value.second}) {
     sim::Scene scene = model;
-    calib::apply(scene, name, end);
+    calib::apply(scene, name, end);  // the laws of porosity have no problems of their own
     for (const sim::Scene::Problem& problem : scene.problems())
       bounds.complain(name, fmt::format("at {:g}: {} {}", end, problem.key, problem.what));
   }
@@ -161,17 +162,10 @@ void read_synthesize(TableReader table, SynthesizeOptions& options) {
           "at least 16");
 }
 
-void read_reduction(TableReader table, calib::ReductionOptions& options) {
+void read_sections(TableReader table, SectionOptions& options) {
   keys(table, options);
-  require(options.window_low >= 0.0 && options.window_low < options.window_high, table,
-          "window_low", options.window_low, "0 or more and below window_high");
-  require(options.window_high <= 1.0, table, "window_high", options.window_high, "at most 1");
-  require(options.break_part > 0.0 && options.break_part < 1.0, table, "break_part",
-          options.break_part, "between 0 and 1");
-  require_not_negative(table, "straightness", options.straightness);
-  require_not_negative(table, "machine_compliance_mm_per_kN", options.machine_compliance);
-  require_positive(table, "largest_modulus_error", options.largest_modulus_error);
-  require_positive(table, "largest_noise", options.largest_noise);
+  require_not_negative(table, "rim_um", options.rim);
+  require_not_negative(table, "crack_slenderness", options.crack_slenderness);
 }
 
 calib::Specimen without_tests(const SpecimenFiles& files) {
@@ -204,6 +198,7 @@ StudyFile read_study(const std::filesystem::path& file, const Overrides& overrid
   read_calibrate(top.table("calibrate"), read.study.model, read.study.calibrate);
   read_synthesize(top.table("synthesize"), read.synthesize);
   read_reduction(top.table("reduction"), read.reduction);
+  read_sections(top.table("sections"), read.sections);
   config.finish();
   return read;
 }

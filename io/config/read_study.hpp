@@ -9,6 +9,7 @@
 
 #include "calib/study/study.hpp"
 #include "io/config/read_scene.hpp"
+#include "io/images/measure_section.hpp"
 #include "io/machine/read_test.hpp"
 
 namespace havers::io {
@@ -23,7 +24,8 @@ struct SpecimenFiles {
   std::optional<double> width, thickness, gauge_length;  ///< Override what the test file says. [m]
   double orientation = 0.0;                              ///< [rad]
   std::vector<std::filesystem::path> sections;
-  std::optional<double> pixel_size;  ///< [m]
+  std::optional<double> pixel_size;           ///< [m]
+  std::optional<std::filesystem::path> mask;  ///< Of all its sections: white where the bone is.
   std::optional<double> porosity;  ///< For specimens without sections; what `synthesize` draws. [-]
   calib::Use use = calib::Use::fit;
   bool broke = true;  ///< false: the test was stopped; its strength is a lower bound.
@@ -49,6 +51,7 @@ struct StudyFile {
   std::vector<SpecimenFiles> specimens;
   SynthesizeOptions synthesize;
   calib::ReductionOptions reduction;
+  SectionOptions sections;  ///< [sections]; pixel size, mask and window are the specimen's.
 };
 
 /// Whether the named test and section files must exist (all commands but `synthesize`).

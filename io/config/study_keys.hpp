@@ -10,11 +10,22 @@ namespace havers::io {
 template <class Table>
 void keys(Table& table, calib::PorosityOptions& porosity) {
   table.key("to_scatter", porosity.to_scatter);
+  table.key("acts", porosity.acts);
   table.key("to_modulus", porosity.to_modulus);
   table.key("strength_exponent", porosity.strength_exponent);
   table.key("linear_offset", porosity.linear_offset);
   table.key("linear_slope", porosity.linear_slope);
   table.key("modulus_exponent", porosity.modulus_exponent);
+}
+
+/// [sections]: how images are measured.
+template <class Table>
+void keys(Table& table, SectionOptions& options) {
+  table.key("threshold", options.threshold);
+  table.key("pores", options.pores);
+  table.key("rim_um", options.rim, micrometre);
+  table.key("crack_slenderness", options.crack_slenderness);
+  table.key("any_pixel_size", options.any_pixel_size);
 }
 
 /// [calibrate.options]; the number of threads is no option of a study, since it never changes a
@@ -92,6 +103,7 @@ void keys(Table& table, SpecimenFiles& specimen) {
   table.key("orientation_deg", specimen.orientation, degree);
   table.key("sections", specimen.sections);
   table.key("pixel_size_um", specimen.pixel_size, micrometre);
+  table.key("mask", specimen.mask);
   table.key("porosity", specimen.porosity);
   table.key("use", specimen.use);
   table.key("broke", specimen.broke);

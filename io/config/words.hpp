@@ -6,6 +6,7 @@
 
 #include "calib/fit/calibration.hpp"
 #include "calib/study/study.hpp"
+#include "io/images/measure_section.hpp"
 #include "sim/scene.hpp"
 
 namespace havers::io {
@@ -41,6 +42,12 @@ template <>
 inline constexpr Words<3> words<calib::ToScatter>{"window", "linear", "none"};
 template <>
 inline constexpr Words<2> words<calib::ToModulus>{"none", "power"};
+template <>
+inline constexpr Words<3> words<calib::PorosityActs>{"auto", "spread", "missing"};
+template <>
+inline constexpr Words<3> words<Pores>{"found", "dark", "bright"};
+template <>
+inline constexpr Words<3> words<Threshold>{"half-maximum", "otsu", "sauvola"};
 template <>
 inline constexpr Words<3> words<calib::Outcome>{"pass", "warn", "fail"};
 template <>

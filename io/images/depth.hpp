@@ -8,8 +8,8 @@ namespace havers::images {
 /// Sets `levels`' contrast from pixels known to be pores or background.
 void fit_contrast(const cv::Mat& grey, const cv::Mat& pores, Levels& levels);
 
-/// Depth (I6) of every pixel, float.
-cv::Mat depth_image(const cv::Mat& grey, const Levels& levels);
+/// Depth (I6) of every pixel, float, smoothed by `sigma` [px].
+void make_depth(const cv::Mat& grey, const Levels& levels, double sigma, cv::Mat& depth);
 
 /// Gaussian smoothing in place; 0 is none. [px]
 void smooth(cv::Mat& depth, double sigma);

@@ -138,7 +138,7 @@ calib::SectionPorosity draw_section(const std::filesystem::path& image,
   const double area = drawing.porosity * cv::countNonZero(truth.bone);
   truth.pores = cv::Mat::zeros(truth.bone.size(), CV_8U);
   draw_pores(place(radii(drawing, area, random), shape, random), truth.pores);
-  count_pores(truth);
+  sort_objects(0.0, truth);
   truth.area_by_grey = truth.area;
 
   std::vector<std::uint8_t> png;
@@ -150,7 +150,7 @@ calib::SectionPorosity draw_section(const std::filesystem::path& image,
 
   io::SectionOptions scale = options;
   scale.pixel_size = drawing.pixel_size;
-  calib::SectionPorosity section = section_quantities(truth, scale);
+  calib::SectionPorosity section = section_quantities(truth, true, scale);
   section.file = image.string();
   section.method = "counted on the drawing";
   section.threshold = 0.5;

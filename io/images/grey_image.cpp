@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -13,7 +14,7 @@
 namespace havers::images {
 namespace {
 
-cv::Mat read_any(const std::filesystem::path& file) {
+void check_file(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file))
     throw io::InputError(file.string(), "there is no such file",
                          "check the path; it is relative to the study");
@@ -21,17 +22,13 @@ cv::Mat read_any(const std::filesystem::path& file) {
     throw io::InputError(file.string(), "is a folder, not an image", "name the images in it");
   if (std::filesystem::file_size(file) == 0)
     throw io::InputError(file.string(), "is an empty file", "export the image again");
-  cv::Mat image;
-  try {
-    image = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception& error) {
-    throw io::InputError(file.string(), fmt::format("cannot be decoded: {}", error.err));
-  }
-  if (image.empty())
-    throw io::InputError(file.string(), "is not a readable image", "use PNG, TIFF, JPEG or BMP");
-  if (image.depth() == CV_8U || image.depth() == CV_16U) return image;
-  image.convertTo(image, CV_32F);
-  return image;
+}
+
+bool is_tiff(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".tif" || ending == ".tiff";
 }
 
 // What is transparent takes the colour, black or white, that is farther from the opaque pixels'
@@ -61,29 +58,65 @@ cv::Mat along_main_colour(const cv::Mat& colour) {
                      cv::PCA::DATA_AS_ROW, 1);
   cv::Mat weights = axes.eigenvectors.clone();
   if (cv::sum(weights)[0] < 0.0) weights *= -1.0;
-  cv::Mat bands, grey;
-  colour.convertTo(bands, CV_32F);
-  cv::transform(bands, grey, weights);
+  // In strips, or floats of all channels would take many times the image's own memory.
+  const double scale = colour.depth() == CV_8U ? 100.0 : 0.25;  // √3 · 65535 · 0.25 fits
+  const double middle = cv::sum(weights)[0] * (colour.depth() == CV_8U ? 127.5 : 32767.5);
+  cv::Mat grey(colour.size(), CV_16U), bands, line;
+  for (int y = 0; y < colour.rows; y += 32) {
+    const cv::Range rows(y, std::min(y + 32, colour.rows));
+    colour.rowRange(rows).convertTo(bands, CV_32F);
+    cv::transform(bands, line, weights);
+    line.convertTo(grey.rowRange(rows), CV_16U, scale, 32767.5 - scale * middle);
+  }
   return grey;
 }
 
 }  // namespace
 
-cv::Mat read_grey(const std::filesystem::path& file) {
-  cv::Mat image = read_any(file);
-  if (image.channels() == 4) image = without_alpha(image);
-  if (image.channels() == 2) cv::extractChannel(cv::Mat(image), image, 0);
+std::vector<cv::Mat> read_pages(const std::filesystem::path& file) {
+  check_file(file);
+  std::vector<cv::Mat> pages;
+  try {
+    if (is_tiff(file))
+      cv::imreadmulti(file.string(), pages, cv::IMREAD_UNCHANGED);
+    else
+      pages.push_back(cv::imread(file.string(), cv::IMREAD_UNCHANGED));
+  } catch (const cv::Exception& error) {
+    throw io::InputError(file.string(), fmt::format("cannot be decoded: {}", error.err));
+  }
+  if (pages.empty() || pages.front().empty())
+    throw io::InputError(file.string(), "is not a readable image",
+                         "use PNG, TIFF, JPEG, BMP or DICOM");
+  for (cv::Mat& page : pages) {
+    if (page.depth() == CV_8U || page.depth() == CV_16U) continue;
+    page.convertTo(page, CV_32F);
+    if (page.channels() > 1) cv::normalize(page, page, 0.0, 65535.0, cv::NORM_MINMAX, CV_16U);
+  }
+  return pages;
+}
+
+cv::Mat to_grey(const cv::Mat& image, const std::string& name) {
   double lowest = 0.0, highest = 0.0;
   cv::minMaxLoc(image.reshape(1), &lowest, &highest);
   if (lowest == highest)
-    throw io::InputError(file.string(),
-                         fmt::format("every pixel has the same value ({:g})", lowest),
+    throw io::InputError(name, fmt::format("every pixel has the same value ({:g})", lowest),
                          "this image is empty");
-  return image.channels() == 3 ? along_main_colour(image) : image;
+  cv::Mat grey;
+  switch (image.channels()) {
+    case 1:
+      return image;
+    case 2:
+      cv::extractChannel(image, grey, 0);
+      return grey;
+    case 3:
+      return along_main_colour(image);
+    default:
+      return along_main_colour(without_alpha(image));
+  }
 }
 
 cv::Mat read_mask(const std::filesystem::path& file, cv::Size size) {
-  cv::Mat mask = read_any(file);
+  cv::Mat mask = read_pages(file).front();
   if (mask.size() != size)
     throw io::InputError(file.string(),
                          fmt::format("the mask is {} × {} pixels, its image {} × {}", mask.cols,

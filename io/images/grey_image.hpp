@@ -3,13 +3,19 @@
 
 #include <filesystem>
 #include <opencv2/core.hpp>
+#include <string>
+#include <vector>
 
 namespace havers::images {
 
-/// Reads PNG, TIFF, JPEG or BMP as one channel: 8 bit, 16 bit (kept so) or, from colour, float
-/// along the image's main axis of colour (I1). What is transparent becomes background.
-/// @throws io::InputError when it is missing, not an image, or of one grey level only.
-cv::Mat read_grey(const std::filesystem::path& file);
+/// Reads PNG, TIFF, JPEG, BMP or DICOM, a TIFF with all its pages.
+/// @throws io::InputError when it is missing or not an image.
+std::vector<cv::Mat> read_pages(const std::filesystem::path& file);
+
+/// One channel: 8 bit, 16 bit (kept so) or, from colour, 16 bit along the image's main axis of
+/// colour (I1). What is transparent becomes background. `name` is for complaints.
+/// @throws io::InputError when it is of one grey level only.
+cv::Mat to_grey(const cv::Mat& image, const std::string& name);
 
 /// Reads a mask of the given size: 255 where the file is brighter than half its own range.
 /// @throws io::InputError when it cannot be read, is of another size, or marks nothing.

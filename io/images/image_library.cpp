@@ -2,7 +2,7 @@
 
 extern "C" const havers::images::ImageLibrary* havers_images() {
   static constexpr havers::images::ImageLibrary library{
-      .measure_section = havers::images::measure_section,
+      .measure_sections = havers::images::measure_sections,
       .draw_section = havers::images::draw_section};
   return &library;
 }

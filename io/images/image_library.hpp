@@ -7,14 +7,14 @@
 namespace havers::images {
 
 /// As their namesakes of io/images/measure_section.hpp, which call them.
-io::SectionMeasurement measure_section(const std::filesystem::path& image,
-                                       const io::SectionOptions& options);
+std::vector<io::SectionMeasurement> measure_sections(const std::filesystem::path& image,
+                                                     const io::SectionOptions& options);
 calib::SectionPorosity draw_section(const std::filesystem::path& image,
                                     const io::SectionDrawing& drawing,
                                     const io::SectionOptions& options);
 
 struct ImageLibrary {
-  decltype(&images::measure_section) measure_section;
+  decltype(&images::measure_sections) measure_sections;
   decltype(&images::draw_section) draw_section;
 };
 

@@ -39,9 +39,11 @@ Levels bone_levels(const cv::Mat& grey, const Regions& regions) {
 // adds, and for a negative of either. The slope is taken only where the levels span enough to show
 // it.
 void fit_contrast(const cv::Mat& grey, const cv::Mat& pores, Levels& levels) {
+  const std::vector<Sample> samples = sample(grey, pores, 20000);
+  const std::vector<float> bones = values_at(levels.bone, samples);
   double n = 0.0, b = 0.0, d = 0.0, bb = 0.0, bd = 0.0, dd = 0.0;
-  for (const Sample& s : sample(grey, pores, 20000)) {
-    const double bone = levels.bone.at(s.x, s.y), depth = levels.sign * (bone - s.value);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double bone = bones[i], depth = levels.sign * (bone - samples[i].value);
     n += 1.0, b += bone, d += depth, bb += bone * bone, bd += bone * depth, dd += depth * depth;
   }
   if (n == 0.0) return;
@@ -56,26 +58,22 @@ void fit_contrast(const cv::Mat& grey, const cv::Mat& pores, Levels& levels) {
   levels.offset = d - levels.slope * b;
 }
 
-cv::Mat depth_image(const cv::Mat& grey, const Levels& levels) {
-  cv::Mat depth(grey.size(), CV_32F), row;
-  const auto scale = static_cast<float>(2.0 / grey.cols);
+void make_depth(const cv::Mat& grey, const Levels& levels, double sigma, cv::Mat& depth) {
+  depth.create(grey.size(), CV_32F);
+  const auto sign = static_cast<float>(levels.sign), slope = static_cast<float>(levels.slope);
+  const auto offset = static_cast<float>(levels.offset);
+  std::vector<float> bone(static_cast<std::size_t>(grey.cols));
+  cv::Mat row;
   for (int y = 0; y < grey.rows; ++y) {
-    const std::array<double, 5> exact = levels.bone.row(y);
-    std::array<float, 5> c{};
-    std::copy(exact.begin(), exact.end(), c.begin());
-    const auto sign = static_cast<float>(levels.sign), slope = static_cast<float>(levels.slope);
-    const auto offset = static_cast<float>(levels.offset);
-    const float least = 1e-3F * std::abs(offset + slope * c[0]);
+    levels.bone.evaluate_row(y, bone.data());
+    const float least = 1e-3F * std::abs(offset + slope * bone[0]);
     grey.row(y).convertTo(row, CV_32F);
     const auto* value = row.ptr<float>();
     auto* out = depth.ptr<float>(y);
-    for (int x = 0; x < grey.cols; ++x) {
-      const float u = scale * static_cast<float>(x) - 1.0F;
-      const float bone = c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * c[4])));
-      out[x] = sign * (bone - value[x]) / std::max(offset + slope * bone, least);
-    }
+    for (std::size_t x = 0; x < bone.size(); ++x)
+      out[x] = sign * (bone[x] - value[x]) / std::max(offset + slope * bone[x], least);
   }
-  return depth;
+  smooth(depth, sigma);
 }
 
 void smooth(cv::Mat& depth, double sigma) {

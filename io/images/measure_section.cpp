@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "io/images/density.hpp"
 #include "io/images/grey_image.hpp"
 #include "io/images/image_library.hpp"
+#include "io/images/masks.hpp"
 #include "io/images/overlay.hpp"
+#include "io/images/pixel_size_tag.hpp"
 #include "io/images/pores.hpp"
 #include "io/images/section_quantities.hpp"
 #include "io/input_error.hpp"
@@ -13,65 +16,140 @@
 namespace havers::images {
 namespace {
 
-void check(const std::filesystem::path& image, const io::SectionOptions& options) {
-  if (!options.pixel_size) return;
-  const double size = *options.pixel_size;
-  if (!(size >= 0.1e-6 && size <= 200e-6))
-    throw io::InputError(
-        image.string(), fmt::format("a pixel size of {:g} µm is outside 0.1 to 200 µm", size * 1e6),
-        "pixel_size_um is the side of one pixel in µm");
+using Warnings = std::vector<std::string>;
+
+bool plausible(double size) {
+  return size >= 0.1e-6 && size <= 200e-6;
 }
 
-void warn(const PoreMap& map, const io::SectionOptions& options, calib::SectionPorosity& section) {
-  const double bone = cv::countNonZero(map.bone);
+// Given or the file's own; the given one counts, but must be plausible.
+std::optional<double> pixel_size_of(const std::filesystem::path& image,
+                                    const io::SectionOptions& options, Warnings& warnings) {
+  const std::optional<double> given = options.pixel_size;
+  if (given && !(options.any_pixel_size ? *given > 0.0 : plausible(*given)))
+    throw io::InputError(
+        image.string(),
+        fmt::format("a pixel size of {:g} µm is outside 0.1 to 200 µm", *given * 1e6),
+        "pixel_size_um is the side of one pixel in µm; if it is meant, add --any-pixel-size");
+  const std::optional<double> own = tagged_pixel_size(image);
+  if (given && own && std::abs(*given / *own - 1.0) > 0.01)
+    warnings.push_back(
+        fmt::format("the file states pixels of {:.4g} µm; {:.4g} µm are used, as given", *own * 1e6,
+                    *given * 1e6));
+  if (given || !own) return given;
+  const bool usable = options.any_pixel_size || plausible(*own);
+  warnings.push_back(fmt::format("the file states pixels of {:.4g} µm: {}", *own * 1e6,
+                                 usable ? "used" : "not used, as it is outside 0.1 to 200 µm"));
+  return usable ? own : std::nullopt;
+}
+
+void warn_of_scale(const io::SectionOptions& options, Warnings& warnings) {
   if (!options.pixel_size)
-    section.warnings.emplace_back(
+    warnings.emplace_back(
         "no pixel size is given: areas and the spread between windows stay unknown");
   else if (*options.pixel_size > options.window_height)
-    section.warnings.push_back(
+    warnings.push_back(
         fmt::format("a pixel ({:g} µm) is larger than the fibre's height ({:g} µm): "
                     "the spread between windows is that of the pixels",
                     *options.pixel_size * 1e6, options.window_height * 1e6));
+}
+
+void warn_of_objects(const PoreMap& map, const calib::SectionPorosity& section,
+                     Warnings& warnings) {
+  const double bone = cv::countNonZero(map.bone);
   if (map.specks > 0)
-    section.warnings.push_back(
+    warnings.push_back(
         fmt::format("{} objects below {} pixels were left out as too small to tell "
                     "from noise",
                     map.specks, smallest_pore));
-  if (map.largest > 0.05 * bone)
-    section.warnings.push_back(
-        fmt::format("one pore takes {:.1f} % of the bone: if it is the marrow cavity "
-                    "or a crack, give a mask without it",
-                    100.0 * map.largest / bone));
-  if (std::abs(map.area - map.area_by_grey) > 0.01 * bone)
-    section.warnings.push_back(
+  if (map.crack_count > 0)
+    warnings.push_back(
+        fmt::format("{} long and narrow objects, {:.2f} % of the bone, were taken for cracks and "
+                    "do not count as pores",
+                    map.crack_count, 100.0 * map.crack_area / bone));
+  const double largest =
+      map.areas.empty() ? 0.0 : *std::max_element(map.areas.begin(), map.areas.end());
+  if (largest > 0.05 * bone)
+    warnings.push_back(
+        fmt::format("one pore takes {:.1f} % of the bone: if it is the marrow "
+                    "cavity, give a mask without it",
+                    100.0 * largest / bone));
+  if (std::abs(section.porosity - section.porosity_by_grey) > 0.01)
+    warnings.push_back(
         fmt::format("the porosity by grey levels, {:.2f} %, differs by more than one "
                     "point from the one by threshold, {:.2f} %",
-                    100.0 * map.area_by_grey / bone, 100.0 * map.area / bone));
+                    100.0 * section.porosity_by_grey, 100.0 * section.porosity));
+}
+
+void leave_out_rim(const io::SectionOptions& options, const std::string& name, cv::Mat& bone) {
+  if (options.rim == 0.0) return;
+  if (!options.pixel_size)
+    throw io::InputError(name, "the rim to leave out is in µm, but no pixel size is known",
+                         "give it with --pixel-size-um");
+  const int reach = cvRound(options.rim / *options.pixel_size);
+  bone = eroded_by(bone, reach);
+}
+
+std::string method_of(io::Threshold threshold) {
+  switch (threshold) {
+    case io::Threshold::half_maximum:
+      break;
+    case io::Threshold::otsu:
+      return "Otsu after flat field";
+    case io::Threshold::sauvola:
+      return "Sauvola after flat field";
+  }
+  return "half-maximum after flat field, corrected for blur";
+}
+
+io::SectionMeasurement measure_page(const cv::Mat& image, const std::string& name,
+                                    const io::SectionOptions& options) {
+  const cv::Mat whole = to_grey(image, name);
+  const Regions regions = options.mask
+                              ? divide(whole, read_mask(*options.mask, whole.size()), options.pores)
+                              : divide(whole, options.pores);
+  const cv::Mat grey = whole(regions.box);
+  const Levels levels = bone_levels(grey, regions);
+  cv::Mat depth;  // one for all steps: it is the largest
+  cv::Mat bone = find_bone(grey, regions, levels, depth);
+  if (!bone.empty()) leave_out_rim(options, name, bone);
+  if (bone.empty() || cv::countNonZero(bone) == 0)
+    throw io::InputError(name, "no bone was found", "give a mask that is white where the bone is");
+  const PoreMap map = find_pores(grey, bone, levels,
+                                 {.threshold = options.threshold,
+                                  .crack_slenderness = options.crack_slenderness,
+                                  .rim = regions.outlined},
+                                 depth);
+
+  io::SectionMeasurement measured{.porosity = section_quantities(map, regions.outlined, options)};
+  measured.porosity.file = name;
+  measured.porosity.method = method_of(options.threshold);
+  add_density(whole, grey, map, options.density, measured.porosity);
+  warn_of_objects(map, measured.porosity, measured.porosity.warnings);
+  if (!options.pictures) return measured;
+  measured.overlay_png = draw_overlay(whole, map, regions.box);
+  measured.histogram = histogram_of(depth, map);
+  return measured;
 }
 
 }  // namespace
 
-io::SectionMeasurement measure_section(const std::filesystem::path& image,
-                                       const io::SectionOptions& options) {
-  check(image, options);
-  const cv::Mat grey = read_grey(image);
-  const Regions regions = options.mask
-                              ? divide(grey, read_mask(*options.mask, grey.size()), options.pores)
-                              : divide(grey, options.pores);
-  const Levels levels = bone_levels(grey, regions);
-  const cv::Mat bone = find_bone(grey, regions, levels);
-  if (bone.empty())
-    throw io::InputError(image.string(), "no bone was found",
-                         "give a mask that is white where the bone is");
-  const PoreMap map = find_pores(grey, bone, regions.outlined, levels);
-
-  io::SectionMeasurement measured;
-  measured.porosity = section_quantities(map, options);
-  measured.porosity.file = image.string();
-  measured.porosity.method = "half-maximum after flat field, corrected for blur";
-  measured.porosity.threshold = 1.0 - map.threshold;
-  warn(map, options, measured.porosity);
-  measured.overlay_png = draw_overlay(grey, map);
+std::vector<io::SectionMeasurement> measure_sections(const std::filesystem::path& image,
+                                                     const io::SectionOptions& given) {
+  io::SectionOptions options = given;
+  Warnings warnings;
+  options.pixel_size = pixel_size_of(image, given, warnings);
+  warn_of_scale(options, warnings);
+  std::vector<cv::Mat> pages = read_pages(image);
+  std::vector<io::SectionMeasurement> measured;
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    const std::string name =
+        pages.size() == 1 ? image.string() : fmt::format("{} page {}", image.string(), i + 1);
+    measured.push_back(measure_page(pages[i], name, options));
+    auto& all = measured.back().porosity.warnings;
+    all.insert(all.begin(), warnings.begin(), warnings.end());
+    pages[i].release();
+  }
   return measured;
 }
 

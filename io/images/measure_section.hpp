@@ -14,29 +14,56 @@ namespace havers::io {
 /// Whether pores are darker or brighter than bone; found where not known.
 enum class Pores { found, dark, bright };
 
+/// Where pores end: half way between bone and pores, undoing the blur; or by a rule of the trade.
+enum class Threshold { half_maximum, otsu, sauvola };
+
+/// A material of known density in the image: its grey level, or the pixels that show it.
+struct DensityReference {
+  double grey = 0.0;     ///< [grey levels of the file]
+  int x = 0, y = 0;      ///< Upper left corner of a rectangle that shows it. [px]
+  int width = 0;         ///< 0: `grey` is given instead. [px]
+  int height = 0;        ///< [px]
+  double density = 0.0;  ///< [kg/m³]
+};
+
 struct SectionOptions {
-  std::optional<double> pixel_size = std::nullopt;  ///< [m]
+  std::optional<double> pixel_size = std::nullopt;  ///< Default: the file's own tag. [m]
+  bool any_pixel_size = false;    ///< Whether sizes outside 0.1 to 200 µm are meant.
   double window_length = 100e-6;  ///< L of the fibre whose window spreads porosity. [m]
   double window_height = 10e-6;   ///< l. [m]
   std::optional<std::filesystem::path> mask =
       std::nullopt;  ///< White where the bone is; default: found.
   Pores pores = Pores::found;
+  Threshold threshold = Threshold::half_maximum;
+  double rim = 0.0;                 ///< Depth of bone left out below its surfaces. [m]
+  double crack_slenderness = 10.0;  ///< Length over width of a crack; 0: cracks are pores. [-]
+  std::vector<DensityReference> density = {};  ///< At least two; more have a residual.
+  bool pictures = true;                        ///< Whether to draw overlay and histogram.
+};
+
+/// How many pixels of bone are how deep; the depth is 0 in bone and 1 in pores.
+struct Histogram {
+  std::vector<double> depth;  ///< Middle of each bin. [-]
+  std::vector<double> share;  ///< Of the bone's pixels, one a bin. [-]
+  double threshold = 0.0;     ///< Deeper is pore. [-]
 };
 
 struct SectionMeasurement {
   calib::SectionPorosity porosity;
   std::vector<std::uint8_t>
       overlay_png;  ///< The section with bone outline and pores drawn in; may be scaled down.
+  Histogram histogram;
 };
 
 /// Whether this build can read images.
 bool images_available();
 
-/// Measures one section: PNG, TIFF, JPEG or BMP; 8 or 16 bit; grey or colour.
+/// Measures sections: PNG, TIFF (a section a page), JPEG, BMP or DICOM; 8 or 16 bit; grey or
+/// colour.
 /// @throws InputError when the file cannot be read or holds no bone; or when images are not built
 /// in.
-SectionMeasurement measure_section(const std::filesystem::path& image,
-                                   const SectionOptions& options);
+std::vector<SectionMeasurement> measure_sections(const std::filesystem::path& image,
+                                                 const SectionOptions& options);
 
 /// What to draw for a synthetic section.
 struct SectionDrawing {

@@ -26,9 +26,9 @@ bool images_available() {
   return true;
 }
 
-SectionMeasurement measure_section(const std::filesystem::path& image,
-                                   const SectionOptions& options) {
-  return library().measure_section(image, options);
+std::vector<SectionMeasurement> measure_sections(const std::filesystem::path& image,
+                                                 const SectionOptions& options) {
+  return library().measure_sections(image, options);
 }
 
 calib::SectionPorosity draw_section(const std::filesystem::path& image,

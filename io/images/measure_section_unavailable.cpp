@@ -18,8 +18,8 @@ bool images_available() {
   return false;
 }
 
-SectionMeasurement measure_section(const std::filesystem::path& image,
-                                   const SectionOptions& /*options*/) {
+std::vector<SectionMeasurement> measure_sections(const std::filesystem::path& image,
+                                                 const SectionOptions& /*options*/) {
   throw not_built_in(image);
 }
 

@@ -1,4 +1,4 @@
-// A section with what was found drawn in. Private to io/images.
+// What was found, to be looked at. Private to io/images.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,12 @@
 
 namespace havers::images {
 
-/// PNG of at most 640 pixels a side: the section in few grey levels, pores red, outline blue.
-std::vector<std::uint8_t> draw_overlay(const cv::Mat& grey, const PoreMap& map);
+/// PNG of at most 640 pixels a side: the section in few grey levels, pores red, cracks yellow, the
+/// bone's outline blue. `box` is the part of it that the map covers.
+std::vector<std::uint8_t> draw_overlay(const cv::Mat& grey, const PoreMap& map,
+                                       const cv::Rect& box);
+
+/// Depths of the bone's pixels, pores included.
+io::Histogram histogram_of(const cv::Mat& depth, const PoreMap& map);
 
 }  // namespace havers::images

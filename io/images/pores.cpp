@@ -7,25 +7,11 @@
 #include <opencv2/imgproc.hpp>
 
 #include "io/images/depth.hpp"
+#include "io/images/masks.hpp"
+#include "io/images/thresholds.hpp"
 
 namespace havers::images {
 namespace {
-
-cv::Mat square(int side) {
-  return cv::Mat::ones(side, side, CV_8U);
-}
-
-cv::Mat eroded(const cv::Mat& mask, int side) {
-  cv::Mat result;
-  cv::erode(mask, result, square(side));
-  return result;
-}
-
-cv::Mat dilated(const cv::Mat& mask, int side) {
-  cv::Mat result;
-  cv::dilate(mask, result, square(side));
-  return result;
-}
 
 double relative_noise(const Levels& levels) {
   const double contrast = std::abs(levels.contrast(levels.bone.coefficients[0]));
@@ -93,9 +79,9 @@ cv::Mat clean_bone(const cv::Mat& solid) {
 
 // Sets the pores' level and refits that of the bone away from pores. Returns the pores' cores;
 // empty: none.
-cv::Mat find_pore_level(const cv::Mat& grey, const cv::Mat& bone, Levels& levels) {
+cv::Mat find_pore_level(const cv::Mat& grey, const cv::Mat& bone, Levels& levels, cv::Mat& depth) {
   levels.offset = 1.0, levels.slope = 0.0;
-  cv::Mat depth = depth_image(grey, levels);
+  make_depth(grey, levels, 0.0, depth);
   const double threshold = rough_threshold(depth, bone, levels.noise);
   const cv::Mat pores = (depth > threshold) & bone;
   if (cv::countNonZero(pores) == 0) return {};
@@ -107,32 +93,11 @@ cv::Mat find_pore_level(const cv::Mat& grey, const cv::Mat& bone, Levels& levels
   return cores;
 }
 
-// In the rim, where bone fades into background, only what continues a pore from further inside is
-// pore.
-cv::Mat without_rim(const cv::Mat& pores, const cv::Mat& bone) {
-  return pores & dilated(pores & eroded(bone, 5), 5);
-}
-
-// Crossings along rows and columns [Cauchy-Crofton].
-double perimeter(const cv::Mat& mask) {
-  const cv::Mat across = mask.colRange(1, mask.cols) != mask.colRange(0, mask.cols - 1);
-  const cv::Mat down = mask.rowRange(1, mask.rows) != mask.rowRange(0, mask.rows - 1);
-  return std::numbers::pi / 4.0 * (cv::countNonZero(across) + cv::countNonZero(down));
-}
-
-// σ of the blur [px], from how the area about the pores changes with the threshold.
-double blur_of(const cv::Mat& depth, const PoreMap& map, const cv::Mat& about) {
-  const double between =
-      cv::countNonZero((depth > 0.3F) & about) - cv::countNonZero((depth > 0.7F) & about);
-  return between / (1.0488 * perimeter(map.pores));  // Φ⁻¹(0.7) − Φ⁻¹(0.3)
-}
-
 // Depth that small pores' cores keep under blur: the pores' image, blurred alike, is read there.
 double depth_left_in(const cv::Mat& cores, const cv::Mat& pores, double blur) {
-  cv::Mat blurred;
-  pores.convertTo(blurred, CV_32F, 1.0 / 255.0);
+  cv::Mat blurred = pores.clone();
   smooth(blurred, blur);
-  return std::max(0.5, cv::mean(blurred, cores)[0]);
+  return std::max(0.5, cv::mean(blurred, cores)[0] / 255.0);
 }
 
 // (I7) Blur σ pulls the half-maximum contour of a pore inwards by σ²κ/2, κ its curvature: π σ² less
@@ -142,73 +107,81 @@ double threshold_without_blur(const cv::Mat& depth, const cv::Mat& cores, const 
                               PoreMap& map) {
   const double smoothing = enough_smoothing(levels);
   const double noise = relative_noise(levels) / std::max(1.0, noise_divisor * smoothing);
-  const cv::Mat about = dilated(map.pores, 7) & map.bone;
-  const double blur = blur_of(depth, map, about);
+  const DepthCount about(depth, dilated(map.pores, 7) & map.bone);
+  const double blur = (about.above(0.3) - about.above(0.7)) / (1.0488 * map.perimeter);
   const double own_blur = std::sqrt(std::max(0.0, blur * blur - smoothing * smoothing));
   const double full_depth = 1.0 / depth_left_in(cores, map.pores, own_blur);
-  map.area_by_grey = cv::mean(depth, about)[0] * cv::countNonZero(about) / full_depth;
+  map.area_by_grey = about.sum() / full_depth;
   const double share = 1.0 - 2.0 * std::numbers::pi * noise * noise;
-  const double lowering =
-      share * std::sqrt(std::numbers::pi / 2.0) * blur * map.count / perimeter(map.pores);
+  const auto pores = static_cast<double>(map.areas.size());
+  const double lowering = share * std::sqrt(std::numbers::pi / 2.0) * blur * pores / map.perimeter;
   return std::max(0.3, 0.5 - lowering) * full_depth;
 }
 
-void cut(const cv::Mat& depth, bool outlined, PoreMap& map) {
-  map.pores = (depth > map.threshold) & map.bone;
-  if (outlined) map.pores = without_rim(map.pores, map.bone);
-  count_pores(map);
+// In the rim, where bone fades into background, only what continues a pore from further inside is
+// pore.
+void cut(const cv::Mat& below, const cv::Mat& inner, const PoreOptions& options, PoreMap& map) {
+  map.pores = below & map.bone;
+  if (options.rim) map.pores &= dilated(map.pores & inner, 5);
+  sort_objects(options.crack_slenderness, map);
 }
 
 }  // namespace
 
-cv::Mat find_bone(const cv::Mat& grey, const Regions& regions, Levels levels) {
+cv::Mat find_bone(const cv::Mat& grey, const Regions& regions, Levels levels, cv::Mat& depth) {
   if (!regions.outlined) return regions.bone;
   fit_contrast(grey, regions.background, levels);
   if (!(levels.contrast(levels.bone.coefficients[0]) > 0.0)) return {};
-  cv::Mat depth = depth_image(grey, levels);
-  smooth(depth, enough_smoothing(levels));
+  make_depth(grey, levels, enough_smoothing(levels), depth);
   return outline((depth < 0.5F) & regions.search);
 }
 
-PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, bool outlined, Levels levels) {
+PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const Levels& coarse,
+                   const PoreOptions& options, cv::Mat& depth) {
   PoreMap map;
   map.bone = bone;
   map.pores = cv::Mat::zeros(bone.size(), CV_8U);
-  const cv::Mat cores = find_pore_level(grey, outlined ? eroded(bone, 5) : bone, levels);
+  const cv::Mat inner = options.rim ? eroded(bone, 5) : bone;
+  Levels levels = coarse;
+  const cv::Mat cores = find_pore_level(grey, inner, levels, depth);
+  make_depth(grey, levels, enough_smoothing(levels), depth);
   if (cores.empty()) return map;
 
-  cv::Mat depth = depth_image(grey, levels);
-  smooth(depth, enough_smoothing(levels));
-  double next = map.threshold;
+  const bool half_maximum = options.threshold == io::Threshold::half_maximum;
+  double next = options.threshold == io::Threshold::otsu ? otsu_threshold(depth, bone) : 0.5;
   for (int round = 0; round < 4; ++round) {
     map.threshold = next;
-    cut(depth, outlined, map);
-    if (map.count == 0) break;
+    cut(options.threshold == io::Threshold::sauvola ? below_sauvola(depth) : depth > next, inner,
+        options, map);
+    if (map.areas.empty()) break;
     next = threshold_without_blur(depth, cores, levels, map);
-    if (std::abs(next - map.threshold) < 0.003) break;
+    if (!half_maximum || std::abs(next - map.threshold) < 0.003) break;
   }
   return map;
 }
 
-void count_pores(PoreMap& map) {
-  cv::Mat labels, stats, centroids;
-  const int objects = cv::connectedComponentsWithStats(map.pores, labels, stats, centroids, 8);
-  map.area = map.area_squared = map.largest = 0.0;
-  map.count = map.specks = 0;
-  for (int i = 1; i < objects; ++i) {
-    const double area = stats.at<int>(i, cv::CC_STAT_AREA);
-    if (area < smallest_pore) {
-      const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
-                         stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
-      map.pores(box).setTo(0, labels(box) == i);
-      ++map.specks;
+void sort_objects(double crack_slenderness, PoreMap& map) {
+  map.areas.clear();
+  map.perimeter = map.crack_area = 0.0;
+  map.crack_count = map.specks = 0;
+  map.cracks.release();
+  for (const Blob& object : blobs_of(map.pores)) {
+    const bool speck = object.area < smallest_pore;
+    const bool crack =
+        !speck && crack_slenderness > 0.0 && slenderness(object) >= crack_slenderness;
+    if (!speck && !crack) {
+      map.areas.push_back(object.area);
+      map.perimeter += object.perimeter();
       continue;
     }
-    map.area += area;
-    map.area_squared += area * area;
-    map.largest = std::max(map.largest, area);
-    ++map.count;
+    map.specks += speck ? 1 : 0;
+    map.crack_count += crack ? 1 : 0;
+    map.crack_area += crack ? object.area : 0.0;
+    if (crack && map.cracks.empty()) map.cracks = cv::Mat::zeros(map.pores.size(), CV_8U);
+    if (crack) fill(map.cracks, object.border, 255);
+    fill(map.pores, object.border, 0);
   }
+  map.area = cv::countNonZero(map.pores);
 }
 
 }  // namespace havers::images

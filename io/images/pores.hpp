@@ -2,6 +2,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "io/images/regions.hpp"
 #include "io/images/surface.hpp"
@@ -21,27 +22,38 @@ struct Levels {
 
 /// The pores of one section. Areas in pixels.
 struct PoreMap {
-  cv::Mat bone, pores;     ///< 255 on bone (pores included), on pores.
-  double threshold = 0.5;  ///< Of the depth (I7).
-  double area = 0.0;
-  double area_squared = 0.0;  ///< Sum of squares over pores.
+  cv::Mat bone, pores;        ///< 255 on bone (pores included), on pores.
+  cv::Mat cracks;             ///< 255 on cracks, which are no pores; empty without any.
+  double threshold = 0.5;     ///< Of the depth (I7).
+  std::vector<double> areas;  ///< Of the pores.
+  double area = 0.0;          ///< Of all of them.
+  double perimeter = 0.0;     ///< Of all of them. [px]
   double area_by_grey = 0.0;  ///< Without a threshold: the integral of depth about the pores (I8).
-  double largest = 0.0;
-  int count = 0;
+  int crack_count = 0;
+  double crack_area = 0.0;
   int specks = 0;  ///< Objects below `smallest_pore`, left out.
 };
 constexpr int smallest_pore = 4;  // [px]
 
+/// How pores are told from bone.
+struct PoreOptions {
+  io::Threshold threshold = io::Threshold::half_maximum;
+  double crack_slenderness = 10.0;  ///< Length over width from which on it is a crack; 0: none is.
+  bool rim = false;                 ///< Bone fades into background at its surface.
+};
+
 /// Levels of bone and noise, from the coarse division.
 Levels bone_levels(const cv::Mat& grey, const Regions& regions);
 
-/// The bone on the full image; empty when there is none.
-cv::Mat find_bone(const cv::Mat& grey, const Regions& regions, Levels levels);
+/// The bone on the full image; empty when there is none. `depth` is working space.
+cv::Mat find_bone(const cv::Mat& grey, const Regions& regions, Levels levels, cv::Mat& depth);
 
-/// The pores in `bone`. An image without a second level has none.
-PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, bool outlined, Levels levels);
+/// The pores in `bone`; `depth` becomes the image they were cut from. An image without a second
+/// level has none.
+PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const Levels& levels,
+                   const PoreOptions& options, cv::Mat& depth);
 
-/// Count, areas and specks of a pore image; specks are wiped from it.
-void count_pores(PoreMap& map);
+/// Sorts the objects of `map.pores` into pores, cracks and specks.
+void sort_objects(double crack_slenderness, PoreMap& map);
 
 }  // namespace havers::images

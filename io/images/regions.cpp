@@ -5,32 +5,18 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "io/images/grey_image.hpp"
+#include "io/images/masks.hpp"
 #include "io/images/two_levels.hpp"
 
 namespace havers::images {
 namespace {
 
-using Contour = std::vector<cv::Point>;
-
-cv::Mat square(int side) {
-  return cv::Mat::ones(side, side, CV_8U);
-}
-
 // A small, quiet copy with levels from 0 to 1.
 cv::Mat small_copy(const cv::Mat& grey) {
-  cv::Mat copy;
-  cv::resize(grey, copy, fitted(grey.size(), 128), 0.0, 0.0, cv::INTER_AREA);
-  copy.convertTo(copy, CV_32F);
+  cv::Mat copy = averaged(grey, reduction(grey.size()), cv::BORDER_REPLICATE);
   cv::medianBlur(copy, copy, 5);
   cv::normalize(copy, copy, 0.0, 1.0, cv::NORM_MINMAX);
   return copy;
-}
-
-std::vector<Contour> outer_contours(const cv::Mat& mask) {
-  std::vector<Contour> contours;
-  cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
-  return contours;
 }
 
 // Share of the image's frame that is set.
@@ -45,32 +31,40 @@ double share_of_frame(const cv::Mat& mask) {
 // of its frame.
 bool is_a_region(const cv::Mat& level) {
   for (const Contour& contour : outer_contours(level)) {
+    if (enclosed_area(contour) > 0.1 * static_cast<double>(level.total())) return true;
     cv::Mat part = cv::Mat::zeros(level.size(), CV_8U);
-    cv::drawContours(part, std::vector<Contour>{contour}, 0, 255, cv::FILLED);
-    if (cv::countNonZero(part) > 0.1 * static_cast<double>(level.total())) return true;
+    fill(part, contour, 255);
     if (share_of_frame(part & level) > 0.1) return true;
   }
   return false;
 }
 
-// The larger parts of a mask, holes filled.
-cv::Mat main_parts(const cv::Mat& mask) {
-  std::vector<Contour> contours = outer_contours(mask);
-  std::vector<double> areas;
-  areas.reserve(contours.size());
-  for (const Contour& contour : contours) areas.push_back(cv::contourArea(contour));
-  const double largest = areas.empty() ? 0.0 : *std::max_element(areas.begin(), areas.end());
-  cv::Mat parts = cv::Mat::zeros(mask.size(), CV_8U);
-  for (std::size_t i = 0; i < contours.size(); ++i)
-    if (areas[i] >= 0.1 * largest)
-      cv::drawContours(parts, contours, static_cast<int>(i), 255, cv::FILLED);
+// Parts of at least a tenth of the largest: text and scale bars are not.
+std::vector<Blob> large_parts(const cv::Mat& mask) {
+  std::vector<Blob> parts = blobs_of(mask);
+  double largest = 0.0;
+  for (const Blob& part : parts) largest = std::max(largest, enclosed_area(part.border));
+  std::erase_if(parts,
+                [&](const Blob& part) { return enclosed_area(part.border) < 0.1 * largest; });
   return parts;
 }
 
-cv::Mat enlarged(const cv::Mat& mask, cv::Size size) {
-  cv::Mat large;
-  cv::resize(mask, large, size, 0.0, 0.0, cv::INTER_NEAREST);
-  return large;
+// The same, holes filled.
+cv::Mat main_parts(const cv::Mat& mask) {
+  cv::Mat parts = cv::Mat::zeros(mask.size(), CV_8U);
+  for (const Blob& part : large_parts(mask)) fill(parts, part.border, 255);
+  return parts;
+}
+
+// What a thin wall keeps from the outside is lost on the small copy, but not from the convex hull.
+cv::Mat hulls_of(const cv::Mat& parts) {
+  cv::Mat hulls = cv::Mat::zeros(parts.size(), CV_8U);
+  for (const Contour& border : outer_contours(parts)) {
+    Contour corners;
+    cv::convexHull(border, corners);
+    cv::fillConvexPoly(hulls, corners, 255);
+  }
+  return hulls;
 }
 
 // Pores are the minority: the side of the smooth surface to which the grey levels have their tail.
@@ -78,7 +72,9 @@ bool tail_is_dark(const cv::Mat& grey, const cv::Mat& mask) {
   const std::vector<Sample> samples = sample(grey, mask, 20000);
   const Surface surface = fit_surface(samples, grey.size(), 2);
   double third = 0.0;
-  for (const Sample& s : samples) third += std::pow(s.value - surface.at(s.x, s.y), 3);
+  const std::vector<float> level = values_at(surface, samples);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    third += std::pow(samples[i].value - level[i], 3);
   return third <= 0.0;
 }
 
@@ -88,64 +84,40 @@ bool are_dark(io::Pores pores, bool found) {
 
 Regions all_of(const cv::Mat& grey, const cv::Mat& mask, io::Pores pores) {
   Regions regions;
-  regions.bone = mask;
+  regions.box = cv::boundingRect(mask);
+  regions.bone = mask(regions.box);
   regions.dark_pores = are_dark(pores, pores == io::Pores::found && tail_is_dark(grey, mask));
   return regions;
 }
 
-// (I4) A hole larger than a tenth of what the outline encloses is marrow; smaller ones are pores.
-void cut_out_marrow(const cv::Mat& solid, cv::Mat& bone) {
-  const double enclosed = cv::countNonZero(bone);
-  std::vector<Contour> contours;
-  std::vector<cv::Vec4i> family;
-  cv::findContours(solid, contours, family, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
-  for (std::size_t i = 0; i < contours.size(); ++i) {
-    if (family[i][3] < 0) continue;  // not a hole
-    if (cv::contourArea(contours[i]) > 0.1 * enclosed)
-      cv::drawContours(bone, contours, static_cast<int>(i), 0, cv::FILLED);
-  }
-  bone |= solid;
-}
-
-bool is_a_machined_bar(const Contour& hull) {
+bool is_a_machined_bar(const Contour& border) {
+  Contour hull;
+  cv::convexHull(border, hull);
   return cv::contourArea(hull) > 0.95 * static_cast<double>(cv::minAreaRect(hull).size.area());
 }
 
 // (I5) Pores that the surface cuts are notches: what the convex hull adds to the outline, in pieces
 // with a mouth much narrower than they are wide. On a machined bar, straight by itself, every notch
 // that is not shallow is one.
-bool is_a_cut_pore(const cv::Mat& notch, const cv::Mat& hull, bool machined) {
-  cv::Mat grown;
-  cv::dilate(notch, grown, square(3));
-  const double area = cv::countNonZero(notch), mouth = cv::countNonZero(grown & ~hull);
-  return area > (machined ? 0.15 : 2.0) * mouth * mouth;
+bool is_a_cut_pore(const Blob& notch, const cv::Mat& hull, bool machined) {
+  const cv::Rect box = cv::boundingRect(notch.border);
+  const cv::Rect around = (box + cv::Size(2, 2) - cv::Point(1, 1)) & cv::Rect({}, hull.size());
+  cv::Mat alone = cv::Mat::zeros(around.size(), CV_8U);
+  cv::drawContours(alone, std::vector<Contour>{notch.border}, 0, 255, cv::FILLED, cv::LINE_8,
+                   cv::noArray(), 0, -around.tl());
+  const double mouth = cv::countNonZero(dilated(alone, 3) & ~hull(around));
+  return notch.area > (machined ? 0.15 : 2.0) * mouth * mouth;
 }
 
 void fill_notches(const std::vector<Contour>& outlines, cv::Mat& bone) {
-  bool machined = true;
-  cv::Mat hull = cv::Mat::zeros(bone.size(), CV_8U), filled = hull.clone();
-  for (const Contour& contour : outlines) {
-    Contour corners;
-    cv::convexHull(contour, corners);
-    cv::fillConvexPoly(hull, corners, 255);
-    machined = machined && is_a_machined_bar(corners);
-  }
-  cv::drawContours(filled, outlines, -1, 255, cv::FILLED);
-  const cv::Mat added = hull & ~filled;
-  cv::Mat notches, labels, stats, centroids;
-  cv::morphologyEx(added, notches, cv::MORPH_OPEN, square(5));
-  const int count = cv::connectedComponentsWithStats(notches, labels, stats, centroids, 8);
-  const double most = 0.1 * cv::countNonZero(filled);
-  const cv::Rect image(cv::Point(), bone.size());
-  for (int i = 1; i < count; ++i) {
-    if (stats.at<int>(i, cv::CC_STAT_AREA) > most) continue;
-    const cv::Rect box(
-        stats.at<int>(i, cv::CC_STAT_LEFT) - 1, stats.at<int>(i, cv::CC_STAT_TOP) - 1,
-        stats.at<int>(i, cv::CC_STAT_WIDTH) + 2, stats.at<int>(i, cv::CC_STAT_HEIGHT) + 2);
-    const cv::Rect part = box & image;
-    const cv::Mat notch = labels(part) == i;
-    if (is_a_cut_pore(notch, hull(part), machined)) bone(part).setTo(255, notch);
-  }
+  const cv::Mat hull = hulls_of(bone);
+  const bool machined = std::all_of(outlines.begin(), outlines.end(), is_a_machined_bar);
+  cv::Mat notches = hull.clone();
+  cv::drawContours(notches, outlines, -1, 0, cv::FILLED);
+  cv::morphologyEx(notches, notches, cv::MORPH_OPEN, cv::Mat::ones(5, 5, CV_8U));
+  const double most = 0.1 * cv::countNonZero(bone);
+  for (const Blob& notch : blobs_of(notches))
+    if (notch.area <= most && is_a_cut_pore(notch, hull, machined)) fill(bone, notch.border, 255);
 }
 
 }  // namespace
@@ -162,17 +134,22 @@ Regions divide(const cv::Mat& grey, io::Pores pores) {
   const bool bright_bone = are_dark(pores, share_of_frame(levels.bright) < share_of_frame(dark));
   const cv::Mat parts = main_parts(bright_bone ? levels.bright : dark);
   const cv::Mat bone = parts & (bright_bone ? levels.bright : dark);
-  cv::Mat core, search, near, around;
-  cv::erode(bone, core, square(3));
-  cv::dilate(parts, search, square(5));
-  cv::dilate(bone, near, square(3));
-  cv::dilate(bone, around, square(9));
-  Regions regions;
-  regions.outlined = true;
-  regions.dark_pores = bright_bone;
-  regions.bone = enlarged(cv::countNonZero(core) > 0 ? core : bone, grey.size());
-  regions.search = enlarged(search, grey.size());
-  regions.background = enlarged(around & ~near & ~parts, grey.size());
+  const cv::Mat core = eroded(bone, 3), search = dilated(hulls_of(parts), 5);
+  const cv::Mat background = dilated(bone, 9) & ~dilated(bone, 3) & ~parts;
+
+  const int factor = reduction(grey.size());
+  const cv::Rect near = cv::boundingRect(search | background);
+  const cv::Rect large(near.tl() * factor, near.size() * factor);
+  Regions regions{.outlined = true, .dark_pores = bright_bone};
+  regions.box = large & cv::Rect({}, grey.size());
+  const auto enlarged = [&](const cv::Mat& mask) {
+    cv::Mat full;
+    cv::resize(mask(near), full, large.size(), 0.0, 0.0, cv::INTER_NEAREST);
+    return full(cv::Rect({}, regions.box.size()));
+  };
+  regions.bone = enlarged(cv::countNonZero(core) > 0 ? core : bone);
+  regions.search = enlarged(search);
+  regions.background = enlarged(background);
   return regions;
 }
 
@@ -180,11 +157,20 @@ Regions divide(const cv::Mat& grey, const cv::Mat& mask, io::Pores pores) {
   return all_of(grey, mask, pores);
 }
 
+// (I4) A hole larger than a tenth of what the outline encloses is marrow; smaller ones are pores.
 cv::Mat outline(const cv::Mat& solid) {
-  cv::Mat bone = main_parts(solid);
-  if (cv::countNonZero(bone) == 0) return {};
-  const std::vector<Contour> outlines = outer_contours(bone);
-  cut_out_marrow(solid & bone, bone);
+  cv::Mat bone = cv::Mat::zeros(solid.size(), CV_8U);
+  std::vector<Contour> outlines, holes;
+  for (Blob& part : large_parts(solid)) {
+    outlines.push_back(std::move(part.border));
+    holes.insert(holes.end(), part.holes.begin(), part.holes.end());
+  }
+  if (outlines.empty()) return {};
+  cv::drawContours(bone, outlines, -1, 255, cv::FILLED);
+  const double enclosed = cv::countNonZero(bone);
+  std::erase_if(holes, [&](const Contour& hole) { return enclosed_area(hole) <= 0.1 * enclosed; });
+  cv::drawContours(bone, holes, -1, 0, cv::FILLED);
+  cv::drawContours(bone, holes, -1, 255, 1);  // their borders are bone
   fill_notches(outlines, bone);
   return bone;
 }

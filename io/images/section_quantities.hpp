@@ -6,8 +6,9 @@
 
 namespace havers::images {
 
-/// Porosity, counts, areas and spread between windows of a pore map. Where the pixel size is
+/// Porosity, counts, areas, zones and spread between windows of a pore map. Where the pixel size is
 /// unknown, what needs it is NaN.
-calib::SectionPorosity section_quantities(const PoreMap& map, const io::SectionOptions& options);
+calib::SectionPorosity section_quantities(const PoreMap& map, bool outlined,
+                                          const io::SectionOptions& options);
 
 }  // namespace havers::images

@@ -5,35 +5,52 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <span>
 
 namespace havers::images {
 namespace {
 
-using Monomials = Eigen::Matrix<double, 15, 1>;
-
-// u^i v^j by ascending degree, so that a lower degree is a head of the list.
-Monomials monomials(double u, double v) {
-  Monomials m;
-  m(0) = 1.0;
-  for (Eigen::Index degree = 1, k = 1; degree <= 4; ++degree) {
-    for (Eigen::Index j = 0; j < degree; ++j) m(k + j) = u * m(k - degree + j);
-    m(k + degree) = v * m(k - 1);
-    k += degree + 1;
-  }
-  return m;
-}
+// Exponents of uⁱvʲ by ascending degree, so that a lower degree is a head of the list.
+struct Monomial {
+  std::size_t i = 0, j = 0;
+};
+constexpr std::array<Monomial, 15> monomials = [] {
+  std::array<Monomial, 15> all{};
+  for (std::size_t degree = 0, k = 0; degree <= 4; ++degree)
+    for (std::size_t j = 0; j <= degree; ++j) all[k++] = {degree - j, j};
+  return all;
+}();
 
 double scaled(double position, int extent) {
   return 2.0 * position / extent - 1.0;
 }
 
-}  // namespace
+struct Normal {
+  Eigen::MatrixXd products;
+  Eigen::VectorXd right;
+};
 
-double Surface::at(double x, double y) const {
-  const std::array<double, 5> c = row(y);
-  const double u = scaled(x, size.width);
-  return c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * c[4])));
+// Samples of one row. Products of monomials are monomials again: sums of powers are all it takes.
+void add_row(std::span<const Sample> row, cv::Size size, Normal& normal) {
+  std::array<double, 9> powers{}, values{}, v{1.0};  // Σ uⁱ, Σ uⁱ value, vʲ
+  for (const Sample& s : row) {
+    const double u = scaled(s.x, size.width);
+    double power = 1.0;
+    for (std::size_t i = 0; i < powers.size(); ++i, power *= u)
+      powers[i] += power, values[i] += power * s.value;
+  }
+  for (std::size_t j = 1; j < v.size(); ++j) v[j] = v[j - 1] * scaled(row.front().y, size.height);
+  for (Eigen::Index k = 0; k < normal.right.size(); ++k) {
+    const Monomial& a = monomials[static_cast<std::size_t>(k)];
+    normal.right(k) += values[a.i] * v[a.j];
+    for (Eigen::Index l = 0; l < normal.right.size(); ++l) {
+      const Monomial& b = monomials[static_cast<std::size_t>(l)];
+      normal.products(k, l) += powers[a.i + b.i] * v[a.j + b.j];
+    }
+  }
 }
+
+}  // namespace
 
 std::array<double, 5> Surface::row(double y) const {
   const double v = scaled(y, size.height);
@@ -47,23 +64,46 @@ std::array<double, 5> Surface::row(double y) const {
   return along;
 }
 
+void Surface::evaluate_row(int y, float* values) const {
+  const std::array<double, 5> exact = row(y);
+  std::array<float, 5> c{};
+  std::copy(exact.begin(), exact.end(), c.begin());
+  const auto scale = static_cast<float>(2.0 / size.width);
+  for (int x = 0; x < size.width; ++x) {
+    const float u = scale * static_cast<float>(x) - 1.0F;
+    values[x] = c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * c[4])));
+  }
+}
+
+std::vector<float> values_at(const Surface& surface, const std::vector<Sample>& samples) {
+  std::vector<float> values;
+  values.reserve(samples.size());
+  std::array<double, 5> c{};
+  float row = -1.0F;
+  for (const Sample& s : samples) {
+    if (s.y != row) c = surface.row(row = s.y);
+    const double u = scaled(s.x, surface.size.width);
+    values.push_back(static_cast<float>(c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * c[4])))));
+  }
+  return values;
+}
+
 Surface fit_surface(const std::vector<Sample>& samples, cv::Size size, int degree) {
   const auto terms = [&degree] { return (degree + 1) * (degree + 2) / 2; };
   while (degree > 0 && std::ssize(samples) / terms() < 10) degree -= 2;
-  const Eigen::Index n = terms();
-  Eigen::Matrix<double, 15, 15> products = Eigen::Matrix<double, 15, 15>::Zero();
-  Monomials right = Monomials::Zero();
-  for (const Sample& s : samples) {
-    const Monomials m = monomials(scaled(s.x, size.width), scaled(s.y, size.height));
-    products.noalias() += m * m.transpose();
-    right += s.value * m;
-  }
-  // A thin ring leaves combinations undetermined: hold these near zero.
   Surface surface{.size = size};
   if (samples.empty()) return surface;
-  Eigen::MatrixXd normal = products.topLeftCorner(n, n);
-  normal.diagonal().tail(n - 1).array() += 1e-7 * static_cast<double>(samples.size());
-  const Eigen::VectorXd solved = normal.ldlt().solve(right.head(n));
+  const Eigen::Index n = terms();
+  Normal normal{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+  for (auto row = samples.begin(); row != samples.end();) {
+    const auto end =
+        std::find_if(row, samples.end(), [&](const Sample& s) { return s.y != row->y; });
+    add_row({row, end}, size, normal);
+    row = end;
+  }
+  // A thin ring leaves combinations undetermined: hold these near zero.
+  normal.products.diagonal().tail(n - 1).array() += 1e-7 * static_cast<double>(samples.size());
+  const Eigen::VectorXd solved = normal.products.ldlt().solve(normal.right);
   std::copy(solved.begin(), solved.end(), surface.coefficients.begin());
   return surface;
 }
@@ -73,8 +113,8 @@ Surface fit_majority(const std::vector<Sample>& samples, cv::Size size) {
   Surface surface = fit_surface(samples, size, 2);
   std::vector<float> residual(samples.size()), deviation(samples.size());
   for (int round = 0; round < 6; ++round) {
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      residual[i] = samples[i].value - static_cast<float>(surface.at(samples[i].x, samples[i].y));
+    const std::vector<float> level = values_at(surface, samples);
+    for (std::size_t i = 0; i < samples.size(); ++i) residual[i] = samples[i].value - level[i];
     deviation = residual;
     const double middle = quantile(deviation, 0.5);
     for (std::size_t i = 0; i < samples.size(); ++i)

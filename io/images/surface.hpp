@@ -17,12 +17,17 @@ struct Surface {
   cv::Size size;
   std::array<double, 15> coefficients{};
 
-  [[nodiscard]] double at(double x, double y) const;
   /// Coefficients of u⁰…u⁴ along a row, u = 2x/width − 1.
   [[nodiscard]] std::array<double, 5> row(double y) const;
+  /// The values of row y, one a pixel.
+  void evaluate_row(int y, float* values) const;
 };
 
-/// Least squares over samples. Fewer samples than a degree needs: a lower degree.
+/// Values of the surface at samples, which come row by row.
+std::vector<float> values_at(const Surface& surface, const std::vector<Sample>& samples);
+
+/// Least squares over samples, which come row by row. Fewer samples than a degree needs: a lower
+/// degree.
 Surface fit_surface(const std::vector<Sample>& samples, cv::Size size, int degree);
 
 /// The surface of the majority, where a minority (pores) lies to one side.

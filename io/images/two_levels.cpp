@@ -11,9 +11,7 @@ namespace {
 
 cv::Mat values_of(const Surface& surface) {
   cv::Mat values(surface.size, CV_32F);
-  for (int y = 0; y < values.rows; ++y)
-    for (int x = 0; x < values.cols; ++x)
-      values.at<float>(y, x) = static_cast<float>(surface.at(x, y));
+  for (int y = 0; y < values.rows; ++y) surface.evaluate_row(y, values.ptr<float>(y));
   return values;
 }
 
@@ -66,7 +64,7 @@ TwoLevels split_levels(const cv::Mat& image) {
 
 // Noise cut in halves has a separation of 2.65; a shade cut along a contour has no jump across it.
 bool is_a_step(const TwoLevels& levels, const cv::Mat& image) {
-  if (levels.bright.empty() || levels.separation < 3.5) return false;
+  if (levels.bright.empty() || levels.separation < 4.5) return false;
   cv::Mat grown, shrunk, grown_far, shrunk_far;
   const cv::Mat near = cv::Mat::ones(3, 3, CV_8U), far = cv::Mat::ones(7, 7, CV_8U);
   cv::dilate(levels.bright, grown, near);

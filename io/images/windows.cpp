@@ -35,13 +35,15 @@ void add_windows(const cv::Mat& bone, const cv::Mat& integral, cv::Size2d window
   cv::Mat fits;
   cv::erode(bone, fits, cv::Mat::ones(covered, CV_8U), {0, 0}, 1, cv::BORDER_CONSTANT,
             cv::Scalar(0));
-  const int step = std::max(1, static_cast<int>(std::min(window.width, window.height) / 2.0));
+  // Half a window apart: what lies between says nothing new.
+  const int across = std::max(1, static_cast<int>(window.width / 2.0));
+  const int down = std::max(1, static_cast<int>(window.height / 2.0));
   const int dx = static_cast<int>(window.width), dy = static_cast<int>(window.height);
   const double fx = window.width - dx, fy = window.height - dy, scale = 1.0 / window.area();
-  for (int y = 0; y + covered.height <= bone.rows; y += step) {
+  for (int y = 0; y + covered.height <= bone.rows; y += down) {
     const auto *top = integral.ptr<int>(y), *low = integral.ptr<int>(y + dy);
     const auto* lower = fy == 0.0 ? low : integral.ptr<int>(y + dy + 1);
-    for (int x = 0; x + covered.width <= bone.cols; x += step) {
+    for (int x = 0; x + covered.width <= bone.cols; x += across) {
       if (fits.at<std::uint8_t>(y, x) == 0) continue;
       const double above = between(top, x + dx, fx) - top[x];
       const double below = (1.0 - fy) * (between(low, x + dx, fx) - low[x]) +

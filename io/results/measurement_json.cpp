@@ -13,6 +13,10 @@ nlohmann::json size_json(std::optional<double> size) {
   return size ? json_of(*size) : nlohmann::json();
 }
 
+nlohmann::json finite(double value) {
+  return json_of(value);
+}
+
 }  // namespace
 
 nlohmann::json import_json(const TestFile& file, const calib::Reduction& reduction) {
@@ -42,6 +46,14 @@ nlohmann::json porosity_json(const calib::SectionPorosity& section, double scatt
   nlohmann::json json = json_of(copy);
   json["scatter"] = json_of(scatter);
   return json;
+}
+
+nlohmann::json mean_porosity_json(const calib::SpecimenPorosity& mean) {
+  return {{"porosity", mean.porosity},
+          {"porosity_standard_error", mean.porosity_standard_error},
+          {"window_sd", finite(mean.window_sd)},
+          {"scatter", finite(calib::scatter_of(mean, {}))},
+          {"missing_joints", calib::missing_joints(mean, {})}};
 }
 
 }  // namespace havers::io

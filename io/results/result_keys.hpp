@@ -63,6 +63,20 @@ void keys(Table& table, calib::MeasuredTest& test) {
 }
 
 template <class Table>
+void keys(Table& table, calib::PoreClass& pores) {
+  table.key("name", pores.name);
+  table.key("count", pores.count);
+  table.key("area_um2", pores.area, square_micrometre);
+}
+
+template <class Table>
+void keys(Table& table, calib::Zone& zone) {
+  table.key("name", zone.name);
+  table.key("porosity", zone.porosity);
+  table.key("bone_area_um2", zone.bone_area, square_micrometre);
+}
+
+template <class Table>
 void keys(Table& table, calib::SectionPorosity& section) {
   table.key("file", section.file);
   table.key("pixel_size_um", section.pixel_size, micrometre);
@@ -70,10 +84,28 @@ void keys(Table& table, calib::SectionPorosity& section) {
   table.key("threshold", section.threshold);
   table.key("porosity", section.porosity);
   table.key("porosity_standard_error", section.porosity_standard_error);
+  table.key("porosity_by_grey", section.porosity_by_grey);
   table.key("pore_count", section.pore_count);
+  table.key("pore_density_per_m2", section.pore_density);
   table.key("pore_area_um2", section.pore_area, square_micrometre);
   table.key("bone_area_um2", section.bone_area, square_micrometre);
+  table.key("total_area_um2", section.total_area, square_micrometre);
+  table.key("marrow_area_um2", section.marrow_area, square_micrometre);
+  table.key("mean_pore_area_um2", section.mean_pore_area, square_micrometre);
+  table.key("pore_area_sd_um2", section.pore_area_sd, square_micrometre);
+  table.key("mean_pore_diameter_um", section.mean_pore_diameter, micrometre);
+  table.key("pore_diameter_sd_um", section.pore_diameter_sd, micrometre);
+  table.key("pore_area_ratio_um2", section.pore_area_ratio, square_micrometre);
+  table.key("window_area_um2", section.window_area, square_micrometre);
   table.key("window_sd", section.window_sd);
+  table.key("window_sd_standard_error", section.window_sd_standard_error);
+  table.key("crack_count", section.crack_count);
+  table.key("crack_area_um2", section.crack_area, square_micrometre);
+  table.key("speck_count", section.speck_count);
+  table.key("classes", section.classes);
+  table.key("zones", section.zones);
+  table.key("density_kg_per_m3", section.density);
+  table.key("density_residual_kg_per_m3", section.density_residual);
   table.key("warnings", section.warnings);
 }
 
@@ -132,6 +164,39 @@ void keys(Table& table, calib::Spread& spread) {
 }
 
 template <class Table>
+void keys(Table& table, calib::TermResult& term) {
+  table.key("term", term.term);
+  table.key("measured", term.measured);
+  table.key("simulated", term.simulated);
+  table.key("sd_machine", term.machine);
+  table.key("sd_replicates", term.replicates);
+  table.key("sd_scatter", term.scatter);
+  table.key("sd_specimens", term.specimens);
+  table.key("sd", term.sd);
+  table.key("residual", term.residual);
+  table.key("share", term.share);
+}
+
+template <class Table>
+void keys(Table& table, calib::ReplicateResult& replicate) {
+  table.key("seed", replicate.seed);
+  table.key("failed", replicate.failed);
+  table.key("broke", replicate.broke);
+  table.key("modulus_Pa", replicate.modulus);
+  table.key("strength_Pa", replicate.strength);
+  table.key("failure_strain", replicate.failure_strain);
+  table.key("pre_peak", replicate.pre_peak);
+  table.key("energy", replicate.energy);
+  table.key("post_peak", replicate.post_peak);
+}
+
+template <class Table>
+void keys(Table& table, calib::Influence& influence) {
+  table.key("parameter", influence.parameter);
+  table.key("shift", influence.shift);
+}
+
+template <class Table>
 void keys(Table& table, calib::SpecimenResult& specimen) {
   table.key("id", specimen.id);
   table.key("use", specimen.use);
@@ -156,6 +221,16 @@ void keys(Table& table, calib::SpecimenResult& specimen) {
   table.key("replicates", specimen.replicates);
   table.key("influence", specimen.influence);
   table.key("failed_simulations", specimen.failed_simulations);
+}
+
+template <class Table>
+void keys(Table& table, calib::StageLog& stage) {
+  table.key("optimiser", stage.optimiser);
+  table.key("cost_before", stage.cost_before);
+  table.key("cost_after", stage.cost_after);
+  table.key("evaluations", stage.evaluations);
+  table.key("message", stage.message);
+  table.key("wall_s", stage.wall_seconds);
 }
 
 template <class Table>
@@ -193,49 +268,6 @@ template <class Table>
 void keys(Table& table, calib::NextTest& test) {
   table.key("what", test.what);
   table.key("width", test.width);
-}
-
-template <class Table>
-void keys(Table& table, calib::StageLog& stage) {
-  table.key("optimiser", stage.optimiser);
-  table.key("cost_before", stage.cost_before);
-  table.key("cost_after", stage.cost_after);
-  table.key("evaluations", stage.evaluations);
-  table.key("message", stage.message);
-  table.key("wall_s", stage.wall_seconds);
-}
-
-template <class Table>
-void keys(Table& table, calib::TermResult& term) {
-  table.key("term", term.term);
-  table.key("measured", term.measured);
-  table.key("simulated", term.simulated);
-  table.key("sd_machine", term.machine);
-  table.key("sd_replicates", term.replicates);
-  table.key("sd_scatter", term.scatter);
-  table.key("sd_specimens", term.specimens);
-  table.key("sd", term.sd);
-  table.key("residual", term.residual);
-  table.key("share", term.share);
-}
-
-template <class Table>
-void keys(Table& table, calib::ReplicateResult& replicate) {
-  table.key("seed", replicate.seed);
-  table.key("failed", replicate.failed);
-  table.key("broke", replicate.broke);
-  table.key("modulus_Pa", replicate.modulus);
-  table.key("strength_Pa", replicate.strength);
-  table.key("failure_strain", replicate.failure_strain);
-  table.key("pre_peak", replicate.pre_peak);
-  table.key("energy", replicate.energy);
-  table.key("post_peak", replicate.post_peak);
-}
-
-template <class Table>
-void keys(Table& table, calib::Influence& influence) {
-  table.key("parameter", influence.parameter);
-  table.key("shift", influence.shift);
 }
 
 template <class Table>

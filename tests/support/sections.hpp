@@ -1,5 +1,5 @@
-// Synthetic sections of known porosity, drawn apart from the program's own: circles of which every
-// pixel takes its share, under blur, shade and noise, in any file format.
+// Synthetic sections of known porosity, drawn apart from the program's own: ellipses of which every
+// pixel takes its share, under blur, shade, texture and noise, in any file format.
 #pragma once
 
 #include <algorithm>
@@ -21,9 +21,12 @@ struct SectionCase {
   int width = 700, height = 600;
   double porosity = 0.05;
   double smallest_radius = 4.0, largest_radius = 4.0;  ///< [px]
+  double elongation = 1.0;                             ///< Largest ratio of an ellipse's axes.
+  int clusters = 0;                                    ///< Pores gather about so many places.
   double bone = 0.8, pore = 0.2, background = 0.2;     ///< Grey levels of 0 to 1, before the shade.
-  double noise = 0.0;                                  ///< SD over bone − pore.
-  double blur = 0.0;                                   ///< [px]
+  double texture = 0.0;       ///< SD of the bone's own level over bone − pore, 10 px wide.
+  double noise = 0.0;         ///< SD over bone − pore.
+  double blur = 0.0;          ///< [px]
   double cupping = 0.0;       ///< Loss of brightness from centre to corner.
   bool bright_pores = false;  ///< The negative of it all.
   bool colour = false;        ///< Stained: red and blue differ.
@@ -36,6 +39,16 @@ struct DrawnSection {
   cv::Mat bone, pores;  ///< Share of each pixel, float.
   double porosity = 0.0;
   int pore_count = 0;
+};
+
+struct Ellipse {
+  double x = 0.0, y = 0.0, long_axis = 0.0, short_axis = 0.0, angle = 0.0;
+
+  /// Below 1 inside.
+  [[nodiscard]] double at(double px, double py) const {
+    const double c = std::cos(angle), s = std::sin(angle), u = px - x, v = py - y;
+    return std::hypot((c * u + s * v) / long_axis, (c * v - s * u) / short_axis);
+  }
 };
 
 /// Depth of a point inside the outline. [px]
@@ -55,30 +68,89 @@ inline double depth_inside(const SectionCase& c, double x, double y) {
   }
 }
 
-inline cv::Mat photograph(const SectionCase& c, const cv::Mat& bone, const cv::Mat& pores,
-                          std::mt19937& random) {
-  cv::Mat image(bone.size(), CV_32F);
-  for (int y = 0; y < c.height; ++y)
-    for (int x = 0; x < c.width; ++x) {
-      const double b = bone.at<float>(y, x), p = pores.at<float>(y, x);
-      image.at<float>(y, x) =
-          static_cast<float>(c.background * (1.0 - b) + c.pore * p + c.bone * (b - p));
-    }
+/// Smooth random field of mean 0 and SD 1.
+inline cv::Mat random_texture(cv::Size size, cv::RNG& random) {
+  cv::Mat field(size, CV_32F);
+  random.fill(field, cv::RNG::NORMAL, 0.0, 1.0);
+  cv::GaussianBlur(field, field, {}, 10.0);
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(field, mean, deviation);
+  return (field - mean[0]) / deviation[0];
+}
+
+inline cv::Mat photograph(const SectionCase& c, const cv::Mat& bone, const cv::Mat& pores) {
+  cv::RNG random(0x9e3779b97f4a7c15ULL * (c.seed + 1));
+  const double contrast = std::abs(c.bone - c.pore);
+  cv::Mat solid = bone - pores, level(bone.size(), CV_32F, cv::Scalar(c.bone)), noise;
+  if (c.texture > 0.0) level += c.texture * contrast * random_texture(bone.size(), random);
+  cv::Mat image = c.background * (1.0 - bone) + c.pore * pores + level.mul(solid);
   if (c.blur > 0.0) cv::GaussianBlur(image, image, {}, c.blur, c.blur, cv::BORDER_REFLECT_101);
-  std::normal_distribution<double> noise(0.0, c.noise * std::abs(c.bone - c.pore) + 1e-9);
   for (int y = 0; y < c.height; ++y)
     for (int x = 0; x < c.width; ++x) {
       const double u = 2.0 * x / c.width - 1.0, v = 2.0 * y / c.height - 1.0;
-      const double shade = 1.0 - 0.5 * c.cupping * (u * u + v * v);
-      const double value = image.at<float>(y, x) * shade + noise(random);
-      image.at<float>(y, x) = static_cast<float>(c.bright_pores ? 1.0 - value : value);
+      image.at<float>(y, x) *= static_cast<float>(1.0 - 0.5 * c.cupping * (u * u + v * v));
     }
+  noise.create(bone.size(), CV_32F);
+  random.fill(noise, cv::RNG::NORMAL, 0.0, c.noise * contrast + 1e-9);
+  image += noise;
+  if (c.bright_pores) image = 1.0 - image;
   return image;
 }
 
-inline DrawnSection draw(const SectionCase& c) {
+/// Largest first, each where it keeps three pixels from the others and from the surface.
+inline std::vector<Ellipse> place_pores(const SectionCase& c, double bone_area) {
   std::mt19937 random(c.seed);
   std::uniform_real_distribution<double> uniform;
+  std::vector<Ellipse> placed, wanted;
+  for (double area = 0.0; area < c.porosity * bone_area && c.porosity > 0.0;) {
+    const double r =
+        c.smallest_radius * std::pow(c.largest_radius / c.smallest_radius, uniform(random));
+    const double stretch = std::sqrt(1.0 + (c.elongation - 1.0) * uniform(random));
+    wanted.push_back({0.0, 0.0, r * stretch, r / stretch, std::numbers::pi * uniform(random)});
+    area += std::numbers::pi * r * r;
+  }
+  std::sort(wanted.begin(), wanted.end(),
+            [](const Ellipse& a, const Ellipse& b) { return a.long_axis > b.long_axis; });
+  std::vector<cv::Point2d> middles;
+  for (int i = 0; i < c.clusters; ++i)
+    middles.emplace_back(c.width * uniform(random), c.height * uniform(random));
+  for (Ellipse pore : wanted)
+    for (int attempt = 0; attempt < 3000; ++attempt) {
+      pore.x = c.width * uniform(random), pore.y = c.height * uniform(random);
+      if (c.clusters > 0) {
+        const cv::Point2d& middle = middles[random() % middles.size()];
+        pore.x = middle.x + 0.15 * (pore.x - middle.x),
+        pore.y = middle.y + 0.15 * (pore.y - middle.y);
+      }
+      if (depth_inside(c, pore.x, pore.y) < pore.long_axis + 3.0) continue;
+      if (std::any_of(placed.begin(), placed.end(), [&](const Ellipse& o) {
+            return std::hypot(pore.x - o.x, pore.y - o.y) < pore.long_axis + o.long_axis + 3.0;
+          }))
+        continue;
+      placed.push_back(pore);
+      break;
+    }
+  return placed;
+}
+
+/// Adds to every pixel the share that a pore takes of it, counted on 8 × 8 points.
+inline void draw_pore(const Ellipse& pore, cv::Mat& shares) {
+  const double reach = pore.long_axis + 1.0;
+  const cv::Rect box(
+      cv::Point2i(static_cast<int>(pore.x - reach), static_cast<int>(pore.y - reach)),
+      cv::Point2i(static_cast<int>(pore.x + reach) + 1, static_cast<int>(pore.y + reach) + 1));
+  const cv::Rect inside = box & cv::Rect(cv::Point(), shares.size());
+  for (int y = inside.y; y < inside.br().y; ++y)
+    for (int x = inside.x; x < inside.br().x; ++x) {
+      const double middle = pore.at(x + 0.5, y + 0.5), margin = 0.75 / pore.short_axis;
+      int covered = middle < 1.0 - margin ? 64 : 0;
+      for (int i = 0; i < 64 && std::abs(middle - 1.0) <= margin; ++i)
+        covered += pore.at(x + (i % 8 + 0.5) / 8.0, y + (i / 8 + 0.5) / 8.0) < 1.0 ? 1 : 0;
+      shares.at<float>(y, x) += static_cast<float>(covered / 64.0);
+    }
+}
+
+inline DrawnSection draw(const SectionCase& c) {
   DrawnSection drawn{
       {}, cv::Mat(c.height, c.width, CV_32F), cv::Mat::zeros(c.height, c.width, CV_32F)};
   for (int y = 0; y < c.height; ++y)
@@ -86,41 +158,13 @@ inline DrawnSection draw(const SectionCase& c) {
       drawn.bone.at<float>(y, x) =
           static_cast<float>(std::clamp(depth_inside(c, x + 0.5, y + 0.5) + 0.5, 0.0, 1.0));
   const double bone_area = cv::sum(drawn.bone)[0];
-
-  // Largest first, each where it keeps three pixels from the others and from the surface.
-  std::vector<cv::Vec3d> circles;
-  std::vector<double> radii;
-  for (double area = 0.0; area < c.porosity * bone_area && c.porosity > 0.0;) {
-    radii.push_back(c.smallest_radius *
-                    std::pow(c.largest_radius / c.smallest_radius, uniform(random)));
-    area += std::numbers::pi * radii.back() * radii.back();
-  }
-  std::sort(radii.rbegin(), radii.rend());
-  for (const double r : radii)
-    for (int attempt = 0; attempt < 3000; ++attempt) {
-      const double x = c.width * uniform(random), y = c.height * uniform(random);
-      if (depth_inside(c, x, y) < r + 3.0) continue;
-      if (std::any_of(circles.begin(), circles.end(), [&](const cv::Vec3d& o) {
-            return std::hypot(x - o[0], y - o[1]) < r + o[2] + 3.0;
-          }))
-        continue;
-      circles.emplace_back(x, y, r);
-      break;
-    }
-  for (const cv::Vec3d& o : circles)
-    for (int y = static_cast<int>(o[1] - o[2]) - 2; y <= o[1] + o[2] + 2; ++y)
-      for (int x = static_cast<int>(o[0] - o[2]) - 2; x <= o[0] + o[2] + 2; ++x) {
-        if (x < 0 || y < 0 || x >= c.width || y >= c.height) continue;
-        const double share =
-            std::clamp(o[2] + 0.5 - std::hypot(x + 0.5 - o[0], y + 0.5 - o[1]), 0.0, 1.0);
-        drawn.pores.at<float>(y, x) =
-            std::max(drawn.pores.at<float>(y, x), static_cast<float>(share));
-      }
+  const std::vector<Ellipse> pores = place_pores(c, bone_area);
+  for (const Ellipse& pore : pores) draw_pore(pore, drawn.pores);
   drawn.porosity = cv::sum(drawn.pores)[0] / bone_area;
-  drawn.pore_count = static_cast<int>(circles.size());
+  drawn.pore_count = static_cast<int>(pores.size());
 
   const double full = c.bits == 16 ? 65535.0 : 255.0;
-  photograph(c, drawn.bone, drawn.pores, random)
+  photograph(c, drawn.bone, drawn.pores)
       .convertTo(drawn.image, c.bits == 16 ? CV_16U : CV_8U, full);
   if (c.colour) {
     cv::Mat half;

@@ -27,7 +27,7 @@ TEST(DrawnSection, IsMeasuredAsItWasDrawn) {
     for (const double porosity : {0.0, 0.03, 0.08, 0.15}) {
       const auto file = file_of("drawn.png");
       const auto truth = draw_section(file, {.porosity = porosity, .ring = ring}, {});
-      const auto measured = measure_section(file, {.pixel_size = 2e-6}).porosity;
+      const auto measured = measure_sections(file, {.pixel_size = 2e-6}).front().porosity;
       SCOPED_TRACE(testing::Message() << "porosity " << porosity << (ring ? ", ring" : ", bar"));
       EXPECT_NEAR(truth.porosity, porosity, 0.004);
       EXPECT_NEAR(measured.porosity, truth.porosity, 0.002);

@@ -12,7 +12,7 @@ namespace {
 
 std::string complaint(const std::filesystem::path& file, const SectionOptions& options = {}) {
   try {
-    measure_section(file, options);
+    measure_sections(file, options);
   } catch (const InputError& error) {
     EXPECT_EQ(error.problems().size(), 1U);
     return error.what();
@@ -34,7 +34,7 @@ TEST(ImageFile, OfEveryFormatGivesTheSame) {
   EXPECT_TRUE(images_available());
   const auto drawn = test::draw({.largest_radius = 10.0, .blur = 1.0});
   for (const char* name : {"a.png", "a.tif", "a.tiff", "a.bmp", "a.jpg"}) {
-    const auto measured = measure_section(test::write(drawn.image, name), {}).porosity;
+    const auto measured = measure_sections(test::write(drawn.image, name), {}).front().porosity;
     EXPECT_NEAR(100.0 * measured.porosity, 100.0 * drawn.porosity, 0.1) << name;
     EXPECT_EQ(std::filesystem::path(measured.file).filename(), name);
   }
@@ -45,7 +45,7 @@ TEST(ImageFile, OfSixteenBitsKeepsThem) {
   const auto drawn = test::draw(
       {.bone = 0.502, .pore = 0.4995, .background = 0.4995, .noise = 0.1, .blur = 1.0, .bits = 16});
   for (const char* name : {"deep.png", "deep.tif"}) {
-    const auto measured = measure_section(test::write(drawn.image, name), {}).porosity;
+    const auto measured = measure_sections(test::write(drawn.image, name), {}).front().porosity;
     EXPECT_NEAR(100.0 * measured.porosity, 100.0 * drawn.porosity, 0.3) << name;
   }
 }
@@ -56,7 +56,7 @@ TEST(ImageFile, WithTransparentBackgroundHasNoBoneThere) {
   drawn.bone.convertTo(alpha, CV_8U, 255.0);
   cv::merge(std::vector<cv::Mat>{drawn.image, drawn.image, drawn.image, alpha}, colour);
   const auto measured =
-      measure_section(test::write(colour, "alpha.png"), {.pixel_size = 1e-6}).porosity;
+      measure_sections(test::write(colour, "alpha.png"), {.pixel_size = 1e-6}).front().porosity;
   EXPECT_NEAR(100.0 * measured.porosity, 100.0 * drawn.porosity, 0.2);
   EXPECT_NEAR(measured.bone_area * 1e12, cv::sum(drawn.bone)[0], 0.01 * cv::sum(drawn.bone)[0]);
 }
@@ -105,7 +105,7 @@ TEST(ImageFile, OfAFewPixelsIsMeasuredOrRefused) {
     image.at<std::uint8_t>(0, 0) = 200;
     const auto file = test::write(image, "tiny.png");
     try {
-      const double porosity = measure_section(file, {.pixel_size = 1e-6}).porosity.porosity;
+      const double porosity = measure_sections(file, {.pixel_size = 1e-6}).front().porosity.porosity;
       EXPECT_TRUE(porosity >= 0.0 && porosity < 1.0);
     } catch (const InputError& error) {
       expect_contains(error.what(), "tiny.png");

@@ -17,7 +17,7 @@ constexpr double pixel = 2e-6;
 
 calib::SectionPorosity measure(const test::DrawnSection& section, const std::string& name,
                                const SectionOptions& options = {.pixel_size = pixel}) {
-  return measure_section(test::write(section.image, name), options).porosity;
+  return measure_sections(test::write(section.image, name), options).front().porosity;
 }
 
 struct Hardship {
@@ -219,7 +219,7 @@ TEST(Section, DrawsWhatItFoundInASmallPicture) {
   const auto drawn =
       test::draw({.width = 1400, .height = 900, .largest_radius = 20.0, .noise = 0.1});
   const auto png =
-      measure_section(test::write(drawn.image, "overlay.png"), {.pixel_size = pixel}).overlay_png;
+      measure_sections(test::write(drawn.image, "overlay.png"), {.pixel_size = pixel}).front().overlay_png;
   const cv::Mat overlay = cv::imdecode(png, cv::IMREAD_COLOR);
   ASSERT_EQ(overlay.cols, 640);
   EXPECT_LT(png.size(), 200000U);

@@ -10,7 +10,7 @@ namespace {
 TEST(ImagesLeftOut, SayHowToGetThem) {
   EXPECT_FALSE(images_available());
   try {
-    measure_section("section.png", {});
+    measure_sections("section.png", {});
     FAIL() << "nothing was thrown";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("section.png: images are not built into this havers"),

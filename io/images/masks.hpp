@@ -1,0 +1,53 @@
+// What several steps do with masks: 255 where set. Private to io/images.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace havers::images {
+
+using Contour = std::vector<cv::Point>;
+
+/// With a square of `side` pixels, odd.
+cv::Mat eroded(const cv::Mat& mask, int side);
+cv::Mat dilated(const cv::Mat& mask, int side);
+
+/// What is farther than `reach` pixels from what is not set; beyond the image all is set.
+cv::Mat eroded_by(const cv::Mat& mask, int reach);
+
+/// Outer borders of the connected parts.
+std::vector<Contour> outer_contours(const cv::Mat& mask);
+
+/// Copies on which bone and zones are found are at most 128 pixels long: how many pixels a side
+/// become one of them.
+int reduction(cv::Size size);
+
+/// Means over cells of `factor` × `factor` pixels, float. What lies beyond the edge is nothing
+/// (BORDER_CONSTANT) or goes on (BORDER_REPLICATE).
+cv::Mat averaged(const cv::Mat& image, int factor, cv::BorderTypes beyond);
+
+/// Pixels inside a border and on it.
+double enclosed_area(const Contour& border);
+
+/// A connected part.
+struct Blob {
+  Contour border;
+  std::vector<Contour> holes;
+  double area = 0.0;   ///< Without its holes. [px]
+  double edges = 0.0;  ///< Sides of pixels between it and what is around it or in it. [px]
+
+  /// Smooth length of its borders [Cauchy-Crofton]. [px]
+  [[nodiscard]] double perimeter() const;
+};
+std::vector<Blob> blobs_of(const cv::Mat& mask);
+
+/// Length over greatest width of a blob; 1 when it is plainly no crack.
+double slenderness(const Blob& blob);
+
+/// Of the circle of an area.
+double diameter_of(double area);
+
+/// Sets what a border encloses to `value`.
+void fill(cv::Mat& mask, const Contour& border, int value);
+
+}  // namespace havers::images

@@ -1,0 +1,148 @@
+#include "io/images/pixel_size_tag.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+namespace havers::images {
+namespace {
+
+using Offset = std::uint64_t;
+
+// Numbers and text at places of a file; zero and nothing beyond its end.
+class Bytes {
+ public:
+  explicit Bytes(const std::filesystem::path& file) : in_(file, std::ios::binary) {}
+  void set_big_endian(bool big) { big_endian_ = big; }
+
+  std::string text(Offset at, std::size_t length) {
+    std::string found(std::min<std::size_t>(length, 4096), '\0');
+    in_.clear();
+    in_.seekg(static_cast<std::streamoff>(at));
+    in_.read(found.data(), static_cast<std::streamsize>(found.size()));
+    found.resize(static_cast<std::size_t>(in_.gcount()));
+    return found;
+  }
+
+  std::uint32_t number(Offset at, std::size_t size) {
+    std::string bytes = text(at, size);
+    if (!big_endian_) std::reverse(bytes.begin(), bytes.end());
+    std::uint32_t value = 0;
+    for (const char byte : bytes) value = value << 8U | static_cast<unsigned char>(byte);
+    return value;
+  }
+
+ private:
+  std::ifstream in_;
+  bool big_endian_ = true;
+};
+
+constexpr double inch = 25.4e-3;
+
+// A whole number of dots an inch in steps of a dozen or of fifty is a printer's or screen's.
+bool is_for_paper(double pixel) {
+  const double dots = std::round(inch / pixel);
+  const bool whole = std::abs(inch / pixel - dots) < 0.02;
+  return whole && dots <= 2400.0 && (std::fmod(dots, 12.0) == 0.0 || std::fmod(dots, 50.0) == 0.0);
+}
+
+// Chunks of a PNG: length, name, data, checksum. pHYs: pixels a unit in x and y, unit 1 is a metre.
+double png_pixel(Bytes& bytes) {
+  for (Offset at = 8; bytes.text(at + 4, 4).size() == 4;) {
+    const std::string name = bytes.text(at + 4, 4);
+    if (name == "IDAT") break;
+    if (name == "pHYs") return bytes.number(at + 16, 1) == 1 ? 1.0 / bytes.number(at + 8, 4) : 0.0;
+    at += 12 + bytes.number(at, 4);
+  }
+  return 0.0;
+}
+
+// ImageJ writes pixels a unit as the resolution and the unit into the description.
+double unit_of(const std::string& description) {
+  constexpr std::string_view key = "unit=";
+  const auto start = description.find(key);
+  if (start == std::string::npos) return 0.0;
+  const std::string unit = description.substr(start + key.size(), 6);
+  for (const auto& [name, metres] : {std::pair{"micron", 1e-6},
+                                     {"um", 1e-6},
+                                     {"\\u00B5", 1e-6},
+                                     {"mm", 1e-3},
+                                     {"nm", 1e-9},
+                                     {"cm", 1e-2},
+                                     {"inch", inch}})
+    if (unit.starts_with(name)) return metres;
+  return 0.0;
+}
+
+// The first directory of a TIFF: entries of tag, type, count, value or its place.
+double tiff_pixel(Bytes& bytes) {
+  bytes.set_big_endian(bytes.text(0, 2) == "MM");
+  const Offset directory = bytes.number(4, 4);
+  double resolution = 0.0, unit = inch, described = 0.0;
+  for (Offset i = 0; i < bytes.number(directory, 2); ++i) {
+    const Offset entry = directory + 2 + 12 * i, place = bytes.number(entry + 8, 4);
+    switch (bytes.number(entry, 2)) {
+      case 270:  // ImageDescription
+        described = unit_of(bytes.text(place, bytes.number(entry + 4, 4)));
+        break;
+      case 282:  // XResolution, a fraction
+        resolution = bytes.number(place, 4) / std::max(1.0, 1.0 * bytes.number(place + 4, 4));
+        break;
+      case 296: {  // ResolutionUnit: none, inch, centimetre
+        const auto code = bytes.number(entry + 8, 2);
+        unit = code == 3 ? 1e-2 : (code == 2 ? inch : 0.0);
+        break;
+      }
+      default:
+        break;
+    }
+  }
+  return resolution > 0.0 ? (described > 0.0 ? described : unit) / resolution : 0.0;
+}
+
+// Elements of a DICOM file: group, element, [type,] length, data. Sequences of unknown length are
+// walked through, as spacing may lie inside.
+double dicom_pixel(Bytes& bytes) {
+  bytes.set_big_endian(false);
+  bool typed = true;
+  for (Offset at = 132; bytes.text(at, 8).size() == 8;) {
+    const std::uint32_t group = bytes.number(at, 2), element = bytes.number(at + 2, 2);
+    if (group == 0x7FE0) break;  // the pixels
+    const std::string type = bytes.text(at + 4, 2);
+    Offset data = at + 8;
+    std::uint32_t length = bytes.number(at + 4, 4);
+    if ((typed || group == 2) && group != 0xFFFE) {
+      constexpr std::string_view long_types = "OB OW OF OD OL OV SQ UC UR UT UN";
+      const bool is_long = long_types.find(type) != std::string_view::npos;
+      length = is_long ? bytes.number(at + 8, 4) : bytes.number(at + 6, 2);
+      data += is_long ? 4 : 0;
+    }
+    const std::string text =
+        group == 2 || group == 0x28 || group == 0x18 ? bytes.text(data, std::min(length, 64U)) : "";
+    if (group == 2 && element == 0x10)  // transfer syntax
+      typed = text.substr(0, text.find('\0')) != "1.2.840.10008.1.2";
+    if ((group == 0x28 && element == 0x30) || (group == 0x18 && element == 0x1164))
+      return 1e-3 * std::strtod(text.c_str(), nullptr);
+    const bool inside = length == 0xFFFFFFFFU || (group == 0xFFFE && element == 0xE000);
+    at = inside ? data : data + length;
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+std::optional<double> tagged_pixel_size(const std::filesystem::path& file) {
+  Bytes bytes(file);
+  const std::string head = bytes.text(0, 132);
+  double size = 0.0;
+  if (head.starts_with("\x89PNG")) size = png_pixel(bytes);
+  if (head.starts_with("II*") || head.starts_with("MM")) size = tiff_pixel(bytes);
+  if (head.ends_with("DICM")) size = dicom_pixel(bytes);
+  if (!(size > 0.0) || !std::isfinite(size) || is_for_paper(size)) return std::nullopt;
+  return size;
+}
+
+}  // namespace havers::images

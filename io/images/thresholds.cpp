@@ -1,0 +1,62 @@
+#include "io/images/thresholds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "io/images/surface.hpp"
+
+namespace havers::images {
+
+DepthCount::DepthCount(const cv::Mat& depth, const cv::Mat& mask) {
+  constexpr float last = 299.0F;
+  for (int y = 0; y < depth.rows; ++y) {
+    const auto* values = depth.ptr<float>(y);
+    const auto* wanted = mask.ptr<std::uint8_t>(y);
+    for (int x = 0; x < depth.cols; ++x) {
+      if (wanted[x] == 0) continue;
+      const float bin = std::clamp(100.0F * (values[x] + 1.0F), 0.0F, last);
+      counts_[static_cast<std::size_t>(bin)] += 1.0;
+      sum_ += values[x];
+    }
+  }
+}
+
+double DepthCount::above(double depth) const {
+  double found = 0.0;
+  for (auto bin = static_cast<std::size_t>(std::lround(100.0 * (depth + 1.0)));
+       bin < counts_.size(); ++bin)
+    found += counts_[bin];
+  return found;
+}
+
+double otsu_threshold(const cv::Mat& depth, const cv::Mat& mask) {
+  std::vector<std::uint8_t> bytes;  // from −1 to 2
+  for (const Sample& s : sample(depth, mask, 200000))
+    bytes.push_back(cv::saturate_cast<std::uint8_t>(85.0F * (s.value + 1.0F)));
+  cv::Mat ignored;
+  return (cv::threshold(bytes, ignored, 0.0, 255.0, cv::THRESH_OTSU) + 0.5) / 85.0 - 1.0;
+}
+
+// T = m (1 + k (s/R − 1)) for brightness 1 − depth, of mean m and deviation s in a window.
+cv::Mat below_sauvola(const cv::Mat& depth) {
+  constexpr double k = 0.2, range = 0.5;
+  constexpr int window = 101;
+  cv::Mat mean, squares;
+  cv::boxFilter(depth, mean, CV_32F, {window, window}, {-1, -1}, true, cv::BORDER_REFLECT_101);
+  cv::sqrBoxFilter(depth, squares, CV_32F, {window, window}, {-1, -1}, true,
+                   cv::BORDER_REFLECT_101);
+  cv::Mat below(depth.size(), CV_8U);
+  for (int y = 0; y < depth.rows; ++y) {
+    const auto *d = depth.ptr<float>(y), *m = mean.ptr<float>(y), *q = squares.ptr<float>(y);
+    auto* out = below.ptr<std::uint8_t>(y);
+    for (int x = 0; x < depth.cols; ++x) {
+      const double deviation = std::sqrt(std::max(0.0F, q[x] - m[x] * m[x]));
+      const double threshold = (1.0 - m[x]) * (1.0 + k * (deviation / range - 1.0));
+      out[x] = 1.0 - d[x] < threshold ? 255 : 0;
+    }
+  }
+  return below;
+}
+
+}  // namespace havers::images

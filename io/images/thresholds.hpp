@@ -1,0 +1,29 @@
+// What a threshold is found from. Private to io/images.
+#pragma once
+
+#include <array>
+#include <opencv2/core.hpp>
+
+namespace havers::images {
+
+/// How many pixels of a float depth image are how deep, where a mask is set.
+class DepthCount {
+ public:
+  DepthCount(const cv::Mat& depth, const cv::Mat& mask);
+  /// Pixels deeper than `depth`, a multiple of 0.01.
+  [[nodiscard]] double above(double depth) const;
+  /// Sum of depths over all.
+  [[nodiscard]] double sum() const { return sum_; }
+
+ private:
+  std::array<double, 300> counts_{};  ///< From −1 to 2; what lies outside is in the last ones.
+  double sum_ = 0.0;
+};
+
+/// Otsu's threshold of the depths where `mask` is set.
+double otsu_threshold(const cv::Mat& depth, const cv::Mat& mask);
+
+/// 255 where depth is beyond Sauvola's local threshold (I11).
+cv::Mat below_sauvola(const cv::Mat& depth);
+
+}  // namespace havers::images
