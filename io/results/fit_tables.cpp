@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "io/results/csv_numbers.hpp"
+#include "io/results/json_table.hpp"
 #include "io/results/result_files.hpp"
 #include "io/results/result_keys.hpp"
 
