@@ -104,8 +104,8 @@ std::string work_precision_csv(const sim::WorkPrecision& study) {
   for (const sim::BenchRow& row : study.rows) {
     std::string header = "setting", line = fmt::format("\"{}\"", to_string(row.setting));
     for (const auto& [name, value] : row_numbers(row)) {
-      header += "," + name;
-      line += "," + csv_number(value);
+      header.append(",").append(name);
+      line.append(",").append(csv_number(value));
     }
     if (text.empty()) text = header + "\n";
     text += line + "\n";
