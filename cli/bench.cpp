@@ -24,6 +24,8 @@ struct Flag {
 constexpr std::array flags{
     Flag{"--stability", "stiff and extreme scenes whose answer is known; needs no SCENE",
          bench_stability},
+    Flag{"--calibration", "chains of optimisers on studies of known truth; needs no SCENE",
+         bench_calibration},
 };
 
 }  // namespace
