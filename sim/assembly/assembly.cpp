@@ -104,11 +104,11 @@ void add_outline(const HalfFibre* first, int k, HalfFibre& half, Assembly& assem
   }
 }
 
-// The fan of triangles between the centroid and the outline, each cut into k² alike: rings of nodes
-// around the centroid, the outermost of which is the outline.
+// The fan of triangles between the mean of the corners and the outline, each cut into k² alike: rings of nodes
+// around the centre, the outermost of which is the outline.
 void add_triangles(const HalfFibre& half, int k, Assembly& assembly) {
   const std::size_t n = half.polygon.size(), m = static_cast<std::size_t>(k);
-  const Vector2d centre = centroid(half.polygon);
+  const Vector2d centre = mean_corner(half.polygon);
   std::vector<std::vector<int>> rings(m + 1);
   rings[m] = half.outline;
   for (std::size_t r = m - 1; r > 0; --r)
@@ -159,11 +159,23 @@ void add_bodies(HalfFibres& halves, int refinement, Assembly& assembly) {
   }
 }
 
-void find_sides(double tolerance, Assembly& assembly) {
-  for (int i = 0; i < static_cast<int>(assembly.nodes.size()); ++i) {
-    const Vector2d& p = assembly.nodes[static_cast<std::size_t>(i)];
-    if (p.x() <= tolerance) assembly.left.push_back(i);
-    if (p.x() >= assembly.width - tolerance) assembly.right.push_back(i);
+// The nodes of edges that lie on a side: a body that only touches it with a corner is not held.
+void find_sides(const HalfFibres& halves, double tolerance, Assembly& assembly) {
+  const auto x = [&](int node) { return assembly.nodes[static_cast<std::size_t>(node)].x(); };
+  for (const auto& [place, half] : halves)
+    for (std::size_t i = 0; i < half.polygon.size(); ++i) {
+      const std::vector<int> edge = half.edge(i);
+      const auto lies = [&](double side) {
+        return std::abs(x(edge.front()) - side) <= tolerance &&
+               std::abs(x(edge.back()) - side) <= tolerance;
+      };
+      if (lies(0.0)) assembly.left.insert(assembly.left.end(), edge.begin(), edge.end());
+      if (lies(assembly.width))
+        assembly.right.insert(assembly.right.end(), edge.begin(), edge.end());
+    }
+  for (std::vector<int>* side : {&assembly.left, &assembly.right}) {
+    std::sort(side->begin(), side->end());
+    side->erase(std::unique(side->begin(), side->end()), side->end());
   }
   const auto lower = [&](int a, int b) {
     return assembly.nodes[static_cast<std::size_t>(a)].y() <
@@ -209,7 +221,7 @@ Assembly build_assembly(const AssemblyOptions& options, Lateral lateral) {
   HalfFibres halves = clipped_half_fibres(options, assembly);
   add_bodies(halves, options.refinement, assembly);
   add_joints(options, halves, assembly);
-  find_sides(geometric_tolerance(options), assembly);
+  find_sides(halves, geometric_tolerance(options), assembly);
   if (lateral == Lateral::periodic) add_ties(halves, assembly);
   return assembly;
 }

@@ -54,16 +54,10 @@ double area(const Polygon& polygon) {
   return 0.5 * twice;
 }
 
-Vector2d centroid(const Polygon& polygon) {
-  Vector2d moment = Vector2d::Zero();
-  double twice = 0.0;
-  const Vector2d& origin = polygon[0].position;
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-    const Vector2d a = polygon[i].position - origin, b = polygon[i + 1].position - origin;
-    moment += cross(a, b) * (a + b) / 3.0;
-    twice += cross(a, b);
-  }
-  return origin + moment / twice;
+Vector2d mean_corner(const Polygon& polygon) {
+  Vector2d sum = Vector2d::Zero();
+  for (const Vertex& vertex : polygon) sum += vertex.position;
+  return sum / static_cast<double>(polygon.size());
 }
 
 Polygon clip(Polygon polygon, double width, double height, double tolerance) {

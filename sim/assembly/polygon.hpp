@@ -24,6 +24,6 @@ using Polygon = std::vector<Vertex>;
 Polygon clip(Polygon polygon, double width, double height, double tolerance);
 
 double area(const Polygon& polygon);               ///< [m²]
-Eigen::Vector2d centroid(const Polygon& polygon);  ///< [m]
+Eigen::Vector2d mean_corner(const Polygon& polygon);  ///< Inside a convex polygon. [m]
 
 }  // namespace havers::sim

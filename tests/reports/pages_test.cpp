@@ -207,8 +207,10 @@ TEST(TestSvg, StandsOnItsOwn) {
 TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
   auto section = test::fit_sample().study.specimens.front().sections.front();
   section.warnings = {"The bone touches the edge of the image."};
-  const std::string page =
-      porosity_page({{section, section}, {test::tiny_png()}, {0.41}, {{"seed", "1"}}});
+  const std::string page = porosity_page({.sections = {section, section},
+                                          .overlays = {test::tiny_png()},
+                                          .scatter = {0.41},
+                                          .provenance = {{"seed", "1"}}});
   expect_sound(page);
   EXPECT_TRUE(contains(page, "4.80 ± 0.21"));
   EXPECT_TRUE(contains(page, "0.410"));

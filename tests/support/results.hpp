@@ -145,17 +145,27 @@ inline FitSample fit_sample() {
                {"bounds", calib::Outcome::pass, "no parameter lies at a bound"},
                {"failed simulations", calib::Outcome::warn, "12 of 4128 simulations failed"}};
   r.parameters = {
-      {"young_GPa", "GPa", 13.1234, 0.0871, {12.9494, 13.2974}, {5.0, 30.0}, false, true, ""},
-      {"head_tail_MPa", "MPa", 52.41, 0.93, {50.57, 54.25}, {5.0, 200.0}, false, true, ""},
-      {"ratio",
-       "",
-       1.0,
-       nan,
-       {nan, nan},
-       {0.1, 10.0},
-       false,
-       false,
-       "its change moves no residual by more than 0.02 standard deviations"}};
+      {.name = "young_GPa",
+       .unit = "GPa",
+       .value = 13.1234,
+       .standard_error = 0.0871,
+       .interval_95 = {12.9494, 13.2974},
+       .bounds = {5.0, 30.0},
+       .identifiable = true},
+      {.name = "head_tail_MPa",
+       .unit = "MPa",
+       .value = 52.41,
+       .standard_error = 0.93,
+       .interval_95 = {50.57, 54.25},
+       .bounds = {5.0, 200.0},
+       .identifiable = true},
+      {.name = "ratio",
+       .unit = "",
+       .value = 1.0,
+       .standard_error = nan,
+       .interval_95 = {nan, nan},
+       .bounds = {0.1, 10.0},
+       .left_out_because = "its change moves no residual by more than 0.02 standard deviations"}};
   const double degrees[] = {0, 0, 45, 45, 90, 90};
   const double strength[] = {43.1e6, 45.9e6, 31.2e6, 29.8e6, 17.4e6, 18.8e6};
   for (unsigned i = 0; i < 6; ++i) {
