@@ -61,8 +61,9 @@ Change next_change(const LocalContact& p, const Branch& branch, std::size_t join
   if (p.is_apart(joint)) return first;
   const auto consider = [&](const RowVector2d& condition, JointState to) {
     const double last = condition(0) + branch.force_tolerance;
-    if (!(condition(1) > 0.0) || last >= 0.0) return;
-    const double at = std::clamp(-last / condition(1), 0.0, from);
+    if (last >= 0.0) return;
+    // One that does not even hold where the path is has to change at once.
+    const double at = condition(1) > 0.0 ? std::clamp(-last / condition(1), 0.0, from) : from;
     if (at > first.at) first = {at, joint, to};
   };
   const bool forward = slip(0) + from * slip(1) >= 0.0;
