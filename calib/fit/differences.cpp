@@ -28,14 +28,17 @@ void set_column(const FitProblem& problem, const Weights& weights, const Evaluat
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const Landmarks scale = span * weights.sd[problem.fitted[f]];
     const auto &one = low.predictions[f], &other = high.predictions[f];
-    const Landmarks paired = variance_of_difference(other, one) / scale.square();
+    const Target& target = problem.targets[problem.fitted[f]];
+    const Landmarks paired =
+        target.present.select(Landmarks(variance_of_difference(other, one) / scale.square()), 0.0);
+    const Landmarks independent = target.present.select(
+        Landmarks((one.sd.square() + other.sd.square()) / one.usable / scale.square()), 0.0);
     result.variance.col(column).segment<landmark_count>(landmark_count *
                                                         static_cast<Eigen::Index>(f)) = paired;
-    // Moves that need no new simulation cancel altogether, and say nothing of the gain.
-    if (paired.maxCoeff() < 1e-20) continue;
+    // Moves that need no new simulation cancel to rounding, and say nothing of the gain.
+    if (paired.sum() < 1e-9 * independent.sum()) continue;
     result.paired += paired.sum();
-    result.independent +=
-        ((one.sd.square() + other.sd.square()) / one.usable / scale.square()).sum();
+    result.independent += independent.sum();
   }
 }
 

@@ -139,11 +139,12 @@ bool descend(const LeastSquares& problem, const LeastSquaresOptions& options, do
   settings.linear_solver_type = ceres::DENSE_QR;
   settings.logging_type = ceres::SILENT;
   settings.max_num_iterations = options.max_iterations;
-  settings.max_num_consecutive_invalid_steps = 20;
   settings.function_tolerance = options.cost_tolerance;
   settings.parameter_tolerance = options.step_tolerance;
   settings.gradient_tolerance = 1e-15;
   settings.initial_trust_region_radius = trust_radius;
+  // Beside bounds Ceres searches along each step, with derivatives at every try.
+  settings.max_num_line_search_step_size_iterations = 3;
   ceres::Solver::Summary summary;
   ceres::Solve(settings, &description, &summary);
   residuals.report(result);
@@ -162,8 +163,8 @@ LeastSquaresResult least_squares(const LeastSquares& problem, const VectorXd& st
   if (first.failed) return first;
 
   LeastSquaresResult result = first;
-  if (!descend(problem, options, bold, result)) return result;
-  // A bold step led to a plateau: once more from the start, with short ones.
+  const bool plateau = descend(problem, options, bold, result);
+  if (!plateau || !options.second_try) return result;
   descend(problem, options, cautious, first);
   return first.cost < result.cost ? first : result;
 }

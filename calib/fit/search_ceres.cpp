@@ -10,6 +10,9 @@ namespace {
 // What the search may leave on the table, as a cost: less than a tenth of a standard deviation.
 constexpr double left_on_the_table = 5e-3;
 
+// Where noise hides the way down, more steps find nothing; weights are made anew between searches.
+constexpr int max_steps = 6;
+
 }  // namespace
 
 SearchResult search_ceres(Trail& trail, const Evaluation& start, const Active& active) {
@@ -41,9 +44,10 @@ SearchResult search_ceres(Trail& trail, const Evaluation& start, const Active& a
     }
     return residuals;
   };
-  const auto end = least_squares(
-      problem, from,
-      {.step = slope_step, .cost_tolerance = std::min(left_on_the_table / start.cost, 0.1)});
+  const auto end = least_squares(problem, from,
+                                 {.step = slope_step,
+                                  .max_iterations = max_steps,
+                                  .cost_tolerance = std::min(left_on_the_table / start.cost, 0.1)});
   result.log.cost_after = result.best.cost;
   result.log.evaluations = trail.points() - points_before;
   result.log.wall_seconds = trail.wall_seconds() - seconds_before;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "calib/fit/landmarks.hpp"
 #include "calib/study/parameter.hpp"
 #include "calib/study/study.hpp"
 
@@ -63,7 +64,9 @@ void check_bounds(const CalibrateOptions& options, Complaints& found) {
 }
 
 void check_terms(const CalibrateOptions& options, Complaints& found) {
-  const auto known = CalibrateOptions{}.terms;
+  std::vector<std::string> known;
+  for (Eigen::Index q = 0; q < landmark_count; ++q)
+    known.emplace_back(name_of(static_cast<Landmark>(q)));
   if (options.terms.empty()) found.emplace_back("terms is empty, must name at least one");
   for (const auto& term : options.terms)
     if (std::ranges::find(known, term) == known.end())

@@ -26,9 +26,7 @@ Figure profile_figure(const std::vector<calib::Profile>& profiles, const std::st
                 .description = "Rise of the cost along each parameter, the others refitted",
                 .height = static_cast<int>(height)};
   if (profiles.empty()) return figure;
-  figure.commands =
-      "set multiplot\nunset key\nset offsets graph 0.04, graph 0.04, graph 0.06, 0\nset ytics "
-      "maxcount 4\n";
+  figure.commands = "set multiplot\nunset key\nset offsets graph 0.04, graph 0.04, graph 0.06, 0\n";
   for (std::size_t i = 0; i < profiles.size(); ++i) {
     const double top = 1.0 - (static_cast<double>(i) * (panel_height + axis) + 6.0) / height;
     figure.commands +=

@@ -33,8 +33,6 @@ mstch::map parameter_row(const calib::CalibratedParameter& p) {
           {"unit", text(p.unit)},
           {"estimate", text(held ? number(p.value) : plus_minus(p.value, p.standard_error))},
           {"interval", text(held ? "held" : interval(p.interval_95[0], p.interval_95[1]))},
-          {"profile", text(held ? "" : interval_or(p.profile_95, p.profile_missing))},
-          {"bootstrap", text(held ? "" : interval_or(p.bootstrap_95, p.bootstrap_missing))},
           {"bar", text(held ? "" : interval_bar(p))},
           {"bounds",
            text(held ? "" : fmt::format("{} to {}", setting(p.bounds[0]), setting(p.bounds[1])))},
@@ -136,6 +134,19 @@ mstch::array next_rows(const calib::CalibrationResult& result) {
   return rows;
 }
 
+// The same interval by three means.
+mstch::array interval_rows(const calib::CalibrationResult& result) {
+  mstch::array rows;
+  for (const calib::CalibratedParameter& p : result.parameters)
+    if (p.identifiable)
+      rows.emplace_back(
+          mstch::map{{"name", text(p.name)},
+                     {"interval", text(interval(p.interval_95[0], p.interval_95[1]))},
+                     {"profile", text(interval_or(p.profile_95, p.profile_missing))},
+                     {"bootstrap", text(interval_or(p.bootstrap_95, p.bootstrap_missing))}});
+  return rows;
+}
+
 mstch::array influence_rows(const calib::CalibrationResult& result) {
   mstch::array rows;
   for (const calib::SpecimenResult& specimen : result.specimens) {
@@ -160,6 +171,7 @@ mstch::node knowledge(const calib::CalibrationResult& result) {
   return section({mstch::map{
       {"directions", mstch::node{names(result.directions)}},
       {"fitted", mstch::node{names(result.fitted)}},
+      {"intervals", mstch::node{interval_rows(result)}},
       {"correlation", mstch::node{correlation_rows(result)}},
       {"next", section(next_rows(result))},
       {"influence", section(influence_rows(result))},

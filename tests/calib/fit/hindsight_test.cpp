@@ -110,7 +110,10 @@ TEST(Hindsight, TakesAsManyReplicatesAsItNeeds) {
 }
 
 TEST(Hindsight, TermsAddUpToTheCost) {
-  const auto result = fit(test::synthetic_study(three_orientations));
+  auto study = test::synthetic_study(three_orientations);
+  for (const char* more : {"pre-peak curve", "energy", "post-peak drop"})
+    study.calibrate.terms.emplace_back(more);
+  const auto result = fit(study);
   double squares = 0.0, shares = 0.0;
   for (const auto& specimen : result.specimens) {
     EXPECT_EQ(specimen.terms.size(), 6U);
