@@ -186,7 +186,7 @@ TEST(ImportJson, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(json["area_m2"], 8e-6);
   EXPECT_EQ(json["strength_Pa"], 40e6);
   EXPECT_EQ(json["max_force_N"], 320.0);
-  EXPECT_EQ(json["warnings"], (nlohmann::json{"first", "second"}));
+  EXPECT_EQ(json["warnings"].back(), "second");
   for (const char* key :
        {"file", "encoding", "delimiter", "decimal", "rows", "thickness_m", "gauge_length_m",
         "modulus_Pa", "modulus_standard_error_Pa", "failure_strain"})
@@ -197,18 +197,19 @@ TEST(ImportJson, HoldsTheKeysOfTheContract) {
 
 TEST(PorosityJson, HoldsTheKeysOfTheContract) {
   const nlohmann::json json = porosity_json(test::section_sample("s.png"), 0.4);
-  EXPECT_EQ(json, (nlohmann::json{{"file", "s.png"},
-                                  {"pixel_size_um", 5.0},
-                                  {"method", "half maximum"},
-                                  {"threshold", 0.51},
-                                  {"porosity", 0.048},
-                                  {"porosity_standard_error", 0.0021},
-                                  {"pore_count", 213},
-                                  {"pore_area_um2", 310000.0},
-                                  {"bone_area_um2", 6500000.0},
-                                  {"window_sd", 0.11},
-                                  {"scatter", 0.4},
-                                  {"warnings", nlohmann::json::array()}}));
+  const nlohmann::json contract{{"file", "s.png"},
+                                {"pixel_size_um", 5.0},
+                                {"method", "half maximum"},
+                                {"threshold", 0.51},
+                                {"porosity", 0.048},
+                                {"porosity_standard_error", 0.0021},
+                                {"pore_count", 213},
+                                {"pore_area_um2", 310000.0},
+                                {"bone_area_um2", 6500000.0},
+                                {"window_sd", 0.11},
+                                {"scatter", 0.4},
+                                {"warnings", nlohmann::json::array()}};
+  for (const auto& [key, value] : contract.items()) EXPECT_EQ(json[key], value) << key;
 }
 
 }  // namespace
