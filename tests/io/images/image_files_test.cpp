@@ -61,6 +61,24 @@ TEST(ImageFile, WithTransparentBackgroundHasNoBoneThere) {
   EXPECT_NEAR(measured.bone_area * 1e12, cv::sum(drawn.bone)[0], 0.01 * cv::sum(drawn.bone)[0]);
 }
 
+TEST(ImageFile, OfSeveralPagesIsASectionAPage) {
+  const auto first = test::draw({.porosity = 0.02, .blur = 1.0});
+  const auto second = test::draw({.porosity = 0.1, .blur = 1.0, .seed = 2});
+  const auto file = test::write(first.image, "pages.tif");
+  cv::imwritemulti(file.string(), std::vector<cv::Mat>{first.image, second.image});
+  const auto measured = measure_sections(file, {});
+  ASSERT_EQ(measured.size(), 2U);
+  EXPECT_NEAR(measured[0].porosity.porosity, first.porosity, 2e-3);
+  EXPECT_NEAR(measured[1].porosity.porosity, second.porosity, 2e-3);
+  EXPECT_TRUE(measured[1].porosity.file.ends_with("pages.tif page 2"));
+}
+
+TEST(ImageFile, WithAnImplausiblePixelSizeIsMeasuredIfThatIsMeant) {
+  const auto file = test::write(test::draw({.blur = 1.0}).image, "coarse.png");
+  const SectionOptions options{.pixel_size = 300e-6, .any_pixel_size = true};
+  EXPECT_EQ(measure_sections(file, options).front().porosity.pixel_size, 300e-6);
+}
+
 TEST(ImageFile, ThatIsMissingIsNamed) {
   expect_contains(complaint("nowhere/section.png"), "nowhere/section.png: there is no such file");
 }
@@ -75,7 +93,7 @@ TEST(ImageFile, ThatIsEmptyIsNamed) {
 
 TEST(ImageFile, ThatIsNoImageIsNamed) {
   expect_contains(complaint(write_text("words.png", "this is text")),
-                  "is not a readable image (use PNG, TIFF, JPEG or BMP)");
+                  "is not a readable image (use PNG, TIFF, JPEG, BMP or DICOM)");
 }
 
 TEST(ImageFile, OfOneGreyLevelIsNamed) {
@@ -105,7 +123,8 @@ TEST(ImageFile, OfAFewPixelsIsMeasuredOrRefused) {
     image.at<std::uint8_t>(0, 0) = 200;
     const auto file = test::write(image, "tiny.png");
     try {
-      const double porosity = measure_sections(file, {.pixel_size = 1e-6}).front().porosity.porosity;
+      const double porosity =
+          measure_sections(file, {.pixel_size = 1e-6}).front().porosity.porosity;
       EXPECT_TRUE(porosity >= 0.0 && porosity < 1.0);
     } catch (const InputError& error) {
       expect_contains(error.what(), "tiny.png");
