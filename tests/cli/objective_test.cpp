@@ -1,0 +1,91 @@
+// The cost of a fit, computed again by hand from the CSV files it leaves.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/cli/run_havers.hpp"
+
+namespace havers {
+namespace {
+
+namespace fs = std::filesystem;
+using Row = std::map<std::string, std::string>;
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+std::vector<Row> rows_of(const fs::path& file) {
+  std::istringstream in(test::read_text(file));
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> names = cells_of(line);
+  std::vector<Row> rows;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    Row& row = rows.emplace_back();
+    for (std::size_t i = 0; i < std::min(names.size(), cells.size()); ++i) row[names[i]] = cells[i];
+  }
+  return rows;
+}
+
+double at(const Row& row, const std::string& name) {
+  return std::stod(row.at(name));
+}
+
+TEST(Objective, CanBeComputedByHandFromTheFilesOfAFit) {
+  const fs::path folder = test::own_folder();
+  const auto answer = test::run_havers(
+      folder, "fit '" HAVERS_SOURCE_DIR
+              "/data_samples/bone_bars/study.toml' -o out --json --set "
+              "calibrate.options.replicates=3 --set calibrate.options.profiles=false");
+  const auto result = nlohmann::json::parse(answer.out);
+  const auto replicates = rows_of(folder / "out/replicates.csv");
+
+  double cost = 0.0, shares = 0.0;
+  int strengths = 0;
+  for (const Row& term : rows_of(folder / "out/terms.csv")) {
+    double variance = 0.0;
+    for (const char* source : {"sd_machine", "sd_replicates", "sd_scatter", "sd_specimens"})
+      variance += std::pow(at(term, source), 2);
+    const double residual = (at(term, "simulated") - at(term, "measured")) / std::sqrt(variance);
+    EXPECT_NEAR(at(term, "residual"), residual, 1e-9);
+    cost += 0.5 * residual * residual;
+    shares += at(term, "share");
+    if (term.at("term") != "strength") continue;
+
+    // The mean over the replicates, and their spread as one draw against a mean of n.
+    ++strengths;
+    double sum = 0.0, squares = 0.0, n = 0.0;
+    for (const Row& replicate : replicates) {
+      if (replicate.at("specimen") != term.at("specimen")) continue;
+      const double y = std::log(at(replicate, "strength_Pa"));
+      sum += y;
+      squares += y * y;
+      ++n;
+    }
+    EXPECT_EQ(n, 3.0);
+    EXPECT_NEAR(at(term, "simulated"), sum / n, 1e-12);
+    const double sd = std::sqrt(std::max((squares - sum * sum / n) / (n - 1.0), 0.0));
+    EXPECT_NEAR(at(term, "sd_replicates"), sd * std::sqrt(1.0 + 1.0 / n), 1e-6);
+
+    // The measured strength is that of the curve, and half a row more.
+    double strength = 0.0;
+    for (const Row& row : rows_of(folder / "out/curves" / (term.at("specimen") + "_measured.csv")))
+      strength = std::max(strength, at(row, "stress_Pa"));
+    EXPECT_NEAR(at(term, "measured"), std::log(strength), 0.01);
+    EXPECT_GE(at(term, "measured"), std::log(strength));
+  }
+  EXPECT_EQ(strengths, 6);
+  EXPECT_NEAR(shares, 1.0, 1e-9);
+  EXPECT_NEAR(cost / result["cost"].get<double>(), 1.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace havers
