@@ -121,12 +121,12 @@ void print_table(const std::vector<Section>& sections) {
   if (sections.size() > 1)
     fmt::print("{:>12.3f}{:>7.3f}{:>19.4f}{:>10.3f}  all, by area\n", 100.0 * mean.porosity,
                100.0 * mean.porosity_standard_error, mean.window_sd, calib::scatter_of(mean, {}));
-  if (calib::removes_joints(mean, {}))
+  if (calib::removes_joints(mean))
     fmt::print(
         "  note: pores are larger than a window of one fibre: they take away {:.1f} % of the "
         "joints "
         "rather than spread their strength\n",
-        100.0 * calib::missing_joints(mean, {}));
+        100.0 * calib::missing_joints(mean));
 }
 
 nlohmann::json json_of(const std::vector<Section>& sections) {

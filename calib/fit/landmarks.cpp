@@ -29,7 +29,7 @@ Normalised normalised(std::span<const double> strain, std::span<const double> st
       mean_strain += strain[i];
       mean_stress += stress[i];
     }
-    const double rows = static_cast<double>(block);
+    const auto rows = static_cast<double>(block);
     curve.strain.push_back(mean_strain / rows / strain[peak]);
     curve.stress.push_back(mean_stress / rows / stress[peak]);
   }

@@ -61,6 +61,7 @@ std::vector<Held> held_points(const FitProblem& problem, const Answer& answer) {
 
 std::vector<Evaluation> evaluate(Trail& trail, const std::vector<Held>& held) {
   std::vector<Point> points;
+  points.reserve(held.size());
   for (const Held& one : held) points.push_back(one.point);
   return trail.evaluate(points);
 }

@@ -98,7 +98,6 @@ void pool_pore_area_ratio(const std::vector<SectionPorosity>& sections,
 double free_scatter(const SpecimenPorosity& porosity, const PorosityOptions& options) {
   switch (options.to_scatter) {
     case ToScatter::window:
-      if (removes_joints(porosity, options)) break;
       return std::sqrt(12.0) * options.strength_exponent * porosity.window_sd /
              (1.0 - porosity.porosity);
     case ToScatter::linear:
@@ -120,14 +119,12 @@ SpecimenPorosity pool_sections(const std::vector<SectionPorosity>& sections) {
   return specimen;
 }
 
-bool removes_joints(const SpecimenPorosity& porosity, const PorosityOptions& options) {
-  if (options.to_scatter != ToScatter::window) return false;
-  if (options.acts != PorosityActs::automatic) return options.acts == PorosityActs::missing;
+bool removes_joints(const SpecimenPorosity& porosity) {
   return porosity.window_area < porosity.pore_area_ratio;
 }
 
-double missing_joints(const SpecimenPorosity& porosity, const PorosityOptions& options) {
-  return removes_joints(porosity, options) ? porosity.porosity : 0.0;
+double missing_joints(const SpecimenPorosity& porosity) {
+  return removes_joints(porosity) ? porosity.porosity : 0.0;
 }
 
 double scatter_of(const SpecimenPorosity& porosity, const PorosityOptions& options) {

@@ -11,13 +11,8 @@ namespace havers::calib {
 enum class ToScatter { window, linear, none };
 enum class ToModulus { none, power };
 
-/// What porosity does to joints with `window`: it spreads their thresholds, or it takes joints away.
-/// Automatic: away, where pores are larger than a window (K5).
-enum class PorosityActs { automatic, spread, missing };
-
 struct PorosityOptions {
   ToScatter to_scatter = ToScatter::window;
-  PorosityActs acts = PorosityActs::automatic;
   ToModulus to_modulus = ToModulus::none;
   double strength_exponent = 1.0;  ///< n of local strength ∝ (1−p)^n. [-]
   double linear_offset = 0.0;      ///< d₀ of d = d₀ + k p. [-]
@@ -39,14 +34,15 @@ struct SpecimenPorosity {
 /// section has no pixel size). Precondition: at least one.
 SpecimenPorosity pool_sections(const std::vector<SectionPorosity>& sections);
 
-/// Whether porosity takes joints away instead of spreading their thresholds (K5).
-bool removes_joints(const SpecimenPorosity& porosity, const PorosityOptions& options);
+/// Whether pores are larger than a window (A < a*), so that they take joints away rather than
+/// spread their thresholds (K5). The fit does not act on it: it is there to be said.
+bool removes_joints(const SpecimenPorosity& porosity);
 
-/// Fraction of joints that porosity takes away: p, or 0 where it spreads thresholds. [-]
-double missing_joints(const SpecimenPorosity& porosity, const PorosityOptions& options);
+/// Fraction of joints that pores take away: p, or 0 where they spread thresholds. [-]
+double missing_joints(const SpecimenPorosity& porosity);
 
 /// d = √12 n SD/(1−p) (K3) with `window`, d₀ + k p with `linear`; held inside [0, 1.99]. With
-/// `none`, where the window SD is unknown, or where joints are taken away instead, NaN. [-]
+/// `none`, or where the window SD is unknown, NaN. [-]
 double scatter_of(const SpecimenPorosity& porosity, const PorosityOptions& options);
 
 /// Standard error of `scatter_of`, from those of window SD and porosity. [-]

@@ -10,7 +10,6 @@ namespace havers::io {
 template <class Table>
 void keys(Table& table, calib::PorosityOptions& porosity) {
   table.key("to_scatter", porosity.to_scatter);
-  table.key("acts", porosity.acts);
   table.key("to_modulus", porosity.to_modulus);
   table.key("strength_exponent", porosity.strength_exponent);
   table.key("linear_offset", porosity.linear_offset);

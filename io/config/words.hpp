@@ -43,8 +43,6 @@ inline constexpr Words<3> words<calib::ToScatter>{"window", "linear", "none"};
 template <>
 inline constexpr Words<2> words<calib::ToModulus>{"none", "power"};
 template <>
-inline constexpr Words<3> words<calib::PorosityActs>{"auto", "spread", "missing"};
-template <>
 inline constexpr Words<3> words<Pores>{"found", "dark", "bright"};
 template <>
 inline constexpr Words<3> words<Threshold>{"half-maximum", "otsu", "sauvola"};

@@ -53,7 +53,7 @@ nlohmann::json mean_porosity_json(const calib::SpecimenPorosity& mean) {
           {"porosity_standard_error", mean.porosity_standard_error},
           {"window_sd", finite(mean.window_sd)},
           {"scatter", finite(calib::scatter_of(mean, {}))},
-          {"missing_joints", calib::missing_joints(mean, {})}};
+          {"missing_joints", calib::missing_joints(mean)}};
 }
 
 }  // namespace havers::io

@@ -104,8 +104,8 @@ void add_outline(const HalfFibre* first, int k, HalfFibre& half, Assembly& assem
   }
 }
 
-// The fan of triangles between the mean of the corners and the outline, each cut into k² alike: rings of nodes
-// around the centre, the outermost of which is the outline.
+// The fan of triangles between the mean of the corners and the outline, each cut into k² alike:
+// rings of nodes around the centre, the outermost of which is the outline.
 void add_triangles(const HalfFibre& half, int k, Assembly& assembly) {
   const std::size_t n = half.polygon.size(), m = static_cast<std::size_t>(k);
   const Vector2d centre = mean_corner(half.polygon);

@@ -23,7 +23,7 @@ using Polygon = std::vector<Vertex>;
 /// `tolerance` [m] count as on it. Empty when nothing is left.
 Polygon clip(Polygon polygon, double width, double height, double tolerance);
 
-double area(const Polygon& polygon);               ///< [m²]
+double area(const Polygon& polygon);                  ///< [m²]
 Eigen::Vector2d mean_corner(const Polygon& polygon);  ///< Inside a convex polygon. [m]
 
 }  // namespace havers::sim

@@ -11,8 +11,8 @@ namespace {
 using test::own_folder;
 using test::run_havers;
 
-constexpr std::array commands{"fit",   "simulate",   "import", "porosity",
-                              "check", "synthesize", "report", "bench", "sweep"};
+constexpr std::array commands{"fit",        "simulate", "import", "porosity", "check",
+                              "synthesize", "report",   "bench",  "sweep"};
 
 TEST(Usage, HelpListsEveryCommand) {
   const auto answer = run_havers(own_folder(), "-h");

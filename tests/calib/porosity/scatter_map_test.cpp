@@ -138,6 +138,23 @@ TEST(PooledSections, TakeTheWindowSpreadFromThoseThatHaveIt) {
   EXPECT_TRUE(std::isnan(pool_sections({section(0.1, 1.0, unknown)}).window_sd));
 }
 
+TEST(MissingJoints, AreThoseInPoresLargerThanAWindow) {
+  SpecimenPorosity porosity{.porosity = 0.08, .pore_area_ratio = 500e-12, .window_area = 1000e-12};
+  EXPECT_FALSE(removes_joints(porosity));
+  EXPECT_EQ(missing_joints(porosity), 0.0);
+  porosity.pore_area_ratio = 2000e-12;
+  EXPECT_TRUE(removes_joints(porosity));
+  EXPECT_EQ(missing_joints(porosity), 0.08);
+}
+
+// Two sections as one bag of pores: Σa²/Σa.
+TEST(PooledSections, PoolTheirPoresAreas) {
+  auto one = section(0.1, 1.0, 0.0), other = one;
+  one.pore_area = 3.0, one.pore_area_ratio = 2.0, other.pore_area = 1.0,
+  other.pore_area_ratio = 6.0;
+  EXPECT_NEAR(pool_sections({one, other}).pore_area_ratio, 3.0, 1e-15);
+}
+
 TEST(ModulusFactor, IsAPowerOfWhatIsSolidOrOne) {
   const PorosityOptions power{.to_modulus = ToModulus::power, .modulus_exponent = 2.0};
   EXPECT_NEAR(modulus_factor({.porosity = 0.1}, power), 0.81, 1e-15);
