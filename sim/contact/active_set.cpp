@@ -117,11 +117,13 @@ bool ActiveSetSolver::reattach_closed(const JointStepResult& result) {
 }
 
 JointStepResult ActiveSetSolver::solve(const JointStep& step) {
-  if (detach_open_ && std::count(step.broken.begin(), step.broken.end(), 1) >= worth_searching) {
-    JointStepResult result = search_.solve(step);
-    if (result.converged) return result;
-  }
-  return solve_loose(step);
+  const bool many =
+      detach_open_ && std::count(step.broken.begin(), step.broken.end(), 1) >= worth_searching;
+  JointStepResult result = many ? search_.solve(step) : solve_loose(step);
+  if (result.converged) return result;
+  // Either way may find the set that the other misses.
+  JointStepResult other = many ? solve_loose(step) : search_.solve(step);
+  return other.converged || many ? other : result;
 }
 
 JointStepResult ActiveSetSolver::solve_loose(const JointStep& step) {

@@ -115,8 +115,7 @@ TEST_P(QuasiStaticReference, BreaksTheSameTwoJointsFirst) {
   for (std::size_t i = 0; i < 2; ++i) {
     const CurvePoint& before = simulation.curve[1 + 2 * i];
     const double strain = events["strain"][i], stress = events["stress_before_Pa"][i];
-    EXPECT_NEAR(before.stress_right / before.strain / (stress / strain), 1.0,
-                i == 0 ? 1e-6 : 1e-3);  // then contact matters
+    EXPECT_NEAR(before.stress_right / before.strain / (stress / strain), 1.0, 1e-6);
     const double reached =
         std::max(strain, events["strain"][0]);  // a later break at less strain is sudden
     EXPECT_NEAR(before.strain / reached, 1.0, 1e-6);
@@ -148,7 +147,7 @@ TEST_P(DynamicReference, FollowsTheSameCurveWellBeyondTheFirstBreaks) {
   RecordProperty("parts_at", static_cast<int>(row));
   RecordProperty("rows",
                  fmt::format("{} and {}", simulation.curve.size() - 1, curve["step"].size()));
-  EXPECT_GE(row, std::min(rows, first_break + 15));
+  EXPECT_GE(row, std::min(rows, first_break + 20));
 }
 
 }  // namespace
