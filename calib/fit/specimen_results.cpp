@@ -78,8 +78,8 @@ std::array<double, 3> standardised(const std::vector<TermResult>& terms) {
   for (const TermResult& term : terms)
     for (const Landmark q : {modulus, strength, linearity})
       if (term.term == name_of(q)) {
-        distance.at(q) = term.residual * term.sd;
-        sd.at(q) = term.sd;
+        distance.at(static_cast<std::size_t>(q)) = term.residual * term.sd;
+        sd.at(static_cast<std::size_t>(q)) = term.sd;
       }
   const double strain = distance[strength] - distance[modulus] - distance[linearity];
   return {distance[modulus] / sd[modulus], distance[strength] / sd[strength],
