@@ -49,8 +49,9 @@ struct Change {
 
 // The next change of one joint on the way down from λ. Each state's conditions are those of the law
 // (M5), (M7), written as forces ≥ 0.
-Change next_change(const LocalContact& p, const Branch& branch, std::size_t joint, JointState state,
-                   double extra, double from) {
+Change next_change(const StateSystem& system, const Branch& branch, std::size_t joint, double extra,
+                   double from) {
+  const LocalContact& p = system.problem();
   const auto row = static_cast<Index>(2 * joint);
   const JointLaw& law = p.laws[joint];
   const RowVector2d push = branch.r.row(row) + RowVector2d(law.cohesion, extra);
@@ -67,7 +68,7 @@ Change next_change(const LocalContact& p, const Branch& branch, std::size_t join
     if (at > first.at) first = {at, joint, to};
   };
   const bool forward = slip(0) + from * slip(1) >= 0.0;
-  switch (state) {
+  switch (system.states()[joint]) {
     case JointState::open:
       consider(opening, forward ? JointState::slip_forward : JointState::slip_backward);
       break;
@@ -119,8 +120,7 @@ LocalContactResult follow(StateSystem& system, const VectorXd& extra, double par
     result.y = branch.y.col(0);
     Change next;
     for (std::size_t j = 0; j < system.states().size(); ++j) {
-      const Change change = next_change(system.problem(), branch, j, system.states()[j],
-                                        extra(static_cast<Index>(j)), lambda);
+      const Change change = next_change(system, branch, j, extra(static_cast<Index>(j)), lambda);
       if (change.at > next.at) next = change;
     }
     result.converged = next.at < 0.0;

@@ -195,7 +195,7 @@ double BreakingRun::law_residual_of(const VectorXd& reactions, const VectorXd& g
   double squared = 0.0;
   for (std::size_t i = 0; i < loose_.size(); ++i) {
     if (contact_.is_apart(i)) continue;  // left out, and said so
-    const auto row = static_cast<Index>(2 * loose_.joints()[i]);
+    const auto row = 2 * static_cast<Index>(loose_.joints()[i]);
     squared += law_residual(reactions.segment<2>(row), gaps.segment<2>(row), contact_.laws[i],
                             contact_.S(static_cast<Index>(2 * i), static_cast<Index>(2 * i)))
                    .squaredNorm();
