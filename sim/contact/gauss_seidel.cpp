@@ -24,13 +24,12 @@ GaussSeidelSolver::GaussSeidelSolver(const Bodies& bodies, double tolerance, int
     : tolerance_(tolerance),
       max_sweeps_(max_sweeps),
       sweeps_(bodies),
-      reactions_(VectorXd::Zero(2 * static_cast<Index>(bodies.assembly().joints.size()))),
       tie_forces_(VectorXd::Zero(static_cast<Index>(bodies.assembly().ties.size()))),
       stiffness_(joint_stiffness(bodies)) {}
 
 JointStepResult GaussSeidelSolver::solve(const JointStep& step) {
   JointStepResult result;
-  sweeps_.start(step, reactions_, tie_forces_);
+  sweeps_.start(step, step.reactions, tie_forces_);
   const auto measure = [&] {
     result.reactions = sweeps_.reactions();
     result.gaps = sweeps_.gaps(step);
@@ -45,13 +44,12 @@ JointStepResult GaussSeidelSolver::solve(const JointStep& step) {
     if (result.iterations % sweeps_between_checks == sweeps_between_checks - 1) measure();
   }
   measure();
-  reactions_ = sweeps_.reactions();
   tie_forces_ = sweeps_.tie_forces();
   result.displacements = sweeps_.displacements(step);
-  const double unsure = tolerance_ * reactions_.lpNorm<Eigen::Infinity>();
+  const double unsure = tolerance_ * result.reactions.lpNorm<Eigen::Infinity>();
   for (std::size_t j = 0; j < step.laws.size(); ++j) {
     const auto row = static_cast<Index>(2 * j);
-    result.states.push_back(state_within(unsure, reactions_.segment<2>(row),
+    result.states.push_back(state_within(unsure, result.reactions.segment<2>(row),
                                          result.gaps(row + 1) - step.held_at(row + 1),
                                          step.laws[j]));
   }

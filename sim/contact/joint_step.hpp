@@ -21,6 +21,7 @@ struct JointStep {
   std::vector<JointLaw> laws;
   std::vector<char> broken;        ///< 1 for a joint whose cohesion is gone.
   std::vector<JointState> states;  ///< Of the last step: where a solver starts.
+  Eigen::VectorXd reactions;       ///< Of the last step. [N/m]
   double force_scale = 0.0;        ///< Largest norm of the reactions so far. [N/m]
 };
 

@@ -10,9 +10,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int most_sets = 12;
-constexpr int most_sweeps = 200;  // between two sets
-constexpr int quiet_sweeps = 10;  // sweeps without a change of state
+constexpr int sets_from_answers = 12;  // each answer being where the next sweeps start
+constexpr int sets_from_sweeps = 8;    // then sweeps go on from where they were, ever longer
+constexpr int most_sweeps = 200;       // between two sets
+constexpr int quiet_sweeps = 10;       // sweeps without a change of state
 
 Held held_in(JointState state) {
   if (state == JointState::stick) return Held::fully;
@@ -27,7 +28,10 @@ double slope_in(JointState state, const JointLaw& law) {
 }  // namespace
 
 SetSearch::SetSearch(const Bodies& bodies)
-    : bodies_(&bodies), sweeps_(bodies), stiffness_(joint_stiffness(bodies)) {}
+    : bodies_(&bodies),
+      sweeps_(bodies),
+      tie_forces_(VectorXd::Zero(static_cast<Index>(bodies.assembly().ties.size()))),
+      stiffness_(joint_stiffness(bodies)) {}
 
 void SetSearch::take(const std::vector<JointState>& states) {
   std::vector<Held> held(states.size());
@@ -55,11 +59,10 @@ StructureResponse SetSearch::answer(const JointStep& step,
 }
 
 // Returns the sweeps spent.
-int SetSearch::look_for_states(const JointStep& step, const StructureResponse& from,
+int SetSearch::look_for_states(const JointStep& step, int patience,
                                std::vector<JointState>& states) {
-  sweeps_.start(step, from.reactions, from.tie_forces);
   int quiet = 0, sweep = 0;
-  for (; sweep < most_sweeps && quiet < quiet_sweeps; ++sweep)
+  for (; sweep < patience * most_sweeps && quiet < patience * quiet_sweeps; ++sweep)
     quiet = sweeps_.sweep(step) ? 0 : quiet + 1;
   states = sweeps_.states();
   return sweep;
@@ -68,7 +71,8 @@ int SetSearch::look_for_states(const JointStep& step, const StructureResponse& f
 JointStepResult SetSearch::solve(const JointStep& step) {
   JointStepResult result;
   result.states = step.states;
-  for (int set = 0; set < most_sets; ++set) {
+  int patience = 1;
+  for (int set = 0; set < sets_from_answers + sets_from_sweeps; ++set) {
     take(result.states);
     if (!structure_->ok()) return result;
     StructureResponse response = answer(step, result.states);
@@ -87,8 +91,17 @@ JointStepResult SetSearch::solve(const JointStep& step) {
                         result.states[j], step.laws[j], scale) == result.states[j];
     }
     result.converged = lawful && response.residual < 1e-9;
-    if (result.converged) break;
-    result.iterations += look_for_states(step, response, result.states);
+    if (result.converged) {
+      tie_forces_ = std::move(response.tie_forces);
+      break;
+    }
+    if (set == 0)  // friction may leave several solutions: towards the one nearest to the last
+      sweeps_.start(step, step.reactions, tie_forces_);
+    else if (set <= sets_from_answers)
+      sweeps_.start(step, response.reactions, response.tie_forces);
+    else
+      patience *= 2;
+    result.iterations += look_for_states(step, patience, result.states);
   }
   return result;
 }

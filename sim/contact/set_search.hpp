@@ -21,12 +21,12 @@ class SetSearch {
  private:
   void take(const std::vector<JointState>& states);
   StructureResponse answer(const JointStep& step, const std::vector<JointState>& states) const;
-  int look_for_states(const JointStep& step, const StructureResponse& from,
-                      std::vector<JointState>& states);
+  int look_for_states(const JointStep& step, int patience, std::vector<JointState>& states);
 
   const Bodies* bodies_;
   JointSweeps sweeps_;
   std::optional<Structure> structure_;  // of the last set
+  Eigen::VectorXd tie_forces_;          // of the last answer [N/m]
   Eigen::VectorXd stiffness_;
 };
 

@@ -67,7 +67,7 @@ class DynamicRun {
   Motion motion_;
   JointStep step_;
   EnergyBalance energy_;
-  VectorXd reactions_, slope_;                   // of the last step, and their change in it [N/m]
+  VectorXd slope_;                               // change of the reactions in the last step [N/m]
   double acceleration_force_ = 0.0;              // norm of M dv/h in the last step [N/m]
   double leapt_ = 0.0;                           // time that passed without steps [s]
   double force_right_ = 0.0, force_left_ = 0.0;  // of the machine on the specimen, along x [N/m]
@@ -99,7 +99,7 @@ void DynamicRun::start() {
   energy_.start(motion_, bodies_.mass());
 
   joints = initial_outcomes(draw_thresholds(scene_, assembly_));
-  step_.gaps = step_.held_at = reactions_ = slope_ = VectorXd::Zero(rows);
+  step_.gaps = step_.held_at = step_.reactions = slope_ = VectorXd::Zero(rows);
   step_.states.assign(joints.size(), JointState::stick);
   step_.broken.assign(joints.size(), 0);
   for (const JointOutcome& joint : joints) step_.laws.push_back(intact_law(joint.threshold));
@@ -179,8 +179,8 @@ bool DynamicRun::advance() {
   move(result);
   account(result, before);
   ++steps;
-  slope_ = result.reactions - reactions_;
-  reactions_ = result.reactions;
+  slope_ = result.reactions - step_.reactions;
+  step_.reactions = result.reactions;
   break_joints(result);
   step_.force_scale = std::max(step_.force_scale, result.reactions.norm());
   return result.converged;
@@ -191,7 +191,7 @@ double DynamicRun::time_to_first_break() const {
   const double noise = 1e-9 * slope_.lpNorm<Eigen::Infinity>();
   double first = (scene_.loading.max_strain / scene_.loading.strain_rate) - time();
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    const Local r = reactions_.segment<2>(static_cast<Index>(2 * j)),
+    const Local r = step_.reactions.segment<2>(static_cast<Index>(2 * j)),
                 change = slope_.segment<2>(static_cast<Index>(2 * j));
     const JointLaw& law = step_.laws[j];
     for (const double side : {1.0, -1.0}) {

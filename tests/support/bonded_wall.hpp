@@ -42,7 +42,7 @@ struct WallStep {
           -scene.material.poisson * assembly.nodes[i].y();
     step.forces = -strain * bodies.stiffness_times(u);
     step.prescribed = Eigen::VectorXd::Zero(bodies.dofs());
-    step.predicted = step.gaps = step.held_at = Eigen::VectorXd::Zero(rows);
+    step.predicted = step.gaps = step.held_at = step.reactions = Eigen::VectorXd::Zero(rows);
     step.broken.assign(assembly.joints.size(), 0);
     step.states.assign(assembly.joints.size(), sim::JointState::stick);
     for (const sim::Threshold& threshold : sim::draw_thresholds(scene, assembly))

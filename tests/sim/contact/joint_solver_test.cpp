@@ -46,7 +46,7 @@ class EveryJointSolver : public testing::TestWithParam<std::tuple<Kind, double>>
     JointStep step;
     const auto rows = static_cast<Index>(2 * assembly.joints.size());
     step.forces = step.prescribed = VectorXd::Zero(bodies.dofs());
-    step.predicted = step.gaps = step.held_at = VectorXd::Zero(rows);
+    step.predicted = step.gaps = step.held_at = step.reactions = VectorXd::Zero(rows);
     for (std::size_t i = 0; i < assembly.nodes.size(); ++i)
       step.forces.segment<2>(static_cast<Index>(2 * i)) << strain * assembly.nodes[i].x(),
           -0.33 * strain * assembly.nodes[i].y();
@@ -151,7 +151,7 @@ TEST(GaussSeidelSolver, SaysWhenItRanOutOfSweeps) {
   JointStep step;
   step.forces = VectorXd::Constant(bodies.dofs(), 1.0);
   step.prescribed = VectorXd::Zero(bodies.dofs());
-  step.predicted = step.gaps = step.held_at =
+  step.predicted = step.gaps = step.held_at = step.reactions =
       VectorXd::Zero(static_cast<Index>(2 * assembly.joints.size()));
   step.laws.assign(assembly.joints.size(), intact_law({500.0, 500.0}));
   step.states.assign(assembly.joints.size(), JointState::stick);
