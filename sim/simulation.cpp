@@ -41,16 +41,14 @@ std::string explain(SimulationStatus status) {
 namespace {
 // A chosen step that could not be halved often enough is said; beyond this it is no answer. [-]
 constexpr double largest_step_error = 1e-2;
+constexpr double largest_energy_defect = 1e-10;  // [-]
 }  // namespace
 
 bool Simulation::trusted() const {
   const bool ended = status == SimulationStatus::broken || status == SimulationStatus::strain_limit;
-  // In the quasi-static limit a piece may swing on its last joint, far compared with its strains,
-  // and leaves fewer digits.
-  const double energy_tolerance = regime == Regime::quasi_static ? 1e-8 : 1e-10;
   const bool step_fits = !(step_error > largest_step_error);
-  return ended && step_fits && energy_defect <= energy_tolerance && worst_residual <= tolerance &&
-         std::isfinite(strength);
+  return ended && step_fits && energy_defect <= largest_energy_defect &&
+         worst_residual <= tolerance && std::isfinite(strength);
 }
 
 }  // namespace havers::sim

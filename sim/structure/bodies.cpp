@@ -195,9 +195,13 @@ MatrixXd Bodies::compatibility_forces(const MatrixXd& a) const {
 MatrixXd Bodies::port_forces(const MatrixXd& p, const MatrixXd& a) const {
   MatrixXd y(p.rows(), p.cols());
   const auto port = [&](int b) { return first_port(b); };
-  apply(
-      classes_, [](const BodyOperator& op) -> const MatrixXd& { return op.impedance; }, p, port,
-      port, y);
+  for (const BodyClass& bodies : classes_) {
+    const BodyOperator& op = bodies.op;
+    MatrixXd moved = gather(p, bodies, op.impedance.rows(), port);
+    const MatrixXd rigidly = op.rigid.transpose() * moved;
+    moved -= op.rigid * rigidly;
+    scatter(op.impedance * moved + op.inertia * rigidly, bodies, port, y);
+  }
   return y + compatibility_forces(a);
 }
 

@@ -1,6 +1,8 @@
 #include "sim/structure/body_operator.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <utility>
 
@@ -15,6 +17,11 @@ std::vector<Index> free_dofs(const std::vector<char>& held) {
   for (std::size_t i = 0; i < held.size(); ++i)
     if (held[i] == 0) free.push_back(static_cast<Index>(i));
   return free;
+}
+
+// K only knows differences between nodes: what it takes to nothing moves the body as a whole.
+MatrixXd own_motions(const MatrixXd& stiffness) {
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(stiffness).eigenvectors().leftCols(3);
 }
 
 // Splits the free displacements by the ports: δ = B⁺ p + Q c, and finds what no displacement can do
@@ -51,9 +58,12 @@ BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
   const MatrixXd A = body.shifted(free, free);
   const PortSplit split = split_by_ports(ports(Eigen::all, free));
   const MatrixXd& Q = split.interior;
-  // (S2): the interior follows the ports and the loads.
-  const MatrixXd G = Q * (Q.transpose() * A * Q).llt().solve(Q.transpose());
-  const MatrixXd T = split.inverse - G * (A * split.inverse);
+  // (S2): the interior follows the ports and the loads. Each is corrected once, for bodies so
+  // slender or incompressible that digits are lost.
+  MatrixXd G = Q * (Q.transpose() * A * Q).llt().solve(Q.transpose());
+  G += G - G * A * G;
+  MatrixXd T = split.inverse - G * (A * split.inverse);
+  T -= G * (A * T);
   const MatrixXd Z = T.transpose() * A * T;
 
   body.compliance = MatrixXd::Zero(n, n);
@@ -62,6 +72,16 @@ BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
   body.recovery(free, Eigen::all) = T;
   body.impedance = 0.5 * (Z + Z.transpose());
   body.compatibility = split.impossible;
+  body.rigid = body.inertia = MatrixXd(p, 0);
+  if (free.size() == held.size()) {
+    const MatrixXd motions = own_motions(matrices.stiffness);
+    const Eigen::ColPivHouseholderQR<MatrixXd> at_ports(ports * motions);
+    body.rigid = MatrixXd(at_ports.householderQ()).leftCols(at_ports.rank());
+    const MatrixXd moved = motions * at_ports.solve(body.rigid);
+    // T moves the ports like that, but the interior lags behind its own inertia.
+    const MatrixXd inertia = shift.alpha * (matrices.mass.asDiagonal() * moved);
+    body.inertia = T.transpose() * (inertia - body.shifted * (G * inertia));
+  }
   body.matrices = std::move(matrices);
   body.ports = std::move(ports);
   return body;

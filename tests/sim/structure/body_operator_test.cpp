@@ -53,6 +53,21 @@ TEST_P(EveryBody, IsCondensedExactly) {
   }
 }
 
+// Where inertia is a trace only, next to nothing pushes a body that moves as a whole, however far.
+TEST_P(EveryBody, BearsNoForceWhereItMovesAsAWhole) {
+  for (const double step : {h, 1.0}) {
+    const Bodies slow(assembly, scene.material, {1.0 / (step * step), 1.0});
+    for (const BodyClass& group : slow.classes()) {
+      const BodyOperator& op = group.op;
+      const MatrixXd direct = op.impedance * op.rigid;
+      EXPECT_LE((op.inertia - direct).norm(), 1e-12 * op.impedance.norm());
+      if (step == 1.0) {
+        EXPECT_LE(op.inertia.norm(), 4.0 * op.matrices.mass.sum());
+      }
+    }
+  }
+}
+
 TEST_P(EveryBody, KnowsWhatItsPortsCannotDo) {
   for (const BodyClass& group : bodies.classes()) {
     const BodyOperator& op = group.op;
