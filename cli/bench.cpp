@@ -10,7 +10,7 @@
 namespace havers::cli {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* bench_examples =
     "  havers bench data_samples/scenes/bench.toml -o runs/bench\n"
     "  havers bench scene.toml -o runs/bench --seeds 5 --set assembly.layers=10\n"
     "  havers bench --stability -o runs/stability   # stiff and extreme scenes of known answer\n";
@@ -31,7 +31,7 @@ constexpr std::array flags{
 }  // namespace
 
 Command bench_command(CLI::App& app, CommonOptions& common) {
-  CLI::App* parser = add_command(app, common, "bench", "error against run time", examples);
+  CLI::App* parser = add_command(app, common, "bench", "error against run time", bench_examples);
   const auto arguments = std::make_shared<BenchArguments>();
   const auto mode = std::make_shared<BenchMode>(bench_scene);
   parser->add_option("SCENE", arguments->scene, "scene file (TOML)");

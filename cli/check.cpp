@@ -15,7 +15,7 @@
 namespace havers::cli {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* check_examples =
     "  havers check study.toml\n"
     "  havers check scene.toml --json\n"
     "  havers check data_samples/paper/R5_rates.toml\n";
@@ -75,8 +75,9 @@ int run_check(const std::filesystem::path& file, const CommonOptions& common) {
 }  // namespace
 
 Command check_command(CLI::App& app, CommonOptions& common) {
-  CLI::App* parser = add_command(app, common, "check",
-                                 "every problem of a study, scene or sweep, nothing run", examples);
+  CLI::App* parser =
+      add_command(app, common, "check", "every problem of a study, scene or sweep, nothing run",
+                  check_examples);
   const auto file = std::make_shared<std::filesystem::path>();
   parser->add_option("INPUT", *file, "study, scene or sweep file (TOML)")->required();
   return {parser, [file, &common] { return run_check(*file, common); }};

@@ -20,12 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* examples =
+constexpr const char* fit_examples =
     "  havers fit study.toml -o runs/first\n"
     "  havers fit study.toml -o runs/first          # after Ctrl-C: goes on where it stopped\n"
     "  havers fit study.toml -o runs/wide --set calibrate.options.replicates=16 --seed 2\n";
 
-struct Arguments {
+struct FitArguments {
   fs::path study, folder;
 };
 
@@ -50,7 +50,7 @@ calib::CalibrationResult watched_fit(const calib::Study& study, calib::Evaluatio
   });
 }
 
-int run_fit(const Arguments& arguments, const CommonOptions& common) {
+int run_fit(const FitArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   LoadedStudy loaded = load_study(arguments.study, common.set);
   loaded.study.calibrate.threads = common.threads;
@@ -88,8 +88,8 @@ int run_fit(const Arguments& arguments, const CommonOptions& common) {
 
 Command fit_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(app, common, "fit",
-                                 "calibrate the model to a study's tests and report", examples);
-  const auto arguments = std::make_shared<Arguments>();
+                                 "calibrate the model to a study's tests and report", fit_examples);
+  const auto arguments = std::make_shared<FitArguments>();
   parser->add_option("STUDY", arguments->study, "study file (TOML)")->required();
   parser->add_option("-o,--output", arguments->folder, "folder for the results")
       ->required()

@@ -17,7 +17,7 @@
 namespace havers::cli {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* import_examples =
     "  havers import A1.csv\n"
     "  havers import *.csv --json\n"
     "  havers import A1.csv --width-mm 4 --thickness-mm 2 --gauge-length-mm 25 -o runs/tests\n"
@@ -25,7 +25,7 @@ constexpr const char* examples =
     "  havers import A1.csv --set columns.force=2 --set columns.force_unit=kN\n"
     "  havers import A1.csv --set reduction.remove_toe=false\n";
 
-struct Arguments {
+struct ImportArguments {
   std::vector<std::filesystem::path> files;
   std::optional<std::filesystem::path> gauge;
   std::filesystem::path folder;
@@ -42,7 +42,7 @@ void override_size(std::optional<double>& size, const std::optional<double>& giv
   if (given_mm) size = 1e-3 * *given_mm;
 }
 
-void override_sizes(calib::RawTest& test, const Arguments& arguments) {
+void override_sizes(calib::RawTest& test, const ImportArguments& arguments) {
   override_size(test.width, arguments.width_mm);
   override_size(test.thickness, arguments.thickness_mm);
   override_size(test.gauge_length, arguments.gauge_length_mm);
@@ -54,7 +54,8 @@ Imported reduced(io::TestFile file, const calib::ReductionOptions& options) {
 }
 
 std::vector<Imported> import_tests(const std::filesystem::path& path,
-                                   const io::ImportSettings& settings, const Arguments& arguments) {
+                                   const io::ImportSettings& settings,
+                                   const ImportArguments& arguments) {
   std::vector<Imported> tests;
   for (io::TestFile& file : io::read_tests(path, settings.columns)) {
     override_sizes(file.test, arguments);
@@ -63,7 +64,7 @@ std::vector<Imported> import_tests(const std::filesystem::path& path,
   return tests;
 }
 
-Imported import_joined(io::ImportSettings settings, const Arguments& arguments) {
+Imported import_joined(io::ImportSettings settings, const ImportArguments& arguments) {
   settings.columns.has_logger = true;
   io::TestFile file = io::read_test(arguments.files.front(), settings.columns);
   override_sizes(file.test, arguments);
@@ -93,7 +94,8 @@ void collect(const std::vector<Imported>& tests, std::vector<io::Problem>& probl
 }
 
 // Files that can be read are shown even when others cannot.
-std::vector<Imported> import_all(const Arguments& arguments, const io::ImportSettings& settings,
+std::vector<Imported> import_all(const ImportArguments& arguments,
+                                 const io::ImportSettings& settings,
                                  std::vector<io::Problem>& problems) {
   std::vector<Imported> all;
   for (const auto& path : arguments.files) {
@@ -176,6 +178,7 @@ std::string figure_name(const std::vector<Imported>& tests, std::size_t i) {
 void write_figures(const OutputFolder& output, const std::vector<Imported>& tests,
                    const reports::Provenance& facts) {
   std::vector<reports::ImportReport> pages;
+  pages.reserve(tests.size());
   for (const Imported& test : tests)
     pages.push_back({test.file.file, test.file.test, test.reduction.test, test.reduction.problems,
                      test.clocks ? &*test.clocks : nullptr});
@@ -187,7 +190,7 @@ void write_figures(const OutputFolder& output, const std::vector<Imported>& test
   io::write_file(output.stage("report.html"), reports::import_page(pages, facts));
 }
 
-void write_results(const Arguments& arguments, const std::vector<Imported>& tests,
+void write_results(const ImportArguments& arguments, const std::vector<Imported>& tests,
                    const CommonOptions& common, const Stopwatch& watch) {
   OutputFolder output(arguments.folder, common.force);
   io::write_file(output.stage("import.json"), json_of(tests).dump(2) + "\n");
@@ -205,7 +208,7 @@ void write_results(const Arguments& arguments, const std::vector<Imported>& test
         (arguments.folder / (reports::available() ? "report.html" : "import.json")).string());
 }
 
-int run_import(const Arguments& arguments, const CommonOptions& common) {
+int run_import(const ImportArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   const io::ImportSettings settings = io::read_import_settings(common.set);
   if (arguments.gauge && arguments.files.size() != 1)
@@ -225,9 +228,9 @@ int run_import(const Arguments& arguments, const CommonOptions& common) {
 }  // namespace
 
 Command import_command(CLI::App& app, CommonOptions& common) {
-  CLI::App* parser =
-      add_command(app, common, "import", "what is in a test file, as read and as used", examples);
-  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* parser = add_command(app, common, "import",
+                                 "what is in a test file, as read and as used", import_examples);
+  const auto arguments = std::make_shared<ImportArguments>();
   parser->add_option("FILE", arguments->files, "test files")->required();
   parser
       ->add_option("--gauge", arguments->gauge,

@@ -17,7 +17,7 @@
 namespace havers::cli {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* main_examples =
     "Examples:\n"
     "  havers fit study.toml -o runs/first\n"
     "  havers simulate scene.toml -o runs/impact --set loading.strain_rate_per_s=500\n"
@@ -69,7 +69,7 @@ int program(int argc, char** argv) {
       report_command(app, common),   bench_command(app, common),    sweep_command(app, common)};
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text, "version and what is built in");
-  app.footer(examples);
+  app.footer(main_examples);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

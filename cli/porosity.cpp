@@ -20,13 +20,13 @@
 namespace havers::cli {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* porosity_examples =
     "  havers porosity section.png --pixel-size-um 5\n"
     "  havers porosity A1_*.png --pixel-size-um 5 -o runs/sections   # with overlays and a page\n"
     "  havers porosity ct.tif --density 30=0 --density 140=1200      # grey level = kg/m³\n"
     "  havers porosity ct.tif --density 10,10,40,40=0 --density 10,80,40,40=800   # phantom\n";
 
-struct Arguments {
+struct PorosityArguments {
   std::vector<std::filesystem::path> images;
   std::filesystem::path folder, mask;
   std::optional<double> pixel_size_um;
@@ -42,7 +42,7 @@ struct Section {
 };
 
 /// What one image gave: a section a page.
-struct Outcome {
+struct MeasuredFile {
   std::vector<io::SectionMeasurement> sections;
   std::vector<io::Problem> problems;
 };
@@ -64,7 +64,7 @@ io::DensityReference reference_of(const std::string& text) {
   return known;
 }
 
-io::SectionOptions options_of(const Arguments& arguments) {
+io::SectionOptions options_of(const PorosityArguments& arguments) {
   io::SectionOptions options = arguments.options;
   if (arguments.pixel_size_um) options.pixel_size = 1e-6 * *arguments.pixel_size_um;
   if (!arguments.mask.empty()) options.mask = arguments.mask;
@@ -76,9 +76,9 @@ io::SectionOptions options_of(const Arguments& arguments) {
   return options;
 }
 
-std::vector<Section> measure_all(const Arguments& arguments) {
+std::vector<Section> measure_all(const PorosityArguments& arguments) {
   const io::SectionOptions options = options_of(arguments);
-  std::vector<Outcome> outcomes(arguments.images.size());
+  std::vector<MeasuredFile> outcomes(arguments.images.size());
   tbb::parallel_for(std::size_t{0}, outcomes.size(), [&](std::size_t i) {
     try {
       outcomes[i].sections = io::measure_sections(arguments.images[i], options);
@@ -101,6 +101,7 @@ std::vector<Section> measure_all(const Arguments& arguments) {
 
 calib::SpecimenPorosity mean_of(const std::vector<Section>& sections) {
   std::vector<calib::SectionPorosity> all;
+  all.reserve(sections.size());
   for (const Section& section : sections) all.push_back(section.measured.porosity);
   return calib::pool_sections(all);
 }
@@ -145,7 +146,7 @@ std::string overlay_name(const std::filesystem::path& image, std::map<std::strin
   return before == 0 ? stem + "_overlay.png" : fmt::format("{}_{}_overlay.png", stem, before + 1);
 }
 
-void write_page(const Arguments& arguments, const std::vector<Section>& sections,
+void write_page(const PorosityArguments& arguments, const std::vector<Section>& sections,
                 const CommonOptions& common, const Stopwatch& watch) {
   OutputFolder output(arguments.folder, common.force);
   reports::PorosityReport page;
@@ -168,7 +169,7 @@ void write_page(const Arguments& arguments, const std::vector<Section>& sections
   output.publish();
 }
 
-int run_porosity(const Arguments& arguments, const CommonOptions& common) {
+int run_porosity(const PorosityArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   const std::vector<Section> sections = measure_all(arguments);
   if (!arguments.folder.empty()) write_page(arguments, sections, common, watch);
@@ -196,9 +197,9 @@ void add_words(CLI::App& parser, const std::string& name, E& value, const std::s
 }  // namespace
 
 Command porosity_command(CLI::App& app, CommonOptions& common) {
-  CLI::App* parser = add_command(app, common, "porosity",
-                                 "porosity of sections, measured on their images", examples);
-  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* parser = add_command(
+      app, common, "porosity", "porosity of sections, measured on their images", porosity_examples);
+  const auto arguments = std::make_shared<PorosityArguments>();
   io::SectionOptions& options = arguments->options;
   parser->add_option("IMAGE", arguments->images, "PNG, TIFF, JPEG, BMP or DICOM")->required();
   parser->add_option("-o,--output", arguments->folder, "folder for overlays and a page")

@@ -14,11 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* examples =
+constexpr const char* report_examples =
     "  havers report runs/first                            # remakes runs/first/report.html\n"
     "  havers report runs/first runs/second -o runs/both   # side by side\n";
 
-struct Arguments {
+struct ReportArguments {
   std::vector<fs::path> results;
   fs::path folder;
 };
@@ -47,7 +47,8 @@ std::string page_of(const std::vector<FinishedFit>& fits) {
 }
 
 // One result: beside it, in place of the old page. Several: into a folder of their own.
-fs::path write_page(const Arguments& arguments, const std::vector<FinishedFit>& fits, bool force) {
+fs::path write_page(const ReportArguments& arguments, const std::vector<FinishedFit>& fits,
+                    bool force) {
   const fs::path& first = arguments.results.front();
   if (arguments.folder.empty()) {
     const fs::path page =
@@ -62,7 +63,7 @@ fs::path write_page(const Arguments& arguments, const std::vector<FinishedFit>& 
   return output.folder() / "report.html";
 }
 
-int run_report(const Arguments& arguments, const CommonOptions& common) {
+int run_report(const ReportArguments& arguments, const CommonOptions& common) {
   if (!reports::available())
     throw io::InputError("havers report", "this build makes no pages",
                          "apt-get install libmstch-dev gnuplot-nox and build again");
@@ -81,9 +82,9 @@ int run_report(const Arguments& arguments, const CommonOptions& common) {
 }  // namespace
 
 Command report_command(CLI::App& app, CommonOptions& common) {
-  CLI::App* parser = add_command(app, common, "report",
-                                 "a fit's page again, or several fits side by side", examples);
-  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* parser = add_command(
+      app, common, "report", "a fit's page again, or several fits side by side", report_examples);
+  const auto arguments = std::make_shared<ReportArguments>();
   parser->add_option("RESULT", arguments->results, "folder of a fit, or its result.json")
       ->required();
   parser->add_option("-o,--output", arguments->folder, "folder for the page")->type_name("DIR");

@@ -15,12 +15,12 @@
 namespace havers::cli {
 namespace {
 
-constexpr const char* examples =
+constexpr const char* simulate_examples =
     "  havers simulate scene.toml -o runs/impact\n"
     "  havers simulate scene.toml -o runs/seed7 --seed 7 --set joints.scatter=0.4\n"
     "  havers simulate scene.toml -o runs/film --set output.snapshots=50   # for ParaView\n";
 
-struct Arguments {
+struct SimulateArguments {
   std::filesystem::path scene, folder;
 };
 
@@ -88,7 +88,7 @@ void print_summary(const sim::Simulation& run, double wall_seconds, bool verbose
     fmt::print("left out       {}: {}\n", left_out.what, left_out.why);
 }
 
-int run_simulate(const Arguments& arguments, const CommonOptions& common) {
+int run_simulate(const SimulateArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   io::SceneFile file = io::read_scene(arguments.scene, common.set);
   if (common.seed) file.scene.joints.seed = *common.seed;
@@ -127,8 +127,9 @@ int run_simulate(const Arguments& arguments, const CommonOptions& common) {
 }  // namespace
 
 Command simulate_command(CLI::App& app, CommonOptions& common) {
-  CLI::App* parser = add_command(app, common, "simulate", "one run of the model", examples);
-  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* parser =
+      add_command(app, common, "simulate", "one run of the model", simulate_examples);
+  const auto arguments = std::make_shared<SimulateArguments>();
   parser->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
   parser->add_option("-o,--output", arguments->folder, "folder for the results")
       ->required()

@@ -22,12 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* examples =
+constexpr const char* sweep_examples =
     "  havers sweep scatter.toml -o runs/scatter\n"
     "  havers sweep scatter.toml -o runs/scatter      # after Ctrl-C: goes on where it stopped\n"
     "  havers sweep data_samples/paper/R*.toml -o runs/paper --title 'What the paper found'\n";
 
-struct Arguments {
+struct SweepArguments {
   std::vector<fs::path> files;
   fs::path folder;
   std::string title = "havers sweep";
@@ -39,7 +39,7 @@ struct Done {
   calib::SweepResult result;
 };
 
-std::vector<Done> read_all(const Arguments& arguments, const CommonOptions& common) {
+std::vector<Done> read_all(const SweepArguments& arguments, const CommonOptions& common) {
   std::vector<Done> all;
   std::vector<io::Problem> problems;
   std::set<std::string> stems;
@@ -107,8 +107,8 @@ nlohmann::json json_of_all(const std::vector<Done>& all, const io::Provenance& p
             {"cpu_s", provenance.cpu_seconds}}}};
 }
 
-void write_all(const OutputFolder& output, const Arguments& arguments, const std::vector<Done>& all,
-               const io::Provenance& provenance) {
+void write_all(const OutputFolder& output, const SweepArguments& arguments,
+               const std::vector<Done>& all, const io::Provenance& provenance) {
   std::vector<reports::SweepReport> parts;
   for (const Done& one : all) {
     io::write_file(output.stage(fs::path(one.stem) / "runs.csv"),
@@ -138,7 +138,7 @@ void print_summary(const std::vector<Done>& all, double wall_seconds) {
                  finding.high, finding.runs, finding.claim);
 }
 
-int run_sweeps(const Arguments& arguments, const CommonOptions& common) {
+int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   std::vector<Done> all = read_all(arguments, common);
   const bool resumes = fs::exists(arguments.folder / "evaluations.sqlite") &&
@@ -167,10 +167,10 @@ int run_sweeps(const Arguments& arguments, const CommonOptions& common) {
 }  // namespace
 
 Command sweep_command(CLI::App& app, CommonOptions& common) {
-  CLI::App* parser =
-      add_command(app, common, "sweep",
-                  "the model over a grid or sample of parameters; laws fitted to it", examples);
-  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* parser = add_command(app, common, "sweep",
+                                 "the model over a grid or sample of parameters; laws fitted to it",
+                                 sweep_examples);
+  const auto arguments = std::make_shared<SweepArguments>();
   parser->add_option("SWEEP", arguments->files, "sweep files (TOML)")->required();
   parser->add_option("-o,--output", arguments->folder, "folder for the results")
       ->required()

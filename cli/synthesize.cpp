@@ -24,14 +24,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* examples =
+constexpr const char* synthesize_examples =
     "  havers synthesize study.toml -o made --seed 7\n"
     "  havers synthesize study.toml -o made --set model.material.young_GPa=15   # the truth; the "
     "copy of\n"
     "                                                       # study.toml in made/ keeps its "
     "starting point\n";
 
-struct Arguments {
+struct SynthesizeArguments {
   fs::path study, folder;
 };
 
@@ -189,7 +189,7 @@ void print_summary(const std::vector<Made>& made) {
                100.0 * one.simulation.failure_strain);
 }
 
-int run_synthesize(const Arguments& arguments, const CommonOptions& common) {
+int run_synthesize(const SynthesizeArguments& arguments, const CommonOptions& common) {
   io::StudyFile file = io::read_study(arguments.study, common.set, io::Files::will_be_written);
   if (common.seed) file.study.calibrate.seed = *common.seed;
   if (auto problems = problems_of(arguments.study, file); !problems.empty())
@@ -218,9 +218,10 @@ int run_synthesize(const Arguments& arguments, const CommonOptions& common) {
 }  // namespace
 
 Command synthesize_command(CLI::App& app, CommonOptions& common) {
-  CLI::App* parser = add_command(app, common, "synthesize",
-                                 "a study's files made by the model, with a known truth", examples);
-  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* parser =
+      add_command(app, common, "synthesize",
+                  "a study's files made by the model, with a known truth", synthesize_examples);
+  const auto arguments = std::make_shared<SynthesizeArguments>();
   parser->add_option("STUDY", arguments->study, "study file (TOML)")->required();
   parser->add_option("-o,--output", arguments->folder, "folder for the study")
       ->required()

@@ -21,8 +21,15 @@ Landmarks variance_of_difference(const Prediction& a, const Prediction& b) {
   return (squares - sum.square() / n).max(0.0) / (n * (n - 1.0));
 }
 
-void set_column(const FitProblem& problem, const Weights& weights, const Evaluation& low,
-                const Evaluation& high, Eigen::Index column, Differences& result) {
+// A parameter moved down and up.
+struct Move {
+  const Evaluation& low;
+  const Evaluation& high;
+};
+
+void set_column(const FitProblem& problem, const Weights& weights, const Move& move,
+                Eigen::Index column, Differences& result) {
+  const auto& [low, high] = move;
   const double span = (high.point - low.point).norm();
   result.jacobian.col(column) = (high.residuals - low.residuals) / span;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
@@ -64,7 +71,7 @@ Differences differentiate(Trail& trail, const Evaluation& at, const Active& acti
     const auto& low = evaluations[2 * i].failed ? at : evaluations[2 * i];
     const auto& high = evaluations[2 * i + 1].failed ? at : evaluations[2 * i + 1];
     if (low.failed || high.failed || low.point == high.point) return result;
-    set_column(problem, trail.weights(), low, high, static_cast<Eigen::Index>(i), result);
+    set_column(problem, trail.weights(), {low, high}, static_cast<Eigen::Index>(i), result);
   }
   result.failed = false;
   return result;

@@ -88,6 +88,7 @@ std::vector<Comparison> differences(const Evidence& evidence, const PointGroup& 
       evidence.request.test == FindingTest::rises || evidence.request.test == FindingTest::falls;
   const std::vector<Pair> pairs = pairs_of(evidence, group, column, ends_only);
   std::vector<Comparison> all;
+  all.reserve(pairs.size());
   for (const Pair pair : pairs)
     all.push_back(difference(evidence, pair, column, risk / static_cast<double>(pairs.size())));
   return all;

@@ -107,7 +107,7 @@ void fit(const SweepPlan& plan, const std::vector<SweepPoint>& points,
   if (rows.y.size() <= k) return;
   law.status = LawStatus::fitted;
   const double squares = least_squares(rows, law);
-  const double freedom = static_cast<double>(rows.y.size() - k);
+  const auto freedom = static_cast<double>(rows.y.size() - k);
   const Statistics all = statistics_of(rows.y);
   law.residual_sd = std::sqrt(squares / freedom);
   law.explained = 1.0 - squares / (static_cast<double>(all.n - 1) * all.sd * all.sd);

@@ -135,7 +135,8 @@ Study known_study(int number, std::array<double, 3>& truth) {
   for (int s = 0; s < 6; ++s) {
     Specimen specimen;
     specimen.id = fmt::format("S{}", s + 1);
-    specimen.orientation = 0.25 * std::numbers::pi * (s / 2);
+    const int pair = s / 2;  // two specimens each at 0°, 45° and 90°
+    specimen.orientation = 0.25 * std::numbers::pi * pair;
     sim::Scene scene = study.model;
     scene.assembly.orientation = specimen.orientation;
     for (std::size_t k = 0; k < truth.size(); ++k)

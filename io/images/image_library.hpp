@@ -8,7 +8,7 @@ namespace havers::images {
 
 /// As their namesakes of io/images/measure_section.hpp, which call them.
 std::vector<io::SectionMeasurement> measure_sections(const std::filesystem::path& image,
-                                                     const io::SectionOptions& options);
+                                                     const io::SectionOptions& given);
 calib::SectionPorosity draw_section(const std::filesystem::path& image,
                                     const io::SectionDrawing& drawing,
                                     const io::SectionOptions& options);

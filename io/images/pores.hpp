@@ -50,7 +50,7 @@ cv::Mat find_bone(const cv::Mat& grey, const Regions& regions, Levels levels, cv
 
 /// The pores in `bone`; `depth` becomes the image they were cut from. An image without a second
 /// level has none.
-PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const Levels& levels,
+PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const Levels& coarse,
                    const PoreOptions& options, cv::Mat& depth);
 
 /// Sorts the objects of `map.pores` into pores, cracks and specks.

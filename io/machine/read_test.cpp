@@ -63,8 +63,8 @@ std::string list_of(const std::vector<TestFile>& tests) {
 
 // The specimen of that name or number.
 TestFile chosen_of(std::vector<TestFile> tests, const std::string& specimen) {
-  for (std::size_t i = 0; i < tests.size(); ++i)
-    if (tests[i].test.specimen_id == specimen) return std::move(tests[i]);
+  for (TestFile& test : tests)
+    if (test.test.specimen_id == specimen) return std::move(test);
   for (std::size_t i = 0; i < tests.size(); ++i)
     if (std::to_string(i + 1) == specimen) return std::move(tests[i]);
   throw InputError(tests.front().file, fmt::format("holds no specimen \"{}\"", specimen),

@@ -92,6 +92,15 @@ bool equal_but_case(std::string_view a, std::string_view b) {
   });
 }
 
+std::optional<Unit> listed_unit(std::string_view name) {
+  const auto* found = std::ranges::find(units, name, &NamedUnit::name);
+  if (found == units.end())
+    found = std::ranges::find_if(
+        units, [&](const NamedUnit& unit) { return equal_but_case(unit.name, name); });
+  if (found == units.end()) return std::nullopt;
+  return found->unit;
+}
+
 // "500 N/V", "0.001 mm/mm/V": what a volt stands for.
 std::optional<Unit> calibration(std::string_view text) {
   if (!text.ends_with("/V")) return std::nullopt;
@@ -99,7 +108,7 @@ std::optional<Unit> calibration(std::string_view text) {
   const std::size_t blank = text.find(' ');
   if (blank == std::string_view::npos) return std::nullopt;
   const Number factor = parse_number(text.substr(0, blank));
-  std::optional<Unit> unit = find_unit(text.substr(blank + 1));
+  std::optional<Unit> unit = listed_unit(without_brackets(text.substr(blank + 1)));
   if (factor.fault != NumberFault::none || factor.value == 0.0 || !unit) return std::nullopt;
   unit->to_si *= factor.value;
   return unit;
@@ -118,12 +127,7 @@ std::string_view without_brackets(std::string_view text) {
 std::optional<Unit> find_unit(std::string_view text) {
   const std::string_view name = without_brackets(text);
   if (const std::optional<Unit> factor = calibration(name)) return factor;
-  const auto* found = std::ranges::find(units, name, &NamedUnit::name);
-  if (found == units.end())
-    found = std::ranges::find_if(
-        units, [&](const NamedUnit& unit) { return equal_but_case(unit.name, name); });
-  if (found == units.end()) return std::nullopt;
-  return found->unit;
+  return listed_unit(name);
 }
 
 NameAndUnit split_unit(std::string_view text) {

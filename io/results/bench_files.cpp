@@ -12,8 +12,6 @@
 namespace havers::io {
 namespace {
 
-using nlohmann::json;
-
 // The columns of a row: median over the seeds, with the extremes of what the figure shows.
 std::vector<std::pair<std::string, double>> row_numbers(const sim::BenchRow& row) {
   std::vector<std::pair<std::string, double>> list;
@@ -38,20 +36,20 @@ std::vector<std::pair<std::string, double>> row_numbers(const sim::BenchRow& row
   return list;
 }
 
-json setting_json(const sim::BenchSetting& setting) {
+nlohmann::json setting_json(const sim::BenchSetting& setting) {
   return {{"text", to_string(setting)},       {"regime", word(setting.regime)},
           {"contact", word(setting.contact)}, {"tolerance", setting.tolerance},
           {"step_s", setting.step},           {"refinement", setting.refinement},
           {"leave_out", setting.leave_out}};
 }
 
-json row_json(const sim::BenchRow& row) {
-  json object = setting_json(row.setting);
+nlohmann::json row_json(const sim::BenchRow& row) {
+  nlohmann::json object = setting_json(row.setting);
   for (auto& [name, value] : row_numbers(row)) object[name] = json_of(value);
   return object;
 }
 
-json provenance_object(Provenance provenance) {
+nlohmann::json provenance_object(Provenance provenance) {
   return json_of(provenance);
 }
 
@@ -59,16 +57,16 @@ json provenance_object(Provenance provenance) {
 
 nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPrecision& study,
                                    const Provenance& provenance) {
-  json rows = json::array(), cheapest = json::array();
+  nlohmann::json rows = nlohmann::json::array(), cheapest = nlohmann::json::array();
   for (const sim::BenchRow& row : study.rows) rows.push_back(row_json(row));
   for (const sim::CheapestSetting& entry : study.cheapest)
     cheapest.push_back(
         {{"quantity", entry.quantity},
          {"error_below", entry.target},
-         {"setting",
-          entry.row < 0
-              ? json()
-              : json(to_string(study.rows[static_cast<std::size_t>(entry.row)].setting))}});
+         {"setting", entry.row < 0
+                         ? nlohmann::json()
+                         : nlohmann::json(to_string(
+                               study.rows[static_cast<std::size_t>(entry.row)].setting))}});
   return {{"complete", study.complete},
           {"summary", summary(study)},
           {"reference", setting_json(study.reference)},
@@ -83,7 +81,7 @@ nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPreci
 
 nlohmann::json stability_json(const std::vector<sim::StabilityResult>& results,
                               const Provenance& provenance) {
-  json scenes = json::array();
+  nlohmann::json scenes = nlohmann::json::array();
   for (const sim::StabilityResult& result : results)
     scenes.push_back({{"name", result.name},
                       {"outcome", to_string(result.outcome)},

@@ -22,7 +22,7 @@ nlohmann::json finite(double value) {
 nlohmann::json import_json(const TestFile& file, const calib::Reduction& reduction) {
   calib::MeasuredTest test = reduction.test;
   nlohmann::json json = json_of(test);  // modulus_Pa, strength_Pa, ... , corrections and warnings
-  for (auto& [key, value] : json.items())  // what is not known is null
+  for (const auto& [key, value] : json.items())  // what is not known is null
     if (value == 0.0 || (value.is_number() && test.strain.empty() && key != "area_m2"))
       value = nullptr;
   json["file"] = file.file;

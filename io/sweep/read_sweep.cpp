@@ -96,6 +96,12 @@ Problem of_sweep(Problem problem, const std::filesystem::path& file, const calib
   return problem;
 }
 
+void add_if_new(Problem problem, std::vector<Problem>& problems) {
+  const std::string text = to_string(problem);
+  if (std::ranges::none_of(problems, [&](const Problem& p) { return to_string(p) == text; }))
+    problems.push_back(std::move(problem));
+}
+
 }  // namespace
 
 calib::Sweep read_sweep(const std::filesystem::path& file, const Overrides& overrides,
@@ -120,9 +126,7 @@ calib::Sweep read_sweep(const std::filesystem::path& file, const Overrides& over
       sweep.points.push_back(read_point(file, overrides, sweep.plan, std::move(values)));
     } catch (const InputError& error) {
       for (const Problem& problem : error.problems()) {
-        Problem said = of_sweep(problem, file, sweep.plan);
-        const auto same = [&said](const Problem& p) { return to_string(p) == to_string(said); };
-        if (std::ranges::none_of(problems, same)) problems.push_back(std::move(said));
+        add_if_new(of_sweep(problem, file, sweep.plan), problems);
       }
     }
   }

@@ -18,9 +18,9 @@ Measure measure(std::size_t m) {
 }
 
 bool is_known(const calib::SweepResult& result, std::size_t m) {
-  for (const calib::PointSummary& summary : result.summaries)
-    if (summary[measure(m)].n > 0) return true;
-  return false;
+  return std::ranges::any_of(result.summaries, [m](const calib::PointSummary& summary) {
+    return summary[measure(m)].n > 0;
+  });
 }
 
 // TOML texts keep their quotes, which hold a comma together in CSV as well.

@@ -150,7 +150,7 @@ std::string arrows(double left, double right, double middle) {
       left - 10.0, middle, right + 10.0, middle);
 }
 
-constexpr std::string_view style =
+constexpr std::string_view fracture_style =
     "<style>.fracture .fibre{fill:#f3ead6;stroke:#a89a7c;stroke-width:.5}"
     ".fracture .gap{fill-opacity:.35;stroke-width:.8}"
     ".fracture .head{fill:#d55e00;stroke:#d55e00}"
@@ -178,7 +178,7 @@ std::string fracture_svg(const sim::Assembly& assembly, const sim::Simulation& s
 <title>The broken assembly: {} head-tail and {} flank joints broken, loaded along the horizontal</title>
 {})",
              x, low.y() - above, width, high.y() - low.y() + above + below, head_tail.size(),
-             flank.size(), style) +
+             flank.size(), fracture_style) +
          path("fibre", fibres(drawing)) + path("gap flank", gaps(drawing, flank)) +
          path("gap head", gaps(drawing, head_tail)) + path("head", diamonds(drawing, head_tail)) +
          arrows(low.x(), high.x(), 0.5 * (low.y() + high.y())) +

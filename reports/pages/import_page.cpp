@@ -17,10 +17,9 @@ std::string length(const std::optional<double>& metres) {
 Facts facts_of(const ImportReport& report) {
   const calib::MeasuredTest& test = report.test;
   const calib::RawTest& raw = report.raw;
-  const Facts sizes{
-      {"Width, thickness", fmt::format("{}, {}", length(raw.width), length(raw.thickness))},
-      {"Area", test.area > 0.0 ? setting(test.area / in::mm2, "mm²") : "not known"},
-      {"Gauge length", length(raw.gauge_length)}};
+  Facts sizes{{"Width, thickness", fmt::format("{}, {}", length(raw.width), length(raw.thickness))},
+              {"Area", test.area > 0.0 ? setting(test.area / in::mm2, "mm²") : "not known"},
+              {"Gauge length", length(raw.gauge_length)}};
   if (test.strain.empty()) return sizes;
   Facts facts{
       {"Modulus",

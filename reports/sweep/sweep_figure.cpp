@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "reports/figures/thin.hpp"
 #include "reports/sweep/sweep_words.hpp"
@@ -75,7 +76,8 @@ Line line_of(const Panel& panel, std::vector<std::size_t> points) {
 }
 
 std::string x_axis(const std::vector<Line>& lines) {
-  double low = INFINITY, high = -INFINITY;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double low = infinity, high = -infinity;
   for (const Line& line : lines)
     for (const double x : line.x) {
       low = std::min(low, x);

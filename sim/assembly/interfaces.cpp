@@ -14,10 +14,10 @@ const Vector2d& at(const Assembly& assembly, int node) {
 }
 
 // A joint on the common edge of two half fibres, or nothing where the clipping left no edge.
-void add_joint(const HalfFibre& a, EdgeOrigin side_a, const HalfFibre& b, EdgeOrigin side_b,
-               Joint joint, Assembly& assembly) {
-  joint.edge_a = a.edge(side_a);
-  joint.edge_b = b.edge(side_b);
+void add_joint(const HalfFibre& a, const HalfFibre& b, Joint joint, Assembly& assembly) {
+  const bool head_tail = joint.kind == JointKind::head_tail;
+  joint.edge_a = a.edge(head_tail ? EdgeOrigin::head : EdgeOrigin::upper);
+  joint.edge_b = b.edge(head_tail ? EdgeOrigin::tail : EdgeOrigin::lower);
   if (a.body == b.body || joint.edge_a.empty() || joint.edge_b.empty()) return;
   const Vector2d& p = at(assembly, joint.edge_a.front());
   const Vector2d& q = at(assembly, joint.edge_a.back());
@@ -80,11 +80,9 @@ void add_joints(const AssemblyOptions& options, const HalfFibres& halves, Assemb
   for (const auto& [place, half] : halves) {
     const auto [layer, column] = place;
     const auto ahead = halves.find({layer, column + 1});
-    if (ahead != halves.end())
-      add_joint(half, EdgeOrigin::head, ahead->second, EdgeOrigin::tail, head_tail, assembly);
+    if (ahead != halves.end()) add_joint(half, ahead->second, head_tail, assembly);
     const auto above = halves.find({layer + 1, column});
-    if (above != halves.end())
-      add_joint(half, EdgeOrigin::upper, above->second, EdgeOrigin::lower, flank, assembly);
+    if (above != halves.end()) add_joint(half, above->second, flank, assembly);
   }
 }
 

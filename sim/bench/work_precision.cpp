@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -162,10 +163,10 @@ BenchRow row_of(const BenchSetting& setting, const std::vector<WatchedRun>& runs
 }
 
 void name_cheapest(WorkPrecision& study) {
-  const std::pair<const char*, BenchSpread BenchErrors::*> quantities[] = {
-      {"joint forces", &BenchErrors::bonded_forces},
-      {"strength", &BenchErrors::strength},
-      {"failure strain", &BenchErrors::failure_strain}};
+  using Quantity = std::pair<const char*, BenchSpread BenchErrors::*>;
+  const std::array quantities{Quantity{"joint forces", &BenchErrors::bonded_forces},
+                              Quantity{"strength", &BenchErrors::strength},
+                              Quantity{"failure strain", &BenchErrors::failure_strain}};
   for (const auto& [quantity, error] : quantities)
     for (const double target : {1e-2, 1e-3, 1e-4}) {
       CheapestSetting cheapest{.quantity = quantity, .target = target};

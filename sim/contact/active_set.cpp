@@ -30,8 +30,7 @@ ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, int max_iterations, bool 
       stiffness_(joint_stiffness(bodies)) {}
 
 LooseJoints ActiveSetSolver::make_loose() const {
-  return LooseJoints(structure_.joints(),
-                     [this](int joint) { return structure_.respond_to_jump(joint); });
+  return {structure_.joints(), [this](int joint) { return structure_.respond_to_jump(joint); }};
 }
 
 void ActiveSetSolver::rebuild(std::vector<Held> held) {

@@ -34,9 +34,9 @@ JointSweeps::JointSweeps(const Bodies& bodies)
     : bodies_(&bodies), class_of_(bodies.assembly().bodies.size()) {
   for (std::size_t c = 0; c < bodies.classes().size(); ++c) {
     const BodyClass& group = bodies.classes()[c];
-    inverses_.push_back(
+    inverses_.emplace_back(
         inverse_of_free_part(group.op, bodies.held(), bodies.first_dof(group.bodies.front())));
-    port_answers_.push_back(group.op.ports * inverses_.back() * group.op.ports.transpose());
+    port_answers_.emplace_back(group.op.ports * inverses_.back() * group.op.ports.transpose());
     for (const int body : group.bodies) class_of_[static_cast<std::size_t>(body)] = c;
   }
   std::vector<std::array<Index, 2>> tie_ports(bodies.assembly().ties.size());

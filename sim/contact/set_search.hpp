@@ -20,7 +20,8 @@ class SetSearch {
 
  private:
   void take(const std::vector<JointState>& states);
-  StructureResponse answer(const JointStep& step, const std::vector<JointState>& states) const;
+  [[nodiscard]] StructureResponse answer(const JointStep& step,
+                                         const std::vector<JointState>& states) const;
   int look_for_states(const JointStep& step, int patience, std::vector<JointState>& states);
 
   const Bodies* bodies_;

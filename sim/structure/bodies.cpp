@@ -76,7 +76,8 @@ using Signature = std::vector<std::int64_t>;
 Signature signature(const Assembly& assembly, const Body& body, const MatrixXd& ports,
                     const std::vector<char>& held) {
   const auto node = [&](int i) {
-    return assembly.nodes[static_cast<std::size_t>(body.first_node + i)];
+    const int index = body.first_node + i;
+    return assembly.nodes[static_cast<std::size_t>(index)];
   };
   double size = 0.0;
   for (int i = 1; i < body.nodes; ++i) size = std::max(size, (node(i) - node(0)).norm());
@@ -128,13 +129,14 @@ Index Bodies::first_dof(int body) const {
 
 namespace {
 
-// y = A x body by body, A being one of the operator's matrices.
-template <class Matrix, class From, class To>
-void apply(const std::vector<BodyClass>& classes, const Matrix& matrix, const MatrixXd& x,
-           const From& from, const To& to, MatrixXd& y) {
+// y = A x body by body, A being one of the operator's matrices; `starts` says where a body's part
+// begins in x and in y.
+template <class Matrix, class Starts>
+void apply(const std::vector<BodyClass>& classes, const Matrix& matrix, const Starts& starts,
+           const MatrixXd& x, MatrixXd& y) {
   for (const BodyClass& bodies : classes) {
     const auto& A = matrix(bodies.op);
-    scatter(A * gather(x, bodies, A.cols(), from), bodies, to, y);
+    scatter(A * gather(x, bodies, A.cols(), starts.first), bodies, starts.second, y);
   }
 }
 
@@ -143,52 +145,56 @@ void apply(const std::vector<BodyClass>& classes, const Matrix& matrix, const Ma
 MatrixXd Bodies::stiffness_times(const MatrixXd& q) const {
   MatrixXd y(dofs(), q.cols());
   const auto dof = [&](int b) { return first_dof(b); };
-  apply(
-      classes_, [](const BodyOperator& op) -> const MatrixXd& { return op.matrices.stiffness; }, q,
-      dof, dof, y);
+  const auto stiffness = [](const BodyOperator& op) -> const MatrixXd& {
+    return op.matrices.stiffness;
+  };
+  apply(classes_, stiffness, std::pair(dof, dof), q, y);
   return y;
 }
 
 MatrixXd Bodies::shifted_times(const MatrixXd& q) const {
   MatrixXd y(dofs(), q.cols());
   const auto dof = [&](int b) { return first_dof(b); };
-  apply(
-      classes_, [](const BodyOperator& op) -> const MatrixXd& { return op.shifted; }, q, dof, dof,
-      y);
+  const auto shifted = [](const BodyOperator& op) -> const MatrixXd& { return op.shifted; };
+  apply(classes_, shifted, std::pair(dof, dof), q, y);
   return y;
 }
 
 MatrixXd Bodies::port_displacements(const MatrixXd& q) const {
   MatrixXd y(static_cast<Index>(ports_.size()), q.cols());
-  apply(
-      classes_, [](const BodyOperator& op) -> const MatrixXd& { return op.ports; }, q,
-      [&](int b) { return first_dof(b); }, [&](int b) { return first_port(b); }, y);
+  const auto ports = [](const BodyOperator& op) -> const MatrixXd& { return op.ports; };
+  apply(classes_, ports,
+        std::pair([&](int b) { return first_dof(b); }, [&](int b) { return first_port(b); }), q, y);
   return y;
 }
 
 MatrixXd Bodies::port_forces_on_nodes(const MatrixXd& t) const {
   MatrixXd y(dofs(), t.cols());
-  apply(
-      classes_, [](const BodyOperator& op) { return op.ports.transpose(); }, t,
-      [&](int b) { return first_port(b); }, [&](int b) { return first_dof(b); }, y);
+  const auto ports = [](const BodyOperator& op) { return op.ports.transpose(); };
+  apply(classes_, ports,
+        std::pair([&](int b) { return first_port(b); }, [&](int b) { return first_dof(b); }), t, y);
   return y;
 }
 
 MatrixXd Bodies::incompatibility(const MatrixXd& p) const {
   MatrixXd y(compatibilities_, p.cols());
-  apply(
-      classes_, [](const BodyOperator& op) -> const MatrixXd& { return op.compatibility; }, p,
-      [&](int b) { return first_port(b); },
-      [&](int b) { return first_compatibility_[static_cast<std::size_t>(b)]; }, y);
+  const auto compatibility = [](const BodyOperator& op) -> const MatrixXd& {
+    return op.compatibility;
+  };
+  apply(classes_, compatibility,
+        std::pair([&](int b) { return first_port(b); },
+                  [&](int b) { return first_compatibility_[static_cast<std::size_t>(b)]; }),
+        p, y);
   return y;
 }
 
 MatrixXd Bodies::compatibility_forces(const MatrixXd& a) const {
   MatrixXd y(static_cast<Index>(ports_.size()), a.cols());
-  apply(
-      classes_, [](const BodyOperator& op) { return op.compatibility.transpose(); }, a,
-      [&](int b) { return first_compatibility_[static_cast<std::size_t>(b)]; },
-      [&](int b) { return first_port(b); }, y);
+  const auto compatibility = [](const BodyOperator& op) { return op.compatibility.transpose(); };
+  apply(classes_, compatibility,
+        std::pair([&](int b) { return first_compatibility_[static_cast<std::size_t>(b)]; },
+                  [&](int b) { return first_port(b); }),
+        a, y);
   return y;
 }
 

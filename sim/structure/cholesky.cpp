@@ -7,12 +7,10 @@
 #include <cstring>
 
 namespace havers::sim {
-namespace {
-
 // CHOLMOD keeps its workspace in a `common`; one per thread makes a factor usable by all of them.
-class Common {
+class CholmodCommon {
  public:
-  Common() {
+  CholmodCommon() {
     cholmod_start(&common_);
     // Simplicial: no BLAS, so that the numbers do not depend on which BLAS is installed or on its
     // threads.
@@ -21,14 +19,14 @@ class Common {
     common_.print = 0;
     common_.quick_return_if_not_posdef = 1;
   }
-  ~Common() {
+  ~CholmodCommon() {
     cholmod_free_dense(&y_, &common_);
     cholmod_free_dense(&e_, &common_);
     cholmod_free_dense(&x_, &common_);
     cholmod_finish(&common_);
   }
-  Common(const Common&) = delete;
-  Common& operator=(const Common&) = delete;
+  CholmodCommon(const CholmodCommon&) = delete;
+  CholmodCommon& operator=(const CholmodCommon&) = delete;
 
   cholmod_common* get() { return &common_; }
   cholmod_dense* solve(cholmod_factor* factor, cholmod_dense* b) {
@@ -41,15 +39,17 @@ class Common {
   cholmod_dense *x_ = nullptr, *y_ = nullptr, *e_ = nullptr;  // reused from solve to solve
 };
 
-Common& this_threads_common() {
-  thread_local Common common;
+namespace {
+
+CholmodCommon& this_threads_common() {
+  thread_local CholmodCommon common;
   return common;
 }
 
 }  // namespace
 
 struct Cholesky::Factor {
-  Common common;  // owns the factor's memory, whichever thread frees it
+  CholmodCommon common;  // owns the factor's memory, whichever thread frees it
   cholmod_factor* L = nullptr;
 };
 

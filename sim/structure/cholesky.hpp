@@ -12,8 +12,8 @@ class Cholesky {
  public:
   explicit Cholesky(const Eigen::SparseMatrix<double>& lower_triangle);
   ~Cholesky();
-  Cholesky(Cholesky&&) noexcept;
-  Cholesky& operator=(Cholesky&&) noexcept;
+  Cholesky(Cholesky&& other) noexcept;
+  Cholesky& operator=(Cholesky&& other) noexcept;
 
   /// Whether the matrix was positive definite; only then may solve be called.
   [[nodiscard]] bool ok() const;

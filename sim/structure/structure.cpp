@@ -272,8 +272,10 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
 JumpResponse Structure::respond_to_jump(int joint) const {
   const auto ports = static_cast<Index>(unknown_of_port_.size());
   PortLoads loads{MatrixXd::Zero(ports, 2), MatrixXd::Zero(ports, 2), {}, 0.0, accuracy_of_columns};
-  for (const int component : {0, 1})
-    loads.offsets(ports_of_[static_cast<std::size_t>(2 * joint + component)][1], component) = 1.0;
+  for (const std::size_t component : {0U, 1U}) {
+    const std::size_t unknown = 2 * static_cast<std::size_t>(joint) + component;
+    loads.offsets(ports_of_[unknown][1], static_cast<Index>(component)) = 1.0;
+  }
   const PortState state = solve_ports(loads);
 
   JumpResponse response{reactions_of(state.forces).topRows(2 * joints()),
