@@ -65,16 +65,8 @@ IntactStructure::IntactStructure(const AssemblyOptions& options, const Loading& 
     answer_ = stretch(structure_, Eigen::VectorXd::Zero(2 * structure_.joints()), 0.0);
 }
 
-// Without each body's own motion, which would leave few digits of a piece that swings.
 double IntactStructure::energy(const Eigen::VectorXd& q) const {
-  Eigen::VectorXd strained = q;
-  for (const Body& body : assembly_.bodies) {
-    Eigen::Map<Eigen::Matrix2Xd> nodes(strained.data() + 2 * body.first_node, 2, body.nodes);
-    const Eigen::Vector2d centre = nodes.rowwise().mean();
-    nodes.colwise() -= centre;
-  }
-  return 0.5 * (strained.dot(Eigen::VectorXd(bodies_.stiffness_times(strained))) +
-                shift_.alpha * bodies_.mass().dot(q.cwiseAbs2()));
+  return 0.5 * q.dot(Eigen::VectorXd(bodies_.shifted_times(q)));
 }
 
 JumpResponse IntactStructure::respond_to_jump(int joint) const {

@@ -97,14 +97,16 @@ Signature signature(const Assembly& assembly, const Body& body, const MatrixXd& 
 }  // namespace
 
 Bodies::Bodies(const Assembly& assembly, const Material& material, const Shift& shift, bool share)
-    : assembly_(&assembly), held_(held_dofs(assembly)), mass_(2 * assembly.nodes.size()) {
+    : assembly_(&assembly),
+      shift_(shift),
+      held_(held_dofs(assembly)),
+      mass_(2 * assembly.nodes.size()) {
   const std::vector<std::vector<PortRow>> rows = ports_of_bodies(assembly);
+  first_port_.resize(assembly.bodies.size());
+  first_compatibility_.resize(assembly.bodies.size());
   std::map<Signature, std::size_t> known;
   for (std::size_t b = 0; b < assembly.bodies.size(); ++b) {
     const Body& body = assembly.bodies[b];
-    first_port_.push_back(static_cast<Index>(ports_.size()));
-    for (const PortRow& row : rows[b]) ports_.push_back(row.port);
-
     MatrixXd B = port_matrix(rows[b], body);
     const auto first = held_.begin() + 2 * body.first_node;
     const std::vector<char> held(first, first + 2 * body.nodes);
@@ -117,10 +119,16 @@ Bodies::Bodies(const Assembly& assembly, const Material& material, const Shift& 
            {}});
     BodyClass& found = classes_[place->second];
     found.bodies.push_back(static_cast<int>(b));
-    first_compatibility_.push_back(compatibilities_);
-    compatibilities_ += found.op.compatibility.rows();
     mass_.segment(2 * body.first_node, 2 * body.nodes) = found.op.matrices.mass;
   }
+  for (const BodyClass& group : classes_)
+    for (const int body : group.bodies) {
+      const auto b = static_cast<std::size_t>(body);
+      first_port_[b] = static_cast<Index>(ports_.size());
+      first_compatibility_[b] = compatibilities_;
+      for (const PortRow& row : rows[b]) ports_.push_back(row.port);
+      compatibilities_ += group.op.compatibility.rows();
+    }
 }
 
 Index Bodies::first_dof(int body) const {
@@ -142,22 +150,21 @@ void apply(const std::vector<BodyClass>& classes, const Matrix& matrix, const St
 
 }  // namespace
 
+// K only knows differences between nodes: those to a body's first node lose no digits to its path.
 MatrixXd Bodies::stiffness_times(const MatrixXd& q) const {
   MatrixXd y(dofs(), q.cols());
   const auto dof = [&](int b) { return first_dof(b); };
-  const auto stiffness = [](const BodyOperator& op) -> const MatrixXd& {
-    return op.matrices.stiffness;
-  };
-  apply(classes_, stiffness, std::pair(dof, dof), q, y);
+  for (const BodyClass& group : classes_) {
+    const MatrixXd& K = group.op.matrices.stiffness;
+    MatrixXd moved = gather(q, group, K.cols(), dof);
+    for (Index row = K.cols() - 1; row >= 0; --row) moved.row(row) -= moved.row(row % 2);
+    scatter(K * moved, group, dof, y);
+  }
   return y;
 }
 
 MatrixXd Bodies::shifted_times(const MatrixXd& q) const {
-  MatrixXd y(dofs(), q.cols());
-  const auto dof = [&](int b) { return first_dof(b); };
-  const auto shifted = [](const BodyOperator& op) -> const MatrixXd& { return op.shifted; };
-  apply(classes_, shifted, std::pair(dof, dof), q, y);
-  return y;
+  return shift_.beta * stiffness_times(q) + shift_.alpha * (mass_.asDiagonal() * q);
 }
 
 MatrixXd Bodies::port_displacements(const MatrixXd& q) const {
@@ -178,37 +185,39 @@ MatrixXd Bodies::port_forces_on_nodes(const MatrixXd& t) const {
 
 MatrixXd Bodies::incompatibility(const MatrixXd& p) const {
   MatrixXd y(compatibilities_, p.cols());
-  const auto compatibility = [](const BodyOperator& op) -> const MatrixXd& {
-    return op.compatibility;
-  };
-  apply(classes_, compatibility,
-        std::pair([&](int b) { return first_port(b); },
-                  [&](int b) { return first_compatibility_[static_cast<std::size_t>(b)]; }),
-        p, y);
+  for (const BodyClass& group : classes_)
+    for (Index c = 0; c < p.cols(); ++c)
+      compatibilities_in(y, group, c).noalias() = group.op.compatibility * ports_in(p, group, c);
   return y;
 }
 
 MatrixXd Bodies::compatibility_forces(const MatrixXd& a) const {
   MatrixXd y(static_cast<Index>(ports_.size()), a.cols());
-  const auto compatibility = [](const BodyOperator& op) { return op.compatibility.transpose(); };
-  apply(classes_, compatibility,
-        std::pair([&](int b) { return first_compatibility_[static_cast<std::size_t>(b)]; },
-                  [&](int b) { return first_port(b); }),
-        a, y);
+  for (const BodyClass& group : classes_)
+    for (Index c = 0; c < a.cols(); ++c)
+      ports_in(y, group, c).noalias() =
+          group.op.compatibility.transpose() * compatibilities_in(a, group, c);
   return y;
 }
 
 MatrixXd Bodies::port_forces(const MatrixXd& p, const MatrixXd& a) const {
   MatrixXd y(p.rows(), p.cols());
-  const auto port = [&](int b) { return first_port(b); };
-  for (const BodyClass& bodies : classes_) {
-    const BodyOperator& op = bodies.op;
-    MatrixXd moved = gather(p, bodies, op.impedance.rows(), port);
-    const MatrixXd rigidly = op.rigid.transpose() * moved;
-    moved -= op.rigid * rigidly;
-    scatter(op.impedance * moved + op.inertia * rigidly, bodies, port, y);
+  for (const BodyClass& group : classes_) {
+    const BodyOperator& op = group.op;
+    for (Index c = 0; c < p.cols(); ++c) {
+      auto forces = ports_in(y, group, c);
+      const auto moved = ports_in(p, group, c);
+      if (op.rigid.cols() > 0) {
+        const MatrixXd rigidly = op.rigid.transpose() * moved;
+        forces.noalias() = op.impedance * (moved - op.rigid * rigidly);
+        forces.noalias() += op.inertia * rigidly;
+      } else {
+        forces.noalias() = op.impedance * moved;
+      }
+      forces.noalias() += op.compatibility.transpose() * compatibilities_in(a, group, c);
+    }
   }
-  return y + compatibility_forces(a);
+  return y;
 }
 
 }  // namespace havers::sim

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <type_traits>
 #include <vector>
 
 #include "sim/structure/body_operator.hpp"
@@ -57,7 +58,27 @@ class Bodies {
       const Eigen::MatrixXd& t) const;  ///< Bᵀ t. [N/m]
 
  private:
+  // Ports and compatibilities are numbered class by class: those of a class, in one case, are a
+  // matrix with a body a column.
+  template <class Values>
+  [[nodiscard]] auto ports_in(Values& values, const BodyClass& group, Eigen::Index c) const {
+    return Eigen::Map<like<Values>>(values.col(c).data() + first_port(group.bodies.front()),
+                                    group.op.impedance.rows(),
+                                    static_cast<Eigen::Index>(group.bodies.size()));
+  }
+  template <class Values>
+  [[nodiscard]] auto compatibilities_in(Values& values, const BodyClass& group,
+                                        Eigen::Index c) const {
+    const auto body = static_cast<std::size_t>(group.bodies.front());
+    return Eigen::Map<like<Values>>(values.col(c).data() + first_compatibility_[body],
+                                    group.op.compatibility.rows(),
+                                    static_cast<Eigen::Index>(group.bodies.size()));
+  }
+  template <class Values>
+  using like = std::conditional_t<std::is_const_v<Values>, const Eigen::MatrixXd, Eigen::MatrixXd>;
+
   const Assembly* assembly_;
+  Shift shift_;
   std::vector<BodyClass> classes_;
   std::vector<Port> ports_;
   std::vector<Eigen::Index> first_port_;           // of each body
