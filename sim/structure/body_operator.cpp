@@ -14,7 +14,7 @@ using Eigen::MatrixXd;
 
 // Inertia below this part of the stiffness is lost in its rounding where a body moves as a whole.
 // [-]
-constexpr double trace = 1e-6;
+constexpr double inertia_trace = 1e-6;
 
 std::vector<Index> free_dofs(const std::vector<char>& held) {
   std::vector<Index> free;
@@ -77,7 +77,8 @@ BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
   body.impedance = 0.5 * (Z + Z.transpose());
   body.compatibility = split.impossible;
   body.rigid = body.inertia = MatrixXd(p, 0);
-  const bool traced = shift.alpha * matrices.mass.maxCoeff() < trace * A.diagonal().maxCoeff();
+  const bool traced =
+      shift.alpha * matrices.mass.maxCoeff() < inertia_trace * A.diagonal().maxCoeff();
   if (traced && free.size() == held.size()) {
     const MatrixXd motions = own_motions(matrices.stiffness);
     const Eigen::ColPivHouseholderQR<MatrixXd> at_ports(ports * motions);
