@@ -1,112 +1,272 @@
 #include "calib/experiment/clock_refinement.hpp"
 
+#include <gsl/gsl_bspline.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 
+#include "calib/experiment/channel_noise.hpp"
 #include "calib/experiment/signal_rates.hpp"
 
 namespace havers::calib {
+namespace {
 
-ClockRefinement::ClockRefinement(const Signal& machine, const Signal& logger, double step)
-    : machine_(machine), logger_(logger), step_(step) {
-  const auto [low, high] = std::ranges::minmax(machine.value);
-  machine_low_ = low;
-  machine_range_ = high - low;
-  const auto [logger_low, logger_high] = std::ranges::minmax(logger.value);
-  logger_low_ = logger_low;
-  logger_range_ = logger_high - logger_low;
-}
+constexpr std::size_t order = 4, knots = 13, spline = knots + order - 2;  // cubic
+constexpr double slope_steps = 5.0;
 
-double ClockRefinement::gauge(double at) const {
-  return (value_at(logger_, at) - logger_low_) / logger_range_;
-}
+struct SplineFreed {
+  void operator()(gsl_bspline_workspace* w) const { gsl_bspline_free(w); }
+  void operator()(gsl_vector* v) const { gsl_vector_free(v); }
+  void operator()(gsl_matrix* m) const { gsl_matrix_free(m); }
+};
 
-double ClockRefinement::machine_part(double value) const {
-  return (value - machine_low_) / machine_range_;
-}
-
-bool ClockRefinement::both_saw(double at) const {
-  return at > logger_.time.front() + step_ && at < logger_.time.back() - step_;
-}
-
-bool ClockRefinement::breaks(double time, double at) const {
-  constexpr double jump = 0.2;  // of the range, within a step
-  const double a = value_at(machine_, time + step_) - value_at(machine_, time - step_);
-  const double b = gauge(at + step_) - gauge(at - step_);
-  return std::abs(a) > jump * machine_range_ || std::abs(b) > jump;
-}
-
-double ClockRefinement::of_gauge(double g) const {
-  return coefficients_[0] + g * (coefficients_[1] + g * (coefficients_[2] + g * coefficients_[3]));
-}
-
-// Residual of a row and its derivatives, in parts of the machine's range.
-double ClockRefinement::row_of(const ClockFit& fit, std::size_t i, Unknowns& row) const {
-  const double at = fit.logger_time(machine_.time[i]);
-  const double g = gauge(at);
-  const double slope = (gauge(at + 0.5 * step_) - gauge(at - 0.5 * step_)) / step_;
-  const double steepness =
-      coefficients_[1] + g * (2.0 * coefficients_[2] + 3.0 * g * coefficients_[3]);
-  row.head<4>() << 1.0, g, g * g, g * g * g;
-  row[4] = -steepness * slope / fit.rate;
-  row[5] = row[4] * (at - fit.reference);
-  return machine_part(machine_.value[i]) - of_gauge(g);
-}
-
-void ClockRefinement::take_step(ClockFit& fit, Free free) {
-  Eigen::Matrix<double, with_rate, with_rate> normal;
-  normal.setIdentity();
-  normal.topLeftCorner(free, free).setZero();
-  Unknowns right = Unknowns::Zero(), row;
-  double squares = 0.0;
-  int rows = 0;
-  for (std::size_t i = 0; i < machine_.time.size(); ++i) {
-    const double at = fit.logger_time(machine_.time[i]);
-    if (!both_saw(at) || breaks(machine_.time[i], at)) continue;
-    const double residual = row_of(fit, i, row);
-    normal.topLeftCorner(free, free) += row.head(free) * row.head(free).transpose();
-    right.head(free) += residual * row.head(free);
-    squares += residual * residual;
-    ++rows;
+// Cubic B-splines on [0, 1], with knots that lie closer towards 0, where a toe bends the curve.
+class Splines {
+ public:
+  Splines()
+      : work_(gsl_bspline_alloc(order, knots)),
+        values_(gsl_vector_alloc(spline)),
+        slopes_(gsl_matrix_alloc(spline, 2)) {
+    const std::unique_ptr<gsl_vector, SplineFreed> places(gsl_vector_alloc(knots));
+    for (std::size_t i = 0; i < knots; ++i) {
+      const double part = static_cast<double>(i) / (knots - 1);
+      gsl_vector_set(places.get(), i, part * part);
+    }
+    gsl_bspline_knots(places.get(), work_.get());
   }
-  const Eigen::Matrix<double, with_rate, with_rate> inverse = normal.inverse();
-  if (!inverse.allFinite()) return;
-  const Unknowns change = inverse * right;
-  const double variance = squares / std::max(1, rows - static_cast<int>(free));
-  const auto error = [&](int i) { return std::sqrt(std::max(0.0, inverse(i, i)) * variance); };
-  coefficients_ += change.head<4>();
-  fit.rate_fitted = free == with_rate;
-  if (free == cubic) return;
-  fit.offset += std::clamp(change[4], -step_, step_);
-  fit.offset_standard_error = error(4);
-  if (!fit.rate_fitted) return;
-  fit.rate += std::clamp(change[5], -0.01, 0.01);
-  fit.rate_standard_error = error(5);
+
+  Eigen::VectorXd at(double x) {
+    gsl_bspline_eval(std::clamp(x, 0.0, 1.0), values_.get(), work_.get());
+    return Eigen::Map<const Eigen::VectorXd>(values_->data, spline);
+  }
+
+  Eigen::VectorXd slope_at(double x) {
+    gsl_bspline_deriv_eval(std::clamp(x, 0.0, 1.0), 1, slopes_.get(), work_.get());
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>> both(
+        slopes_->data, spline, 2);
+    return both.col(1);
+  }
+
+ private:
+  std::unique_ptr<gsl_bspline_workspace, SplineFreed> work_;
+  std::unique_ptr<gsl_vector, SplineFreed> values_;
+  std::unique_ptr<gsl_matrix, SplineFreed> slopes_;
+};
+
+struct ValueRange {
+  double low, extent;
+  explicit ValueRange(std::span<const double> values) {
+    const auto [least, most] = std::ranges::minmax(values);
+    low = least;
+    extent = most - least;
+  }
+  [[nodiscard]] double part(double value) const { return (value - low) / extent; }
+};
+
+// How many rows tell as much as one that is independent of the others: what a model leaves is no
+// white noise.
+double rows_per_independent(const std::vector<double>& residuals, double squares) {
+  constexpr std::size_t furthest = 200;
+  double rows = 1.0;
+  for (std::size_t lag = 1; lag < std::min(furthest, residuals.size()); ++lag) {
+    double products = 0.0;
+    for (std::size_t i = lag; i < residuals.size(); ++i)
+      products += residuals[i] * residuals[i - lag];
+    if (products * std::sqrt(static_cast<double>(residuals.size())) < 2.0 * squares) break;
+    rows += 2.0 * products / squares;
+  }
+  return rows;
 }
 
-void ClockRefinement::refine(ClockFit& fit, Free free) {
-  constexpr int steps = 15;
-  for (int i = 0; i < steps; ++i) take_step(fit, free);
+// Sums over rows: splines by splines, splines by (offset, rate), and so on.
+struct RowSums {
+  Eigen::MatrixXd splines = Eigen::MatrixXd::Zero(spline, spline);
+  Eigen::MatrixXd mixed = Eigen::MatrixXd::Zero(spline, 2);
+  Eigen::Matrix2d clocks = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d of_noise = Eigen::Matrix2d::Zero();  // what noise adds to `clocks`
+  Eigen::VectorXd splines_right = Eigen::VectorXd::Zero(spline);
+  Eigen::Vector2d clocks_right = Eigen::Vector2d::Zero();
+};
+
+// Normal equations of offset and rate over the variance, with the noise of the slopes and without.
+struct ClockSums {
+  Eigen::Matrix2d rows = Eigen::Matrix2d::Zero(), told = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();
+};
+
+class Refinement {
+ public:
+  explicit Refinement(const ClockEvidence& evidence)
+      : evidence_(evidence), machine_(evidence.machine.value), logger_(evidence.logger.value) {
+    const double noise = noise_of(evidence.logger.value) / logger_.extent;
+    slope_variance_ = 2.0 * std::pow(noise / (slope_steps * evidence.step), 2);
+  }
+
+  // `clocks`: 0 the spline alone, 1 the offset too, 2 the rate too.
+  void refine(ClockFit& fit, int clocks) {
+    constexpr int steps = 15;
+    for (int i = 0; i < steps; ++i) take_step(fit, clocks);
+  }
+
+  [[nodiscard]] double machine_part(double value) const { return machine_.part(value); }
+  [[nodiscard]] double gauge(double at) const {
+    return logger_.part(value_at(evidence_.logger, at));
+  }
+  [[nodiscard]] double of_gauge(double g) { return splines_.at(g).dot(coefficients_); }
+
+  // Whether the row is one the clocks can be told from.
+  [[nodiscard]] bool counts(double time, double value, double at) const {
+    const Signal& logger = evidence_.logger;
+    return time <= evidence_.machine.time.back() && at > logger.time.front() + evidence_.step &&
+           at < logger.time.back() - evidence_.step && machine_part(value) >= evidence_.lowest &&
+           gauge(at) >= evidence_.lowest;
+  }
+
+ private:
+  [[nodiscard]] double slope_of(double at) const;
+  double add_rows(const ClockFit& fit, RowSums& sums);
+  [[nodiscard]] Eigen::Vector2d move_clocks(ClockSums sums, int clocks, ClockFit& fit) const;
+  void take_step(ClockFit& fit, int clocks);
+
+  const ClockEvidence& evidence_;
+  ValueRange machine_, logger_;
+  double slope_variance_;  // what the logger's noise makes of a slope [1/s²]
+  Splines splines_;
+  Eigen::VectorXd coefficients_ = Eigen::VectorXd::Zero(spline);
+};
+
+// Of the gauge, over so many steps that the noise of the logger is small against it. [1/s]
+double Refinement::slope_of(double at) const {
+  const double half = 0.5 * slope_steps * evidence_.step;
+  return (gauge(at + half) - gauge(at - half)) / (2.0 * half);
 }
 
-void ClockRefinement::draw(ClockFit& fit) {
-  ClockFit same_clocks = fit;
-  refine(same_clocks, cubic);
-  for (std::size_t i = 0; i < machine_.time.size(); ++i) {
-    const double time = machine_.time[i], at = fit.logger_time(time);
+// Sums over the rows that count; the variance of what the spline leaves of them.
+double Refinement::add_rows(const ClockFit& fit, RowSums& sums) {
+  constexpr std::size_t enough_rows = 20'000;
+  const Signal& machine = evidence_.machine;
+  std::vector<double> residuals;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < machine.time.size(); i += 1 + machine.time.size() / enough_rows) {
+    const double at = fit.logger_time(machine.time[i]);
+    if (!counts(machine.time[i], machine.value[i], at)) continue;
+    const Eigen::VectorXd basis = splines_.at(gauge(at));
+    const double residual = machine_part(machine.value[i]) - basis.dot(coefficients_);
+    const double steepness = splines_.slope_at(gauge(at)).dot(coefficients_);
+    const Eigen::Vector2d by_rate{1.0, at - fit.reference};
+    const Eigen::Vector2d clocks = -steepness * slope_of(at) / fit.rate * by_rate;
+    sums.splines += basis * basis.transpose();
+    sums.mixed += basis * clocks.transpose();
+    sums.clocks += clocks * clocks.transpose();
+    sums.of_noise += steepness * steepness * slope_variance_ * by_rate * by_rate.transpose();
+    sums.splines_right += residual * basis;
+    sums.clocks_right += residual * clocks;
+    residuals.push_back(residual);
+    squares += residual * residual;
+  }
+  const auto surplus = static_cast<double>(residuals.size()) - static_cast<double>(spline) - 2.0;
+  if (surplus <= 0.0) return std::numeric_limits<double>::infinity();
+  constexpr double finest = 1e-6;  // of the range: no recorder resolves less
+  return std::max(finest * finest, squares / surplus * rows_per_independent(residuals, squares));
+}
+
+// A symmetric matrix without its negative part.
+Eigen::Matrix2d positive_part(const Eigen::Matrix2d& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(matrix);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
+// What the rows say of the clocks beyond what the spline could. Noise in the slopes is none of it:
+// where there is not more than that, they say nothing.
+ClockSums beyond_noise(const RowSums& sums, const Eigen::MatrixXd& shared, double variance) {
+  const Eigen::Matrix2d rows = sums.clocks - sums.mixed.transpose() * shared;
+  const Eigen::Matrix2d told = positive_part(rows - sums.of_noise);
+  if (told(0, 0) <= sums.of_noise(0, 0)) return {};
+  const Eigen::Vector2d right = sums.clocks_right - shared.transpose() * sums.splines_right;
+  return {rows / variance, told / variance, right / variance};
+}
+
+// The rows, the break, and weak bounds on a step: what nothing tells stays where it is.
+Eigen::Vector2d Refinement::move_clocks(ClockSums sums, int clocks, ClockFit& fit) const {
+  const auto add = [&](const Eigen::Vector2d& row, double residual, double error) {
+    const Eigen::Matrix2d information = row * row.transpose() / (error * error);
+    sums.rows += information;
+    sums.told += information;
+    sums.right += residual / (error * error) * row;
+  };
+  add({1.0, 0.0}, 0.0, evidence_.machine.time.back() - evidence_.machine.time.front());
+  add({0.0, 1.0}, 0.0, 1.0);
+  if (evidence_.broke) {
+    const double since = evidence_.broke->logger_time - fit.reference;
+    add({1.0, since}, evidence_.broke->machine_time - fit.offset - fit.rate * since,
+        evidence_.broke->standard_error);
+  }
+  const auto told = sums.told.topLeftCorner(clocks, clocks).inverse().eval();
+  const Eigen::MatrixXd covariance = told * sums.rows.topLeftCorner(clocks, clocks) * told;
+  Eigen::Vector2d change = Eigen::Vector2d::Zero();
+  change.head(clocks) = told * sums.right.head(clocks);
+  change[0] = std::clamp(change[0], -evidence_.step, evidence_.step);
+  change[1] = std::clamp(change[1], -0.01, 0.01);
+  fit.offset += change[0];
+  fit.offset_standard_error = std::sqrt(covariance(0, 0));
+  fit.rate_fitted = clocks == 2;
+  if (!fit.rate_fitted) return change;
+  fit.rate += change[1];
+  fit.rate_standard_error = std::sqrt(covariance(1, 1));
+  return change;
+}
+
+// One step of Gauss and Newton over the spline and the first `clocks` of offset and rate.
+void Refinement::take_step(ClockFit& fit, int clocks) {
+  RowSums sums;
+  const double variance = add_rows(fit, sums);
+  // Where no row is, the spline stays as it is.
+  sums.splines.diagonal().array() += 1e-9 * (1.0 + sums.splines.diagonal().maxCoeff());
+  const auto splines = sums.splines.ldlt();
+  const Eigen::MatrixXd shared = splines.solve(sums.mixed);
+  Eigen::Vector2d change = Eigen::Vector2d::Zero();
+  if (clocks > 0) change = move_clocks(beyond_noise(sums, shared, variance), clocks, fit);
+  coefficients_ += splines.solve(sums.splines_right) - shared * change;
+}
+
+}  // namespace
+
+ClockFit refine_clocks(const ClockEvidence& evidence, double largest_rate_error, ClockFit fit) {
+  Refinement refinement(evidence);
+  refinement.refine(fit, 1);
+  ClockFit with_rate = fit;
+  refinement.refine(with_rate, 2);
+  const bool told = with_rate.rate_standard_error < largest_rate_error &&
+                    std::abs(with_rate.rate - 1.0) < 5.0 * largest_rate_error;
+  return told ? with_rate : fit;
+}
+
+void draw_clocks(ClockEvidence evidence, const Signal& machine, const Signal& logger,
+                 ClockFit& fit) {
+  evidence.lowest = -std::numeric_limits<double>::infinity();
+  Refinement refinement(evidence);
+  refinement.refine(fit, 0);
+  const ValueRange range(evidence.logger.value);
+  for (std::size_t i = 0; i < machine.time.size(); ++i) {
+    const double time = machine.time[i], at = fit.logger_time(time);
     fit.machine.time.push_back(time);
-    fit.machine.part.push_back(machine_part(machine_.value[i]));
-    if (!both_saw(at)) continue;
+    fit.machine.part.push_back(refinement.machine_part(machine.value[i]));
+    if (at < logger.time.front() || at > logger.time.back()) continue;
     fit.aligned.time.push_back(time);
-    fit.aligned.part.push_back(of_gauge(gauge(at)));
-    if (breaks(time, at)) continue;
+    fit.aligned.part.push_back(refinement.of_gauge(range.part(value_at(logger, at))));
+    if (!refinement.counts(time, machine.value[i], at)) continue;
     fit.residual.time.push_back(time);
     fit.residual.part.push_back(fit.aligned.part.back() - fit.machine.part.back());
   }
-  for (const double time : logger_.time) {
-    fit.logger.time.push_back(time);
-    fit.logger.part.push_back(gauge(time));
+  for (std::size_t i = 0; i < logger.time.size(); ++i) {
+    fit.logger.time.push_back(logger.time[i]);
+    fit.logger.part.push_back(range.part(logger.value[i]));
   }
 }
 

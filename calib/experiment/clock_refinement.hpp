@@ -1,45 +1,35 @@
 // Offset and rate between two clocks, from a first guess to the least squares of the signals.
 #pragma once
 
-#include <Eigen/Core>
+#include <optional>
 
 #include "calib/experiment/clocks.hpp"
 
 namespace havers::calib {
 
-/// (X17) Machine's signal = cubic of the logger's at the logger's time, so that no straight
-/// material is assumed; by Gauss and Newton over the cubic, the offset and the rate. Rows at the
-/// break, where a sampling interval decides, do not count.
-class ClockRefinement {
- public:
-  /// How many unknowns are free.
-  enum Free { cubic = 4, with_offset = 5, with_rate = 6 };
-
-  /// `step` is the time over which the logger's slope is taken. [s]
-  ClockRefinement(const Signal& machine, const Signal& logger, double step);
-
-  /// Improves `fit` and sets its standard errors.
-  void refine(ClockFit& fit, Free free);
-
-  /// The records in parts of their ranges and what the cubic leaves of the machine's, for the
-  /// figure. Offset and rate are kept.
-  void draw(ClockFit& fit);
-
- private:
-  using Unknowns = Eigen::Matrix<double, with_rate, 1>;
-
-  [[nodiscard]] double gauge(double at) const;
-  [[nodiscard]] double machine_part(double value) const;
-  [[nodiscard]] bool both_saw(double at) const;
-  [[nodiscard]] bool breaks(double time, double at) const;
-  [[nodiscard]] double of_gauge(double g) const;
-  double row_of(const ClockFit& fit, std::size_t i, Unknowns& row) const;
-  void take_step(ClockFit& fit, Free free);
-
-  Signal machine_, logger_;
-  double step_;
-  double machine_low_, machine_range_, logger_low_, logger_range_;
-  Eigen::Vector4d coefficients_ = Eigen::Vector4d::Zero();
+/// The break in both records.
+struct CommonBreak {
+  double machine_time = 0.0, logger_time = 0.0;  ///< Each on its own clock. [s]
+  double standard_error = 0.0;                   ///< Of their difference. [s]
 };
+
+/// What the clocks are told from.
+struct ClockEvidence {
+  Signal machine, logger;  ///< Up to the break, where both saw one.
+  std::optional<CommonBreak> broke;
+  double step = 0.0;  ///< Over which the logger's slope is taken. [s]
+  double lowest =
+      0.0;  ///< Rows where either signal is below this part of its range say nothing. [-]
+};
+
+/// (X17) Machine's signal = spline of the logger's at the logger's time, so that no straight
+/// material is assumed; by Gauss and Newton over the spline, the offset and the rate, which is kept
+/// at 1 where its error would exceed `largest_rate_error`. `fit` is the first guess, a step off at
+/// most.
+ClockFit refine_clocks(const ClockEvidence& evidence, double largest_rate_error, ClockFit fit);
+
+/// Sets the curves of the figure: the whole records, and what the spline leaves of the machine's.
+void draw_clocks(ClockEvidence evidence, const Signal& machine, const Signal& logger,
+                 ClockFit& fit);
 
 }  // namespace havers::calib

@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "calib/experiment/clock_break.hpp"
 #include "calib/experiment/clock_refinement.hpp"
 #include "calib/experiment/signal_rates.hpp"
 
@@ -14,6 +16,8 @@ namespace {
 
 constexpr std::size_t fewest_rows = 20;
 constexpr double smallest_overlap = 0.5;  // of the shorter record
+// Slack and seating may move one signal and not the other: what a toe could reach is not compared.
+constexpr double above_toe = 0.15;  // of the range
 
 double correlation(std::span<const double> a, std::span<const double> b) {
   if (a.empty()) return 0.0;
@@ -23,6 +27,11 @@ double correlation(std::span<const double> a, std::span<const double> b) {
   constexpr double constant = 1e-12;  // a rate that never changes tells nothing
   if (vx <= constant * x.square().mean() || vy <= constant * y.square().mean()) return 0.0;
   return ((x - x.mean()) * (y - y.mean())).mean() / std::sqrt(vx * vy);
+}
+
+double extent_of(std::span<const double> values) {
+  const auto [low, high] = std::ranges::minmax(values);
+  return high - low;
 }
 
 // The correlation at every lag, in steps, from `first`.
@@ -80,30 +89,33 @@ std::string doubt(const ClockFit& fit, const ClockOptions& options, double shift
   return {};
 }
 
-// The offset in whole steps, and the middle of what both saw.
-void set_lag(const Signal& machine, const Signal& logger, double difference, ClockFit& fit) {
+// The break in both records, where the logger's is about where the machine's lets expect it.
+std::optional<CommonBreak> cut_at_break(double difference, ClockEvidence& evidence) {
+  Signal &machine = evidence.machine, &logger = evidence.logger;
+  constexpr double near = 5.0;  // steps
+  const double step = evidence.step;
+  const auto seen = find_break(machine, step, machine.time.front(), machine.time.back());
+  if (!seen) return std::nullopt;
+  const double about = seen->time - difference;
+  const auto logged = find_break(logger, step, about - near * step, about + near * step);
+  if (!logged || std::min(seen->rows_before, logged->rows_before) < fewest_rows)
+    return std::nullopt;
+  machine = {machine.time.first(seen->rows_before), machine.value.first(seen->rows_before)};
+  logger = {logger.time.first(logged->rows_before), logger.value.first(logged->rows_before)};
+  return CommonBreak{seen->time, logged->time,
+                     std::hypot(seen->standard_error, logged->standard_error)};
+}
+
+// The offset in whole steps at the middle of what both saw, or at the break.
+void set_lag(const ClockEvidence& evidence, double difference, ClockFit& fit) {
+  const Signal &machine = evidence.machine, &logger = evidence.logger;
   const double from = std::max(logger.time.front(), machine.time.front() - difference);
   const double to = std::min(logger.time.back(), machine.time.back() - difference);
   fit.reference = 0.5 * (from + to);
   fit.offset = fit.reference + difference;
-}
-
-// Each further unknown is kept only where the signals tell it.
-void refine(const Signal& machine, const Signal& logger, double step, double largest_rate_error,
-            ClockFit& fit) {
-  ClockRefinement refinement(machine, logger, step);
-  refinement.refine(fit, ClockRefinement::cubic);
-  fit.offset_standard_error = step / std::sqrt(12.0);  // of a lag in whole steps
-  const ClockFit whole_steps = fit;
-  refinement.refine(fit, ClockRefinement::with_offset);
-  // Where only the break is in both records, the lag is all that can be known.
-  if (!(fit.offset_standard_error < whole_steps.offset_standard_error)) fit = whole_steps;
-  const ClockFit equal_rates = fit;
-  refinement.refine(fit, ClockRefinement::with_rate);
-  if (!(fit.rate_standard_error < largest_rate_error) ||
-      std::abs(fit.rate - 1.0) > 5.0 * largest_rate_error)
-    fit = equal_rates;
-  refinement.draw(fit);
+  if (!evidence.broke) return;
+  fit.reference = evidence.broke->logger_time;
+  fit.offset = evidence.broke->machine_time;
 }
 
 // The offset at which the rates correlate best; why there is none in `problem`.
@@ -130,11 +142,14 @@ std::string match(const Signal& machine, const Signal& logger, const ClockOption
     return "one of the records is too short for the steps of the other";
   const double difference = best_difference(a, b, options, fit);
   if (!fit.problem.empty()) return fit.problem;
-  set_lag(machine, logger, difference, fit);
-  refine(machine, logger, step, options.largest_rate_error, fit);
+  ClockEvidence evidence{
+      .machine = machine, .logger = logger, .broke = {}, .step = step, .lowest = above_toe};
+  evidence.broke = cut_at_break(difference, evidence);
+  set_lag(evidence, difference, fit);
+  fit = refine_clocks(evidence, options.largest_rate_error, fit);
+  draw_clocks(evidence, machine, logger, fit);
   fit.correlation = correlation_at(a, b, fit);
-  const auto [low, high] = std::ranges::minmax(machine.value);
-  const double fastest = std::ranges::max(a.value) / (high - low);
+  const double fastest = std::ranges::max(a.value) / extent_of(evidence.machine.value);
   return doubt(fit, options, fit.offset_standard_error * fastest);
 }
 

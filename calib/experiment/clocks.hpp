@@ -29,8 +29,8 @@ struct ClockTrace {
 
 /// Machine's time = offset + rate · (logger's time − reference) (X17).
 struct ClockFit {
-  double reference = 0.0;              ///< Logger's time, in the middle of what both saw. [s]
-  double offset = 0.0;                 ///< Machine's time at it. [s]
+  double reference = 0.0;  ///< Logger's time, at the break or in the middle of what both saw. [s]
+  double offset = 0.0;     ///< Machine's time at it. [s]
   double offset_standard_error = 0.0;  ///< [s]
   double rate = 1.0;                   ///< Of the machine's clock by the logger's. [-]
   double rate_standard_error = 0.0;    ///< 0 where it was not fitted. [-]
@@ -38,7 +38,7 @@ struct ClockFit {
   double correlation = 0.0;            ///< Of the rates at the fit. [-]
   ClockTrace machine, logger;  ///< As recorded, each on its own clock and in parts of its range.
   ClockTrace aligned;   ///< The machine's signal that the logger's lets expect, machine's clock.
-  ClockTrace residual;  ///< Aligned less machine's, without the rows at the break.
+  ClockTrace residual;  ///< Aligned less machine's, up to the break.
   std::string problem;  ///< Not empty: the signals do not determine the clocks.
 
   [[nodiscard]] double logger_time(double machine_time) const {

@@ -1,0 +1,50 @@
+#include "calib/experiment/clock_break.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace havers::calib {
+namespace {
+
+constexpr double smallest_jump = 0.2;  // of the range
+
+struct Jump {
+  std::size_t first = 0, last = 0;
+  double size = 0.0;
+};
+
+// A spike returns in the next row, a break does not.
+Jump largest_jump(const Signal& signal, double window, double from, double to) {
+  const auto& [time, value] = signal;
+  Jump jump;
+  for (std::size_t i = 0, end = 0; i + 1 < time.size(); ++i) {
+    if (time[i] < from || time[i] > to) continue;
+    end = std::max(end, i + 1);
+    while (end + 1 < time.size() && time[end + 1] <= time[i] + window) ++end;
+    const std::size_t after = std::min(end + 1, time.size() - 1);
+    const double size =
+        std::min(std::abs(value[end] - value[i]), std::abs(value[after] - value[i]));
+    if (size > jump.size) jump = {i, end, size};
+  }
+  return jump;
+}
+
+}  // namespace
+
+std::optional<SeenBreak> find_break(const Signal& signal, double window, double from, double to) {
+  const auto [low, high] = std::ranges::minmax(signal.value);
+  Jump jump = largest_jump(signal, window, from, to);
+  if (!(jump.size > smallest_jump * (high - low))) return std::nullopt;
+  // Less than a tenth of it is not yet the break, nine tenths are all of it.
+  const auto jumped = [&, start = signal.value[jump.first]](std::size_t row) {
+    return std::abs(signal.value[row] - start) / jump.size;
+  };
+  while (jump.first + 1 < jump.last && jumped(jump.first + 1) < 0.1) ++jump.first;
+  while (jump.last > jump.first + 1 && jumped(jump.last - 1) > 0.9) --jump.last;
+  const double before = signal.time[jump.first], after = signal.time[jump.last];
+  return SeenBreak{.time = 0.5 * (before + after),
+                   .standard_error = (after - before) / std::sqrt(12.0),
+                   .rows_before = jump.first + 1};
+}
+
+}  // namespace havers::calib
