@@ -16,10 +16,11 @@ constexpr std::size_t kept = 8;
 constexpr std::size_t remembered_bytes = std::size_t{128}
                                          << 20U;  // of influence columns, for each structure
 
-// A trace of inertia, that of h c/L = 3e6, holds what hangs on a single joint or floats, and
-// nothing else feels it.
-Shift quasi_static_shift(const AssemblyOptions& options) {
-  return {1e-13 / (options.fibre_length * options.fibre_length), 1.0};
+// A trace of inertia, that of h c = 3e6 specimens, holds what hangs on a single joint or floats,
+// and nothing else feels it.
+Shift quasi_static_shift(const Assembly& assembly) {
+  const double size = std::max(assembly.width, assembly.height);
+  return {1e-13 / (size * size), 1.0};
 }
 
 Material unit_material(const Material& material) {
@@ -49,7 +50,7 @@ UnitAnswer stretch(const Structure& structure, const Eigen::VectorXd& gaps, doub
 IntactStructure::IntactStructure(const AssemblyOptions& options, const Loading& loading,
                                  const Material& material, bool share)
     : assembly_(build_assembly(options, loading.lateral)),
-      shift_(quasi_static_shift(options)),
+      shift_(quasi_static_shift(assembly_)),
       bodies_(assembly_, unit_material(material), shift_, share),
       structure_(bodies_) {
   const auto touches = [](const Body& body, const std::vector<int>& side) {

@@ -12,12 +12,14 @@ using Eigen::VectorXd;
 
 namespace {
 
-// Relative weight of the compatibility term: large enough that one or two corrections settle the
-// multipliers, small enough to leave the factor half of its digits.
-constexpr double relative_penalty = 1e7;
+// Relative weights of the compatibility term: large enough that two corrections settle the
+// multipliers, small enough to leave the factor half of its digits, which without inertia are
+// fewer (M10).
+constexpr double penalty_of_steps = 1e6, penalty_at_rest = 1e5;
+constexpr double most_hold = 1e-9;  // of a mechanism, part of the diagonal
 constexpr double usual_accuracy = 1e-12;
 constexpr double accuracy_of_columns = 1e-16;  // wide cracks are sums of many that nearly cancel
-constexpr int max_solves = 8;
+constexpr int max_solves = 12;
 constexpr int max_solves_with_friction = 40;
 
 }  // namespace
@@ -68,11 +70,13 @@ bool Structure::holds(int unknown) const {
 }
 
 void Structure::assemble() {
-  double scale = 0.0;
-  for (const BodyClass& bodies : bodies_->classes())
+  bool at_rest = false;
+  for (const BodyClass& bodies : bodies_->classes()) {
+    at_rest = at_rest || bodies.op.at_rest;
     if (bodies.op.impedance.size() > 0)
-      scale = std::max(scale, bodies.op.impedance.diagonal().maxCoeff());
-  penalty_ = relative_penalty * scale;
+      stiffness_ = std::max(stiffness_, bodies.op.impedance.diagonal().maxCoeff());
+  }
+  penalty_ = (at_rest ? penalty_at_rest : penalty_of_steps) * stiffness_;
 
   std::vector<Eigen::Triplet<double>> entries;
   for (const BodyClass& bodies : bodies_->classes()) {
@@ -99,6 +103,12 @@ void Structure::assemble() {
   Eigen::SparseMatrix<double> matrix(unknowns_, unknowns_);
   matrix.setFromTriplets(entries.begin(), entries.end());
   factor_.emplace(matrix);
+  // A mechanism has nothing but its trace of inertia. The factor may hold it, for the corrections
+  // take what it adds away from everything that bears a load.
+  for (double hold = 1e-13; !factor_->ok() && hold < most_hold; hold *= 10.0) {
+    matrix.diagonal() *= 1.0 + hold;
+    factor_.emplace(matrix);
+  }
 }
 
 MatrixXd Structure::unknowns_to_ports(const MatrixXd& unknowns) const {
@@ -151,7 +161,7 @@ struct Structure::Correction {
 VectorXd Structure::in_forces(const MatrixXd& forces, const MatrixXd& gap) const {
   const MatrixXd at_unknowns = ports_to_unknowns(forces);
   VectorXd all(at_unknowns.size() + gap.size());
-  all << at_unknowns.reshaped(), penalty_ / relative_penalty * gap.reshaped();
+  all << at_unknowns.reshaped(), stiffness_ * gap.reshaped();
   return all;
 }
 

@@ -87,7 +87,8 @@ class Structure {
   std::vector<int> unknown_of_port_;
   std::vector<char> tie_top_;  // 1 for a port that also moves with the common distance of the ties
   Eigen::Index unknowns_ = 0;
-  double penalty_ = 0.0;  // ρ of the compatibility term [N/m²]
+  double stiffness_ = 0.0;  // the largest of Z [N/m²]
+  double penalty_ = 0.0;    // ρ of the compatibility term [N/m²]
   std::optional<Cholesky> factor_;
 };
 
