@@ -128,10 +128,13 @@ void print_test(const Imported& imported) {
   const calib::MeasuredTest& test = imported.reduction.test;
   if (!test.strain.empty()) {
     fmt::print(
-        "  strength {:.3f} MPa at a strain of {:.4f} %, largest force {:.2f} N on {:.4f} mm2\n",
-        1e-6 * test.strength, 100.0 * test.failure_strain, test.max_force, 1e6 * test.area);
-    fmt::print("  energy to failure {:.4f} MJ/m3, strain rate {:.4g} 1/s\n",
-               1e-6 * test.energy_to_failure, test.strain_rate);
+        "  strength {:.3f} MPa at a strain of {:.4f} %{}\n", 1e-6 * test.strength,
+        100.0 * test.failure_strain,
+        test.max_force > 0.0 && test.area > 0.0
+            ? fmt::format(", largest force {:.2f} N on {:.4f} mm2", test.max_force, 1e6 * test.area)
+            : "");
+    fmt::print("  energy to failure {:.4f} MJ/m3{}\n", 1e-6 * test.energy_to_failure,
+               test.time.empty() ? "" : fmt::format(", strain rate {:.4g} 1/s", test.strain_rate));
     fmt::print("  modulus {:.3f} +- {:.3f} GPa between strains of {:.4f} and {:.4f} %\n",
                1e-9 * test.modulus, 1e-9 * test.modulus_standard_error, 100.0 * test.window_low,
                100.0 * test.window_high);

@@ -14,9 +14,11 @@ namespace {
 // (X11) Far from its neighbours, by what the noise, the range and their own wandering allow: the
 // tip of a steep test that breaks is no spike.
 bool is_spike(const double* y, double threshold) {
+  const double distance = std::abs(y[0] - 0.5 * (y[-1] + y[1]));
+  if (!(distance > threshold)) return false;
   const double wander =
       std::max({std::abs(y[-1] - y[-2]), std::abs(y[1] - y[-1]), std::abs(y[2] - y[1])});
-  return std::abs(y[0] - 0.5 * (y[-1] + y[1])) > std::max(threshold, 5.0 * wander);
+  return distance > 5.0 * wander;
 }
 
 }  // namespace

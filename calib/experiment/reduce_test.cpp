@@ -94,7 +94,7 @@ void remove_toe(MeasuredTest& test, const Line& line) {
       std::ranges::find_if(test.strain, [](double strain) { return strain >= 0.0; });
   if (const auto slack = static_cast<std::size_t>(origin - test.strain.begin()); slack > 0) {
     drop_first(test, slack);
-    detail += fmt::format("; {} rows before it dropped", slack);
+    detail += fmt::format("; {} {} before it dropped", slack, slack == 1 ? "row" : "rows");
   }
   test.corrections.push_back({"toe", detail});
 }

@@ -32,6 +32,7 @@ class SpecimenTables {
   std::vector<TestFile> take();
 
  private:
+  void make_room(double blocks);
   bool take_row(const Row& row);
   [[nodiscard]] bool begins_header(const Row& row) const;
   void take_header_row(const Row& row);

@@ -37,6 +37,9 @@ TextSource::TextSource(const std::filesystem::path& file) : name_(file.string())
   if (!stream_) throw InputError(name_, "cannot be opened for reading");
   read_block();
   if (block_.empty()) throw InputError(name_, "the file is empty");
+  std::error_code no_size;
+  if (const auto bytes = std::filesystem::file_size(file, no_size); !no_size)
+    first_blocks_ = static_cast<double>(bytes) / static_cast<double>(block_.size());
   const Encoding encoding = find_encoding(block_);
   if (encoding.name.empty())
     throw InputError(

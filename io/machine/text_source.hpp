@@ -23,6 +23,9 @@ class TextSource {
   /// "ASCII", "UTF-8", "UTF-8 with BOM", "UTF-16LE", "WINDOWS-1252", ...
   [[nodiscard]] const std::string& encoding() const { return encoding_; }
 
+  /// How many times the first block the file is; 0 where it does not tell, as a pipe.
+  [[nodiscard]] double first_blocks() const { return first_blocks_; }
+
   /// The next block as UTF-8, without a byte order mark; empty at the end. Valid until the next
   /// call.
   std::string_view next();
@@ -37,6 +40,7 @@ class TextSource {
   std::string block_;          // raw bytes; begins with what the last conversion left over
   std::string text_;           // converted
   void* converter_ = nullptr;  // iconv_t; null: the bytes are UTF-8 already
+  double first_blocks_ = 0.0;
   bool first_ = true;
 };
 
