@@ -149,6 +149,7 @@ nlohmann::json truth_of(const io::StudyFile& file, const std::vector<Made>& made
         {"id", one.specimen.id},
         {"orientation_deg", one.specimen.orientation * 180.0 / std::numbers::pi},
         {"scatter", one.scene.joints.scatter},
+        {"missing_joints", one.scene.joints.missing},
         {"seed", one.scene.joints.seed},
         {"young_GPa", 1e-9 * one.scene.material.young},
         {"status", sim::to_string(one.simulation.status)},

@@ -14,9 +14,13 @@ double lateral_contraction(const Material& material) {
 std::vector<JointOutcome> initial_outcomes(const std::vector<Threshold>& thresholds) {
   std::vector<JointOutcome> joints;
   joints.reserve(thresholds.size());
-  for (const Threshold& threshold : thresholds)
+  for (const Threshold& threshold : thresholds) {
+    const bool missing = is_missing(threshold);
     joints.push_back(
-        {.threshold = threshold, .broken_at_strain = std::numeric_limits<double>::quiet_NaN()});
+        {.threshold = threshold,
+         .broken = missing,
+         .broken_at_strain = missing ? 0.0 : std::numeric_limits<double>::quiet_NaN()});
+  }
   return joints;
 }
 
@@ -54,7 +58,8 @@ void summarise(Simulation& simulation) {
   simulation.broken_joints = curve.back().broken_joints;
   simulation.first_break_strain = std::numeric_limits<double>::quiet_NaN();
   for (const JointOutcome& joint : simulation.joints)
-    if (joint.broken && !(simulation.first_break_strain <= joint.broken_at_strain))
+    if (joint.broken && !is_missing(joint.threshold) &&
+        !(simulation.first_break_strain <= joint.broken_at_strain))
       simulation.first_break_strain = joint.broken_at_strain;
   const double end = std::isnan(simulation.first_break_strain) ? curve.back().strain
                                                                : simulation.first_break_strain;

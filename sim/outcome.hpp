@@ -9,7 +9,7 @@ namespace havers::sim {
 /// [-]
 double lateral_contraction(const Material& material);
 
-/// All joints intact, with their thresholds.
+/// All joints with their thresholds, intact but for those that are missing.
 std::vector<JointOutcome> initial_outcomes(const std::vector<Threshold>& thresholds);
 
 /// Whether both sides have dropped below the end fraction of the strength after a break. Keeps the

@@ -111,6 +111,8 @@ void check_joints(const JointOptions& joints, Checker& checker) {
     checker.positive("joints.flank_tension_MPa", *joints.flank_tension / 1e6);
   checker.require(joints.scatter >= 0.0 && joints.scatter < 2.0, "joints.scatter", joints.scatter,
                   "at least 0 and below 2", "the length of the interval of threshold factors");
+  checker.require(joints.missing >= 0.0 && joints.missing < 1.0, "joints.missing", joints.missing,
+                  "at least 0 and below 1", "the fraction of joints that pores take away");
   checker.not_negative("joints.friction", joints.friction);
 }
 
@@ -142,15 +144,20 @@ void check_thresholds(const Scene& scene, Checker& checker) {
                 "write a matching file with havers simulate: joints.csv");
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (is_positive(given[i].normal) && is_not_negative(given[i].tangent)) continue;
+    if (is_missing(given[i])) continue;
     checker.say("joints.thresholds_file",
                 fmt::format("gives joint {} f_N = {:g} and f_T = {:g} N/m, must be f_N above 0 and "
-                            "f_T 0 or more",
+                            "f_T 0 or more, or both 0 for a joint that is missing",
                             i, given[i].normal, given[i].tangent));
     return;  // one such sentence says enough
   }
 }
 
 }  // namespace
+
+bool is_missing(const Threshold& threshold) {
+  return threshold.normal == 0.0 && threshold.tangent == 0.0;
+}
 
 std::vector<Scene::Problem> Scene::problems() const {
   Checker checker;

@@ -38,9 +38,12 @@ enum class Distribution { uniform, weibull, lognormal };
 
 /// Threshold of one joint, force per unit thickness.
 struct Threshold {
-  double normal = 0.0;   ///< f_N, tension. [N/m]
+  double normal = 0.0;   ///< f_N, tension; 0: the joint is missing, broken from the start. [N/m]
   double tangent = 0.0;  ///< f_T, shear at R_N = 0. [N/m]
 };
+
+/// Whether a joint is not there at all: both thresholds are 0.
+bool is_missing(const Threshold& threshold);
 
 /// Strength of the joints. Sections 3 and 4.
 struct JointOptions {
@@ -50,6 +53,7 @@ struct JointOptions {
   std::optional<double> flank_tension;  ///< f_N of a flank joint over L/2; default f₁/(L/2). [Pa]
   double scatter = 0.2;                 ///< d ∈ [0, 2), length of the interval of w. [-]
   Distribution distribution = Distribution::uniform;
+  double missing = 0.0;                     ///< Fraction of joints that pores take away (M13). [-]
   double friction = 0.3;                    ///< μ_f of broken joints. [-]
   std::optional<bool> reinforced_boundary;  ///< Default: on at 0° only.
   std::uint64_t seed = 1;

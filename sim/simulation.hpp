@@ -30,16 +30,16 @@ struct CurvePoint {
   double strain = 0.0;        ///< ε. [-]
   double stress_right = 0.0;  ///< [Pa]
   double stress_left = 0.0;   ///< [Pa]
-  int broken_joints = 0;
-  double kinetic = 0.0;     ///< [J/m]
-  double elastic = 0.0;     ///< [J/m]
-  double dissipated = 0.0;  ///< By joints and viscosity, since the start. [J/m]
+  int broken_joints = 0;      ///< Without the missing ones.
+  double kinetic = 0.0;       ///< [J/m]
+  double elastic = 0.0;       ///< [J/m]
+  double dissipated = 0.0;    ///< By joints and viscosity, since the start. [J/m]
 };
 
 /// A joint at the end of a run.
 struct JointOutcome {
-  Threshold threshold;  ///< [N/m]
-  bool broken = false;
+  Threshold threshold;            ///< [N/m]
+  bool broken = false;            ///< From the start where it is missing.
   double broken_at_strain = 0.0;  ///< NaN while bonded. [-]
   double reaction_normal = 0.0;   ///< R_N, compression positive. [N/m]
   double reaction_tangent = 0.0;  ///< R_T. [N/m]

@@ -46,12 +46,12 @@ std::string text(const sim::Material& material) {
 }
 
 std::string text(const sim::JointOptions& joints, bool reinforced) {
-  const auto& [head_tail, flank, head_tail_shear, flank_tension, scatter, distribution, friction,
-               boundary, seed, thresholds] = joints;
+  const auto& [head_tail, flank, head_tail_shear, flank_tension, scatter, distribution, missing,
+               friction, boundary, seed, thresholds] = joints;
   static_cast<void>(boundary);  // settled in `reinforced`
-  std::string result = fmt::format("{} {} {} {} {} {} {} {} {}", head_tail, flank,
-                                   text(head_tail_shear), text(flank_tension), scatter,
-                                   static_cast<int>(distribution), friction, reinforced, seed);
+  std::string result = fmt::format(
+      "{} {} {} {} {} {} {} {} {} {}", head_tail, flank, text(head_tail_shear), text(flank_tension),
+      scatter, static_cast<int>(distribution), missing, friction, reinforced, seed);
   for (const auto& [normal, tangent] : thresholds) result += fmt::format(" {} {}", normal, tangent);
   return result;
 }

@@ -63,6 +63,12 @@ std::vector<sim::LeftOut> left_out_of(const FitProblem& problem, const Simulatio
     if (!problem.targets[s].usable)
       list.push_back({"specimen " + problem.study.specimens[s].id,
                       "its test gives no modulus, strength and failure strain"});
+  for (std::size_t s = 0; s < problem.models.size(); ++s)
+    if (problem.models[s].scene.joints.missing > 0.0)
+      list.push_back({"the scatter that the sections of " + problem.study.specimens[s].id + " give",
+                      fmt::format("their pores are larger than a fibre's window: {:.1f} % of the "
+                                  "joints are missing instead",
+                                  100.0 * problem.models[s].scene.joints.missing)});
   if (batch.asked() > batch.distinct())
     list.push_back(
         {fmt::format("{} of {} simulations", batch.asked() - batch.distinct(), batch.asked()),

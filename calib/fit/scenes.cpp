@@ -22,6 +22,11 @@ void set_scatter(SpecimenModel& model, const Specimen& specimen, const PorosityO
                                : "the study's model: neither sections nor porosity give it";
     return;
   }
+  if (options.to_scatter == ToScatter::window && removes_joints(porosity)) {
+    model.scene.joints.missing = missing_joints(porosity);
+    model.scatter_ground = "the study's model: the sections take joints away instead";
+    return;
+  }
   model.scene.joints.scatter = scatter;
   const double error = scatter_standard_error(porosity, options);
   model.scatter_standard_error = std::isfinite(error) ? error : 0.0;

@@ -20,7 +20,8 @@ struct SpecimenModel {
   std::string scatter_ground{};         ///< Where the scatter comes from, in words.
 };
 
-/// Porosity, scatter, rate and orientation of specimen `s` set in the study's model.
+/// Porosity, scatter or missing joints (K5), rate and orientation of specimen `s` set in the
+/// study's model.
 SpecimenModel model_of(const Study& study, std::size_t s);
 
 /// The same with other laws of porosity.

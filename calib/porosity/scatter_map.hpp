@@ -35,7 +35,7 @@ struct SpecimenPorosity {
 SpecimenPorosity pool_sections(const std::vector<SectionPorosity>& sections);
 
 /// Whether pores are larger than a window (A < a*), so that they take joints away rather than
-/// spread their thresholds (K5). The fit does not act on it: it is there to be said.
+/// spread their thresholds (K5).
 bool removes_joints(const SpecimenPorosity& porosity);
 
 /// Fraction of joints that pores take away: p, or 0 where they spread thresholds. [-]

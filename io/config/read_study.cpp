@@ -56,6 +56,7 @@ void check_specimen(TableReader& table, const SpecimenFiles& specimen) {
 void check_files(TableReader& table, const SpecimenFiles& specimen) {
   if (table.has("test")) table.require_file("test", specimen.test);
   if (specimen.gauge) table.require_file("gauge", *specimen.gauge);
+  if (specimen.mask) table.require_file("mask", *specimen.mask);
   for (const std::filesystem::path& section : specimen.sections)
     table.require_file("sections", section);
 }

@@ -33,6 +33,7 @@ template <class Table>
 void keys(Table& table, sim::JointOptions& joints) {
   table.key("scatter", joints.scatter);
   table.key("distribution", joints.distribution);
+  table.key("missing", joints.missing);
   table.key("friction", joints.friction);
   table.key("reinforced_boundary", joints.reinforced_boundary);
   table.key("head_tail_shear_MPa", joints.head_tail_shear, megapascal);

@@ -64,28 +64,28 @@ std::string to_string(sim::Distribution distribution) {
 
 Facts scene_facts(const sim::Scene& scene) {
   const auto& [assembly, material, joints, loading, solver] = scene;
-  return {
-      {"Assembly",
-       fmt::format("{} layers of {} fibres, {} by {}, at {}", assembly.layers, assembly.fibres,
-                   setting(assembly.fibre_length / in::um, "µm"),
-                   setting(assembly.fibre_height / in::um, "µm"), degrees(assembly.orientation))},
-      {"Material", fmt::format("E = {}, ν = {}, ρ = {} kg/m³, plane {}",
-                               setting(material.young / in::GPa, "GPa"), setting(material.poisson),
-                               setting(material.density),
-                               material.plane == sim::Plane::stress ? "stress" : "strain")},
-      {"Joints",
-       fmt::format("σ₁ = {}, σ₂ = {}, r = {}", setting(joints.head_tail / in::MPa, "MPa"),
-                   setting(joints.flank / in::MPa, "MPa"), setting(ratio(assembly, joints)))},
-      {"Thresholds", joints.thresholds.empty() ? fmt::format("{}, scatter d = {}, seed {}",
-                                                             to_string(joints.distribution),
-                                                             setting(joints.scatter), joints.seed)
-                                               : "one per joint, given"},
-      {"Loading",
-       fmt::format("{} 1/s, {} sides, {} start, up to {} strain", setting(loading.strain_rate),
-                   loading.lateral == sim::Lateral::periodic ? "periodic" : "free",
-                   loading.start == sim::Start::uniform ? "uniform" : "rest",
-                   setting(loading.max_strain / in::percent, "%"))},
-      {"Tolerance", setting(solver.tolerance)}};
+  return {{"Assembly", fmt::format("{} layers of {} fibres, {} by {}, at {}", assembly.layers,
+                                   assembly.fibres, setting(assembly.fibre_length / in::um, "µm"),
+                                   setting(assembly.fibre_height / in::um, "µm"),
+                                   degrees(assembly.orientation))},
+          {"Material", fmt::format("E = {}, ν = {}, ρ = {} kg/m³, plane {}",
+                                   setting(material.young / in::GPa, "GPa"),
+                                   setting(material.poisson), setting(material.density),
+                                   material.plane == sim::Plane::stress ? "stress" : "strain")},
+          {"Joints",
+           fmt::format("σ₁ = {}, σ₂ = {}, r = {}", setting(joints.head_tail / in::MPa, "MPa"),
+                       setting(joints.flank / in::MPa, "MPa"), setting(ratio(assembly, joints)))},
+          {"Thresholds", joints.thresholds.empty()
+                             ? fmt::format("{}, scatter d = {}, {} of the joints missing, seed {}",
+                                           to_string(joints.distribution), setting(joints.scatter),
+                                           setting(joints.missing / in::percent, "%"), joints.seed)
+                             : "one per joint, given"},
+          {"Loading",
+           fmt::format("{} 1/s, {} sides, {} start, up to {} strain", setting(loading.strain_rate),
+                       loading.lateral == sim::Lateral::periodic ? "periodic" : "free",
+                       loading.start == sim::Start::uniform ? "uniform" : "rest",
+                       setting(loading.max_strain / in::percent, "%"))},
+          {"Tolerance", setting(solver.tolerance)}};
 }
 
 }  // namespace

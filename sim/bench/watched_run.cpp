@@ -41,7 +41,8 @@ class Watcher {
       strain_ = strain;
     }
     for (std::size_t j = 0; j < progress.joints.size(); ++j) {
-      if (!progress.joints[j].broken || seen(j)) continue;
+      const JointOutcome& joint = progress.joints[j];
+      if (!joint.broken || is_missing(joint.threshold) || seen(j)) continue;
       run_->order.push_back(static_cast<int>(j));
       run_->forces_at_break.push_back(forces_of(progress.joints));
     }

@@ -71,7 +71,7 @@ class DynamicRun {
   double acceleration_force_ = 0.0;              // norm of M dv/h in the last step [N/m]
   double leapt_ = 0.0;                           // time that passed without steps [s]
   double force_right_ = 0.0, force_left_ = 0.0;  // of the machine on the specimen, along x [N/m]
-  int broken_ = 0;
+  int broken_ = 0, missing_ = 0;
 };
 
 DynamicRun::DynamicRun(const Scene& scene, const Assembly& assembly, double h)
@@ -102,7 +102,14 @@ void DynamicRun::start() {
   step_.gaps = step_.held_at = step_.reactions = slope_ = VectorXd::Zero(rows);
   step_.states.assign(joints.size(), JointState::stick);
   step_.broken.assign(joints.size(), 0);
-  for (const JointOutcome& joint : joints) step_.laws.push_back(intact_law(joint.threshold));
+  step_.laws.reserve(joints.size());
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const bool missing = joints[j].broken;
+    missing_ += missing ? 1 : 0;
+    step_.broken[j] = missing ? 1 : 0;
+    step_.laws.push_back(missing ? broken_law(scene_.joints.friction)
+                                 : intact_law(joints[j].threshold));
+  }
 }
 
 // Loads and predicted gaps of the coming step (M3), for δ = h (v⁺ − v).
@@ -205,7 +212,7 @@ double DynamicRun::time_to_first_break() const {
 
 double DynamicRun::leap() {
   constexpr double uniform = 1e-9, beyond = 1.0 + 1e-9;  // so that the step then breaks the joint
-  if (broken_ > 0 || acceleration_force_ > uniform * motion_.Kq.norm()) return 0.0;
+  if (broken_ + missing_ > 0 || acceleration_force_ > uniform * motion_.Kq.norm()) return 0.0;
   const double time = beyond * time_to_first_break() - h_;
   if (!(time > h_)) return 0.0;
   energy_.viscous += scene_.material.viscosity * time * motion_.v.dot(motion_.Kv);

@@ -10,9 +10,12 @@
 namespace havers::sim {
 namespace {
 
+// What a number is drawn for: draws for one say nothing of draws for the other.
+enum class Stream : std::uint64_t { factor, missing };
+
 // Uniform on (0, 1), both ends excluded. [SMDS11]
-double uniform(std::uint64_t seed, std::uint64_t joint) {
-  const r123::Philox2x64::ctr_type counter{{joint, 0}};
+double uniform(std::uint64_t seed, std::uint64_t joint, Stream stream) {
+  const r123::Philox2x64::ctr_type counter{{joint, static_cast<std::uint64_t>(stream)}};
   const r123::Philox2x64::key_type key{{seed}};
   const std::uint64_t bits = r123::Philox2x64()(counter, key)[0];
   return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
@@ -52,7 +55,7 @@ bool in_outer_layer(const Scene& scene, const Joint& joint) {
 double threshold_factor(std::uint64_t seed, std::uint64_t joint, double scatter,
                         Distribution distribution) {
   if (scatter == 0.0) return 1.0;
-  const double u = uniform(seed, joint);
+  const double u = uniform(seed, joint, Stream::factor);
   const double cv = scatter / std::sqrt(12.0);
   switch (distribution) {
     case Distribution::uniform:
@@ -67,6 +70,10 @@ double threshold_factor(std::uint64_t seed, std::uint64_t joint, double scatter,
     }
   }
   return 1.0;
+}
+
+bool is_drawn_missing(std::uint64_t seed, std::uint64_t joint, double fraction) {
+  return uniform(seed, joint, Stream::missing) < fraction;
 }
 
 Threshold mean_threshold(const Scene& scene, const Joint& joint) {
@@ -88,14 +95,14 @@ Threshold mean_threshold(const Scene& scene, const Joint& joint) {
 std::vector<Threshold> draw_thresholds(const Scene& scene, const Assembly& assembly) {
   assert(scene.joints.thresholds.empty() ||
          scene.joints.thresholds.size() == assembly.joints.size());
-  if (!scene.joints.thresholds.empty()) return scene.joints.thresholds;
-  std::vector<Threshold> thresholds;
-  thresholds.reserve(assembly.joints.size());
-  for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
+  const JointOptions& joints = scene.joints;
+  if (!joints.thresholds.empty()) return joints.thresholds;
+  std::vector<Threshold> thresholds(assembly.joints.size());
+  for (std::size_t i = 0; i < thresholds.size(); ++i) {
+    if (is_drawn_missing(joints.seed, i, joints.missing)) continue;
     const Threshold mean = mean_threshold(scene, assembly.joints[i]);
-    const double w =
-        threshold_factor(scene.joints.seed, i, scene.joints.scatter, scene.joints.distribution);
-    thresholds.push_back({mean.normal * w, mean.tangent * w});
+    const double w = threshold_factor(joints.seed, i, joints.scatter, joints.distribution);
+    thresholds[i] = {mean.normal * w, mean.tangent * w};
   }
   return thresholds;
 }

@@ -14,10 +14,15 @@ namespace havers::sim {
 double threshold_factor(std::uint64_t seed, std::uint64_t joint, double scatter,
                         Distribution distribution);
 
+/// Whether pores have taken the joint away (M13), a function of (seed, joint) alone and drawn apart
+/// from its thresholds: what is missing at one fraction is missing at every larger one.
+bool is_drawn_missing(std::uint64_t seed, std::uint64_t joint, double fraction);
+
 /// Mean thresholds of a joint, in proportion to its length, with the reinforced boundary. [N/m]
 Threshold mean_threshold(const Scene& scene, const Joint& joint);
 
-/// One per joint: the scene's own where it gives them, else drawn. [N/m]
+/// One per joint: the scene's own where it gives them, else drawn; 0 where a joint is missing.
+/// [N/m]
 std::vector<Threshold> draw_thresholds(const Scene& scene, const Assembly& assembly);
 
 }  // namespace havers::sim

@@ -34,6 +34,8 @@ class BreakingRun {
   /// Breaks all joints that have met their cones at `event`; `strain` is that of the specimen by
   /// then.
   void break_joints(double event, double strain);
+  /// Takes away the joints that are missing from the start; whether there are any.
+  bool take_missing();
   /// Solves the changed structure for ε = 1, broken joints pressed together included (M7).
   bool settle();
 
@@ -103,6 +105,14 @@ void BreakingRun::break_joints(double event, double strain) {
     ++broken;
   }
   loosen(breaking);
+}
+
+bool BreakingRun::take_missing() {
+  std::vector<std::size_t> missing;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (joints[j].broken) missing.push_back(j);
+  if (!missing.empty()) loosen(missing);
+  return !missing.empty();
 }
 
 void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {
@@ -258,6 +268,7 @@ Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
   const std::shared_ptr<const IntactStructure> intact = intact_structure(scene);
   if (!intact->structure().ok()) return simulation;
   BreakingRun run(scene, intact);
+  if (run.take_missing() && !run.settle()) return simulation;
   simulation.curve.push_back(run.point(0.0));
   double strain = 0.0, largest_energy = 0.0;
   const double end_fraction = end_fraction_used(scene);

@@ -39,6 +39,31 @@ TEST(ModelOfASpecimen, TakesScatterAndModulusFromItsSections) {
   EXPECT_EQ(model.porosity, 0.1);
 }
 
+// (K5): pores larger than a window take joints away, and leave the others' thresholds alone.
+TEST(ModelOfASpecimen, MissesJointsWhereItsPoresAreLargerThanAFibre) {
+  auto study = one_specimen();
+  SectionPorosity section;
+  section.porosity = 0.1;
+  section.window_sd = 0.2;
+  section.pore_area = 1e-8;
+  section.window_area = 1e-9;
+  section.pore_area_ratio = 2e-9;
+  study.specimens[0].sections = {section};
+  const auto large = model_of(study, 0);
+  EXPECT_EQ(large.scene.joints.missing, 0.1);
+  EXPECT_EQ(large.scene.joints.scatter, 0.25);
+  EXPECT_EQ(large.scatter_standard_error, 0.0);
+
+  study.specimens[0].sections[0].pore_area_ratio = 0.5e-9;
+  const auto small = model_of(study, 0);
+  EXPECT_EQ(small.scene.joints.missing, 0.0);
+  EXPECT_GT(small.scene.joints.scatter, 0.25);
+
+  study.specimens[0].sections[0].pore_area_ratio = 2e-9;
+  study.porosity.to_scatter = ToScatter::linear;  // a map that was asked for is not overruled
+  EXPECT_EQ(model_of(study, 0).scene.joints.missing, 0.0);
+}
+
 TEST(ModelOfASpecimen, KeepsTheStudysScatterWhereNothingGivesAnother) {
   auto study = one_specimen();
   EXPECT_EQ(model_of(study, 0).scene.joints.scatter, 0.25);

@@ -199,6 +199,7 @@ gauge = "g.csv"
 id = "A1"
 test = "B.csv"
 sections = ["s.png"]
+mask = "m.png"
 use = "both"
 [model.material]
 young_GPa = -1
@@ -207,16 +208,18 @@ young_GPa = -1
               ElementsAre("study.toml:6: specimen.gauge: names g.csv, which is not there (paths "
                           "are relative to the folder "
                           "of this file)",
-                          "study.toml:11: specimen.use: is \"both\", must be one of: fit, validate "
+                          "study.toml:12: specimen.use: is \"both\", must be one of: fit, validate "
                           "(did you mean fit?)",
                           "study.toml:8: specimen.id: is \"A1\", as that of an earlier specimen",
                           "study.toml:9: specimen.test: names B.csv, which is not there (paths are "
                           "relative to the folder of "
                           "this file)",
+                          "study.toml:11: specimen.mask: names m.png, which is not there (paths "
+                          "are relative to the folder of this file)",
                           "study.toml:10: specimen.sections: names s.png, which is not there "
                           "(paths are relative to the "
                           "folder of this file)",
-                          "study.toml:13: model.material.young_GPa: is -1, must be above 0",
+                          "study.toml:14: model.material.young_GPa: is -1, must be above 0",
                           "study.toml:2: study.nmae: is not a known key (did you mean name?)"));
 }
 

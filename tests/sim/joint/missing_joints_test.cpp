@@ -1,0 +1,154 @@
+// Joints that pores have taken away (M13): who is missing, and what the wall does without them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/joint/thresholds.hpp"
+#include "sim/simulation.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+constexpr std::uint64_t draws = 50000;
+
+TEST(MissingJoints, AreTheFractionAskedFor) {
+  for (const double fraction : {0.01, 0.1, 0.5}) {
+    int missing = 0;
+    for (std::uint64_t joint = 0; joint < draws; ++joint)
+      missing += is_drawn_missing(11, joint, fraction) ? 1 : 0;
+    EXPECT_NEAR(missing / double(draws), fraction,
+                4.0 * std::sqrt(fraction * (1.0 - fraction) / draws));
+  }
+  for (std::uint64_t joint = 0; joint < 1000; ++joint) EXPECT_FALSE(is_drawn_missing(1, joint, 0));
+}
+
+TEST(MissingJoints, StayMissingAtALargerFraction) {
+  for (std::uint64_t joint = 0; joint < 1000; ++joint)
+    EXPECT_LE(is_drawn_missing(3, joint, 0.1), is_drawn_missing(3, joint, 0.3));
+}
+
+// Were both drawn from one number, the weakest joints would be the missing ones.
+TEST(MissingJoints, AreDrawnApartFromTheThresholds) {
+  double sum = 0.0, missing = 0.0;
+  for (std::uint64_t joint = 0; joint < draws; ++joint) {
+    if (!is_drawn_missing(5, joint, 0.2)) continue;
+    sum += threshold_factor(5, joint, 1.0, Distribution::uniform);
+    missing += 1.0;
+  }
+  EXPECT_NEAR(sum / missing, 1.0, 4.0 / std::sqrt(12.0 * missing));
+}
+
+TEST(MissingJoints, AreTheSameWhateverElseChanges) {
+  Scene scene = test::small_scene(45.0);
+  scene.joints.missing = 0.2;
+  const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
+  const auto before = draw_thresholds(scene, assembly);
+  scene.joints.scatter = 1.2;
+  scene.joints.distribution = Distribution::weibull;
+  scene.joints.head_tail = 80e6;
+  const auto after = draw_thresholds(scene, assembly);
+  scene.joints.missing = 0.0;
+  const auto whole = draw_thresholds(scene, assembly);
+  int missing = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(is_missing(before[i]), is_missing(after[i]));
+    missing += is_missing(after[i]) ? 1 : 0;
+    EXPECT_EQ(after[i].normal, is_missing(after[i]) ? 0.0 : whole[i].normal);
+  }
+  EXPECT_GT(missing, 0);
+}
+
+class WithMissingJoints : public testing::TestWithParam<Regime> {
+ protected:
+  static Simulation run(double missing) { return simulate(scene_of(missing)); }
+  static Scene scene_of(double missing) {
+    Scene scene = test::small_scene();
+    scene.solver.regime = GetParam();
+    if (GetParam() == Regime::dynamic) scene.solver.step = 1e-7;
+    scene.loading.strain_rate = 200.0;
+    scene.joints.missing = missing;
+    return scene;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(, WithMissingJoints,
+                         testing::Values(Regime::quasi_static, Regime::dynamic),
+                         [](const auto& regime) {
+                           return regime.param == Regime::dynamic ? "Dynamic" : "QuasiStatic";
+                         });
+
+TEST_P(WithMissingJoints, TheWallIsSofterAndWeakerTheMoreAreMissing) {
+  Simulation stronger = run(0.0);
+  for (const double missing : {0.05, 0.15, 0.3}) {
+    const Simulation weaker = run(missing);
+    ASSERT_TRUE(weaker.trusted());
+    EXPECT_LT(weaker.modulus, stronger.modulus);
+    EXPECT_LT(weaker.strength, stronger.strength);
+    EXPECT_GT(weaker.strength, 0.0);
+    stronger = weaker;
+  }
+}
+
+TEST_P(WithMissingJoints, TheyAreBrokenFromTheStartButAreNoBreaks) {
+  const Simulation simulation = run(0.15);
+  int missing = 0, broken = 0;
+  for (const JointOutcome& joint : simulation.joints) {
+    broken += joint.broken ? 1 : 0;
+    if (!is_missing(joint.threshold)) continue;
+    ++missing;
+    EXPECT_TRUE(joint.broken);
+    EXPECT_EQ(joint.broken_at_strain, 0.0);
+    EXPECT_LE(joint.reaction_tangent, 0.31 * std::max(0.0, joint.reaction_normal) + 1e-6);
+  }
+  EXPECT_GT(missing, 0);
+  EXPECT_EQ(simulation.broken_joints, broken - missing);
+  EXPECT_EQ(simulation.curve.front().broken_joints, 0);
+  EXPECT_GT(simulation.first_break_strain, 0.0);
+}
+
+TEST_P(WithMissingJoints, TheirThresholdsReadBackGiveTheSameCurve) {
+  Scene scene = scene_of(0.15);
+  const Simulation drawn = simulate(scene);
+  scene.joints.thresholds =
+      draw_thresholds(scene, build_assembly(scene.assembly, scene.loading.lateral));
+  scene.joints.missing = 0.0;
+  ASSERT_TRUE(scene.problems().empty());
+  const Simulation given = simulate(scene);
+  EXPECT_EQ(given.strength, drawn.strength);
+  EXPECT_EQ(given.failure_strain, drawn.failure_strain);
+}
+
+// Slow loading and none: one modulus, and nearly one strength.
+TEST(MissingJoints, WeakenTheWallAlikeInBothRegimes) {
+  Scene scene = test::small_scene();
+  scene.joints.missing = 0.15;
+  const Simulation limit = simulate(scene);
+  scene.solver.regime = Regime::dynamic;
+  scene.solver.step = 1e-7;
+  scene.loading.strain_rate = 100.0;
+  const Simulation slow = simulate(scene);
+  EXPECT_NEAR(slow.modulus, limit.modulus, 0.01 * limit.modulus);
+  EXPECT_NEAR(slow.strength, limit.strength, 0.03 * limit.strength);
+}
+
+// A wall that falls in two bears nothing, and says so instead of failing.
+TEST(MissingJoints, MayLeaveNothingThatBears) {
+  Scene scene = test::small_scene(0.0, 1, 2);
+  const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
+  scene.joints.thresholds.assign(assembly.joints.size(), {0.0, 0.0});
+  const Simulation simulation = simulate(scene);
+  EXPECT_EQ(simulation.status, SimulationStatus::strain_limit);
+  EXPECT_NEAR(simulation.strength, 0.0, 1e-3);
+}
+
+TEST(MissingJoints, CannotBeAllOrLessThanNone) {
+  for (const double fraction : {-0.1, 1.0}) {
+    Scene scene = test::small_scene();
+    scene.joints.missing = fraction;
+    ASSERT_EQ(scene.problems().size(), 1U);
+    EXPECT_EQ(scene.problems().front().key, "joints.missing");
+  }
+}
+
+}  // namespace
+}  // namespace havers::sim
