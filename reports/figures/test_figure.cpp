@@ -14,9 +14,11 @@ namespace {
 constexpr std::string_view test_commands = R"gnuplot(
 set xlabel 'Strain (%)' offset 0,0.5
 set ylabel 'Engineering stress (MPa)'
+set yrange [{lowest}:{highest}]
 set object 1 rectangle from first {low},graph 0 to first {high},graph 1 fc rgb '#f4efe2' fs solid noborder behind
 plot $raw using ($1*100):($2*1e-6) with lines lw 2.4 lc rgb '#c4c4c4' title 'as read', \
-  $used using ($1*100):($2*1e-6) with points pt 7 ps 0.22 lc rgb blue title 'as used', \
+  $used using ($1*100):($2*1e-6) with points pt 7 ps 0.22 lc rgb blue notitle, \
+  keyentry with points pt 7 ps 0.8 lc rgb blue title 'as used', \
   $line using ($1*100):($2*1e-6) with lines lw 2.2 lc rgb orange title 'modulus; window shaded', \
   $peak using ($1*100):($2*1e-6) with points pt 12 ps 1.3 lw 1.6 lc rgb red title 'strength'
 )gnuplot";
@@ -71,6 +73,14 @@ Points modulus_line(const calib::MeasuredTest& test) {
   return {{0.0, end}, {offset, offset + end * test.modulus}};
 }
 
+// A spike would press the curve into a corner: what lies far off leaves through the frame.
+std::vector<double> near_curve(std::vector<double> values, const std::vector<double>& curve) {
+  const auto [low, high] = std::ranges::minmax(curve);
+  const double margin = 0.25 * (high - low);
+  for (double& value : values) value = std::clamp(value, low - margin, high + margin);
+  return values;
+}
+
 }  // namespace
 
 Figure test_figure(const ImportReport& report, const std::string& id) {
@@ -83,15 +93,22 @@ Figure test_figure(const ImportReport& report, const std::string& id) {
   }
   const Points raw = raw_points(report.raw, test.area);
   const Points used = thin(test.strain, test.stress);
-  const std::string range = x_range({raw.x, used.x}, 100.0);
+  if (used.x.empty()) return figure;
+  const auto strains = near_curve(raw.x, used.x);
+  auto stresses = near_curve(raw.y, used.y);
+  stresses.insert(stresses.end(), used.y.begin(), used.y.end());
+  const std::string range = x_range({strains, used.x}, 100.0);
   if (range.empty()) return figure;
+  const auto [lowest, highest] = std::ranges::minmax(stresses);
   const Points line = modulus_line(test);
   const std::array<double, 1> peak_strain{test.failure_strain}, peak_stress{test.strength};
   figure.commands = data_block("raw", {raw.x, raw.y}) + data_block("used", {used.x, used.y}) +
                     data_block("line", {line.x, line.y}) +
-                    data_block("peak", {peak_strain, peak_stress}) + range + panel(0.155, 0.89) +
+                    data_block("peak", {peak_strain, peak_stress}) + range + panel(0.155, 0.88) +
                     fmt::format(test_commands, fmt::arg("low", 100.0 * test.window_low),
-                                fmt::arg("high", 100.0 * test.window_high));
+                                fmt::arg("high", 100.0 * test.window_high),
+                                fmt::arg("lowest", (lowest - 0.03 * highest) / in::MPa),
+                                fmt::arg("highest", 1.06 * highest / in::MPa));
   return figure;
 }
 
