@@ -16,9 +16,8 @@ set xlabel 'Strain (%)' offset 0,0.5
 set ylabel 'Engineering stress (MPa)'
 set yrange [{lowest}:{highest}]
 set object 1 rectangle from first {low},graph 0 to first {high},graph 1 fc rgb '#f4efe2' fs solid noborder behind
-plot $raw using ($1*100):($2*1e-6) with lines lw 2.4 lc rgb '#c4c4c4' title 'as read', \
-  $used using ($1*100):($2*1e-6) with points pt 7 ps 0.22 lc rgb blue notitle, \
-  keyentry with points pt 7 ps 0.8 lc rgb blue title 'as used', \
+plot $raw using ($1*100):($2*1e-6) with lines lw 3.2 lc rgb '#c4c4c4' title 'as read', \
+  $used using ($1*100):($2*1e-6) with lines lw 1.4 lc rgb blue title 'as used', \
   $line using ($1*100):($2*1e-6) with lines lw 2.2 lc rgb orange title 'modulus; window shaded', \
   $peak using ($1*100):($2*1e-6) with points pt 12 ps 1.3 lw 1.6 lc rgb red title 'strength'
 )gnuplot";
@@ -102,13 +101,14 @@ Figure test_figure(const ImportReport& report, const std::string& id) {
   const auto [lowest, highest] = std::ranges::minmax(stresses);
   const Points line = modulus_line(test);
   const std::array<double, 1> peak_strain{test.failure_strain}, peak_stress{test.strength};
-  figure.commands = data_block("raw", {raw.x, raw.y}) + data_block("used", {used.x, used.y}) +
-                    data_block("line", {line.x, line.y}) +
-                    data_block("peak", {peak_strain, peak_stress}) + range + panel(0.155, 0.88) +
-                    fmt::format(test_commands, fmt::arg("low", 100.0 * test.window_low),
-                                fmt::arg("high", 100.0 * test.window_high),
-                                fmt::arg("lowest", (lowest - 0.03 * highest) / in::MPa),
-                                fmt::arg("highest", 1.06 * highest / in::MPa));
+  figure.commands =
+      data_block("raw", {raw.x, raw.y}) + data_block("used", {used.x, used.y}) +
+      data_block("line", {line.x, line.y}) + data_block("peak", {peak_strain, peak_stress}) +
+      range + panel(0.155, 0.88) +
+      fmt::format(test_commands, fmt::arg("low", 100.0 * test.window_low),
+                  fmt::arg("high", 100.0 * test.window_high),
+                  fmt::arg("lowest", (std::min(0.0, lowest) - 0.03 * highest) / in::MPa),
+                  fmt::arg("highest", 1.06 * highest / in::MPa));
   return figure;
 }
 
