@@ -26,6 +26,8 @@ constexpr std::array flags{
          bench_stability},
     Flag{"--calibration", "chains of optimisers on studies of known truth; needs no SCENE",
          bench_calibration},
+    Flag{"--porosity", "ways to measure porosity on drawn sections of known one; needs no SCENE",
+         bench_porosity},
 };
 
 }  // namespace

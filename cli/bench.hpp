@@ -18,6 +18,7 @@ using BenchMode = int (*)(const BenchArguments& arguments, const CommonOptions& 
 
 int bench_scene(const BenchArguments& arguments, const CommonOptions& common);
 int bench_stability(const BenchArguments& arguments, const CommonOptions& common);
+int bench_porosity(const BenchArguments& arguments, const CommonOptions& common);
 int bench_calibration(const BenchArguments& arguments, const CommonOptions& common);
 
 }  // namespace havers::cli

@@ -56,7 +56,7 @@ struct DepthHistogram {
 struct PorosityReport {
   std::vector<calib::SectionPorosity> sections;
   std::vector<std::vector<std::uint8_t>> overlays;  ///< PNG, one per section.
-  std::vector<double> scatter;                      ///< d, one per section. [-]
+  std::vector<double> scatter;                      ///< d, one per section; NaN: unknown. [-]
   std::vector<DepthHistogram> histograms;           ///< One per section.
   calib::SpecimenPorosity mean;                     ///< Over all sections.
   Provenance provenance;

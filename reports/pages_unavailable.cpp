@@ -46,6 +46,9 @@ std::string work_precision_page(const WorkPrecisionReport& /*report*/) {
 std::string stability_page(const StabilityReport& /*report*/) {
   return how_to_get_pages();
 }
+std::string methods_page(const MethodsReport& /*report*/) {
+  return how_to_get_pages();
+}
 std::string comparison_page(const std::vector<FitReport>& /*reports*/) {
   return how_to_get_pages();
 }

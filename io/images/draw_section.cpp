@@ -107,22 +107,26 @@ void draw_pores(const std::vector<Circle>& circles, cv::Mat& pores) {
         if (std::hypot(x + 0.5 - c.x, y + 0.5 - c.y) < c.r) pores.at<std::uint8_t>(y, x) = 255;
 }
 
-// Blurred by one pixel, shaded from the centre, noisy.
+// Blurred, shaded from the centre, noisy, stained red.
 cv::Mat photograph(const PoreMap& truth, const io::SectionDrawing& drawing,
                    std::mt19937_64& random) {
+  const double contrast = drawing.contrast * (bone_grey - pore_grey);
   cv::Mat solid, image;
   cv::bitwise_and(truth.bone, ~truth.pores, solid);
-  solid.convertTo(image, CV_64F, (bone_grey - pore_grey) / 255.0, pore_grey);
-  cv::GaussianBlur(image, image, {}, 1.0, 1.0, cv::BORDER_REPLICATE);
+  solid.convertTo(image, CV_64F, contrast / 255.0, bone_grey - contrast);
+  cv::GaussianBlur(image, image, {}, drawing.blur, drawing.blur, cv::BORDER_REPLICATE);
   const double middle = 0.5 * drawing.pixels;
   for (int y = 0; y < image.rows; ++y)
     for (int x = 0; x < image.cols; ++x) {
       const double u = (x - middle) / middle, v = (y - middle) / middle;
       auto& value = image.at<double>(y, x);
       value *= 1.0 - 0.5 * drawing.shading * (u * u + v * v);
-      value += drawing.noise * (bone_grey - pore_grey) * normal(random);
+      value += drawing.noise * contrast * normal(random);
     }
   image.convertTo(image, CV_8U);
+  if (!drawing.stain) return image;
+  const cv::Mat pale = 0.5 * image + 50.0;
+  cv::merge(std::vector<cv::Mat>{pale, pale, image}, image);
   return image;
 }
 

@@ -13,9 +13,13 @@ calib::SectionPorosity draw_section(const std::filesystem::path& image,
                                     const io::SectionDrawing& drawing,
                                     const io::SectionOptions& options);
 
+std::array<calib::PorosityReading, 3> measure_by_common_practice(
+    const std::filesystem::path& image);
+
 struct ImageLibrary {
   decltype(&images::measure_sections) measure_sections;
   decltype(&images::draw_section) draw_section;
+  decltype(&images::measure_by_common_practice) measure_by_common_practice;
 };
 
 }  // namespace havers::images

@@ -1,12 +1,14 @@
 // Porosity of a bone section from its image (OpenCV inside).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "calib/porosity/method_comparison.hpp"
 #include "calib/porosity/section_porosity.hpp"
 
 namespace havers::io {
@@ -74,6 +76,9 @@ struct SectionDrawing {
   bool ring = false;          ///< A ring with a marrow cavity instead of a machined bar.
   double noise = 0.01;        ///< SD of the grey levels, bone − pore = 1. [-]
   double shading = 0.1;       ///< Loss of brightness from centre to corner. [-]
+  double blur = 1.0;          ///< Of the optics. [px]
+  double contrast = 1.0;      ///< Bone − pore, over that of a good photograph. [-]
+  bool stain = false;         ///< In colour, red and blue different.
   std::uint64_t seed = 1;
 };
 
@@ -81,5 +86,9 @@ struct SectionDrawing {
 /// without noise.
 calib::SectionPorosity draw_section(const std::filesystem::path& image,
                                     const SectionDrawing& drawing, const SectionOptions& options);
+
+/// An 8-bit image with dark pores by the first three of calib::PorosityMethod.
+std::array<calib::PorosityReading, 3> measure_by_common_practice(
+    const std::filesystem::path& image);
 
 }  // namespace havers::io

@@ -36,4 +36,9 @@ calib::SectionPorosity draw_section(const std::filesystem::path& image,
   return library().draw_section(image, drawing, options);
 }
 
+std::array<calib::PorosityReading, 3> measure_by_common_practice(
+    const std::filesystem::path& image) {
+  return library().measure_by_common_practice(image);
+}
+
 }  // namespace havers::io

@@ -29,4 +29,9 @@ calib::SectionPorosity draw_section(const std::filesystem::path& image,
   throw not_built_in(image);
 }
 
+std::array<calib::PorosityReading, 3> measure_by_common_practice(
+    const std::filesystem::path& image) {
+  throw not_built_in(image);
+}
+
 }  // namespace havers::io

@@ -143,7 +143,9 @@ PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const Levels& coars
   map.pores = cv::Mat::zeros(bone.size(), CV_8U);
   const cv::Mat inner = options.rim ? eroded(bone, 5) : bone;
   Levels levels = coarse;
-  const cv::Mat cores = find_pore_level(grey, inner, levels, depth);
+  // Blur reaches further in than noise does: a sharp eye would take it for a second level.
+  const cv::Mat sure = options.rim ? eroded(bone, 9) : bone;
+  const cv::Mat cores = find_pore_level(grey, sure, levels, depth);
   make_depth(grey, levels, enough_smoothing(levels), depth);
   if (cores.empty()) return map;
 

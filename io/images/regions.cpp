@@ -1,6 +1,7 @@
 #include "io/images/regions.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -65,6 +66,20 @@ cv::Mat hulls_of(const cv::Mat& parts) {
     cv::fillConvexPoly(hulls, corners, 255);
   }
   return hulls;
+}
+
+// A bar's corner that pores nearly cut off is lost from its hull too, but not from its rectangle.
+cv::Mat search_area(const cv::Mat& parts) {
+  cv::Mat area = hulls_of(parts);
+  for (const Contour& hull : outer_contours(area)) {
+    const cv::RotatedRect rectangle = cv::minAreaRect(hull);
+    if (cv::contourArea(hull) < 0.88 * static_cast<double>(rectangle.size.area())) continue;
+    std::array<cv::Point2f, 4> exact;
+    rectangle.points(exact.data());
+    const Contour corners(exact.begin(), exact.end());
+    cv::fillConvexPoly(area, corners, 255);
+  }
+  return dilated(area, 5);
 }
 
 // Pores are the minority: the side of the smooth surface to which the grey levels have their tail.
@@ -134,7 +149,7 @@ Regions divide(const cv::Mat& grey, io::Pores pores) {
   const bool bright_bone = are_dark(pores, share_of_frame(levels.bright) < share_of_frame(dark));
   const cv::Mat parts = main_parts(bright_bone ? levels.bright : dark);
   const cv::Mat bone = parts & (bright_bone ? levels.bright : dark);
-  const cv::Mat core = eroded(bone, 3), search = dilated(hulls_of(parts), 5);
+  const cv::Mat core = eroded(bone, 3), search = search_area(parts);
   const cv::Mat background = dilated(bone, 9) & ~dilated(bone, 3) & ~parts;
 
   const int factor = reduction(grey.size());

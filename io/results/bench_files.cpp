@@ -53,6 +53,18 @@ nlohmann::json provenance_object(Provenance provenance) {
   return json_of(provenance);
 }
 
+nlohmann::json summaries_of(
+    const std::array<calib::MethodSummary, calib::porosity_methods>& methods) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const calib::MethodSummary& method : methods)
+    all.push_back({{"method", to_string(method.method)},
+                   {"median_error", method.median_error},
+                   {"worst_error", method.worst_error},
+                   {"worst_error_without_pores", method.worst_if_none},
+                   {"megapixels_per_second", 1e-6 / method.cpu_per_pixel}});
+  return all;
+}
+
 }  // namespace
 
 nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPrecision& study,
@@ -119,6 +131,32 @@ std::string stability_csv(const std::vector<sim::StabilityResult>& results) {
                         r.as_it_must, csv_number(r.error), csv_number(r.residual),
                         csv_number(r.energy_defect), csv_number(r.penetration), csv_number(r.wall),
                         r.reason);
+  return text;
+}
+
+nlohmann::json methods_json(const calib::MethodComparison& comparison,
+                            const Provenance& provenance) {
+  nlohmann::json hardships;
+  for (const auto& [hardship, methods] : comparison.hardships)
+    hardships.push_back({{"hardship", hardship}, {"methods", summaries_of(methods)}});
+  return {{"sections", comparison.trials.size()},
+          {"coverage", comparison.coverage},
+          {"methods", summaries_of(comparison.methods)},
+          {"hardships", hardships},
+          {"provenance", provenance_object(provenance)}};
+}
+
+std::string methods_csv(const calib::MethodComparison& comparison) {
+  std::string text = "hardship,ring,pixels,truth,method,porosity,cpu_s,standard_error\n";
+  for (const calib::PorosityTrial& trial : comparison.trials)
+    for (std::size_t i = 0; i < trial.readings.size(); ++i) {
+      const auto method = static_cast<calib::PorosityMethod>(i);
+      const bool ours = method == calib::PorosityMethod::ours;
+      text += fmt::format(
+          "{},{:d},{},{},\"{}\",{},{},{}\n", trial.hardship, trial.ring, trial.pixels,
+          csv_number(trial.truth), to_string(method), csv_number(trial.readings.at(i).porosity),
+          csv_number(trial.readings.at(i).cpu), ours ? csv_number(trial.standard_error) : "");
+    }
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/porosity/method_comparison.hpp"
 #include "io/results/result_files.hpp"
 #include "sim/bench/stability.hpp"
 #include "sim/bench/work_precision.hpp"
@@ -16,8 +17,12 @@ nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPreci
 nlohmann::json stability_json(const std::vector<sim::StabilityResult>& results,
                               const Provenance& provenance);
 
-/// One line a setting, and one a scene.
+nlohmann::json methods_json(const calib::MethodComparison& comparison,
+                            const Provenance& provenance);
+
+/// One line a setting, a scene, a section by a method.
 std::string work_precision_csv(const sim::WorkPrecision& study);
 std::string stability_csv(const std::vector<sim::StabilityResult>& results);
+std::string methods_csv(const calib::MethodComparison& comparison);
 
 }  // namespace havers::io

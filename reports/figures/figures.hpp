@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/porosity/method_comparison.hpp"
 #include "reports/figures/gnuplot.hpp"
 #include "reports/pages.hpp"
 
@@ -33,6 +34,12 @@ Figure test_figure(const ImportReport& report, const std::string& id);
 
 /// Two recorders' signals as recorded and on one clock; below, their difference.
 Figure clocks_figure(const calib::ClockFit& clocks, const std::string& id);
+
+/// Pixels of a section by depth, with the threshold.
+Figure histogram_figure(const DepthHistogram& histogram, const std::string& id);
+
+/// Error of porosity against CPU time, of every drawn section by every method.
+Figure methods_figure(const calib::MethodComparison& comparison, const std::string& id);
 
 /// An interval between its bounds, small enough for a table. SVG.
 std::string interval_bar(const calib::CalibratedParameter& parameter);

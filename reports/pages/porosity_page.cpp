@@ -1,36 +1,129 @@
 #include <fmt/format.h>
 
-#include <limits>
+#include <cmath>
 
+#include "reports/figures/figures.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/text/base64.hpp"
 #include "reports/text/format.hpp"
 
 namespace havers::reports {
+namespace {
+
+std::string percent(double share, double error) {
+  return plus_minus(share / in::percent, error / in::percent);
+}
+
+std::string with_sd(double mean, double sd, double unit) {
+  return fmt::format("{} (SD {})", number(mean / unit, 3), number(sd / unit, 2));
+}
+
+// One line of the table.
+mstch::map row(const std::string& name, const calib::SectionPorosity& s, double scatter) {
+  return {{"file", text(name)},
+          {"porosity", text(percent(s.porosity, s.porosity_standard_error))},
+          {"scatter", text(number(scatter, 3))},
+          {"pores", text(std::to_string(s.pore_count))},
+          {"density", text(number(s.pore_density * in::mm2, 3))},
+          {"diameter", text(with_sd(s.mean_pore_diameter, s.pore_diameter_sd, in::um))},
+          {"bone_area", text(number(s.bone_area / in::mm2, 3))},
+          {"marrow_area", text(number(s.marrow_area / in::mm2, 3))},
+          {"window_sd", text(number(s.window_sd, 3))}};
+}
+
+mstch::array zone_rows(const std::vector<calib::Zone>& zones) {
+  mstch::array rows;
+  for (const calib::Zone& zone : zones)
+    rows.emplace_back(mstch::map{{"name", text(zone.name)},
+                                 {"porosity", text(number(zone.porosity / in::percent, 3))},
+                                 {"area", text(number(zone.bone_area / in::mm2, 3))}});
+  return rows;
+}
+
+mstch::array class_rows(const std::vector<calib::PoreClass>& classes) {
+  mstch::array rows;
+  for (const calib::PoreClass& one : classes)
+    rows.emplace_back(mstch::map{{"name", text(one.name)},
+                                 {"count", text(std::to_string(one.count))},
+                                 {"area", text(number(one.area / in::mm2, 3))}});
+  return rows;
+}
+
+// What no column of the table says of a section.
+Facts facts_of(const calib::SectionPorosity& s) {
+  Facts facts{
+      {"Threshold",
+       fmt::format("{} of the way from pore to bone ({})", number(s.threshold, 3), s.method)},
+      {"Porosity by grey levels", quantity(s.porosity_by_grey / in::percent, "%", 4)},
+      {"Area of a pore", with_sd(s.mean_pore_area, s.pore_area_sd, in::um * in::um) + " µm²"},
+      {"Pixel", quantity(s.pixel_size / in::um, "µm", 3)}};
+  if (s.crack_count > 0)
+    facts.emplace_back("Cracks", fmt::format("{}, {} mm², no part of the porosity", s.crack_count,
+                                             number(s.crack_area / in::mm2, 3)));
+  if (std::isfinite(s.density))
+    facts.emplace_back(
+        "Density of solid bone",
+        fmt::format("{} (references {} about their line)", quantity(s.density, "kg/m³", 4),
+                    quantity(s.density_residual, "kg/m³", 2)));
+  return facts;
+}
+
+mstch::map detail(const PorosityReport& report, std::size_t i) {
+  const calib::SectionPorosity& s = report.sections[i];
+  return {
+      {"file", text(base_name(s.file))},
+      {"png", text(base64(report.overlays[i]))},
+      {"histogram", text(draw(histogram_figure(report.histograms[i], fmt::format("depth{}", i))))},
+      {"facts", mstch::node{fact_list(facts_of(s))}},
+      {"zones", section(zone_rows(s.zones))},
+      {"classes", section(class_rows(s.classes))},
+      {"corrections", section({})},
+      {"warnings", text_section(s.warnings)}};
+}
+
+std::string sentence_of(const PorosityReport& report) {
+  const calib::SpecimenPorosity& mean = report.mean;
+  return fmt::format("{}: porosity {} %.",
+                     count(static_cast<long>(report.sections.size()), "section"),
+                     percent(mean.porosity, mean.porosity_standard_error));
+}
+
+// (K5): which of the two ways the pores act in.
+std::string detail_of(const PorosityReport& report) {
+  const calib::SpecimenPorosity& mean = report.mean;
+  if (calib::removes_joints(mean))
+    return fmt::format(
+        "Pores are larger (a* = {} µm²) than the window of one fibre ({} µm²): they take {} of the "
+        "joints away rather than spread their strength.",
+        number(mean.pore_area_ratio / (in::um * in::um), 3),
+        number(mean.window_area / (in::um * in::um), 3),
+        quantity(calib::missing_joints(mean) / in::percent, "%", 3));
+  const double scatter = calib::scatter_of(mean, {});
+  if (!std::isfinite(scatter)) return "Without a pixel size the scatter of joints is not known.";
+  return fmt::format(
+      "Pores are smaller than the window of one fibre: they spread the joints' strength by a "
+      "scatter of d = {}.",
+      number(scatter, 3));
+}
+
+}  // namespace
 
 std::string porosity_page(const PorosityReport& report) {
-  mstch::array sections;
+  mstch::array rows, details;
   for (std::size_t i = 0; i < report.sections.size(); ++i) {
     const calib::SectionPorosity& s = report.sections[i];
-    const double scatter =
-        i < report.scatter.size() ? report.scatter[i] : std::numeric_limits<double>::quiet_NaN();
-    sections.emplace_back(mstch::map{
-        {"file", text(base_name(s.file))},
-        {"porosity",
-         text(plus_minus(s.porosity / in::percent, s.porosity_standard_error / in::percent))},
-        {"scatter", text(number(scatter, 3))},
-        {"pores", text(std::to_string(s.pore_count))},
-        {"pore_area", text(number(s.pore_area / in::mm2, 3))},
-        {"bone_area", text(number(s.bone_area / in::mm2, 3))},
-        {"window_sd", text(number(s.window_sd, 3))},
-        {"png", text(i < report.overlays.size() ? base64(report.overlays[i]) : "")},
-        {"caption", text(section_caption(s))},
-        {"corrections", section({})},
-        {"warnings", text_section(s.warnings)}});
+    rows.emplace_back(row(base_name(s.file), s, report.scatter[i]));
+    details.emplace_back(detail(report, i));
   }
   return render_page(
-      fmt::format("havers porosity: {}", count(static_cast<long>(sections.size()), "section")),
-      "porosity", {{"sections", mstch::node{sections}}}, report.provenance);
+      fmt::format("havers porosity: {}", count(static_cast<long>(rows.size()), "section")),
+      "porosity",
+      {{"grade", text("good")},
+       {"sentence", text(sentence_of(report))},
+       {"detail", text(detail_of(report))},
+       {"rows", mstch::node{rows}},
+       {"sections", mstch::node{details}}},
+      report.provenance);
 }
 
 }  // namespace havers::reports

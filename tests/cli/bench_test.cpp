@@ -43,6 +43,20 @@ TEST(Bench, RunsTheStabilityScenesWithoutAScene) {
   EXPECT_TRUE(fs::exists(folder / "out/stability.csv"));
 }
 
+TEST(Bench, ComparesWaysToMeasurePorosityWithoutAScene) {
+  const fs::path folder = own_folder();
+  const auto answer = run_havers(folder, "bench --porosity --seeds 1 -o out --json");
+  if (answer.exit_code == 2) GTEST_SKIP() << answer.err;  // a build without images
+  const auto result = nlohmann::json::parse(answer.out);
+  ASSERT_EQ(result["methods"].size(), 4U);
+  EXPECT_EQ(result["hardships"].size(), 7U);
+  EXPECT_GT(result["methods"][0]["worst_error"], 0.4);
+  EXPECT_LT(result["methods"][3]["worst_error"], 0.003);
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_TRUE(fs::exists(folder / "out/porosity.csv"));
+  EXPECT_FALSE(fs::exists(folder / "out/section.png"));
+}
+
 TEST(Bench, ReadsTheSceneThatIsShippedForIt) {
   const fs::path folder = own_folder();
   const auto answer = run_havers(

@@ -224,15 +224,44 @@ TEST(TestSvg, StandsOnItsOwn) {
 TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
   auto section = test::fit_sample().study.specimens.front().sections.front();
   section.warnings = {"The bone touches the edge of the image."};
-  const std::string page = porosity_page({.sections = {section, section},
-                                          .overlays = {test::tiny_png()},
-                                          .scatter = {0.41},
-                                          .provenance = {{"seed", "1"}}});
+  section.zones = {{"outer third", 0.031, 2e-6}};
+  const DepthHistogram histogram{{0.0, 0.5, 1.0}, {0.9, 0.02, 0.08}, 0.48};
+  PorosityReport report{.sections = {section, section},
+                        .overlays = {test::tiny_png(), test::tiny_png()},
+                        .scatter = {0.41, 0.41},
+                        .histograms = {histogram, histogram},
+                        .mean = calib::pool_sections({section, section}),
+                        .provenance = {{"seed", "1"}}};
+  const std::string page = porosity_page(report);
   expect_sound(page);
   EXPECT_TRUE(contains(page, "4.80 ± 0.21"));
   EXPECT_TRUE(contains(page, "0.410"));
   EXPECT_TRUE(contains(page, "The bone touches the edge of the image."));
-  EXPECT_EQ(after(page, "<img", " ").size(), 1U);
+  EXPECT_TRUE(contains(page, "outer third"));
+  EXPECT_TRUE(contains(page, ">threshold<"));
+  EXPECT_TRUE(contains(page, "Pores are smaller than the window of one fibre"));
+  EXPECT_EQ(after(page, "<img", " ").size(), 2U);
+
+  report.mean.window_area = 1e-9;
+  report.mean.pore_area_ratio = 2e-9;
+  EXPECT_TRUE(contains(porosity_page(report), "of the joints away"));
+}
+
+calib::PorosityTrial trial_of(const std::string& hardship, double truth, double ours) {
+  calib::PorosityTrial trial{.hardship = hardship, .pixels = 1e6, .truth = truth};
+  trial.readings = {{{0.5, 1e-3}, {0.4, 2e-3}, {0.3, 1e-2}, {ours, 3e-2}}};
+  trial.standard_error = 0.01;
+  return trial;
+}
+
+TEST(MethodsPage, ComparesMethodsByErrorAndTime) {
+  const auto comparison =
+      calib::compare_methods({trial_of("blur", 0.0, 0.0), trial_of("noise", 0.05, 0.052)});
+  const std::string page = methods_page({comparison, {{"seed", "1"}}});
+  expect_sound(page);
+  EXPECT_TRUE(contains(page, "On 2 drawn sections havers porosity errs by 0.20 points"));
+  EXPECT_TRUE(contains(page, "<th>noise</th>"));
+  EXPECT_TRUE(contains(page, "33.3"));  // MPix/s of 0.03 s for a million pixels
 }
 
 TEST(ComparisonPage, PutsFitsSideBySide) {

@@ -1,0 +1,90 @@
+#include "calib/porosity/method_comparison.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace havers::calib {
+namespace {
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+MethodSummary summary_of(PorosityMethod method, const std::vector<PorosityTrial>& trials) {
+  MethodSummary summary{.method = method,
+                        .worst_if_none = std::numeric_limits<double>::quiet_NaN()};
+  std::vector<double> errors;
+  errors.reserve(trials.size());
+  double pixels = 0.0, cpu = 0.0;
+  for (const PorosityTrial& trial : trials) {
+    errors.push_back(trial.error(method));
+    // fmax takes the number where the other is none.
+    if (trial.truth == 0.0) summary.worst_if_none = std::fmax(summary.worst_if_none, errors.back());
+    pixels += trial.pixels;
+    cpu += trial.readings.at(static_cast<std::size_t>(method)).cpu;
+  }
+  summary.worst_error = *std::max_element(errors.begin(), errors.end());
+  summary.median_error = median(std::move(errors));
+  summary.cpu_per_pixel = cpu / pixels;
+  return summary;
+}
+
+std::array<MethodSummary, porosity_methods> summaries_of(const std::vector<PorosityTrial>& trials) {
+  std::array<MethodSummary, porosity_methods> all;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all.at(i) = summary_of(static_cast<PorosityMethod>(i), trials);
+  return all;
+}
+
+double coverage_of(const std::vector<PorosityTrial>& trials) {
+  double with_pores = 0.0, covered = 0.0;
+  for (const PorosityTrial& trial : trials) {
+    if (trial.truth == 0.0) continue;
+    with_pores += 1.0;
+    covered += trial.error(PorosityMethod::ours) <= 1.96 * trial.standard_error ? 1.0 : 0.0;
+  }
+  return with_pores > 0.0 ? covered / with_pores : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+std::string to_string(PorosityMethod method) {
+  switch (method) {
+    case PorosityMethod::naive:
+      return "middle of the grey scale, whole image";
+    case PorosityMethod::otsu:
+      return "Otsu, whole image";
+    case PorosityMethod::otsu_in_mask:
+      return "Otsu inside the bone";
+    case PorosityMethod::ours:
+      return "havers porosity";
+  }
+  return "";
+}
+
+double PorosityTrial::error(PorosityMethod method) const {
+  return std::abs(readings.at(static_cast<std::size_t>(method)).porosity - truth);
+}
+
+MethodComparison compare_methods(std::vector<PorosityTrial> trials) {
+  assert(!trials.empty());
+  MethodComparison comparison{.methods = summaries_of(trials), .coverage = coverage_of(trials)};
+  std::vector<std::string> known;
+  for (const PorosityTrial& trial : trials)
+    if (std::find(known.begin(), known.end(), trial.hardship) == known.end())
+      known.push_back(trial.hardship);
+  for (const std::string& hardship : known) {
+    std::vector<PorosityTrial> some;
+    std::copy_if(trials.begin(), trials.end(), std::back_inserter(some),
+                 [&](const PorosityTrial& trial) { return trial.hardship == hardship; });
+    comparison.hardships.push_back({hardship, summaries_of(some)});
+  }
+  comparison.trials = std::move(trials);
+  return comparison;
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,73 @@
+// havers bench --porosity: common practice and ours on drawn sections of known porosity.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/bench.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/output_folder.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/provenance.hpp"
+#include "io/images/section_benchmark.hpp"
+#include "io/results/bench_files.hpp"
+#include "reports/bench_pages.hpp"
+
+namespace havers::cli {
+namespace {
+
+// What asks for 0.3 points of porosity with pores, and for 0.05 without.
+constexpr double enough = 0.003, enough_if_none = 0.0005;
+
+calib::MethodComparison try_all(const BenchArguments& arguments, const CommonOptions& common,
+                                const std::filesystem::path& image) {
+  ProgressLine line(common);
+  std::vector<calib::PorosityTrial> trials;
+  for (const io::SectionCase& next : io::section_cases(arguments.seeds)) {
+    if (interrupted() && !trials.empty()) break;
+    if (line.due()) line.show(next.hardship);
+    trials.push_back(io::try_section(next, image));
+  }
+  std::filesystem::remove(image);
+  return calib::compare_methods(std::move(trials));
+}
+
+void print_methods(const calib::MethodComparison& comparison) {
+  fmt::print("{:<40}{:>12}{:>12}{:>14}{:>10}\n", "errors in points of porosity", "median", "worst",
+             "without pores", "MPix/s");
+  for (const calib::MethodSummary& method : comparison.methods)
+    fmt::print("{:<40}{:>12.3f}{:>12.3f}{:>14.3f}{:>10.1f}\n", to_string(method.method),
+               100.0 * method.median_error, 100.0 * method.worst_error,
+               100.0 * method.worst_if_none, 1e-6 / method.cpu_per_pixel);
+  fmt::print("95 % intervals that hold the truth: {:.0f} % of {} sections\n",
+             100.0 * comparison.coverage, comparison.trials.size());
+}
+
+}  // namespace
+
+int bench_porosity(const BenchArguments& arguments, const CommonOptions& common) {
+  const Stopwatch watch;
+  OutputFolder output(arguments.folder, common.force);
+  const calib::MethodComparison comparison =
+      try_all(arguments, common, output.stage("section.png"));
+  const io::Provenance provenance = provenance_of(common, {}, watch);
+  const nlohmann::json result = io::methods_json(comparison, provenance);
+  io::write_file(output.stage("result.json"), result.dump(2) + "\n");
+  io::write_file(output.stage("porosity.csv"), io::methods_csv(comparison));
+  if (reports::available())
+    io::write_file(output.stage("report.html"),
+                   reports::methods_page({comparison, page_facts(provenance)}));
+  output.publish();
+  if (common.json) {
+    fmt::print("{}\n", result.dump(2));
+  } else {
+    print_methods(comparison);
+    fmt::print("{}\n",
+               (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
+  }
+  const calib::MethodSummary& ours = comparison.methods.back();
+  const bool good = ours.worst_error <= enough && !(ours.worst_if_none > enough_if_none);
+  return good && !interrupted() ? done : answer_is_no;
+}
+
+}  // namespace havers::cli

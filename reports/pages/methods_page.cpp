@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+
+#include "reports/bench_pages.hpp"
+#include "reports/figures/figures.hpp"
+#include "reports/pages/page.hpp"
+#include "reports/text/format.hpp"
+
+namespace havers::reports {
+namespace {
+
+std::string points(double share) {
+  return number(share / in::percent, 2);
+}
+
+mstch::map method_row(const calib::MethodSummary& method) {
+  return {{"method", text(to_string(method.method))},
+          {"median", text(points(method.median_error))},
+          {"worst", text(points(method.worst_error))},
+          {"none", text(points(method.worst_if_none))},
+          {"speed", text(number(1e-6 / method.cpu_per_pixel, 3))}};
+}
+
+mstch::map hardship_row(const calib::HardshipSummary& hardship) {
+  mstch::array cells;
+  for (const calib::MethodSummary& method : hardship.methods)
+    cells.emplace_back(mstch::map{{"worst", text(points(method.worst_error))}});
+  return {{"hardship", text(hardship.hardship)}, {"cells", mstch::node{cells}}};
+}
+
+}  // namespace
+
+std::string methods_page(const MethodsReport& report) {
+  const calib::MethodComparison& comparison = report.comparison;
+  const calib::MethodSummary& ours = comparison.methods.back();
+  mstch::array methods, hardships;
+  for (const calib::MethodSummary& method : comparison.methods)
+    methods.emplace_back(method_row(method));
+  for (const calib::HardshipSummary& hardship : comparison.hardships)
+    hardships.emplace_back(hardship_row(hardship));
+  return render_page(
+      "havers bench: porosity of sections", "methods",
+      {{"grade", text(ours.worst_error <= 0.003 ? "good" : "bad")},
+       {"sentence",
+        text(fmt::format("On {} drawn sections {} errs by {} points of porosity at most.",
+                         comparison.trials.size(), to_string(ours.method),
+                         points(ours.worst_error)))},
+       {"detail", text(fmt::format("Its 95 % intervals hold the truth in {} of the sections with "
+                                   "pores.",
+                                   quantity(comparison.coverage / in::percent, "%", 3)))},
+       {"figure", text(draw(methods_figure(comparison, "methods")))},
+       {"methods", mstch::node{methods}},
+       {"hardships", mstch::node{hardships}}},
+      report.provenance);
+}
+
+}  // namespace havers::reports
