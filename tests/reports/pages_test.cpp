@@ -1,4 +1,4 @@
-#include "reports/pages.hpp"
+#include "reports/bench_pages.hpp"
 
 #include <gtest/gtest.h>
 
