@@ -32,7 +32,7 @@ Range range_of(std::span<const double> values) {
 
 // (X4) Means of as many rows in succession as leave `most_points` at most. A line of means is the
 // line of the rows, and no more points are needed for it.
-constexpr std::size_t most_points = 8192;
+constexpr std::size_t most_points = 2048;
 
 std::vector<double> means(std::span<const double> values) {
   const std::size_t rows = 1 + (values.size() - 1) / most_points;
