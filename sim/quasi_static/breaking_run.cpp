@@ -1,0 +1,212 @@
+#include "sim/quasi_static/breaking_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "sim/contact/release_path.hpp"
+#include "sim/joint/thresholds.hpp"
+#include "sim/outcome.hpp"
+
+namespace havers::sim {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+// Joints that meet their cones at strains closer than this break together, whatever their order.
+constexpr double together = 1e-9;
+
+}  // namespace
+
+BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact)
+    : scene_(scene),
+      intact_(std::move(intact)),
+      loose_(intact_->structure().joints(),
+             [this](int joint) { return intact_->respond_to_jump(joint); }),
+      reactions_(intact_->answer().reactions),
+      force_(intact_->answer().force),
+      noise_(1e-10 * intact_->answer().reactions.lpNorm<Eigen::Infinity>()),
+      joints(initial_outcomes(draw_thresholds(scene, intact_->assembly()))) {}
+
+// ε = f_N μ_c / (|r_T| − μ_c r_N), section 6.
+double BreakingRun::meets_cone_at(std::size_t joint) const {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  if (joints[joint].broken) return never;
+  const JointLaw law = intact_law(joints[joint].threshold);
+  const Local r = reactions_.segment<2>(static_cast<Index>(2 * joint));
+  const double denominator = std::abs(r.y()) - law.friction * r.x();
+  if (denominator <= noise_ * std::max(1.0, law.friction)) return never;
+  return law.cohesion * law.friction / (scene_.material.young * denominator);
+}
+
+double BreakingRun::next_event() const {
+  double first = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < joints.size(); ++j) first = std::min(first, meets_cone_at(j));
+  return first;
+}
+
+void BreakingRun::break_joints(double event, double strain) {
+  std::vector<std::size_t> breaking;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (meets_cone_at(j) <= event * (1.0 + together)) breaking.push_back(j);
+  for (const std::size_t j : breaking) {
+    joints[j].broken = true;
+    joints[j].broken_at_strain = strain;
+    ++broken;
+  }
+  loosen(breaking);
+}
+
+bool BreakingRun::take_missing() {
+  std::vector<std::size_t> missing;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (joints[j].broken) missing.push_back(j);
+  if (!missing.empty()) loosen(missing);
+  return !missing.empty();
+}
+
+void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {
+  const JointLaw law = broken_law(scene_.joints.friction);
+  const auto old = static_cast<Index>(loose_.size());
+  const auto n = old + static_cast<Index>(breaking.size());
+  contact_.r0.conservativeResize(2 * n);
+  extra_ = VectorXd::Zero(n);
+  for (Index i = old; i < n; ++i) {
+    const std::size_t joint = breaking[static_cast<std::size_t>(i - old)];
+    const auto row = static_cast<Index>(2 * joint);
+    loose_.add(static_cast<int>(joint));
+    contact_.r0.segment<2>(2 * i) = intact_->answer().reactions.segment<2>(row);
+    contact_.laws.push_back(law);
+    extra_.segment<1>(i) = cohesion_to_stick(reactions_.segment<2>(row), {law});
+  }
+  contact_.u0 = VectorXd::Zero(2 * n);
+  contact_.S = loose_.stiffness();
+  system_.grow();
+}
+
+// Loose joints at a body that no chain of bonded joints connects to an end: 1. Such a body carries
+// nothing, and without inertia its position is not determined, so neither is what it touches.
+std::vector<char> BreakingRun::apart() const {
+  const Assembly& assembly = intact_->assembly();
+  const std::size_t end = assembly.bodies.size();  // stands for both ends
+  std::vector<std::size_t> piece(end + 1);         // a body of the same piece; itself at its root
+  std::iota(piece.begin(), piece.end(), std::size_t{0});
+  const auto root = [&](std::size_t body) {
+    while (piece[body] != body) body = piece[body] = piece[piece[body]];
+    return body;
+  };
+  for (const int body : intact_->held_bodies())
+    piece[root(static_cast<std::size_t>(body))] = root(end);
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (!joints[j].broken)
+      piece[root(static_cast<std::size_t>(assembly.joints[j].body_a))] =
+          root(static_cast<std::size_t>(assembly.joints[j].body_b));
+
+  std::vector<char> apart;
+  for (const int joint : loose_.joints()) {
+    const Joint& between = assembly.joints[static_cast<std::size_t>(joint)];
+    const bool carried = root(static_cast<std::size_t>(between.body_a)) == root(end) &&
+                         root(static_cast<std::size_t>(between.body_b)) == root(end);
+    apart.push_back(carried ? 0 : 1);
+  }
+  return apart;
+}
+
+// Only what has just broken is released; the others follow from where they are.
+bool BreakingRun::settle() {
+  contact_.apart = apart();
+  for (std::size_t i = 0; i < loose_.size(); ++i)
+    if (contact_.is_apart(i) && system_.states()[i] != JointState::open)
+      system_.set(i, JointState::open);
+  LocalContactResult result = follow_release(system_, extra_);
+  iterations += result.iterations;
+  if (!result.converged) {
+    result = solve_local_contact(contact_, result.states, scene_.solver.max_iterations);
+    iterations += result.iterations;
+  }
+  if (!result.converged) {  // an answer without contact, counted and reported, instead of none
+    ++without_contact;
+    contact_.apart.assign(loose_.size(), 1);
+    result =
+        solve_local_contact(contact_, std::vector<JointState>(loose_.size(), JointState::open), 1);
+  }
+  system_.set(result.states);
+  y_ = result.y;
+  reactions_ = intact_->answer().reactions + loose_.reactions_to(y_);
+  // By reciprocity the force at the end changes by r⁰·y/W.
+  force_ = intact_->answer().force + contact_.r0.dot(y_) / intact_->assembly().width;
+  return result.converged;
+}
+
+CurvePoint BreakingRun::point(double strain) const {
+  const Assembly& assembly = intact_->assembly();
+  const double stress = scene_.material.young * force_ * strain / assembly.height;
+  return {.time = strain / scene_.loading.strain_rate,
+          .strain = strain,
+          .stress_right = stress,
+          .stress_left = stress,
+          .broken_joints = broken,
+          .elastic = 0.5 * stress * strain * assembly.width * assembly.height,
+          .dissipated = dissipated};
+}
+
+// (M11), without the scale, for E = 1: reactions and gaps of all joints at ε = 1.
+double BreakingRun::law_residual_of(const VectorXd& reactions, const VectorXd& gaps) const {
+  double squared = 0.0;
+  for (std::size_t i = 0; i < loose_.size(); ++i) {
+    if (contact_.is_apart(i)) continue;  // left out, and said so
+    const auto row = 2 * static_cast<Index>(loose_.joints()[i]);
+    squared += law_residual(reactions.segment<2>(row), gaps.segment<2>(row), contact_.laws[i],
+                            contact_.S(static_cast<Index>(2 * i), static_cast<Index>(2 * i)))
+                   .squaredNorm();
+  }
+  return std::sqrt(squared);
+}
+
+// The whole structure with the gaps found, and once more with what that shows them to lack: wide
+// cracks leave few digits to influence columns. What events computed is checked against it,
+// ½ qᵀĀq = ½ (F W ε + r·u) too.
+void BreakingRun::finish(double strain, double energy_scale, Simulation& simulation) const {
+  const double scale = intact_->answer().reactions.norm();
+  const auto n = static_cast<Index>(loose_.size());
+  VectorXd gaps = VectorXd::Zero(2 * static_cast<Index>(joints.size())), y = y_;
+  UnitAnswer last;
+  for (const bool again : {true, false}) {
+    VectorXd lacking = -contact_.S * y;
+    for (Index i = 0; i < n; ++i)
+      gaps.segment<2>(2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)])) =
+          y.segment<2>(2 * i);
+    last = stretch(intact_->structure(), gaps, scale);
+    if (!again || n == 0) break;
+    for (Index i = 0; i < n; ++i)
+      lacking.segment<2>(2 * i) += last.reactions.segment<2>(
+          2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)]));
+    y = system_.solve(lacking, VectorXd::Zero(2 * n), cohesions(contact_)).y;
+  }
+
+  const double young = scene_.material.young;
+  simulation.displacements = strain * last.displacements;
+  simulation.joints = joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const auto row = static_cast<Index>(2 * j);
+    JointOutcome& joint = simulation.joints[j];
+    joint.reaction_normal = young * strain * last.reactions(row);
+    joint.reaction_tangent = young * strain * last.reactions(row + 1);
+    joint.gap = strain * gaps(row);
+    simulation.worst_penetration = std::max(simulation.worst_penetration, -joint.gap);
+  }
+  const double elastic = intact_->energy(last.displacements);
+  const double work = 0.5 * (last.force * intact_->assembly().width + last.reactions.dot(gaps));
+  if (energy_scale > 0.0)
+    simulation.energy_defect = young * strain * strain * std::abs(elastic - work) / energy_scale;
+  simulation.worst_residual =
+      std::max({last.residual, law_residual_of(last.reactions, gaps) / scale,
+                std::abs(last.force - force_) / intact_->answer().force});
+  simulation.iterations = iterations;
+}
+
+}  // namespace havers::sim

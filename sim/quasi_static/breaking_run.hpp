@@ -1,0 +1,62 @@
+// The structure of a breaking sequence as it changes from event to event.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "sim/contact/local_contact.hpp"
+#include "sim/contact/loose_joints.hpp"
+#include "sim/contact/state_system.hpp"
+#include "sim/quasi_static/intact_structure.hpp"
+#include "sim/simulation.hpp"
+
+namespace havers::sim {
+
+/// The structure as it is between two events. Its answer is proportional to the strain: it is known
+/// from ε = 1.
+class BreakingRun {
+ public:
+  BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact);
+
+  /// Strain at which the next joints meet their cones; infinite when none ever will.
+  [[nodiscard]] double next_event() const;
+  /// Breaks all joints that have met their cones at `event`; `strain` is that of the specimen by
+  /// then.
+  void break_joints(double event, double strain);
+  /// Takes away the joints that are missing from the start; whether there are any.
+  bool take_missing();
+  /// Solves the changed structure for ε = 1, broken joints pressed together included (M7).
+  bool settle();
+
+  [[nodiscard]] CurvePoint point(double strain) const;
+  /// Fills in the last row's joints and displacements, and the checks.
+  void finish(double strain, double energy_scale, Simulation& simulation) const;
+
+ private:
+  [[nodiscard]] double meets_cone_at(std::size_t joint) const;
+  void loosen(const std::vector<std::size_t>& breaking);
+  [[nodiscard]] std::vector<char> apart() const;
+  [[nodiscard]] double law_residual_of(const Eigen::VectorXd& reactions,
+                                       const Eigen::VectorXd& gaps) const;
+
+  const Scene& scene_;
+  std::shared_ptr<const IntactStructure> intact_;
+  LooseJoints loose_;
+  LocalContact contact_;  // of the loose joints
+  StateSystem system_{contact_};
+  Eigen::VectorXd extra_;      // cohesion that lets those just broken bear what they bore [N/m]
+  Eigen::VectorXd y_;          // gaps of the loose joints [m per unit strain]
+  Eigen::VectorXd reactions_;  // for E = 1 and ε = 1 [N/m]
+  double force_;               // likewise
+  double noise_;               // what rounding leaves on an unloaded joint is not a load
+
+ public:
+  std::vector<JointOutcome> joints;
+  double dissipated = 0.0;  // [J/m]
+  long iterations = 0;
+  int broken = 0;
+  int without_contact = 0;  // events whose contact found no solution
+};
+
+}  // namespace havers::sim
