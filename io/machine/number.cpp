@@ -36,7 +36,7 @@ bool is_group(std::string_view rest) {
 // that of from_chars, which takes four times as long.
 bool convert_short(std::string_view cell, char decimal, double& value) {
   static constexpr std::array powers{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                              1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+                                     1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
   const bool negative = cell.front() == '-';
   if (negative) cell.remove_prefix(1);
   if (cell.empty() || cell.size() > powers.size() || !is_digit(cell.front())) return false;

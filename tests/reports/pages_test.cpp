@@ -1,5 +1,3 @@
-#include "reports/bench_pages.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "reports/bench_pages.hpp"
 #include "tests/support/results.hpp"
 
 namespace havers::reports {
