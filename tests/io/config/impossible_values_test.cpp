@@ -105,11 +105,13 @@ TEST(Scene, ComplainsOfGivenThresholdsThatDoNotFitItsJoints) {
   const std::size_t joints = build_assembly(scene.assembly, scene.loading.lateral).joints.size();
   scene.joints.thresholds.assign(joints, {.normal = 1.0, .tangent = 0.0});
   EXPECT_THAT(problems_of(scene), testing::IsEmpty());
-  scene.joints.thresholds[1].normal = 0.0;
+  scene.joints.thresholds[1].normal = 0.0;  // both 0: the joint is missing
+  EXPECT_THAT(problems_of(scene), testing::IsEmpty());
+  scene.joints.thresholds[1].tangent = 1.0;
   EXPECT_THAT(problems_of(scene),
               testing::ElementsAre(
-                  "joints.thresholds_file gives joint 1 f_N = 0 and f_T = 0 N/m, must be f_N "
-                  "above 0 and f_T 0 or more"));
+                  "joints.thresholds_file gives joint 1 f_N = 0 and f_T = 1 N/m, must be f_N "
+                  "above 0 and f_T 0 or more, or both 0 for a joint that is missing"));
 }
 
 }  // namespace
