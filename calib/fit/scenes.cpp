@@ -16,22 +16,14 @@ void set_scatter(SpecimenModel& model, const Specimen& specimen, const PorosityO
   const bool known = specimen.porosity || !specimen.sections.empty();
   const double scatter =
       known ? scatter_of(porosity, options) : std::numeric_limits<double>::quiet_NaN();
-  if (!std::isfinite(scatter)) {
-    model.scatter_ground = options.to_scatter == ToScatter::none
-                               ? "the study's model (porosity.to_scatter = \"none\")"
-                               : "the study's model: neither sections nor porosity give it";
-    return;
-  }
+  if (!std::isfinite(scatter)) return;  // the study's model has one
   if (options.to_scatter == ToScatter::window && removes_joints(porosity)) {
     model.scene.joints.missing = missing_joints(porosity);
-    model.scatter_ground = "the study's model: the sections take joints away instead";
     return;
   }
   model.scene.joints.scatter = scatter;
   const double error = scatter_standard_error(porosity, options);
   model.scatter_standard_error = std::isfinite(error) ? error : 0.0;
-  model.scatter_ground =
-      specimen.sections.empty() ? "the porosity given in the study" : "its sections";
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,7 +16,6 @@ struct SpecimenModel {
   double porosity = 0.0;        ///< NaN where unknown. [-]
   double modulus_factor = 1.0;  ///< On young_GPa, by porosity (K4). [-]
   double scatter_standard_error = 0.0;  ///< Of the scatter that the sections give (K3). [-]
-  std::string scatter_ground{};         ///< Where the scatter comes from, in words.
 };
 
 /// Porosity, scatter or missing joints (K5), rate and orientation of specimen `s` set in the
