@@ -82,6 +82,10 @@ std::optional<std::size_t> hinted_column(const std::string& hint,
   return number - 1;
 }
 
+std::string place_of(const TestFile& file, const Table& table) {
+  return fmt::format("{}:{}", file.file, table.first_line);
+}
+
 std::string list_of(const std::vector<Column>& columns) {
   constexpr std::size_t most = 20;
   std::string text;
@@ -182,7 +186,9 @@ constexpr const char* volt_hint =
     "say what a volt is in [specimen.columns], as in force_unit = \"500 N/V\"";
 
 // A signal in volts is of use only where another signal tells its factor.
-void need_load(TestFile& file, const std::string& where, bool has_logger, Chosen& chosen) {
+// Where nothing at all was recognised, the numbers may tell.
+void need_load(TestFile& file, const Table& table, bool has_logger, Chosen& chosen) {
+  const std::string where = place_of(file, table);
   const bool loaded = chosen.contains(Quantity::force) || chosen.contains(Quantity::stress);
   if (!loaded && has_logger && chosen.contains(Quantity::load_volts)) return;
   for (const Quantity quantity : {Quantity::load_volts, Quantity::volts}) {
@@ -194,10 +200,13 @@ void need_load(TestFile& file, const std::string& where, bool has_logger, Chosen
     file.test.warnings.push_back(fmt::format("{}: not used ({})", what, volt_hint));
     chosen.erase(volts);
   }
-  if (!loaded)
-    throw InputError(
-        where, "no column holds a force or a stress",
-        "the columns are " + list_of(file.columns) + "; name it in [specimen.columns]");
+  if (loaded) return;
+  throw InputError(
+      where, "no column holds a force or a stress",
+      fmt::format("the columns are {}; name it in [specimen.columns]{}", list_of(file.columns),
+                  chosen.empty() && !table.guess.empty()
+                      ? "; from the numbers it may be " + table.guess
+                      : ""));
 }
 
 void need_gauge(const TestFile& file, const std::string& where, const Chosen& chosen) {
@@ -213,7 +222,7 @@ void need_gauge(const TestFile& file, const std::string& where, const Chosen& ch
 }  // namespace
 
 std::vector<Channel> find_channels(TestFile& file, const Table& table, const ReadOptions& options) {
-  const std::string where = file.file + ":" + std::to_string(table.first_line);
+  const std::string where = place_of(file, table);
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < table.names.size(); ++i) {
     file.columns.push_back({table.names[i], table.units[i]});
@@ -224,7 +233,7 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   if (options.logger)
     need_gauge(file, where, chosen);
   else
-    need_load(file, where, options.has_logger, chosen);
+    need_load(file, table, options.has_logger, chosen);
   std::vector<Channel> channels;
   for (const auto& [quantity, column] : chosen)
     channels.push_back(

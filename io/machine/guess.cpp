@@ -41,7 +41,8 @@ std::string guess_columns(const Preview& preview, const Table& table) {
   std::vector<std::size_t> others;
   std::string text;
   for (std::size_t i = 0; i < first->cells.size(); ++i) {
-    if (text.empty() && may_be_time(numbers_of_column(preview, table, i)))
+    if (text.empty() && first->cells.size() > 2 &&
+        may_be_time(numbers_of_column(preview, table, i)))
       text = fmt::format("time = \"{}\", ", i + 1);
     else
       others.push_back(i);

@@ -20,6 +20,7 @@ struct Table {
   std::size_t first_column = 0;     ///< Of `names`, where specimens stand side by side.
   std::string title;                ///< Name of the specimen, from the row above the names.
   std::vector<std::string> titles;  ///< That row.
+  std::string guess;  ///< What the columns may hold by their numbers (`guess_columns`).
   bool units_in_round_brackets = false;  ///< In a row of their own below the names.
 };
 

@@ -44,9 +44,9 @@ void name_columns(Table& table, const std::string& name, const Preview& preview,
                   const ReadOptions& options) {
   if (!table.names.empty()) return;
   if (options.columns.empty())
-    throw InputError(fmt::format("{}:{}", name, table.first_line), "the columns have no names",
-                     "say which is which in [specimen.columns]; from the numbers it may be " +
-                         guess_columns(preview, table));
+    throw InputError(
+        fmt::format("{}:{}", name, table.first_line), "the columns have no names",
+        "say which is which in [specimen.columns]; from the numbers it may be " + table.guess);
   const auto first = std::ranges::find(preview.rows, table.first_line, &PreviewRow::line);
   for (std::size_t i = 0; i < first->cells.size(); ++i) {
     table.names.push_back(std::to_string(i + 1));
@@ -106,6 +106,7 @@ std::vector<TestFile> read_tests(const std::filesystem::path& file, const ReadOp
   common.delimiter = preview.dialect.delimiter;
   common.decimal = preview.dialect.decimal;
   Table table = find_table(common.file, preview);
+  table.guess = guess_columns(preview, table);
   name_columns(table, common.file, preview, options);
 
   SpecimenTables specimens(std::move(common), preview.dialect, options);

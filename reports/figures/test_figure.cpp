@@ -22,6 +22,34 @@ plot $raw using ($1*100):($2*1e-6) with lines lw 3.2 lc rgb '#c4c4c4' title 'as 
   $peak using ($1*100):($2*1e-6) with points pt 12 ps 1.3 lw 1.6 lc rgb red title 'strength'
 )gnuplot";
 
+constexpr std::string_view time_commands = R"gnuplot(
+unset object 1
+unset key
+set xlabel 'Time (s)' offset 0,0.5
+set ylabel 'Time step (s)'
+set yrange [0:*]
+plot $raw_steps using 1:2 with points pt 7 ps 0.45 lc rgb '#b0b0b0', \
+  $used_steps using 1:2 with points pt 7 ps 0.25 lc rgb blue
+unset multiplot
+)gnuplot";
+
+Points steps_of(const std::vector<double>& time) {
+  Points steps;
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    steps.x.push_back(time[i]);
+    steps.y.push_back(time[i] - time[i - 1]);
+  }
+  return thin(steps.x, steps.y, 2000);
+}
+
+// Where rows share a time: the steps from row to row, as read and as used. Below the curve.
+std::string time_panel(const std::vector<double>& read, const std::vector<double>& used) {
+  const Points raw = steps_of(read), spread = steps_of(used);
+  return data_block("raw_steps", {raw.x, raw.y}) + data_block("used_steps", {spread.x, spread.y}) +
+         x_range({raw.x}, 1.0) + panel(0.10, 0.27) + few_tics(raw.y, 1.0) +
+         std::string(time_commands);
+}
+
 // The recorded channels on the axes of a stress-strain plot; empty where one was not recorded.
 Points raw_points(const calib::RawTest& raw, double area) {
   std::vector<double> strain = raw.strain, stress = raw.stress;
@@ -101,14 +129,18 @@ Figure test_figure(const ImportReport& report, const std::string& id) {
   const auto [lowest, highest] = std::ranges::minmax(stresses);
   const Points line = modulus_line(test);
   const std::array<double, 1> peak_strain{test.failure_strain}, peak_stress{test.strength};
+  const bool shared_times = std::ranges::adjacent_find(report.raw.time) != report.raw.time.end();
+  if (shared_times) figure.height = 580;
   figure.commands =
-      data_block("raw", {raw.x, raw.y}) + data_block("used", {used.x, used.y}) +
-      data_block("line", {line.x, line.y}) + data_block("peak", {peak_strain, peak_stress}) +
-      range + panel(0.155, 0.88) +
+      (shared_times ? "set multiplot\n" : "") + data_block("raw", {raw.x, raw.y}) +
+      data_block("used", {used.x, used.y}) + data_block("line", {line.x, line.y}) +
+      data_block("peak", {peak_strain, peak_stress}) + range +
+      (shared_times ? panel(0.41, 0.92) : panel(0.155, 0.88)) +
       fmt::format(test_commands, fmt::arg("low", 100.0 * test.window_low),
                   fmt::arg("high", 100.0 * test.window_high),
                   fmt::arg("lowest", (std::min(0.0, lowest) - 0.03 * highest) / in::MPa),
-                  fmt::arg("highest", 1.06 * highest / in::MPa));
+                  fmt::arg("highest", 1.06 * highest / in::MPa)) +
+      (shared_times ? time_panel(report.raw.time, test.time) : "");
   return figure;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -50,6 +51,39 @@ TEST(Import, ShowsTheReadableFilesAndNamesTheOthers) {
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_NE(answer.out.find("B0.csv"), std::string::npos);
   EXPECT_NE(answer.err.find("empty.csv"), std::string::npos);
+}
+
+std::string million_columns() {
+  std::string row;
+  for (int i = 0; i < 1'000'000; ++i) row += "1,";
+  return row + "\n";
+}
+
+// One sentence that names the file, nothing on stdout, exit 2.
+TEST(Import, RefusesEveryBadFileInOneSentence) {
+  const fs::path folder = own_folder();
+  const std::string header = "Time (s),Load (N),Extension (mm)\n0,1,2\n1,2,3\n";
+  const std::vector<std::pair<const char*, std::string>> bad{
+      {"empty.csv", ""},
+      {"binary.csv", std::string("\x89PNG\r\n\x1A\n\0\0\0\rIHDR", 16)},
+      {"truncated.csv", header + "2,3"},
+      {"nan.csv", header + "2,NaN,4\n"},
+      {"overflow.csv", header + "2,1e999,4\n"},
+      {"quote.csv", header + "2,\"3,4\n3,4,5\n"},
+      {"time.csv", header + "0.5,3,4\n"},
+      {"columns.csv", million_columns()}};
+  for (const auto& [name, content] : bad) test::write_text(folder / name, content);
+  test::write_text(folder / "large.csv", header);
+  fs::resize_file(folder / "large.csv", 2'000'000'000);  // sparse
+  fs::create_directory(folder / "folder.csv");
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const auto answer = run_havers(folder, "import " + name);
+    EXPECT_EQ(answer.exit_code, 2) << name;
+    EXPECT_EQ(answer.out, "") << name;
+    EXPECT_EQ(std::ranges::count(answer.err, '\n'), 1) << answer.err;
+    EXPECT_NE(answer.err.find(name), std::string::npos) << answer.err;
+  }
 }
 
 // The gauge's columns as a logger would have written them, 5.5 s later on its own clock.
