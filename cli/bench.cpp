@@ -13,7 +13,9 @@ namespace {
 constexpr const char* bench_examples =
     "  havers bench data_samples/scenes/bench.toml -o runs/bench\n"
     "  havers bench scene.toml -o runs/bench --seeds 5 --set assembly.layers=10\n"
-    "  havers bench --stability -o runs/stability   # stiff and extreme scenes of known answer\n";
+    "  havers bench --stability -o runs/stability   # stiff and extreme scenes of known answer\n"
+    "  havers bench --calibration -o runs/chains    # chains of optimisers on studies of known "
+    "truth\n";
 
 struct Flag {
   const char* name;
@@ -26,6 +28,7 @@ constexpr std::array flags{
          bench_stability},
     Flag{"--calibration", "chains of optimisers on studies of known truth; needs no SCENE",
          bench_calibration},
+    Flag{"--coverage", "whether 95 % intervals hold known truths; needs no SCENE", bench_coverage},
     Flag{"--porosity", "ways to measure porosity on drawn sections of known one; needs no SCENE",
          bench_porosity},
 };
@@ -41,6 +44,9 @@ Command bench_command(CLI::App& app, CommonOptions& common) {
       ->required()
       ->type_name("DIR");
   parser->add_option("--seeds", arguments->seeds, "runs of each setting (default: 3)")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  parser->add_option("--studies", arguments->studies, "studies of known truth (default: 20, 100)")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   for (const Flag& flag : flags)

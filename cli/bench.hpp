@@ -10,7 +10,8 @@ namespace havers::cli {
 struct BenchArguments {
   std::filesystem::path scene;  ///< Empty in modes that need none.
   std::filesystem::path folder;
-  int seeds = 3;  ///< Runs of each setting.
+  int seeds = 3;    ///< Runs of each setting.
+  int studies = 0;  ///< Known studies of a calibration's bench; 0: as many as the mode wants.
 };
 
 /// A mode is one function that returns the exit code; bench.cpp lists them with their flags.
@@ -20,5 +21,6 @@ int bench_scene(const BenchArguments& arguments, const CommonOptions& common);
 int bench_stability(const BenchArguments& arguments, const CommonOptions& common);
 int bench_porosity(const BenchArguments& arguments, const CommonOptions& common);
 int bench_calibration(const BenchArguments& arguments, const CommonOptions& common);
+int bench_coverage(const BenchArguments& arguments, const CommonOptions& common);
 
 }  // namespace havers::cli

@@ -1,41 +1,68 @@
-// havers bench --calibration: every chain of optimisers on studies of known truth.
+// havers bench --calibration and --coverage: fits of studies whose truth is known.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "calib/synthetic/chain_benchmark.hpp"
 #include "cli/bench.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/provenance.hpp"
-#include "io/results/result_files.hpp"
+#include "io/results/bench_files.hpp"
+#include "reports/bench_pages.hpp"
 
 namespace havers::cli {
 namespace {
 
-// With fewer an interval of the success rate says nothing.
-constexpr int studies = 20;
+// With fewer an interval of the success rate, or of the share of intervals that hold, says nothing.
+constexpr int chain_studies = 20, coverage_studies = 100;
 
-calib::ChainBenchmark run_chains(const CommonOptions& common) {
-  ProgressLine line(common);
-  std::size_t fits = 0;
-  return calib::benchmark_chains(studies, common.threads, [&] {
-    if (line.due())
-      line.show(fmt::format("fit {} of {}", fits, studies * calib::all_chains().size()));
-    ++fits;
+/// Counts the fits on the terminal; false once the user has had enough.
+class FitCounter {
+ public:
+  FitCounter(const CommonOptions& common, std::size_t fits) : line_(common), fits_(fits) {}
+
+  bool operator()() {
+    if (line_.due()) line_.show(fmt::format("fit {} of {}", next_, fits_));
+    ++next_;
     return !interrupted();
-  });
+  }
+
+ private:
+  ProgressLine line_;
+  std::size_t fits_, next_ = 1;
+};
+
+std::string spread(const std::array<double, 3>& quantiles, double unit, int digits) {
+  return fmt::format("{:.{}g} ({:.{}g} to {:.{}g})", quantiles[1] / unit, digits,
+                     quantiles[0] / unit, digits, quantiles[2] / unit, digits);
+}
+
+std::string percent(const calib::Rate& rate) {
+  return fmt::format("{:.0f} % ({:.0f} to {:.0f})", 100.0 * rate.part, 100.0 * rate.interval_95[0],
+                     100.0 * rate.interval_95[1]);
 }
 
 void print_chains(const calib::ChainBenchmark& benchmark) {
-  fmt::print("{:<38}{:>18}{:>14}{:>10}{:>24}\n", "chain", "error [%]", "simulations", "wall [s]",
-             "success (95 %)");
+  fmt::print("{:<36}{:>20}{:>22}{:>24}{:>20}\n", "median (10 to 90 %)", "error [%]", "simulations",
+             "wall [s]", "success (95 %)");
   for (const calib::ChainSummary& s : benchmark.summaries)
-    fmt::print("{:<38}{:>18.3g}{:>14.0f}{:>10.2f}{:>24}\n", s.chain, 100.0 * s.error[1],
-               s.simulations[1], s.seconds[1],
-               fmt::format("{:.0f} % ({:.0f} to {:.0f})", 100.0 * s.success,
-                           100.0 * s.success_95[0], 100.0 * s.success_95[1]));
+    fmt::print("{:<36}{:>20}{:>22}{:>24}{:>20}\n", s.chain, spread(s.error, 0.01, 2),
+               spread(s.simulations, 1.0, 4), spread(s.seconds, 1.0, 2), percent(s.success));
+  if (!benchmark.summaries.empty())
+    fmt::print("fewest simulations of those that succeed as often as the best: {}\n",
+               benchmark.winner().chain);
+}
+
+void print_coverage(const calib::Coverage& coverage) {
+  fmt::print("{:<38}{:<16}{:>10}{:>20}{:>24}\n", "specimens", "parameter", "informed",
+             "hold the truth", "half width [%]");
+  for (const calib::CoverageSummary& s : coverage.summaries)
+    fmt::print("{:<38}{:<16}{:>10}{:>20}{:>24}\n", s.design, s.parameter,
+               fmt::format("{} of {}", s.informed, s.studies),
+               s.informed > 0 ? percent(s.inside) : "-",
+               s.informed > 0 ? spread(s.half_width, 0.01, 2) : "-");
 }
 
 }  // namespace
@@ -43,18 +70,56 @@ void print_chains(const calib::ChainBenchmark& benchmark) {
 int bench_calibration(const BenchArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   OutputFolder output(arguments.folder, common.force);
-  const calib::ChainBenchmark benchmark = run_chains(common);
-  const nlohmann::json result = io::chains_json(benchmark, provenance_of(common, {}, watch));
+  const int studies = arguments.studies > 0 ? arguments.studies : chain_studies;
+  const auto fits = static_cast<std::size_t>(studies) * calib::all_chains().size();
+  FitCounter counter(common, fits);
+  const calib::ChainBenchmark benchmark =
+      calib::benchmark_chains(studies, common.threads, std::ref(counter));
+  const io::Provenance provenance = provenance_of(common, {}, watch);
+  const nlohmann::json result = io::chains_json(benchmark, provenance);
   io::write_file(output.stage("result.json"), result.dump(2) + "\n");
   io::write_file(output.stage("chains.csv"), io::chains_csv(benchmark));
+  const bool page = reports::available() && !benchmark.summaries.empty();
+  if (page)
+    io::write_file(output.stage("report.html"),
+                   reports::chains_page({benchmark, page_facts(provenance)}));
   output.publish();
   if (common.json) {
     fmt::print("{}\n", result.dump(2));
   } else {
     print_chains(benchmark);
-    fmt::print("{}\n", (output.folder() / "chains.csv").string());
+    fmt::print("{}\n", (output.folder() / (page ? "report.html" : "result.json")).string());
   }
-  return interrupted() ? answer_is_no : done;
+  const bool usual_wins =
+      !benchmark.summaries.empty() && benchmark.winner().chain == benchmark.summaries.front().chain;
+  return usual_wins && !interrupted() ? done : answer_is_no;
+}
+
+int bench_coverage(const BenchArguments& arguments, const CommonOptions& common) {
+  const Stopwatch watch;
+  OutputFolder output(arguments.folder, common.force);
+  const int studies = arguments.studies > 0 ? arguments.studies : coverage_studies;
+  const auto designs = calib::coverage_designs();
+  FitCounter counter(common, designs.size() * static_cast<std::size_t>(studies));
+  const calib::Coverage coverage =
+      calib::measure_coverage(designs, studies, common.threads, std::ref(counter));
+  const io::Provenance provenance = provenance_of(common, {}, watch);
+  const nlohmann::json result = io::coverage_json(coverage, provenance);
+  io::write_file(output.stage("result.json"), result.dump(2) + "\n");
+  io::write_file(output.stage("coverage.csv"), io::coverage_csv(coverage));
+  if (reports::available())
+    io::write_file(output.stage("report.html"),
+                   reports::coverage_page({coverage, page_facts(provenance)}));
+  output.publish();
+  if (common.json) {
+    fmt::print("{}\n", result.dump(2));
+  } else {
+    print_coverage(coverage);
+    fmt::print("{}\n",
+               (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
+  }
+  const bool holds = std::ranges::all_of(coverage.summaries, &calib::CoverageSummary::holds);
+  return holds && !interrupted() ? done : answer_is_no;
 }
 
 }  // namespace havers::cli

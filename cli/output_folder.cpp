@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <system_error>
+#include <vector>
 
 #include "io/input_error.hpp"
 
@@ -62,11 +64,17 @@ fs::path OutputFolder::keep(const fs::path& name) const {
 void OutputFolder::publish() {
   fs::create_directories(folder_);
   for (const char* name : results) fs::remove_all(folder_ / name);
-  for (const auto& entry : fs::directory_iterator(staging_)) {
-    const fs::path target = folder_ / entry.path().filename();
+  const auto move = [&](const fs::path& staged) {
+    const fs::path target = folder_ / staged.filename();
     fs::remove_all(target);
-    fs::rename(entry.path(), target);
-  }
+    fs::rename(staged, target);
+  };
+  // The result last: where it stands, the run is complete, whenever a kill came.
+  std::vector<fs::path> others;
+  for (const auto& entry : fs::directory_iterator(staging_))
+    if (entry.path().filename() != results.front()) others.push_back(entry.path());
+  std::ranges::for_each(others, move);
+  if (fs::exists(staging_ / results.front())) move(staging_ / results.front());
 }
 
 }  // namespace havers::cli

@@ -49,6 +49,12 @@ std::string stability_page(const StabilityReport& /*report*/) {
 std::string methods_page(const MethodsReport& /*report*/) {
   return how_to_get_pages();
 }
+std::string chains_page(const ChainsReport& /*report*/) {
+  return how_to_get_pages();
+}
+std::string coverage_page(const CoverageReport& /*report*/) {
+  return how_to_get_pages();
+}
 std::string comparison_page(const std::vector<FitReport>& /*reports*/) {
   return how_to_get_pages();
 }

@@ -196,6 +196,7 @@ struct CalibrationResult {
 struct CalibrationProgress {
   std::string stage;
   long evaluations = 0;
+  long simulated = 0;  ///< Of these, run and not found in the store.
   double best_cost = 0.0;
   std::vector<std::pair<std::string, double>> best;  ///< Parameter name and value, in its unit.
 };

@@ -34,8 +34,11 @@ void Trail::note(const Evaluation& evaluation) {
   ++points_;
   if (evaluation.cost < best_.cost) best_ = evaluation;
   if (!observer_ || cancelled_) return;
-  CalibrationProgress progress{
-      .stage = stage_, .evaluations = batch_.asked(), .best_cost = best_.cost, .best = {}};
+  CalibrationProgress progress{.stage = stage_,
+                               .evaluations = batch_.asked(),
+                               .simulated = batch_.simulated(),
+                               .best_cost = best_.cost,
+                               .best = {}};
   for (Eigen::Index k = 0; k < best_.point.size(); ++k) {
     const auto& unknown = problem_.unknowns[static_cast<std::size_t>(k)];
     progress.best.emplace_back(unknown.label, from_search(*unknown.info, best_.point[k]));

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/study/study.hpp"
+#include "calib/synthetic/known_study.hpp"
 
 namespace havers::calib {
 
@@ -21,6 +21,13 @@ struct Chain {
 /// The default chain first, then every other.
 std::vector<Chain> all_chains();
 
+/// Where a fit was when it had cost so much.
+struct TracePoint {
+  long simulations = 0;
+  double seconds = 0.0;  ///< Wall time. [s]
+  double error = 0.0;    ///< Of the best point so far, as ChainRow::error. [-]
+};
+
 /// One study fitted by one chain.
 struct ChainRow {
   std::string chain;
@@ -31,26 +38,36 @@ struct ChainRow {
   long simulations = 0;
   double seconds = 0.0;  ///< Wall time. [s]
   bool success = false;  ///< Converged, cost within ½ of the best chain's for this study.
+  std::vector<TracePoint> trace{};
 };
 
-/// Rows of one chain: median, and 10 to 90 % as its ends.
+/// Error of a chain's fits when each had cost so much: 10, 50 and 90 %.
+struct Progress {
+  double cost = 0.0;  ///< Simulations, or wall time. [-] or [s]
+  std::array<double, 3> error{};
+};
+
+/// Rows of one chain: 10, 50 and 90 %.
 struct ChainSummary {
   std::string chain;
   std::array<double, 3> error{}, simulations{}, seconds{};
-  double success = 0.0;                ///< Part of the studies. [-]
-  std::array<double, 2> success_95{};  ///< Wilson's interval. [-]
+  Rate success;
+  std::vector<Progress> by_simulations{}, by_seconds{};
 };
 
 struct ChainBenchmark {
   std::vector<ChainRow> rows;
-  std::vector<ChainSummary> summaries;
-};
+  std::vector<ChainSummary> summaries;  ///< In the order of all_chains(); empty when stopped.
 
-/// A study of six specimens at 0°, 45° and 90°, made by the model with the noise of a laboratory;
-/// its truth is drawn by `number`, and returned in `truth` (young_GPa, head_tail_MPa, ratio).
-Study known_study(int number, std::array<double, 3>& truth);
+  /// The chain with the fewest simulations (median) of those that succeed as often as the best,
+  /// within the best's interval. Precondition: there are summaries.
+  [[nodiscard]] const ChainSummary& winner() const;
+};
 
 /// Fits `studies` known studies by every chain. `go_on` is asked before every fit; false ends.
 ChainBenchmark benchmark_chains(int studies, int threads, const std::function<bool()>& go_on);
+
+/// What the rows come to, chain by chain. Precondition: as many rows of each chain.
+ChainBenchmark summarise(std::vector<ChainRow> rows);
 
 }  // namespace havers::calib

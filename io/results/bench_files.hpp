@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "calib/porosity/method_comparison.hpp"
+#include "calib/synthetic/chain_benchmark.hpp"
+#include "calib/synthetic/coverage.hpp"
 #include "io/results/result_files.hpp"
 #include "sim/bench/stability.hpp"
 #include "sim/bench/work_precision.hpp"
@@ -20,9 +22,14 @@ nlohmann::json stability_json(const std::vector<sim::StabilityResult>& results,
 nlohmann::json methods_json(const calib::MethodComparison& comparison,
                             const Provenance& provenance);
 
-/// One line a setting, a scene, a section by a method.
+nlohmann::json chains_json(const calib::ChainBenchmark& benchmark, const Provenance& provenance);
+nlohmann::json coverage_json(const calib::Coverage& coverage, const Provenance& provenance);
+
+/// One line a setting, a scene, a section by a method; a fit by a chain, an interval of a study.
 std::string work_precision_csv(const sim::WorkPrecision& study);
 std::string stability_csv(const std::vector<sim::StabilityResult>& results);
 std::string methods_csv(const calib::MethodComparison& comparison);
+std::string chains_csv(const calib::ChainBenchmark& benchmark);
+std::string coverage_csv(const calib::Coverage& coverage);
 
 }  // namespace havers::io

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "calib/fit/calibration.hpp"
-#include "calib/synthetic/chain_benchmark.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/machine/read_test.hpp"
 #include "io/results/sha256.hpp"
@@ -65,9 +64,6 @@ void write_terms(const std::filesystem::path& file,
                  const std::vector<calib::SpecimenResult>& specimens);
 void write_replicates(const std::filesystem::path& file,
                       const std::vector<calib::SpecimenResult>& specimens);
-/// Optimiser chains against each other: one row per fit, and a summary per chain.
-std::string chains_csv(const calib::ChainBenchmark& benchmark);
-nlohmann::json chains_json(const calib::ChainBenchmark& benchmark, const Provenance& provenance);
 std::string band_file(const std::string& id);      ///< "curves/ID.csv"
 std::string measured_file(const std::string& id);  ///< "curves/ID_measured.csv"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calib/porosity/method_comparison.hpp"
+#include "calib/synthetic/chain_benchmark.hpp"
 #include "reports/figures/gnuplot.hpp"
 #include "reports/pages.hpp"
 
@@ -40,6 +41,10 @@ Figure histogram_figure(const DepthHistogram& histogram, const std::string& id);
 
 /// Error of porosity against CPU time, of every drawn section by every method.
 Figure methods_figure(const calib::MethodComparison& comparison, const std::string& id);
+
+/// Median error of every chain of optimisers when it has cost so much: simulations, or wall time.
+enum class ChainCost { simulations, seconds };
+Figure chains_figure(const calib::ChainBenchmark& benchmark, ChainCost cost, const std::string& id);
 
 /// An interval between its bounds, small enough for a table. SVG.
 std::string interval_bar(const calib::CalibratedParameter& parameter);

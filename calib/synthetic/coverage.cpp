@@ -1,0 +1,77 @@
+#include "calib/synthetic/coverage.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/fit/calibration.hpp"
+
+namespace havers::calib {
+namespace {
+
+void add_rows(const Design& design, int number, const KnownStudy& known, Coverage& coverage) {
+  const CalibrationResult result = calibrate(known.study);
+  for (std::size_t k = 0; k < known_parameters.size(); ++k) {
+    const auto parameter =
+        std::ranges::find(result.parameters, known_parameters.at(k), &CalibratedParameter::name);
+    CoverageRow row{.design = design.name, .study = number, .parameter = known_parameters.at(k)};
+    row.truth = known.truth.at(k);
+    row.value = parameter->value;
+    row.lower = parameter->interval_95[0];
+    row.upper = parameter->interval_95[1];
+    row.informed = parameter->identifiable;
+    row.inside = row.informed && row.lower <= row.truth && row.truth <= row.upper;
+    coverage.rows.push_back(std::move(row));
+  }
+}
+
+CoverageSummary summary_of(const std::string& design, const std::string& parameter,
+                           const std::vector<CoverageRow>& rows) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  CoverageSummary summary{
+      .design = design, .parameter = parameter, .half_width = {none, none, none}};
+  int inside = 0;
+  std::vector<double> half_widths;
+  for (const CoverageRow& row : rows) {
+    if (row.design != design || row.parameter != parameter) continue;
+    ++summary.studies;
+    if (!row.informed) continue;
+    ++summary.informed;
+    inside += row.inside ? 1 : 0;
+    half_widths.push_back(0.5 * std::log(row.upper / row.lower));
+  }
+  summary.inside = rate_of(inside, summary.informed);
+  if (!half_widths.empty()) summary.half_width = quantiles_of(std::move(half_widths));
+  return summary;
+}
+
+}  // namespace
+
+bool CoverageSummary::holds() const {
+  return inside.interval_95[0] <= 0.95 && 0.95 <= inside.interval_95[1];
+}
+
+std::vector<Design> coverage_designs() {
+  const std::vector<double> two{0.0, 0.0, 0.0, 90.0, 90.0, 90.0};
+  const std::vector<double> three = three_orientations().degrees;
+  return {{"0, 90 deg", two},
+          {"0, 45, 90 deg", three},
+          {"0, 90 deg, specimens 10 % apart", two, 0.1},
+          {"0, 45, 90 deg, specimens 10 % apart", three, 0.1}};
+}
+
+Coverage measure_coverage(const std::vector<Design>& designs, int studies, int threads,
+                          const std::function<bool()>& go_on) {
+  Coverage coverage;
+  for (const Design& design : designs)
+    for (int number = 1; number <= studies && go_on(); ++number) {
+      KnownStudy known = known_study(design, number);
+      known.study.calibrate.threads = threads;
+      add_rows(design, number, known, coverage);
+    }
+  for (const Design& design : designs)
+    for (const char* parameter : known_parameters)
+      coverage.summaries.push_back(summary_of(design.name, parameter, coverage.rows));
+  return coverage;
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,49 @@
+// Whether 95 % intervals hold the truth in 95 % of studies.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "calib/synthetic/known_study.hpp"
+
+namespace havers::calib {
+
+/// One parameter of one known study, as the default chain fits it.
+struct CoverageRow {
+  std::string design;
+  int study = 0;
+  std::string parameter;
+  double truth = 0.0;  ///< In the parameter's unit, as what follows.
+  double value = 0.0;
+  double lower = std::numeric_limits<double>::quiet_NaN();  ///< NaN where not informed.
+  double upper = std::numeric_limits<double>::quiet_NaN();
+  bool informed = false;  ///< An interval is given.
+  bool inside = false;    ///< It holds the truth.
+};
+
+/// Rows of one design and parameter.
+struct CoverageSummary {
+  std::string design, parameter;
+  int studies = 0, informed = 0;
+  Rate inside;                       ///< Of those informed.
+  std::array<double, 3> half_width;  ///< ½ log(upper/lower): 10, 50 and 90 %; NaN if none. [-]
+
+  /// 95 % is within the interval of the share.
+  [[nodiscard]] bool holds() const;
+};
+
+struct Coverage {
+  std::vector<CoverageRow> rows;
+  std::vector<CoverageSummary> summaries;
+};
+
+/// Specimens at 0° and 90°, and at 0°, 45° and 90°; alike, and 10 % apart.
+std::vector<Design> coverage_designs();
+
+/// Fits `studies` known studies of each design. `go_on` is asked before every fit; false ends.
+Coverage measure_coverage(const std::vector<Design>& designs, int studies, int threads,
+                          const std::function<bool()>& go_on);
+
+}  // namespace havers::calib

@@ -1,0 +1,113 @@
+#include "calib/synthetic/known_study.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_statistics_double.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "calib/study/parameter.hpp"
+#include "calib/synthetic/laboratory_record.hpp"
+#include "sim/simulate.hpp"
+
+namespace havers::calib {
+namespace {
+
+constexpr std::array<std::pair<double, double>, known_parameters.size()> range_of_truth{
+    {{10.0, 20.0}, {50.0, 110.0}, {0.7, 2.5}}};
+
+// Between 0 and 1, by study and purpose alone.
+double fraction(int study, std::uint64_t purpose) {
+  return (static_cast<double>(specimen_seed(static_cast<std::uint64_t>(study), purpose) >> 11U) +
+          0.5) *
+         0x1p-53;
+}
+
+// Purposes of a specimen's random numbers, apart from those of the truth.
+enum class Purpose : std::uint64_t { seed = 100, modulus = 200, strength = 300 };
+
+std::uint64_t number_of(Purpose purpose, std::size_t specimen) {
+  return static_cast<std::uint64_t>(purpose) + specimen;
+}
+
+Study empty_study(const Design& design, int number) {
+  Study study;
+  study.name = fmt::format("{}, study {}", design.name, number);
+  study.model.assembly.layers = 8;
+  study.model.assembly.fibres = 6;
+  study.model.joints.scatter = 0.3;
+  study.model.loading.strain_rate = 1e-3;
+  study.porosity.to_scatter = ToScatter::none;
+  study.calibrate.bounds = {{"head_tail_MPa", {20.0, 250.0}}, {"ratio", {0.3, 6.0}}};
+  study.calibrate.replicates = 4;
+  study.calibrate.profiles = false;
+  return study;
+}
+
+// The truth with what is this specimen's own.
+sim::Scene scene_of(const KnownStudy& known, const Design& design, int number,
+                    std::size_t specimen) {
+  sim::Scene scene = known.study.model;
+  scene.assembly.orientation = design.degrees[specimen] * std::numbers::pi / 180.0;
+  const auto own = [&](Purpose purpose) {
+    return std::exp(design.specimen_effect *
+                    gsl_cdf_ugaussian_Pinv(fraction(number, number_of(purpose, specimen))));
+  };
+  auto [young, head_tail, ratio] = known.truth;
+  apply(scene, "young_GPa", young * own(Purpose::modulus));
+  apply(scene, "head_tail_MPa", head_tail * own(Purpose::strength));
+  apply(scene, "ratio", ratio);
+  scene.joints.seed =
+      specimen_seed(static_cast<std::uint64_t>(number), number_of(Purpose::seed, specimen));
+  return scene;
+}
+
+}  // namespace
+
+Design three_orientations() {
+  return {.name = "0, 45, 90 deg", .degrees = {0.0, 0.0, 45.0, 45.0, 90.0, 90.0}};
+}
+
+KnownStudy known_study(const Design& design, int number) {
+  KnownStudy known{.study = empty_study(design, number)};
+  for (std::size_t k = 0; k < known.truth.size(); ++k) {
+    const auto [low, high] = range_of_truth.at(k);
+    known.truth.at(k) = low * std::pow(high / low, fraction(number, k));
+  }
+  Laboratory laboratory;
+  laboratory.toe_strain = 0.0;
+  for (std::size_t s = 0; s < design.degrees.size(); ++s) {
+    const sim::Scene scene = scene_of(known, design, number, s);
+    const sim::Simulation simulation = sim::simulate(scene);
+    if (!simulation.trusted()) continue;
+    Specimen specimen;
+    specimen.id = fmt::format("S{}", s + 1);
+    specimen.orientation = scene.assembly.orientation;
+    specimen.test = reduce_test(record_test(simulation, Bar{}, laboratory, scene.joints.seed)).test;
+    known.study.specimens.push_back(std::move(specimen));
+  }
+  return known;
+}
+
+Rate rate_of(int successes, int n) {
+  if (n == 0) return {.part = std::nan(""), .interval_95 = {0.0, 1.0}};
+  const double count = n, part = successes / count, z = gsl_cdf_ugaussian_Pinv(0.975);
+  const double middle = (part + 0.5 * z * z / count) / (1.0 + z * z / count);
+  const double half = z / (1.0 + z * z / count) *
+                      std::sqrt(part * (1.0 - part) / count + 0.25 * z * z / (count * count));
+  return {part, {middle - half, middle + half}};
+}
+
+std::array<double, 3> quantiles_of(std::vector<double> values) {
+  assert(!values.empty());
+  std::ranges::sort(values);
+  const auto at = [&](double part) {
+    return gsl_stats_quantile_from_sorted_data(values.data(), 1, values.size(), part);
+  };
+  return {at(0.1), at(0.5), at(0.9)};
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,53 @@
+#include <fmt/format.h>
+
+#include <array>
+
+#include "reports/figures/figures.hpp"
+#include "reports/text/format.hpp"
+
+namespace havers::reports {
+
+Figure chains_figure(const calib::ChainBenchmark& benchmark, ChainCost cost,
+                     const std::string& id) {
+  constexpr std::array<const char*, 6> looks{"lc rgb grey",  "lc rgb orange", "lc rgb red",
+                                             "lc rgb green", "lc rgb purple", "lc rgb grey dt 2"};
+  const bool simulations = cost == ChainCost::simulations;
+  Figure figure{.id = id,
+                .description = "Error of the best point so far against what it cost, by chain",
+                .height = 420};
+  std::string band, lines;
+  for (std::size_t i = 0; i < benchmark.summaries.size(); ++i) {
+    const calib::ChainSummary& summary = benchmark.summaries[i];
+    const auto& steps = simulations ? summary.by_simulations : summary.by_seconds;
+    std::vector<double> at, low, median, high;
+    for (const calib::Progress& step : steps) {
+      at.push_back(step.cost);
+      low.push_back(step.error[0] / in::percent);
+      median.push_back(step.error[1] / in::percent);
+      high.push_back(step.error[2] / in::percent);
+    }
+    if (at.empty()) continue;
+    const std::string name = fmt::format("chain{}", i);
+    figure.commands += data_block(name, {at, low, median, high});
+    const bool usual = i == 0;  // the default chain is drawn last, with its band
+    std::string& part = usual ? band : lines;
+    part +=
+        fmt::format("{}${} using 1:3 with lines lw {} {} title '{}'",
+                    usual           ? ", "
+                    : lines.empty() ? ""
+                                    : ", ",
+                    name, usual ? 2.6 : 1.5,
+                    usual ? "lc rgb blue" : looks.at((i - 1) % looks.size()), plain(summary.chain));
+  }
+  if (figure.commands.empty()) return figure;
+  figure.commands += fmt::format(
+      "set logscale xy\nset format y '%g'\nset format x '%g'\n"
+      "set key outside top center horizontal maxcols 2\n"
+      "set xlabel '{}' offset 0,0.5\nset ylabel 'Error of the parameters (%)' offset 1.5,0\n"
+      "plot $chain0 using 1:2:4 with filledcurves lc rgb band title '10 to 90 % of the default', "
+      "{}{}\n",
+      simulations ? "Simulations" : "Wall time (s)", lines, band);
+  return figure;
+}
+
+}  // namespace havers::reports

@@ -1,0 +1,90 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/bench_pages.hpp"
+#include "reports/figures/figures.hpp"
+#include "reports/pages/page.hpp"
+#include "reports/text/format.hpp"
+
+namespace havers::reports {
+namespace {
+
+// "12 (8 to 31)": median, and 10 to 90 %.
+std::string spread(const std::array<double, 3>& quantiles, double unit, int digits) {
+  return fmt::format("{} ({} to {})", number(quantiles[1] / unit, digits),
+                     number(quantiles[0] / unit, digits), number(quantiles[2] / unit, digits));
+}
+
+std::string rate_text(const calib::Rate& rate) {
+  if (!std::isfinite(rate.part)) return "–";
+  return fmt::format("{:.0f} ({:.0f} to {:.0f})", rate.part / in::percent,
+                     rate.interval_95[0] / in::percent, rate.interval_95[1] / in::percent);
+}
+
+mstch::map chain_row(const calib::ChainSummary& chain) {
+  return {{"chain", text(chain.chain)},
+          {"error", text(spread(chain.error, in::percent, 2))},
+          {"simulations", text(spread(chain.simulations, 1.0, 4))},
+          {"seconds", text(spread(chain.seconds, 1.0, 2))},
+          {"success", text(rate_text(chain.success))}};
+}
+
+mstch::map coverage_row(const calib::CoverageSummary& one) {
+  return {{"design", text(one.design)},
+          {"parameter", text(one.parameter)},
+          {"informed", text(fmt::format("{} of {}", one.informed, one.studies))},
+          {"inside", text(rate_text(one.inside))},
+          {"width", text(one.informed > 0 ? spread(one.half_width, in::percent, 2) : "–")}};
+}
+
+}  // namespace
+
+std::string chains_page(const ChainsReport& report) {
+  const auto& summaries = report.benchmark.summaries;
+  const calib::ChainSummary& winner = report.benchmark.winner();
+  const bool usual = winner.chain == summaries.front().chain;
+  mstch::array chains;
+  for (const calib::ChainSummary& chain : summaries) chains.emplace_back(chain_row(chain));
+  return render_page(
+      "havers bench: chains of optimisers", "chains",
+      {{"grade", text(usual ? "good" : "bad")},
+       {"sentence", text(fmt::format("{} needs the fewest simulations of those that succeed as "
+                                     "often as the best.",
+                                     winner.chain))},
+       {"detail",
+        text(fmt::format("{} fits of {} studies of known truth. {}", report.benchmark.rows.size(),
+                         report.benchmark.rows.size() / summaries.size(),
+                         usual ? "It is the default." : "It is not the default."))},
+       {"chains", mstch::node{chains}},
+       {"by_simulations",
+        text(draw(chains_figure(report.benchmark, ChainCost::simulations, "bysimulations")))},
+       {"by_seconds",
+        text(draw(chains_figure(report.benchmark, ChainCost::seconds, "byseconds")))}},
+      report.provenance);
+}
+
+std::string coverage_page(const CoverageReport& report) {
+  const auto& summaries = report.coverage.summaries;
+  mstch::array rows;
+  int inside = 0, informed = 0;
+  for (const calib::CoverageSummary& one : summaries) {
+    rows.emplace_back(coverage_row(one));
+    informed += one.informed;
+    if (one.informed > 0) inside += static_cast<int>(std::lround(one.inside.part * one.informed));
+  }
+  const calib::Rate all = calib::rate_of(inside, informed);
+  const bool holds = std::ranges::all_of(summaries, &calib::CoverageSummary::holds);
+  return render_page(
+      "havers bench: what the intervals hold", "coverage",
+      {{"grade", text(holds ? "good" : "bad")},
+       {"sentence", text(fmt::format("{} % of {} intervals hold the truth; 95 % should.",
+                                     number(all.part / in::percent, 3), informed))},
+       {"detail", text(holds ? "No parameter differs from 95 % by more than chance."
+                             : "Some parameters differ from 95 % by more than chance.")},
+       {"rows", mstch::node{rows}}},
+      report.provenance);
+}
+
+}  // namespace havers::reports
