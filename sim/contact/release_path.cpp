@@ -28,7 +28,7 @@ struct Branch {
   double force_tolerance = 0.0;  // [N/m]
 };
 
-Branch solve_branch(const StateSystem& system, const VectorXd& extra, double part) {
+Branch solve_branch(StateSystem& system, const VectorXd& extra, double part) {
   const LocalContact& p = system.problem();
   const auto n = static_cast<Index>(p.laws.size());
   MatrixXd r0 = MatrixXd::Zero(2 * n, 2), u0 = MatrixXd::Zero(2 * n, 2), cohesion(n, 2);

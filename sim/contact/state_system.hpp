@@ -33,7 +33,7 @@ class StateSystem {
 
   /// For free reactions `r0` [N/m], gaps `held` where they are held [m] and cohesions c [N/m].
   [[nodiscard]] StateSolution solve(const Eigen::MatrixXd& r0, const Eigen::MatrixXd& held,
-                                    const Eigen::MatrixXd& cohesion) const;
+                                    const Eigen::MatrixXd& cohesion);
 
  private:
   struct Equation {
@@ -41,6 +41,8 @@ class StateSystem {
     double slope;  // r_T = −slope (r_N + c)
   };
 
+  [[nodiscard]] StateSolution try_to_solve(const Eigen::MatrixXd& r0, const Eigen::MatrixXd& held,
+                                           const Eigen::MatrixXd& cohesion) const;
   void factorise();
   void add(Eigen::Index row, double slope);
   void remove(Eigen::Index row);

@@ -174,6 +174,7 @@ void BreakingRun::finish(double strain, double energy_scale, Simulation& simulat
   const double scale = intact_->answer().reactions.norm();
   const auto n = static_cast<Index>(loose_.size());
   VectorXd gaps = VectorXd::Zero(2 * static_cast<Index>(joints.size())), y = y_;
+  StateSystem system(contact_, system_.states());
   UnitAnswer last;
   for (const bool again : {true, false}) {
     VectorXd lacking = -contact_.S * y;
@@ -185,7 +186,7 @@ void BreakingRun::finish(double strain, double energy_scale, Simulation& simulat
     for (Index i = 0; i < n; ++i)
       lacking.segment<2>(2 * i) += last.reactions.segment<2>(
           2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)]));
-    y = system_.solve(lacking, VectorXd::Zero(2 * n), cohesions(contact_)).y;
+    y = system.solve(lacking, VectorXd::Zero(2 * n), cohesions(contact_)).y;
   }
 
   const double young = scene_.material.young;
