@@ -26,10 +26,11 @@ double by_otsu(const cv::Mat& grey) {
 }
 
 double by_otsu_in_bone(const cv::Mat& grey) {
-  const Regions regions = divide(grey, io::Pores::dark);
+  Regions regions = divide(grey, io::Pores::dark);
   const cv::Mat part = grey(regions.box);
   cv::Mat depth;
-  const cv::Mat bone = find_bone(part, regions, bone_levels(part, regions), depth);
+  const Levels levels = bone_levels(part, regions);
+  const cv::Mat bone = find_bone(part, regions, levels, depth);
   std::vector<std::uint8_t> inside;
   inside.reserve(part.total());
   for (int y = 0; y < bone.rows; ++y) {

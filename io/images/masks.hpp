@@ -1,12 +1,30 @@
 // What several steps do with masks: 255 where set. Private to io/images.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <opencv2/core.hpp>
 #include <vector>
 
 namespace havers::images {
 
 using Contour = std::vector<cv::Point>;
+
+/// Calls `use(x)` for every set pixel of a row. Most pixels of a mask are not set: eight at a time
+/// are passed over.
+template <class Use>
+void for_each_set(const cv::Mat& mask, int y, Use use) {
+  const auto* row = mask.ptr<std::uint8_t>(y);
+  for (int x = 0; x < mask.cols;) {
+    const int end = std::min(x + 8, mask.cols);
+    std::uint64_t eight = 1;
+    if (end == x + 8) std::memcpy(&eight, row + x, 8);
+    if (eight == 0) x = end;
+    for (; x < end; ++x)
+      if (row[x] != 0) use(x);
+  }
+}
 
 /// With a square of `side` pixels, odd.
 cv::Mat eroded(const cv::Mat& mask, int side);

@@ -105,9 +105,9 @@ std::string method_of(io::Threshold threshold) {
 io::SectionMeasurement measure_page(const cv::Mat& image, const std::string& name,
                                     const io::SectionOptions& options) {
   const cv::Mat whole = to_grey(image, name);
-  const Regions regions = options.mask
-                              ? divide(whole, read_mask(*options.mask, whole.size()), options.pores)
-                              : divide(whole, options.pores);
+  Regions regions = options.mask
+                        ? divide(whole, read_mask(*options.mask, whole.size()), options.pores)
+                        : divide(whole, options.pores);
   const cv::Mat grey = whole(regions.box);
   const Levels levels = bone_levels(grey, regions);
   cv::Mat depth;  // one for all steps: it is the largest

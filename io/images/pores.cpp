@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "io/images/depth.hpp"
 #include "io/images/masks.hpp"
@@ -51,6 +52,13 @@ cv::Mat cores_of(const cv::Mat& pores) {
   return cv::countNonZero(cores) > 0 ? cores : pores;
 }
 
+cv::Mat deeper(const cv::Mat& depth, double threshold, const cv::Mat& bone) {
+  cv::Mat found;
+  cv::compare(depth, threshold, found, cv::CMP_GT);
+  found &= bone;
+  return found;
+}
+
 // The test for a second level: patches of three by three pixels, all five deviations deep, are no
 // chance. Small pores show under little smoothing, strong noise needs more. The half-way depth
 // between bone and such patches; infinite: one level.
@@ -60,8 +68,8 @@ double rough_threshold(cv::Mat& depth, const cv::Mat& bone, double noise) {
     if (noise > 0.0) smooth(depth, round == 0 ? 1.0 : 2.0);
     const BoneDepth solid = bone_depth(depth, bone);
     const double least = solid.middle + std::max(5.0 * solid.spread, 0.01 * noise);
-    const cv::Mat seeds = eroded((depth > least) & bone, 3) & bone;
-    if (cv::countNonZero(seeds) > 0) return 0.5 * (solid.middle + cv::mean(depth, seeds)[0]);
+    const DepthCount seeds(depth, eroded(deeper(depth, least, bone), 3) & bone);
+    if (seeds.all() > 0.0) return 0.5 * (solid.middle + seeds.sum() / seeds.all());
   }
   return std::numeric_limits<double>::infinity();
 }
@@ -83,10 +91,10 @@ cv::Mat find_pore_level(const cv::Mat& grey, const cv::Mat& bone, Levels& levels
   levels.offset = 1.0, levels.slope = 0.0;
   make_depth(grey, levels, 0.0, depth);
   const double threshold = rough_threshold(depth, bone, levels.noise);
-  const cv::Mat pores = (depth > threshold) & bone;
+  const cv::Mat pores = deeper(depth, threshold, bone);
   if (cv::countNonZero(pores) == 0) return {};
 
-  const std::vector<Sample> samples = sample(grey, clean_bone(bone & ~pores), 20000);
+  const std::vector<Sample> samples = sample(grey, clean_bone(bone - pores), 20000);
   if (samples.size() >= 500) levels.bone = fit_surface(samples, grey.size(), 4);
   cv::Mat cores = cores_of(pores);
   fit_contrast(grey, cores, levels);
@@ -95,9 +103,15 @@ cv::Mat find_pore_level(const cv::Mat& grey, const cv::Mat& bone, Levels& levels
 
 // Depth that small pores' cores keep under blur: the pores' image, blurred alike, is read there.
 double depth_left_in(const cv::Mat& cores, const cv::Mat& pores, double blur) {
-  cv::Mat blurred = pores.clone();
-  smooth(blurred, blur);
-  return std::max(0.5, cv::mean(blurred, cores)[0] / 255.0);
+  if (blur <= 0.0) return 1.0;
+  cv::Mat blurred;
+  cv::GaussianBlur(pores, blurred, {}, blur, blur, cv::BORDER_REPLICATE);
+  double sum = 0.0;
+  for (int y = 0; y < cores.rows; ++y) {
+    const auto* left = blurred.ptr<std::uint8_t>(y);
+    for_each_set(cores, y, [&](int x) { sum += left[x]; });
+  }
+  return std::max(0.5, sum / (255.0 * cv::countNonZero(cores)));
 }
 
 // (I7) Blur σ pulls the half-maximum contour of a pore inwards by σ²κ/2, κ its curvature: π σ² less
@@ -107,7 +121,9 @@ double threshold_without_blur(const cv::Mat& depth, const cv::Mat& cores, const 
                               PoreMap& map) {
   const double smoothing = enough_smoothing(levels);
   const double noise = relative_noise(levels) / std::max(1.0, noise_divisor * smoothing);
-  const DepthCount about(depth, dilated(map.pores, 7) & map.bone);
+  cv::Mat surroundings = dilated(map.pores, 7);
+  surroundings &= map.bone;
+  const DepthCount about(depth, surroundings);
   const double blur = (about.above(0.3) - about.above(0.7)) / (1.0488 * map.perimeter);
   const double own_blur = std::sqrt(std::max(0.0, blur * blur - smoothing * smoothing));
   const double full_depth = 1.0 / depth_left_in(cores, map.pores, own_blur);
@@ -120,17 +136,17 @@ double threshold_without_blur(const cv::Mat& depth, const cv::Mat& cores, const 
 
 // In the rim, where bone fades into background, only what continues a pore from further inside is
 // pore.
-void cut(const cv::Mat& below, const cv::Mat& inner, const PoreOptions& options, PoreMap& map) {
-  map.pores = below & map.bone;
+void cut(const cv::Mat& inner, const PoreOptions& options, PoreMap& map) {
   if (options.rim) map.pores &= dilated(map.pores & inner, 5);
   sort_objects(options.crack_slenderness, map);
 }
 
 }  // namespace
 
-cv::Mat find_bone(const cv::Mat& grey, const Regions& regions, Levels levels, cv::Mat& depth) {
-  if (!regions.outlined) return regions.bone;
-  fit_contrast(grey, regions.background, levels);
+cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Levels levels, cv::Mat& depth) {
+  const cv::Mat bone = std::move(regions.bone), background = std::move(regions.background);
+  if (!regions.outlined) return bone;
+  fit_contrast(grey, background, levels);
   if (!(levels.contrast(levels.bone.coefficients[0]) > 0.0)) return {};
   make_depth(grey, levels, enough_smoothing(levels), depth);
   return outline((depth < 0.5F) & regions.search);
@@ -141,20 +157,20 @@ PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const Levels& coars
   PoreMap map;
   map.bone = bone;
   map.pores = cv::Mat::zeros(bone.size(), CV_8U);
-  const cv::Mat inner = options.rim ? eroded(bone, 5) : bone;
   Levels levels = coarse;
   // Blur reaches further in than noise does: a sharp eye would take it for a second level.
-  const cv::Mat sure = options.rim ? eroded(bone, 9) : bone;
-  const cv::Mat cores = find_pore_level(grey, sure, levels, depth);
+  const cv::Mat cores = find_pore_level(grey, options.rim ? eroded(bone, 9) : bone, levels, depth);
   make_depth(grey, levels, enough_smoothing(levels), depth);
   if (cores.empty()) return map;
 
+  const cv::Mat inner = options.rim ? eroded(bone, 5) : bone;
   const bool half_maximum = options.threshold == io::Threshold::half_maximum;
   double next = options.threshold == io::Threshold::otsu ? otsu_threshold(depth, bone) : 0.5;
   for (int round = 0; round < 4; ++round) {
     map.threshold = next;
-    cut(options.threshold == io::Threshold::sauvola ? below_sauvola(depth) : depth > next, inner,
-        options, map);
+    map.pores = options.threshold == io::Threshold::sauvola ? below_sauvola(depth) & bone
+                                                            : deeper(depth, next, bone);
+    cut(inner, options, map);
     if (map.areas.empty()) break;
     next = threshold_without_blur(depth, cores, levels, map);
     if (!half_maximum || std::abs(next - map.threshold) < 0.003) break;

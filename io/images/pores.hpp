@@ -45,8 +45,9 @@ struct PoreOptions {
 /// Levels of bone and noise, from the coarse division.
 Levels bone_levels(const cv::Mat& grey, const Regions& regions);
 
-/// The bone on the full image; empty when there is none. `depth` is working space.
-cv::Mat find_bone(const cv::Mat& grey, const Regions& regions, Levels levels, cv::Mat& depth);
+/// The bone on the full image; empty when there is none. Takes the masks of `regions`, which nobody
+/// needs after this. `depth` is working space.
+cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Levels levels, cv::Mat& depth);
 
 /// The pores in `bone`; `depth` becomes the image they were cut from. An image without a second
 /// level has none.

@@ -58,9 +58,9 @@ cv::Mat main_parts(const cv::Mat& mask) {
 }
 
 // What a thin wall keeps from the outside is lost on the small copy, but not from the convex hull.
-cv::Mat hulls_of(const cv::Mat& parts) {
-  cv::Mat hulls = cv::Mat::zeros(parts.size(), CV_8U);
-  for (const Contour& border : outer_contours(parts)) {
+cv::Mat hulls_of(const std::vector<Contour>& parts, cv::Size size) {
+  cv::Mat hulls = cv::Mat::zeros(size, CV_8U);
+  for (const Contour& border : parts) {
     Contour corners;
     cv::convexHull(border, corners);
     cv::fillConvexPoly(hulls, corners, 255);
@@ -70,7 +70,7 @@ cv::Mat hulls_of(const cv::Mat& parts) {
 
 // A bar's corner that pores nearly cut off is lost from its hull too, but not from its rectangle.
 cv::Mat search_area(const cv::Mat& parts) {
-  cv::Mat area = hulls_of(parts);
+  cv::Mat area = hulls_of(outer_contours(parts), parts.size());
   for (const Contour& hull : outer_contours(area)) {
     const cv::RotatedRect rectangle = cv::minAreaRect(hull);
     if (cv::contourArea(hull) < 0.88 * static_cast<double>(rectangle.size.area())) continue;
@@ -125,11 +125,12 @@ bool is_a_cut_pore(const Blob& notch, const cv::Mat& hull, bool machined) {
 }
 
 void fill_notches(const std::vector<Contour>& outlines, cv::Mat& bone) {
-  const cv::Mat hull = hulls_of(bone);
+  const cv::Mat hull = hulls_of(outlines, bone.size());
   const bool machined = std::all_of(outlines.begin(), outlines.end(), is_a_machined_bar);
   cv::Mat notches = hull.clone();
   cv::drawContours(notches, outlines, -1, 0, cv::FILLED);
   cv::morphologyEx(notches, notches, cv::MORPH_OPEN, cv::Mat::ones(5, 5, CV_8U));
+  if (cv::countNonZero(notches) == 0) return;
   const double most = 0.1 * cv::countNonZero(bone);
   for (const Blob& notch : blobs_of(notches))
     if (notch.area <= most && is_a_cut_pore(notch, hull, machined)) fill(bone, notch.border, 255);
@@ -157,14 +158,14 @@ Regions divide(const cv::Mat& grey, io::Pores pores) {
   const cv::Rect large(near.tl() * factor, near.size() * factor);
   Regions regions{.outlined = true, .dark_pores = bright_bone};
   regions.box = large & cv::Rect({}, grey.size());
-  const auto enlarged = [&](const cv::Mat& mask) {
-    cv::Mat full;
-    cv::resize(mask(near), full, large.size(), 0.0, 0.0, cv::INTER_NEAREST);
-    return full(cv::Rect({}, regions.box.size()));
-  };
-  regions.bone = enlarged(cv::countNonZero(core) > 0 ? core : bone);
-  regions.search = enlarged(search);
-  regions.background = enlarged(background);
+  const cv::Mat sure = cv::countNonZero(core) > 0 ? core : bone;
+  const cv::Mat labels = (sure & 1) | (search & 2) | (background & 4);
+  cv::Mat full;
+  cv::resize(labels(near), full, large.size(), 0.0, 0.0, cv::INTER_NEAREST);
+  full = full(cv::Rect({}, regions.box.size()));
+  regions.bone = (full & 1) > 0;
+  regions.search = (full & 2) > 0;
+  regions.background = (full & 4) > 0;
   return regions;
 }
 

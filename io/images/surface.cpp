@@ -7,6 +7,8 @@
 #include <limits>
 #include <span>
 
+#include "io/images/masks.hpp"
+
 namespace havers::images {
 namespace {
 
@@ -137,10 +139,10 @@ std::vector<Sample> sample(const cv::Mat& image, const cv::Mat& mask, int count)
   for (int y = stride / 2; y < image.rows; y += stride) {
     image.row(y).convertTo(row, CV_32F);
     const auto* values = row.ptr<float>();
-    const auto* wanted = mask.ptr<std::uint8_t>(y);
-    for (int x = stride / 2; x < image.cols; x += stride)
-      if (wanted[x] != 0)
+    for_each_set(mask, y, [&](int x) {
+      if (x % stride == stride / 2)
         samples.push_back({static_cast<float>(x), static_cast<float>(y), values[x]});
+    });
   }
   return samples;
 }

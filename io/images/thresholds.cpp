@@ -4,6 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "io/images/masks.hpp"
 #include "io/images/surface.hpp"
 
 namespace havers::images {
@@ -12,13 +13,11 @@ DepthCount::DepthCount(const cv::Mat& depth, const cv::Mat& mask) {
   constexpr float last = 299.0F;
   for (int y = 0; y < depth.rows; ++y) {
     const auto* values = depth.ptr<float>(y);
-    const auto* wanted = mask.ptr<std::uint8_t>(y);
-    for (int x = 0; x < depth.cols; ++x) {
-      if (wanted[x] == 0) continue;
+    for_each_set(mask, y, [&](int x) {
       const float bin = std::clamp(100.0F * (values[x] + 1.0F), 0.0F, last);
       counts_[static_cast<std::size_t>(bin)] += 1.0;
       sum_ += values[x];
-    }
+    });
   }
 }
 

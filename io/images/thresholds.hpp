@@ -12,6 +12,8 @@ class DepthCount {
   DepthCount(const cv::Mat& depth, const cv::Mat& mask);
   /// Pixels deeper than `depth`, a multiple of 0.01.
   [[nodiscard]] double above(double depth) const;
+  /// Pixels where the mask is set.
+  [[nodiscard]] double all() const { return above(-1.0); }
   /// Sum of depths over all.
   [[nodiscard]] double sum() const { return sum_; }
 

@@ -31,10 +31,10 @@ struct Split {
   double deviation = std::numeric_limits<double>::infinity();
 };
 
-// Each level's surface from its pixels, each pixel to the nearer surface, until nothing moves.
+// Each level's surface from its pixels, each pixel to the nearer surface, until hardly any moves.
 Split refine(const cv::Mat& image, cv::Mat bright) {
   Split split;
-  const int fewest = static_cast<int>(image.total() / 200);
+  const int fewest = static_cast<int>(image.total() / 200), few = fewest / 10;
   for (int round = 0; round < 20; ++round) {
     const int count = cv::countNonZero(bright);
     if (count < fewest || static_cast<int>(image.total()) - count < fewest) return split;
@@ -42,7 +42,7 @@ Split refine(const cv::Mat& image, cv::Mat bright) {
     const cv::Mat lower = values_of(fit_where(image, ~bright));
     const cv::Mat to_upper = cv::abs(image - upper), to_lower = cv::abs(image - lower);
     const cv::Mat next = to_upper < to_lower;
-    const bool settled = cv::countNonZero(next != bright) == 0;
+    const bool settled = cv::countNonZero(next != bright) <= few;
     bright = next;
     split.deviation =
         cv::norm(cv::min(to_upper, to_lower)) / std::sqrt(static_cast<double>(image.total()));

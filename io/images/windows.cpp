@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 namespace havers::images {
 namespace {
@@ -22,13 +24,43 @@ std::size_t block_of(int x, int y, cv::Size size) {
   return static_cast<std::size_t>(block);
 }
 
-// Integral image along a row, at a fraction between pixels.
-double between(const int* row, int whole, double part) {
-  return part == 0.0 ? row[whole] : (1.0 - part) * row[whole] + part * row[whole + 1];
-}
+// How many pore pixels lie left of each column in the rows from y to y + height.
+class PoresToTheLeft {
+ public:
+  explicit PoresToTheLeft(const cv::Mat& pores)
+      : pores_(pores),
+        rows_(static_cast<std::size_t>(pores.cols)),
+        sums_(static_cast<std::size_t>(pores.cols) + 1) {}
+
+  void count(int y, double height) {
+    std::fill(rows_.begin(), rows_.end(), std::uint16_t{0});
+    const int whole = static_cast<int>(height);
+    for (int row = y; row < y + whole; ++row) {
+      const auto* set = pores_.ptr<std::uint8_t>(row);
+      for (std::size_t x = 0; x < rows_.size(); ++x)
+        rows_[x] = static_cast<std::uint16_t>(rows_[x] + (set[x] & 1U));
+    }
+    const double part = height - whole;
+    const auto* last = pores_.ptr<std::uint8_t>(part > 0.0 ? y + whole : y);
+    for (std::size_t x = 0; x < rows_.size(); ++x)
+      sums_[x + 1] = sums_[x] + rows_[x] + part * (last[x] & 1U);
+  }
+  // In the columns from x to x + width; the last one may be cut.
+  [[nodiscard]] double between(int x, double width) const {
+    const auto* first = &sums_[static_cast<std::size_t>(x)];
+    const int whole = static_cast<int>(width);
+    const double part = width - whole, all = first[whole] - first[0];
+    return part > 0.0 ? all + part * (first[whole + 1] - first[whole]) : all;
+  }
+
+ private:
+  const cv::Mat& pores_;
+  std::vector<std::uint16_t> rows_;
+  std::vector<double> sums_;
+};
 
 // Adds the windows of one orientation to the sums of the blocks they start in.
-void add_windows(const cv::Mat& bone, const cv::Mat& integral, cv::Size2d window, Blocks& blocks) {
+void add_windows(const cv::Mat& bone, const cv::Mat& pores, cv::Size2d window, Blocks& blocks) {
   const cv::Size covered(static_cast<int>(std::ceil(window.width)),
                          static_cast<int>(std::ceil(window.height)));
   if (covered.width > bone.cols || covered.height > bone.rows) return;
@@ -38,17 +70,13 @@ void add_windows(const cv::Mat& bone, const cv::Mat& integral, cv::Size2d window
   // Half a window apart: what lies between says nothing new.
   const int across = std::max(1, static_cast<int>(window.width / 2.0));
   const int down = std::max(1, static_cast<int>(window.height / 2.0));
-  const int dx = static_cast<int>(window.width), dy = static_cast<int>(window.height);
-  const double fx = window.width - dx, fy = window.height - dy, scale = 1.0 / window.area();
+  const double scale = 1.0 / window.area();
+  PoresToTheLeft left(pores);
   for (int y = 0; y + covered.height <= bone.rows; y += down) {
-    const auto *top = integral.ptr<int>(y), *low = integral.ptr<int>(y + dy);
-    const auto* lower = fy == 0.0 ? low : integral.ptr<int>(y + dy + 1);
+    left.count(y, window.height);
     for (int x = 0; x + covered.width <= bone.cols; x += across) {
       if (fits.at<std::uint8_t>(y, x) == 0) continue;
-      const double above = between(top, x + dx, fx) - top[x];
-      const double below = (1.0 - fy) * (between(low, x + dx, fx) - low[x]) +
-                           fy * (between(lower, x + dx, fx) - lower[x]);
-      const double q = scale * (below - above);
+      const double q = left.between(x, window.width) * scale;
       Sums& sums = blocks[block_of(x, y, bone.size())];
       sums.n += 1.0, sums.q += q, sums.qq += q * q;
     }
@@ -60,11 +88,9 @@ void add_windows(const cv::Mat& bone, const cv::Mat& integral, cv::Size2d window
 WindowSpread window_spread(const cv::Mat& bone, const cv::Mat& pores, double length,
                            double height) {
   const cv::Rect box = cv::boundingRect(bone);
-  cv::Mat integral;
-  cv::integral(pores(box) & 1, integral, CV_32S);
   Blocks blocks{};
-  add_windows(bone(box), integral, {length, height}, blocks);
-  add_windows(bone(box), integral, {height, length}, blocks);
+  add_windows(bone(box), pores(box), {length, height}, blocks);
+  add_windows(bone(box), pores(box), {height, length}, blocks);
 
   Sums all;
   for (const Sums& block : blocks) all.n += block.n, all.q += block.q, all.qq += block.qq;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -218,6 +219,14 @@ TEST(TestSvg, StandsOnItsOwn) {
   EXPECT_TRUE(contains(svg, "xmlns=\"http://www.w3.org/2000/svg\""));
   EXPECT_TRUE(contains(svg, "modulus; window shaded"));
   EXPECT_LT(svg.size(), 200'000U);
+}
+
+TEST(TestSvg, DrawsTheStepsOfAClockThatRepeatsItself) {
+  auto raw = test::raw_test(13e9, 43e6, 1);
+  const auto measured = test::measured_test(13e9, 43e6, 1);
+  EXPECT_FALSE(contains(test_svg({"A1.csv", raw, measured}), "Time step (s)"));
+  for (double& time : raw.time) time = std::floor(time);
+  EXPECT_TRUE(contains(test_svg({"A1.csv", raw, measured}), "Time step (s)"));
 }
 
 TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
