@@ -31,6 +31,20 @@ void set_error(const Unknown& unknown, const Uncertainty& uncertainty, Eigen::In
                            from_search(*unknown.info, position + half)};
 }
 
+// (K4) An exponent holds where there was bone to fit it to.
+void tell_range_of_porosity(const FitProblem& problem, std::vector<sim::LeftOut>& list) {
+  if (problem.study.porosity.to_modulus == ToModulus::none) return;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const std::size_t s : problem.fitted) {
+    low = std::fmin(low, problem.models[s].porosity);
+    high = std::fmax(high, problem.models[s].porosity);
+  }
+  if (low > high) return;
+  list.push_back(
+      {fmt::format("E = E₀ (1−p)^m outside p of {:.2g} to {:.2g} %", 100.0 * low, 100.0 * high),
+       "no fitted specimen is there; published m run from 2.7 to 10.9"});
+}
+
 }  // namespace
 
 std::vector<CalibratedParameter> parameters_of(const FitProblem& problem, const Answer& answer) {
@@ -69,6 +83,7 @@ std::vector<sim::LeftOut> left_out_of(const FitProblem& problem, const Simulatio
                       fmt::format("their pores are larger than a fibre's window: {:.1f} % of the "
                                   "joints are missing instead",
                                   100.0 * problem.models[s].scene.joints.missing)});
+  tell_range_of_porosity(problem, list);
   if (batch.asked() > batch.distinct())
     list.push_back(
         {fmt::format("{} of {} simulations", batch.asked() - batch.distinct(), batch.asked()),

@@ -243,24 +243,6 @@ TEST(Section, TellsCracksFromPores) {
   EXPECT_GT(counted.porosity, 2e-3);
 }
 
-TEST(Section, NamesItsAreasSizesAndZones) {
-  const auto drawn = test::draw({.outline = Outline::ring, .largest_radius = 12.0, .blur = 0.8});
-  const auto measured = measure(drawn, "areas.png");
-  const double side = 600.0 * pixel, total = std::numbers::pi * std::pow(0.45 * side, 2);
-  EXPECT_NEAR(measured.total_area, total, 0.01 * total);
-  EXPECT_NEAR(measured.marrow_area, std::numbers::pi * std::pow(0.22 * side, 2), 0.01 * total);
-  EXPECT_NEAR(measured.pore_density * measured.bone_area, measured.pore_count, 1e-6);
-  EXPECT_NEAR(measured.mean_pore_area * measured.pore_count, measured.pore_area,
-              1e-6 * measured.pore_area);
-  int classed = 0;
-  for (const calib::PoreClass& one : measured.classes) classed += one.count;
-  EXPECT_EQ(classed, measured.pore_count);
-  ASSERT_EQ(measured.zones.size(), 7U);
-  double quarters = 0.0;
-  for (int i = 0; i < 4; ++i) quarters += measured.zones[static_cast<std::size_t>(i)].bone_area;
-  EXPECT_NEAR(quarters, measured.bone_area, 0.01 * measured.bone_area);
-}
-
 // Rules of the trade, behind the same test for a second level.
 TEST(Section, CutsByOtsuAndSauvolaWhereAsked) {
   const auto drawn = test::draw({.porosity = 0.1, .largest_radius = 15.0, .blur = 0.7});
@@ -269,19 +251,6 @@ TEST(Section, CutsByOtsuAndSauvolaWhereAsked) {
     const SectionOptions options{.pixel_size = pixel, .threshold = threshold};
     EXPECT_NEAR(measure(drawn, "rule.png", options).porosity, drawn.porosity, 0.02);
     EXPECT_EQ(measure(empty, "no_rule.png", options).porosity, 0.0);
-  }
-}
-
-TEST(Section, ReadsDensityFromMaterialsOfKnownOne) {
-  const auto drawn = test::draw({.blur = 0.7});  // bone 204, background 51
-  const DensityReference air{.grey = 51.0, .density = 0.0};
-  const DensityReference phantom{.x = 5, .y = 5, .width = 40, .height = 40, .density = 0.0};
-  const DensityReference bone{.grey = 204.0, .density = 1900.0};
-  for (const DensityReference& zero : {air, phantom}) {
-    const auto measured =
-        measure(drawn, "density.png", {.pixel_size = pixel, .density = {zero, bone}});
-    EXPECT_NEAR(measured.density, 1900.0, 10.0);
-    EXPECT_NEAR(measured.density_residual, 0.0, 1e-6);
   }
 }
 

@@ -1,0 +1,82 @@
+// What is told of a section beside its porosity: areas, sizes, zones, rim, density.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "io/images/measure_section.hpp"
+#include "io/input_error.hpp"
+#include "tests/support/sections.hpp"
+
+namespace havers::io {
+namespace {
+
+constexpr double side_of_pixel = 2e-6;
+
+calib::SectionPorosity quantities(const test::DrawnSection& section, const std::string& name,
+                                  const SectionOptions& options = {.pixel_size = side_of_pixel}) {
+  return measure_sections(test::write(section.image, name), options).front().porosity;
+}
+
+TEST(SectionQuantities, NamesItsAreasSizesAndZones) {
+  const auto drawn =
+      test::draw({.outline = test::Outline::ring, .largest_radius = 12.0, .blur = 0.8});
+  const auto measured = quantities(drawn, "areas.png");
+  const double side = 600.0 * side_of_pixel, total = std::numbers::pi * std::pow(0.45 * side, 2);
+  EXPECT_NEAR(measured.total_area, total, 0.01 * total);
+  EXPECT_NEAR(measured.marrow_area, std::numbers::pi * std::pow(0.22 * side, 2), 0.01 * total);
+  EXPECT_NEAR(measured.pore_density * measured.bone_area, measured.pore_count, 1e-6);
+  EXPECT_NEAR(measured.mean_pore_area * measured.pore_count, measured.pore_area,
+              1e-6 * measured.pore_area);
+  int classed = 0;
+  for (const calib::PoreClass& one : measured.classes) classed += one.count;
+  EXPECT_EQ(classed, measured.pore_count);
+  ASSERT_EQ(measured.zones.size(), 7U);
+  double quarters = 0.0;
+  for (int i = 0; i < 4; ++i) quarters += measured.zones[static_cast<std::size_t>(i)].bone_area;
+  EXPECT_NEAR(quarters, measured.bone_area, 0.01 * measured.bone_area);
+}
+
+// Pores in the left half alone, none near the outer surface.
+TEST(SectionQuantities, FindsThePoresOfEachZone) {
+  auto drawn = test::draw({.outline = test::Outline::ring, .porosity = 0.0, .blur = 0.8});
+  for (const int y : {240, 300, 360}) cv::circle(drawn.image, {150, y}, 12, 51, cv::FILLED);
+  const auto measured = quantities(drawn, "zoned.png");
+  const double pores = 3.0 * std::numbers::pi * 144.0 * side_of_pixel * side_of_pixel;
+  for (const calib::Zone& zone : measured.zones) {
+    const bool holds_all = zone.name == "left" || zone.name == "middle third";
+    EXPECT_NEAR(zone.porosity * zone.bone_area, holds_all ? pores : 0.0, 0.06 * pores) << zone.name;
+  }
+}
+
+TEST(SectionQuantities, LeavesOutTheRimOfTheBone) {
+  const auto drawn = test::draw({.porosity = 0.0, .blur = 0.7});
+  const auto whole = quantities(drawn, "whole.png");
+  const auto inner =
+      quantities(drawn, "inner.png", {.pixel_size = side_of_pixel, .rim = 10.0 * side_of_pixel});
+  const double length = 560.0, height = 408.0;  // of the drawn bar. [px]
+  EXPECT_NEAR(whole.bone_area / (length * height * side_of_pixel * side_of_pixel), 1.0, 0.005);
+  EXPECT_NEAR(inner.bone_area / ((length - 20.0) * (height - 20.0) * side_of_pixel * side_of_pixel),
+              1.0, 0.005);
+  EXPECT_THROW(quantities(drawn, "unscaled_rim.png", {.rim = 1e-5}), InputError);
+}
+
+TEST(SectionQuantities, ReadsDensityFromMaterialsOfKnownOne) {
+  const auto drawn = test::draw({.blur = 0.7});  // bone 204, background 51
+  const DensityReference air{.grey = 51.0, .density = 0.0};
+  const DensityReference phantom{.x = 5, .y = 5, .width = 40, .height = 40, .density = 0.0};
+  const DensityReference bone{.grey = 204.0, .density = 1900.0};
+  for (const DensityReference& zero : {air, phantom}) {
+    const auto measured =
+        quantities(drawn, "density.png", {.pixel_size = side_of_pixel, .density = {zero, bone}});
+    EXPECT_NEAR(measured.density, 1900.0, 10.0);
+    EXPECT_NEAR(measured.density_residual, 0.0, 1e-6);
+  }
+  // A third one 30 above the line lifts it by 10: two residuals of 10, one of 20.
+  const DensityReference between{.grey = 127.5, .density = 980.0};
+  const auto measured = quantities(drawn, "residual.png", {.density = {air, bone, between}});
+  EXPECT_NEAR(measured.density_residual, std::sqrt(200.0), 1e-6);
+}
+
+}  // namespace
+}  // namespace havers::io
