@@ -211,6 +211,8 @@ Command porosity_command(CLI::App& app, CommonOptions& common) {
   parser->add_flag("--any-pixel-size", options.any_pixel_size, "sizes outside 0.1 to 200 um too");
   parser->add_option("--mask", arguments->mask, "image that is white where the bone is")
       ->type_name("FILE");
+  parser->add_flag("--fills-image", options.fills_image,
+                   "bone is everywhere: no outline is looked for");
   add_words(*parser, "--pores", options.pores, "whether pores are dark or bright");
   add_words(*parser, "--threshold", options.threshold, "where pores end");
   parser->add_option("--rim-um", arguments->rim_um, "depth of bone left out below its surfaces")

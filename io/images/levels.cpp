@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "io/images/depth.hpp"
 
@@ -25,12 +26,26 @@ double noise_at(const cv::Mat& grey, const cv::Mat& mask) {
   return found.empty() ? 0.0 : quantile(found, 0.5) / 0.6745 / 6.0;
 }
 
+// What a program has segmented before is told by its two values, however much of it is pore.
+std::optional<double> bone_of_two_values(const std::vector<Sample>& samples, bool dark_pores) {
+  if (samples.empty()) return std::nullopt;
+  const auto [low, high] = std::ranges::minmax(samples, {}, &Sample::value);
+  const bool only_these = std::ranges::all_of(
+      samples, [&](const Sample& s) { return s.value == low.value || s.value == high.value; });
+  if (!only_these) return std::nullopt;
+  return dark_pores ? high.value : low.value;
+}
+
 }  // namespace
 
 Levels bone_levels(const cv::Mat& grey, const Regions& regions) {
   Levels levels;
   levels.sign = regions.dark_pores ? 1.0 : -1.0;
-  levels.bone = fit_majority(sample(grey, regions.bone, 20000), grey.size());
+  const std::vector<Sample> samples = sample(grey, regions.bone, 20000);
+  if (const auto bone = bone_of_two_values(samples, regions.dark_pores))
+    levels.bone = {.size = grey.size(), .coefficients = {*bone}};
+  else
+    levels.bone = fit_majority(samples, grey.size());
   levels.noise = noise_at(grey, regions.bone);
   return levels;
 }

@@ -102,12 +102,17 @@ std::string method_of(io::Threshold threshold) {
   return "half-maximum after flat field, corrected for blur";
 }
 
+Regions regions_of(const cv::Mat& whole, const io::SectionOptions& options) {
+  if (options.mask) return divide(whole, read_mask(*options.mask, whole.size()), options.pores);
+  if (options.fills_image)
+    return divide(whole, cv::Mat(whole.size(), CV_8U, cv::Scalar(255)), options.pores);
+  return divide(whole, options.pores);
+}
+
 io::SectionMeasurement measure_page(const cv::Mat& image, const std::string& name,
                                     const io::SectionOptions& options) {
   const cv::Mat whole = to_grey(image, name);
-  Regions regions = options.mask
-                        ? divide(whole, read_mask(*options.mask, whole.size()), options.pores)
-                        : divide(whole, options.pores);
+  Regions regions = regions_of(whole, options);
   const cv::Mat grey = whole(regions.box);
   const Levels levels = bone_levels(grey, regions);
   cv::Mat depth;  // one for all steps: it is the largest

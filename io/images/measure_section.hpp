@@ -34,7 +34,8 @@ struct SectionOptions {
   double window_length = 100e-6;  ///< L of the fibre whose window spreads porosity. [m]
   double window_height = 10e-6;   ///< l. [m]
   std::optional<std::filesystem::path> mask =
-      std::nullopt;  ///< White where the bone is; default: found.
+      std::nullopt;          ///< White where the bone is; default: found.
+  bool fills_image = false;  ///< Whether bone is everywhere, so that no outline is looked for.
   Pores pores = Pores::found;
   Threshold threshold = Threshold::half_maximum;
   double rim = 0.0;                 ///< Depth of bone left out below its surfaces. [m]

@@ -141,6 +141,18 @@ TEST(Section, ObeysAMask) {
   EXPECT_NEAR(measured.bone_area, part.area() * pixel * pixel, 1e-18);
 }
 
+// As another program has segmented it: one grain of pore in the middle of a rock, or half of it.
+TEST(Section, TakesAnImageOfTwoValuesAtItsWord) {
+  const SectionOptions everywhere{
+      .pixel_size = pixel, .fills_image = true, .pores = Pores::dark, .crack_slenderness = 0.0};
+  for (const int radius : {15, 60, 110, 150}) {
+    test::DrawnSection drawn{.image = cv::Mat(400, 300, CV_8U, cv::Scalar(1))};
+    cv::circle(drawn.image, {120, 230}, radius, 0, cv::FILLED);
+    const auto measured = measure(drawn, "segmented.png", everywhere);
+    EXPECT_NEAR(measured.porosity, 1.0 - cv::sum(drawn.image)[0] / 120000.0, 1e-12) << radius;
+  }
+}
+
 TEST(Section, TakesAGivenPolarity) {
   // Half dark, half bright: only the user knows which is bone.
   const auto drawn = test::draw({.outline = Outline::ring, .blur = 0.7});
