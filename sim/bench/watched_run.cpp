@@ -8,6 +8,7 @@
 
 #include "sim/joint/cohesive_cone.hpp"
 #include "sim/joint/thresholds.hpp"
+#include "sim/quasi_static/intact_structure.hpp"
 
 namespace havers::sim {
 namespace {
@@ -99,18 +100,11 @@ WatchedRun watch(const Scene& scene, const WatchOptions& options, const KeepGoin
 }
 
 Eigen::VectorXd uniform_stress_forces(const Scene& scene, double strain) {
-  const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
   const double nu = scene.material.poisson;
   const double modulus =
       scene.material.young / (scene.material.plane == Plane::strain ? 1.0 - nu * nu : 1.0);
-  VectorXd forces(2 * static_cast<Index>(assembly.joints.size()));
-  for (std::size_t j = 0; j < assembly.joints.size(); ++j) {
-    const Joint& joint = assembly.joints[j];
-    const double pull = modulus * strain * joint.length * joint.normal.x();
-    forces.segment<2>(static_cast<Index>(2 * j)) << -pull * joint.normal.x(),
-        -pull * joint.tangent().x();
-  }
-  return forces;
+  return uniform_stress_forces(build_assembly(scene.assembly, scene.loading.lateral),
+                               modulus * strain);
 }
 
 double first_break_by_uniform_stress(const Scene& scene) {

@@ -12,10 +12,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-// A piece that hangs on nothing leaves the equations singular: a trace of their diagonal holds it,
-// and a few corrections take the trace's effect on everything else away. A long strip beside a
-// crack bends as softly as 1e-8 of the diagonal, so the trace has to be less than that.
-constexpr double trace = 1e-10;
+// A piece that hangs on nothing leaves the equations singular: a trace of the largest stiffness
+// holds it, and a few corrections take the trace's effect on everything else away. A long strip
+// beside a crack bends as softly as 1e-8 of that, so the trace has to be less.
+constexpr double trace = 1e-11;
 constexpr int corrections = 5;
 constexpr double accuracy = 1e-13;
 // An updated inverse that leaves more of the reactions than this is made anew, and after so many
@@ -45,6 +45,10 @@ void StateSystem::grow() {
   place_.resize(2 * problem_->laws.size(), -1);
 }
 
+double StateSystem::scale() const {
+  return problem_->S.diagonal().maxCoeff();
+}
+
 RowVectorXd StateSystem::coefficients(const Equation& equation) const {
   const auto n = static_cast<Index>(equations_.size());
   RowVectorXd row(n);
@@ -52,7 +56,7 @@ RowVectorXd StateSystem::coefficients(const Equation& equation) const {
     const Index column = equations_[static_cast<std::size_t>(k)].row;
     row(k) = problem_->S(equation.row, column);
     if (equation.slope != 0.0) row(k) += equation.slope * problem_->S(equation.row - 1, column);
-    if (column == equation.row) row(k) *= 1.0 + trace;
+    if (column == equation.row) row(k) += trace * scale();
   }
   return row;
 }
@@ -84,7 +88,7 @@ void StateSystem::add(Index row, double slope) {
   const VectorXd right = inverse_.topLeftCorner(n, n) * column;
   double diagonal = problem_->S(row, row);
   if (slope != 0.0) diagonal += slope * problem_->S(row - 1, row);
-  const double pivot = diagonal * (1.0 + trace) - last.dot(right);
+  const double pivot = diagonal + trace * scale() - last.dot(right);
   inverse_.topLeftCorner(n, n) += right / pivot * left;
   inverse_.block(0, n, n, 1) = -right / pivot;
   inverse_.block(n, 0, 1, n) = -left / pivot;

@@ -43,6 +43,7 @@ class StateSystem {
 
   [[nodiscard]] StateSolution try_to_solve(const Eigen::MatrixXd& r0, const Eigen::MatrixXd& held,
                                            const Eigen::MatrixXd& cohesion) const;
+  [[nodiscard]] double scale() const;
   void factorise();
   void add(Eigen::Index row, double slope);
   void remove(Eigen::Index row);

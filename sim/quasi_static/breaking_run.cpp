@@ -181,7 +181,7 @@ void BreakingRun::finish(double strain, double energy_scale, Simulation& simulat
     for (Index i = 0; i < n; ++i)
       gaps.segment<2>(2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)])) =
           y.segment<2>(2 * i);
-    last = stretch(intact_->structure(), gaps, scale);
+    last = intact_->stretch(gaps);
     if (!again || n == 0) break;
     for (Index i = 0; i < n; ++i)
       lacking.segment<2>(2 * i) += last.reactions.segment<2>(
@@ -204,9 +204,9 @@ void BreakingRun::finish(double strain, double energy_scale, Simulation& simulat
   const double work = 0.5 * (last.force * intact_->assembly().width + last.reactions.dot(gaps));
   if (energy_scale > 0.0)
     simulation.energy_defect = young * strain * strain * std::abs(elastic - work) / energy_scale;
-  simulation.worst_residual =
-      std::max({last.residual, law_residual_of(last.reactions, gaps) / scale,
-                std::abs(last.force - force_) / intact_->answer().force});
+  simulation.worst_residual = std::max({intact_->answer().residual, last.residual,
+                                        law_residual_of(last.reactions, gaps) / scale,
+                                        std::abs(last.force - force_) / intact_->answer().force});
   simulation.iterations = iterations;
 }
 

@@ -9,8 +9,13 @@
 namespace havers::sim {
 
 double end_fraction_used(const Scene& scene) {
-  return scene.solver.leave_out ? std::max(scene.loading.end_fraction, avalanche_known_at)
-                                : scene.loading.end_fraction;
+  const JointOptions& joints = scene.joints;
+  const bool brittle = joints.thresholds.empty() && joints.distribution == Distribution::uniform &&
+                       joints.scatter <= 1.0 && joints.missing == 0.0 &&
+                       scene.assembly.layers * scene.assembly.fibres >= 40;
+  if (!scene.solver.leave_out || !brittle) return scene.loading.end_fraction;
+  const double drop = std::max({0.1, 0.3 * joints.scatter, 2.5 / scene.assembly.layers});
+  return std::max(scene.loading.end_fraction, 1.0 - drop);
 }
 
 Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {

@@ -10,8 +10,7 @@
 
 namespace havers::sim {
 
-/// Answer of a structure of Young's modulus 1 to the strain 1, all loose joints held. Everything
-/// scales with E and ε.
+/// Answer of a structure of Young's modulus 1 to the strain 1. Everything scales with E and ε.
 struct UnitAnswer {
   Eigen::VectorXd displacements;  ///< [m]
   Eigen::VectorXd reactions;      ///< Of all joints. [N/m]
@@ -19,8 +18,8 @@ struct UnitAnswer {
   double residual = 0.0;          ///< Of the solve. [-]
 };
 
-/// Stretches a structure by the strain 1, with given gaps at the joints that are not detached.
-UnitAnswer stretch(const Structure& structure, const Eigen::VectorXd& gaps, double force_scale);
+/// Forces of all joints under a uniform stress [Pa] along the load (M1). [N/m]
+Eigen::VectorXd uniform_stress_forces(const Assembly& assembly, double stress);
 
 /// An assembly of Young's modulus 1, factorised, and its answers: to the strain 1, and to jumps as
 /// they are asked for.
@@ -32,7 +31,11 @@ class IntactStructure {
   [[nodiscard]] const Assembly& assembly() const { return assembly_; }
   [[nodiscard]] const Bodies& bodies() const { return bodies_; }
   [[nodiscard]] const Structure& structure() const { return structure_; }
+  /// No gaps: the uniform stress (M1). Its residual is that of a solve, or how far a solve misses
+  /// it where self-stress is not determined (M10).
   [[nodiscard]] const UnitAnswer& answer() const { return answer_; }
+  /// With given gaps at the joints. [m]
+  [[nodiscard]] UnitAnswer stretch(const Eigen::VectorXd& gaps) const;
   /// ½ qᵀĀq, of the bodies and of what holds loose ones. [J/m]
   [[nodiscard]] double energy(const Eigen::VectorXd& q) const;
   /// Bodies with a node at one of the ends.
@@ -48,6 +51,7 @@ class IntactStructure {
   Bodies bodies_;
   Structure structure_;
   UnitAnswer answer_;
+  Eigen::VectorXd lost_;  // forces of the uniform stress that a solve does not find [N/m]
   std::vector<int> held_bodies_;
   mutable std::mutex mutex_;
   mutable std::map<int, Eigen::MatrixX2d> reactions_to_jump_;
