@@ -1,6 +1,7 @@
 #include "calib/fit/fit_problem.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -33,12 +34,21 @@ sim::Scene scene_at(const FitProblem& problem, const Point& point, std::size_t s
   return scene;
 }
 
-std::vector<sim::Scene> replicates_of(const FitProblem& problem, std::size_t specimen,
+// (F2) The study's seed, which all points have in common, or one of this point's own.
+std::uint64_t seed_at(const FitProblem& problem, const Point& point) {
+  const auto& options = problem.study.calibrate;
+  std::uint64_t seed = options.seed;
+  if (options.common_seeds) return seed;
+  for (const double z : point)
+    seed = replicate_seed(seed ^ std::bit_cast<std::uint64_t>(z), "point", 0);
+  return seed;
+}
+
+std::vector<sim::Scene> replicates_of(const Specimen& specimen, std::uint64_t seed,
                                       const sim::Scene& scene, int replicates) {
   std::vector<sim::Scene> scenes(static_cast<std::size_t>(replicates), scene);
   for (int i = 0; i < replicates; ++i)
-    scenes[static_cast<std::size_t>(i)].joints.seed =
-        replicate_seed(problem.study.calibrate.seed, problem.study.specimens[specimen].id, i);
+    scenes[static_cast<std::size_t>(i)].joints.seed = replicate_seed(seed, specimen.id, i);
   return scenes;
 }
 
@@ -51,7 +61,8 @@ Landmarks scatter_slope(const FitProblem& problem, SimulationBatch& batch, const
   const double step = scene.joints.scatter < 1.0 ? scatter_step : -scatter_step;
   scene.joints.scatter += step;
   const auto replicates = static_cast<int>(here.replicates.size());
-  const auto moved = summarise(batch.run(replicates_of(problem, specimen, scene, replicates)));
+  const auto moved = summarise(batch.run(replicates_of(
+      problem.study.specimens[specimen], seed_at(problem, at.point), scene, replicates)));
   if (moved.failed_point()) return Landmarks::Zero();
   return (moved.mean - here.mean) / step;
 }
@@ -77,7 +88,8 @@ Landmarks landmarks_present(const FitProblem& problem) {
 
 std::vector<sim::Scene> replicate_scenes(const FitProblem& problem, const Point& point,
                                          std::size_t specimen, int replicates) {
-  return replicates_of(problem, specimen, scene_at(problem, point, specimen), replicates);
+  return replicates_of(problem.study.specimens[specimen], seed_at(problem, point),
+                       scene_at(problem, point, specimen), replicates);
 }
 
 std::vector<Evaluation> predict(const FitProblem& problem, SimulationBatch& batch,

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "calib/fit/answer.hpp"
+#include "calib/fit/confirmation.hpp"
 #include "calib/fit/next_test.hpp"
 #include "calib/fit/randomness.hpp"
 #include "calib/fit/resampling.hpp"

@@ -48,10 +48,12 @@ std::string no_effect(const FitProblem& problem, const Unknown& unknown,
                       const Eigen::VectorXd& slope) {
   const bool logarithmic = unknown.info->scale == Scale::logarithmic;
   if (slope.cwiseAbs().maxCoeff() < 1e-3)
-    return fmt::format("nothing that the {} fitted specimens show changes with it",
-                       problem.fitted.size());
+    return fmt::format(
+        "structurally unidentifiable: nothing that the {} fitted specimens show changes with it",
+        problem.fitted.size());
   return fmt::format(
-      "{} moves no modulus, strength or failure strain of the {} fitted specimens by "
+      "practically unidentifiable: {} moves no modulus, strength or failure strain of the {} "
+      "fitted specimens by "
       "more than {:.2g} of its standard deviation",
       logarithmic ? "doubling it" : "changing it by 0.1", problem.fitted.size(),
       slope.cwiseAbs().maxCoeff() * (logarithmic ? std::log(2.0) : 0.1));
@@ -97,7 +99,10 @@ std::string reason(const FitProblem& problem, const Point& at, const Active& act
   }
   if (partner < 0) return no_effect(problem, unknown, slope);
   const auto& other = slopes.jacobian.col(partner);
-  return combination(unknown, unknown_of(partner), slope.dot(other) / other.squaredNorm(),
+  // Columns that are parallel to rounding cannot be told apart by any accuracy of these tests.
+  const bool parallel = likeness > (1.0 - 1e-9) * slope.norm();
+  return (parallel ? "structurally unidentifiable: " : "practically unidentifiable: ") +
+         combination(unknown, unknown_of(partner), slope.dot(other) / other.squaredNorm(),
                      at[active[static_cast<std::size_t>(k)]]);
 }
 

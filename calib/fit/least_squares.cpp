@@ -143,8 +143,8 @@ bool descend(const LeastSquares& problem, const LeastSquaresOptions& options, do
   settings.parameter_tolerance = options.step_tolerance;
   settings.gradient_tolerance = 1e-15;
   settings.initial_trust_region_radius = trust_radius;
-  // Beside bounds Ceres searches along each step, with derivatives at every try.
-  settings.max_num_line_search_step_size_iterations = 3;
+  // Each try of such a search costs derivatives.
+  settings.max_num_line_search_step_size_iterations = options.search_steps ? 3 : 0;
   ceres::Solver::Summary summary;
   ceres::Solve(settings, &description, &summary);
   residuals.report(result);

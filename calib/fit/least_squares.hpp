@@ -23,6 +23,7 @@ struct LeastSquaresOptions {
   int max_iterations = 30;       ///< Steps of Levenberg-Marquardt.
   double cost_tolerance = 1e-4;  ///< Part of the cost that a step must win to go on.
   bool second_try = false;       ///< Short steps from the start if bold ones end on a plateau.
+  bool search_steps = false;     ///< Beside bounds along each step: where residuals are exact.
   double step_tolerance = 1e-4;  ///< Part of the unknowns' norm that a step must move to go on.
 };
 

@@ -125,6 +125,28 @@ Check check_orientations(const FitProblem& problem, const Answer& answer) {
                       stiffness, breaking)};
 }
 
+namespace {
+
+// (F9) without a specimen effect: what the residuals would be if specimens were alike.
+std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer) {
+  double sum = 0.0, terms = 0.0;
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+    const std::size_t s = problem.fitted[f];
+    const Landmarks alike =
+        (answer.weights.sd[s].square() - answer.weights.specimen.square()).sqrt();
+    const Landmarks residual = difference(answer.best.predictions[f], problem.targets[s]) / alike;
+    sum += problem.targets[s].present.select(residual.square(), 0.0).sum();
+    terms += static_cast<double>(problem.targets[s].present.count());
+  }
+  const double freedom = terms - static_cast<double>(answer.active.size());
+  if (freedom < 1.0) return "";
+  return fmt::format(
+      " Were they alike, chi² would be {:.3g} on {:g} degrees of freedom (p = {:.2g}).", sum,
+      freedom, gsl_cdf_chisq_Q(sum, freedom));
+}
+
+}  // namespace
+
 Check check_specimen_spread(const FitProblem& problem, const Answer& answer) {
   constexpr const char* name = "spread between specimens";
   if (problem.fitted.size() < 3)
@@ -138,9 +160,11 @@ Check check_specimen_spread(const FitProblem& problem, const Answer& answer) {
       "beyond noise, scatter and "
       "the model's own randomness",
       percent[modulus], percent[strength]);
+  const auto chi_squared = chi_squared_sentence(problem, answer);
   if (std::max(percent[modulus], percent[strength]) > 30.0)
-    return {name, Outcome::warn, text + ": are they of one kind? The intervals hold it."};
-  return {name, Outcome::pass, text + "; the intervals hold it."};
+    return {name, Outcome::warn,
+            text + ": are they of one kind? The intervals hold it." + chi_squared};
+  return {name, Outcome::pass, text + "; the intervals hold it." + chi_squared};
 }
 
 Check check_validation(const CalibrationResult& result) {

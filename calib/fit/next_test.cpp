@@ -14,21 +14,25 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr double degree = std::numbers::pi / 180.0;
+constexpr double faster_by = 10.0;  // of a test at another rate
 
 MatrixXd rows_of(const Answer& answer, std::size_t fitted) {
   return answer.slopes.jacobian.middleRows<landmark_count>(landmark_count *
                                                            static_cast<Index>(fitted));
 }
 
-// Slopes of a specimen that does not exist: one of the study's, turned.
+// The first fitted specimen again, which others that do not exist are made from.
+Specimen like_the_first(const FitProblem& problem) {
+  return problem.study.specimens[problem.fitted.front()];
+}
+
+// Slopes of a specimen that does not exist.
 MatrixXd simulated_rows(SimulationBatch& batch, const FitProblem& problem, const Answer& answer,
-                        double orientation) {
+                        Specimen specimen) {
   const std::size_t like = problem.fitted.front();
-  Study turned = problem.study;
-  turned.specimens = {problem.study.specimens[like]};
-  turned.specimens.front().orientation = orientation;
-  turned.specimens.front().id = fmt::format("next at {:.4g}", orientation / degree);
-  const FitProblem one = make_problem(turned);
+  Study other = problem.study;
+  other.specimens = {std::move(specimen)};
+  const FitProblem one = make_problem(other);
 
   std::vector<Point> points;
   for (const Index k : answer.active)
@@ -61,7 +65,18 @@ MatrixXd further_rows(SimulationBatch& batch, const FitProblem& problem, const A
     if (std::abs(problem.study.specimens[problem.fitted[f]].orientation - orientation) < degree)
       return rows_of(answer, f);
   if (!all_shared(problem)) return {};
-  return simulated_rows(batch, problem, answer, orientation);
+  Specimen turned = like_the_first(problem);
+  turned.orientation = orientation;
+  turned.id = fmt::format("next at {:.4g}", orientation / degree);
+  return simulated_rows(batch, problem, answer, std::move(turned));
+}
+
+// The first specimen once more, pulled faster. In the quasi-static limit it is the same test.
+MatrixXd faster_rows(SimulationBatch& batch, const FitProblem& problem, const Answer& answer) {
+  Specimen faster = like_the_first(problem);
+  if (!all_shared(problem) || !(faster.test.strain_rate > 0.0)) return {};
+  faster.test.strain_rate *= faster_by;
+  return simulated_rows(batch, problem, answer, std::move(faster));
 }
 
 std::vector<double> errors(const MatrixXd& normal) {
@@ -108,6 +123,12 @@ std::vector<NextTest> next_tests(SimulationBatch& batch, const FitProblem& probl
     tests.push_back(compared(fmt::format("one more specimen at {:g} deg", degrees), now,
                              now + rows.transpose() * rows));
   }
+  if (const MatrixXd rows = faster_rows(batch, problem, answer); rows.size() > 0)
+    tests.push_back(
+        compared(fmt::format("one more specimen at {:.4g} deg, {:g} times as fast",
+                             problem.study.specimens[problem.fitted.front()].orientation / degree,
+                             faster_by),
+                 now, now + rows.transpose() * rows));
   const bool have_sections = std::ranges::any_of(
       problem.fitted, [&](std::size_t s) { return (answer.weights.scatter[s] > 0.0).any(); });
   if (have_sections)

@@ -3,9 +3,6 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-
-#include "sim/simulate.hpp"
 
 namespace havers::calib {
 namespace {
@@ -75,38 +72,6 @@ int replicates_needed(const FitProblem& problem, const Weights& weights) {
     }
   return std::clamp(static_cast<int>(std::ceil(worst / small_part)), fewest_replicates,
                     most_replicates);
-}
-
-std::vector<Confirmation> confirm_in_time(SimulationBatch& batch, const FitProblem& problem,
-                                          const Answer& answer) {
-  std::vector<sim::Scene> still, moving;
-  std::vector<std::string> ids;
-  const int runs = problem.study.calibrate.confirm;
-  for (int run = 0; run < runs; ++run) {
-    const std::size_t s = problem.fitted[static_cast<std::size_t>(run) % problem.fitted.size()];
-    const int replicate = run / static_cast<int>(problem.fitted.size());
-    sim::Scene scene = replicate_scenes(problem, answer.best.point, s, replicate + 1).back();
-    scene.solver.regime = sim::Regime::automatic;
-    const auto choice = sim::choose_regime(scene);
-    if (choice.regime != sim::Regime::quasi_static) continue;  // it was simulated in time
-    ids.push_back(problem.study.specimens[s].id);
-    still.push_back(scene);
-    scene.loading.strain_rate *= sim::quasi_static_below / choice.inertia_number;
-    scene.solver.regime = sim::Regime::dynamic;
-    moving.push_back(scene);
-  }
-  const auto limit = batch.run(still), in_time = batch.run(moving);
-  std::vector<Confirmation> confirmations;
-  for (std::size_t i = 0; i < ids.size(); ++i)
-    confirmations.push_back({.specimen = ids[i],
-                             .seed = still[i].joints.seed,
-                             .strain_rate = moving[i].loading.strain_rate,
-                             .failed = limit[i].failed || in_time[i].failed,
-                             .strength_limit = limit[i].strength,
-                             .strength_in_time = in_time[i].strength,
-                             .failure_strain_limit = limit[i].failure_strain,
-                             .failure_strain_in_time = in_time[i].failure_strain});
-  return confirmations;
 }
 
 }  // namespace havers::calib

@@ -12,9 +12,4 @@ Randomness randomness_of(SimulationBatch& batch, const FitProblem& problem, cons
 /// Replicates with which the chance of their mean is a small part of every residual's variance.
 int replicates_needed(const FitProblem& problem, const Weights& weights);
 
-/// As many replicates of the fitted specimens simulated step by step in time, at the fastest rate
-/// that still counts as quasi-static, against the same seeds in the quasi-static limit.
-std::vector<Confirmation> confirm_in_time(SimulationBatch& batch, const FitProblem& problem,
-                                          const Answer& answer);
-
 }  // namespace havers::calib

@@ -50,6 +50,8 @@ struct CalibrateOptions {
   /// Terms of the objective (F4) that count; also "pre-peak curve", "energy", "post-peak drop".
   std::vector<std::string> terms{"modulus", "strength", "failure strain"};
   int replicates = 8;  ///< Seeds per specimen, or replicates_by_need.
+  /// The same seeds at every point of a search (F2); false: each point has its own, to compare with.
+  bool common_seeds = true;
   GlobalSearch global = GlobalSearch::starts;
   LocalSearch local = LocalSearch::automatic;
   bool smooth = true;      ///< Least squares by Ceres after the derivative-free search.

@@ -72,11 +72,16 @@ Design three_orientations() {
 }
 
 KnownStudy known_study(const Design& design, int number) {
-  KnownStudy known{.study = empty_study(design, number)};
-  for (std::size_t k = 0; k < known.truth.size(); ++k) {
+  std::array<double, known_parameters.size()> truth{};
+  for (std::size_t k = 0; k < truth.size(); ++k) {
     const auto [low, high] = range_of_truth.at(k);
-    known.truth.at(k) = low * std::pow(high / low, fraction(number, k));
+    truth.at(k) = low * std::pow(high / low, fraction(number, k));
   }
+  return known_study(design, number, truth);
+}
+
+KnownStudy known_study(const Design& design, int number, const std::array<double, 3>& truth) {
+  KnownStudy known{.study = empty_study(design, number), .truth = truth};
   Laboratory laboratory;
   laboratory.toe_strain = 0.0;
   for (std::size_t s = 0; s < design.degrees.size(); ++s) {

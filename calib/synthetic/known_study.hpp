@@ -32,6 +32,9 @@ struct KnownStudy {
 /// A study on walls of 8 x 6 fibres. Truth, tests and noise are drawn by `number` alone.
 KnownStudy known_study(const Design& design, int number);
 
+/// The same with a truth that is given.
+KnownStudy known_study(const Design& design, int number, const std::array<double, 3>& truth);
+
 /// Part of n studies that did what they should, with Wilson's 95 % interval. [-]
 struct Rate {
   double part = 0.0;

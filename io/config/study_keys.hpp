@@ -25,6 +25,7 @@ void keys(Table& table, SectionOptions& options) {
   table.key("rim_um", options.rim, micrometre);
   table.key("crack_slenderness", options.crack_slenderness);
   table.key("any_pixel_size", options.any_pixel_size);
+  table.key("fills_image", options.fills_image);
 }
 
 /// [calibrate.options]; the number of threads is no option of a study, since it never changes a
@@ -37,6 +38,7 @@ void keys(Table& table, calib::CalibrateOptions& options) {
   table.key("local", options.local);
   table.key("smooth", options.smooth);
   table.key("profiles", options.profiles);
+  table.key("common_seeds", options.common_seeds);
   table.key("confirm", options.confirm);
   table.key("budget", options.budget);
   table.key("seed", options.seed);

@@ -260,6 +260,7 @@ void keys(Table& table, calib::Confirmation& confirmation) {
   table.key("failed", confirmation.failed);
   table.key("strength_quasi_static_Pa", confirmation.strength_limit);
   table.key("strength_in_time_Pa", confirmation.strength_in_time);
+  table.key("peak_in_time_Pa", confirmation.peak_in_time);
   table.key("failure_strain_quasi_static", confirmation.failure_strain_limit);
   table.key("failure_strain_in_time", confirmation.failure_strain_in_time);
 }

@@ -1,6 +1,7 @@
 // What is said of the answer after it is found: other intervals, other specimens, other seeds.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "calib/fit/calibrate.hpp"
@@ -80,6 +81,17 @@ TEST(Hindsight, KnowsWhichFurtherTestTellsMost) {
   EXPECT_LT(result.next_tests[1].width[ratio], 0.9);
 }
 
+// In the quasi-static limit a faster test is the same test.
+TEST(Hindsight, KnowsWhatATestAtAnotherRateWouldTell) {
+  auto study = test::synthetic_study(three_orientations);
+  for (auto& specimen : study.specimens) specimen.test.strain_rate = 1e-3;
+  const auto result = fit(study);
+  ASSERT_EQ(result.next_tests.size(), 4U);
+  EXPECT_EQ(result.next_tests[3].what, "one more specimen at 0 deg, 10 times as fast");
+  for (std::size_t k = 0; k < result.fitted.size(); ++k)
+    EXPECT_NEAR(result.next_tests[3].width[k], result.next_tests[0].width[k], 1e-6);
+}
+
 TEST(Hindsight, SaysInWordsWhatIsDetermined) {
   const auto result = fit(test::synthetic_study(three_orientations));
   ASSERT_EQ(result.directions.size(), 4U);
@@ -97,6 +109,16 @@ TEST(Hindsight, LooksAtTheAnswerWithFreshSeeds) {
   EXPECT_LT(result.randomness.fresh_shift, 1.5);
   EXPECT_GT(result.randomness.simulator_share, 0.0);
   EXPECT_LT(result.randomness.simulator_share, 0.5);
+}
+
+// Seeds of each point's own: differences keep all of the noise, and the slopes are worse.
+TEST(Hindsight, DoesWithoutCommonRandomNumbersAndSaysWhatThatCosts) {
+  auto study = test::synthetic_study(three_orientations);
+  study.calibrate.common_seeds = false;
+  const auto result = fit(study);
+  EXPECT_GT(result.randomness.common_gain, 0.5);
+  EXPECT_LT(result.randomness.common_gain, 2.0);
+  EXPECT_NEAR(test::parameter_of(result, "head_tail_MPa").value, 60.0, 1.0);
 }
 
 TEST(Hindsight, TakesAsManyReplicatesAsItNeeds) {
@@ -192,6 +214,9 @@ TEST(Hindsight, FitsTheLawOfModulusAndPorosity) {
   EXPECT_GE(exponent.interval_95[1], 2.2);
   EXPECT_NEAR(exponent.value, 2.2, 0.2);
   EXPECT_NEAR(test::parameter_of(result, "young_GPa").value, 14.0, 0.2);
+  EXPECT_EQ(std::ranges::count(result.left_out, "E = E₀ (1−p)^m outside p of 2 to 14 %",
+                               &sim::LeftOut::what),
+            1);
 }
 
 }  // namespace

@@ -185,6 +185,7 @@ constexpr LeastSquaresOptions exact{.step = 5e-4,
                                     .max_iterations = 10000,
                                     .cost_tolerance = 1e-16,
                                     .second_try = true,
+                                    .search_steps = true,
                                     .step_tolerance = 1e-16};
 
 TEST(LeastSquares, FindsNistsCertifiedValues) {

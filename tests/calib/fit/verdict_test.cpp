@@ -48,6 +48,16 @@ TEST(Verdict, PassesAModelThatIsTrue) {
     EXPECT_EQ(check.outcome, Outcome::pass) << check.check << ": " << check.text;
 }
 
+TEST(Verdict, GivesChiSquaredOfSpecimensThatWereAlike) {
+  const auto alike =
+      check_of(fit(test::synthetic_study(three_orientations)), "spread between specimens");
+  EXPECT_TRUE(says(alike, "15 degrees of freedom")) << alike.text;
+  const auto unlike =
+      check_of(fit(test::synthetic_study(three_orientations, {.specimen_effect = 0.1})),
+               "spread between specimens");
+  EXPECT_TRUE(says(unlike, "(p = 0)")) << unlike.text;
+}
+
 TEST(Verdict, RejectsTheModelWhereCurvesAreNotBrittle) {
   auto study = test::synthetic_study({0.0, 0.0, 0.0, 0.0, 0.0});
   for (std::size_t s = 0; s < study.specimens.size(); ++s)

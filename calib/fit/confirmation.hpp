@@ -1,0 +1,18 @@
+// The answer in the quasi-static limit against simulations step by step in time.
+#pragma once
+
+#include "calib/fit/answer.hpp"
+
+namespace havers::calib {
+
+/// As many replicates as the study asks for, spread over the fitted specimens, step by step in time
+/// at the fastest rate that still counts as quasi-static, against the same seeds in the limit
+/// (F21).
+std::vector<Confirmation> confirm_in_time(SimulationBatch& batch, const FitProblem& problem,
+                                          const Answer& answer);
+
+/// Largest mean of the stress over a stretch of strain that ends at a row. Strains rise.
+/// @param span  length of the stretch, > 0. [-]
+double largest_mean_stress(const Response& response, double span);
+
+}  // namespace havers::calib

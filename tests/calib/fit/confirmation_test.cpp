@@ -1,0 +1,44 @@
+// The answer confirmed step by step in time, with the real simulator.
+#include "calib/fit/confirmation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "calib/synthetic/known_study.hpp"
+
+namespace havers::calib {
+namespace {
+
+// A straight curve to σ = 1 with a wave of height 3 on its last tenth: the mean over two tenths.
+TEST(Confirmation, AveragesWavesOverAStretchOfStrain) {
+  const Response response{.strain = {0.0, 0.9, 0.9 + 1e-12, 1.0}, .stress = {1.0, 1.0, 3.0, 3.0}};
+  EXPECT_NEAR(largest_mean_stress(response, 0.2), 2.0, 1e-9);
+  EXPECT_NEAR(largest_mean_stress(response, 0.1), 3.0, 1e-9);
+  EXPECT_NEAR(largest_mean_stress(response, 1.0), 1.2, 1e-9);
+  EXPECT_EQ(largest_mean_stress(response, 1.5), 0.0) << "longer than the curve";
+}
+
+TEST(Confirmation, SaysHowMuchTheLimitDiffersFromTimeStepsAtEachOrientation) {
+  Study study = known_study(three_orientations(), 3).study;
+  study.calibrate.confirm = 3;
+  const CalibrationResult result = calibrate(study);
+  ASSERT_EQ(result.confirmations.size(), 3U);
+  std::set<std::string> specimens;
+  for (const Confirmation& one : result.confirmations) {
+    specimens.insert(one.specimen);
+    EXPECT_FALSE(one.failed);
+    EXPECT_GT(one.strain_rate, 1.0);
+    EXPECT_NEAR(one.strength_in_time / one.strength_limit, 1.0, 0.05);
+    EXPECT_NEAR(one.failure_strain_in_time / one.failure_strain_limit, 1.0, 0.05);
+    EXPECT_GE(one.peak_in_time, one.strength_in_time);
+  }
+  EXPECT_EQ(specimens, (std::set<std::string>{"S1", "S3", "S5"}));
+  const auto check = std::ranges::find(result.verdict, "confirmed in time", &Check::check);
+  EXPECT_NE(check->text.find("3 replicates step by step in time differ"), std::string::npos)
+      << check->text;
+}
+
+}  // namespace
+}  // namespace havers::calib

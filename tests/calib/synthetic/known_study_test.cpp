@@ -1,0 +1,128 @@
+// The calibration with the real simulator, on studies whose truth is known.
+#include "calib/synthetic/known_study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "calib/fit/calibration.hpp"
+#include "calib/study/parameter.hpp"
+#include "calib/synthetic/chain_benchmark.hpp"
+#include "calib/synthetic/coverage.hpp"
+#include "tests/support/studies.hpp"
+
+namespace havers::calib {
+namespace {
+
+const Design along{.name = "along", .degrees = {0.0, 0.0, 0.0, 0.0}};
+
+void expect_left_out(const CalibrationResult& result, const std::string& name) {
+  const auto parameter = test::parameter_of(result, name);
+  EXPECT_FALSE(parameter.identifiable) << parameter.value;
+  EXPECT_TRUE(std::isnan(parameter.standard_error));
+  EXPECT_TRUE(std::isnan(parameter.interval_95[0]) && std::isnan(parameter.interval_95[1]));
+  EXPECT_NE(parameter.left_out_because.find("unidentifiable"), std::string::npos)
+      << parameter.left_out_because;
+  EXPECT_EQ(std::ranges::count(result.fitted, name), 0);
+  const auto check = std::ranges::find(result.verdict, "identifiable", &Check::check);
+  EXPECT_EQ(check->outcome, Outcome::warn);
+  EXPECT_NE(check->text.find(name + " is left out"), std::string::npos) << check->text;
+}
+
+// Flanks that are weak beside the head-tail joints: along the fibres only the latter decide.
+TEST(KnownStudy, AlongTheFibresTheRatioCannotBeToldWhereItIsWellAboveOne) {
+  KnownStudy known = known_study(along, 1, {15.0, 80.0, 4.0});
+  known.study.calibrate.parameters = {"young_GPa", "head_tail_MPa", "ratio"};
+  known.study.model.joints.flank =
+      sim::flank_from_ratio(known.study.model.assembly, known.study.model.joints.head_tail, 4.0);
+  const auto result = calibrate(known.study);
+  expect_left_out(result, "ratio");
+  EXPECT_TRUE(test::parameter_of(result, "young_GPa").identifiable);
+  EXPECT_TRUE(test::parameter_of(result, "head_tail_MPa").identifiable);
+}
+
+TEST(KnownStudy, OneSpecimenDoesNotTellTheScatter) {
+  KnownStudy known = known_study({.name = "one", .degrees = {0.0}}, 1);
+  known.study.calibrate.parameters = {"young_GPa", "head_tail_MPa", "scatter"};
+  const auto result = calibrate(known.study);
+  expect_left_out(result, "scatter");
+  const auto spread = std::ranges::find(result.verdict, "spread between specimens", &Check::check);
+  EXPECT_EQ(spread->outcome, Outcome::warn);
+}
+
+// A few studies of what havers bench --coverage does a hundred times. Of 18 intervals fewer than 14
+// would hold by chance once in a thousand.
+TEST(Coverage, OfAFewStudiesHoldsTheTruth) {
+  const Coverage coverage = measure_coverage({three_orientations()}, 6, 1, [] { return true; });
+  ASSERT_EQ(coverage.rows.size(), 18U);
+  ASSERT_EQ(coverage.summaries.size(), 3U);
+  int informed = 0, inside = 0;
+  for (const CoverageRow& row : coverage.rows) {
+    EXPECT_EQ(row.informed, std::isfinite(row.lower) && std::isfinite(row.upper));
+    EXPECT_EQ(row.inside, row.lower <= row.truth && row.truth <= row.upper);
+    informed += row.informed ? 1 : 0;
+    inside += row.inside ? 1 : 0;
+  }
+  EXPECT_GE(informed, 16);
+  EXPECT_GE(inside, informed - 4);
+  for (const CoverageSummary& summary : coverage.summaries) EXPECT_TRUE(summary.holds());
+}
+
+TEST(Coverage, StopsWhenTold) {
+  int asked = 0;
+  const Coverage coverage =
+      measure_coverage({three_orientations()}, 6, 1, [&] { return ++asked < 2; });
+  EXPECT_EQ(coverage.rows.size(), 3U);
+}
+
+// Wilson's interval for 19 of 20: (0.7639, 0.9911).
+TEST(Rate, HasWilsonsInterval) {
+  const Rate rate = rate_of(19, 20);
+  EXPECT_NEAR(rate.part, 0.95, 1e-12);
+  EXPECT_NEAR(rate.interval_95[0], 0.7639, 5e-5);
+  EXPECT_NEAR(rate.interval_95[1], 0.9911, 5e-5);
+  EXPECT_TRUE(std::isnan(rate_of(0, 0).part));
+}
+
+ChainRow row_of(const Chain& chain, int study, double cost, long simulations) {
+  return {.chain = chain.name,
+          .study = study,
+          .error = 0.01,
+          .cost = cost,
+          .informed = 3,
+          .simulations = simulations,
+          .seconds = 1e-3 * static_cast<double>(simulations),
+          .success = true,
+          .trace = {{simulations / 4, 0.25e-3 * static_cast<double>(simulations), 0.2},
+                    {simulations, 1e-3 * static_cast<double>(simulations), 0.01}}};
+}
+
+// The cheapest chain stops in a worse minimum in half of the studies, and so does not win.
+TEST(ChainBenchmark, IsWonByTheFewestSimulationsAmongThoseThatSucceed) {
+  const auto chains = all_chains();
+  std::vector<ChainRow> rows;
+  for (int study = 0; study < 20; ++study)
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+      const double missed = c == 0 && study % 2 == 0 ? 1.0 : 0.0;
+      rows.push_back(row_of(chains[c], study, 2.0 + missed, 100 + 100 * static_cast<long>(c)));
+    }
+  const ChainBenchmark benchmark = summarise(std::move(rows));
+  EXPECT_EQ(benchmark.winner().chain, chains[1].name);
+  const ChainSummary& first = benchmark.summaries.front();
+  EXPECT_EQ(first.success.part, 0.5);
+  EXPECT_EQ(first.by_simulations.front().cost, 25.0);
+  EXPECT_EQ(first.by_simulations.front().error[1], 0.2);
+  EXPECT_EQ(first.by_simulations.back().error[1], 0.01);
+}
+
+TEST(ChainBenchmark, KeepsTheRowsOfAnUnfinishedOne) {
+  int asked = 0;
+  const auto benchmark = benchmark_chains(1, 1, [&] { return ++asked < 3; });
+  EXPECT_EQ(benchmark.rows.size(), 2U);
+  EXPECT_TRUE(benchmark.summaries.empty());
+  EXPECT_EQ(benchmark.rows.front().trace.back().simulations <= benchmark.rows.front().simulations,
+            true);
+}
+
+}  // namespace
+}  // namespace havers::calib
