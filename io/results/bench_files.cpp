@@ -10,6 +10,10 @@
 #include "io/results/result_keys.hpp"
 
 namespace havers::io {
+
+nlohmann::json provenance_object(Provenance provenance) {
+  return json_of(provenance);
+}
 namespace {
 
 // The columns of a row: median over the seeds, with the extremes of what the figure shows.
@@ -47,10 +51,6 @@ nlohmann::json row_json(const sim::BenchRow& row) {
   nlohmann::json object = setting_json(row.setting);
   for (auto& [name, value] : row_numbers(row)) object[name] = json_of(value);
   return object;
-}
-
-nlohmann::json provenance_object(Provenance provenance) {
-  return json_of(provenance);
 }
 
 nlohmann::json summaries_of(

@@ -16,10 +16,6 @@ nlohmann::json progress_json(const std::vector<calib::Progress>& progress, const
   return steps;
 }
 
-nlohmann::json provenance_object(Provenance provenance) {
-  return json_of(provenance);
-}
-
 }  // namespace
 
 std::string chains_csv(const calib::ChainBenchmark& benchmark) {
