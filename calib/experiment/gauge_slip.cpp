@@ -121,8 +121,8 @@ SlipRepair mend_slips(std::vector<double>& strain, std::span<const double> stres
   }
   if (repair.slips > 0)
     repair.warnings.push_back(
-        fmt::format("the gauge slipped ({} jumps): strains after that are uncertain by the jumps",
-                    repair.slips));
+        fmt::format("the gauge slipped ({} {}): strains after that are uncertain by as much",
+                    repair.slips, repair.slips == 1 ? "jump" : "jumps"));
   return repair;
 }
 
