@@ -28,18 +28,22 @@ double scaled(double position, int extent) {
 }
 
 struct Normal {
+  std::size_t degree = 0;
   Eigen::MatrixXd products;
   Eigen::VectorXd right;
 };
 
 // Samples of one row. Products of monomials are monomials again: sums of powers are all it takes.
 void add_row(std::span<const Sample> row, cv::Size size, Normal& normal) {
-  std::array<double, 9> powers{}, values{}, v{1.0};  // Σ uⁱ, Σ uⁱ value, vʲ
+  std::array<double, 9> powers{}, v{1.0};  // Σ uⁱ, vʲ
+  std::array<double, 5> values{};          // Σ uⁱ value
   for (const Sample& s : row) {
     const double u = scaled(s.x, size.width);
     double power = 1.0;
-    for (std::size_t i = 0; i < powers.size(); ++i, power *= u)
-      powers[i] += power, values[i] += power * s.value;
+    for (std::size_t i = 0; i <= 2 * normal.degree; ++i, power *= u) {
+      powers[i] += power;
+      if (i <= normal.degree) values[i] += power * s.value;
+    }
   }
   for (std::size_t j = 1; j < v.size(); ++j) v[j] = v[j - 1] * scaled(row.front().y, size.height);
   for (Eigen::Index k = 0; k < normal.right.size(); ++k) {
@@ -96,7 +100,8 @@ Surface fit_surface(const std::vector<Sample>& samples, cv::Size size, int degre
   Surface surface{.size = size};
   if (samples.empty()) return surface;
   const Eigen::Index n = terms();
-  Normal normal{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+  Normal normal{static_cast<std::size_t>(degree), Eigen::MatrixXd::Zero(n, n),
+                Eigen::VectorXd::Zero(n)};
   for (auto row = samples.begin(); row != samples.end();) {
     const auto end =
         std::find_if(row, samples.end(), [&](const Sample& s) { return s.y != row->y; });
@@ -139,9 +144,10 @@ std::vector<Sample> sample(const cv::Mat& image, const cv::Mat& mask, int count)
   for (int y = stride / 2; y < image.rows; y += stride) {
     image.row(y).convertTo(row, CV_32F);
     const auto* values = row.ptr<float>();
+    int next = stride / 2;
     for_each_set(mask, y, [&](int x) {
-      if (x % stride == stride / 2)
-        samples.push_back({static_cast<float>(x), static_cast<float>(y), values[x]});
+      while (next < x) next += stride;
+      if (x == next) samples.push_back({static_cast<float>(x), static_cast<float>(y), values[x]});
     });
   }
   return samples;
