@@ -75,7 +75,7 @@ struct Plan {
 
 Plan local_plan(LocalSearch local, std::size_t unknowns) {
   if (local == LocalSearch::automatic)
-    local = unknowns > 1 ? LocalSearch::bobyqa : LocalSearch::sbplx;
+    local = unknowns > 1 ? LocalSearch::bobyqa : LocalSearch::cobyla;
   // BOBYQA cannot do with one unknown.
   if (local == LocalSearch::bobyqa && unknowns > 1) return {nlopt::LN_BOBYQA, "NLopt BOBYQA"};
   if (local == LocalSearch::cobyla) return {nlopt::LN_COBYLA, "NLopt COBYLA"};

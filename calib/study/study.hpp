@@ -34,7 +34,7 @@ enum class Level { shared, orientation, specimen };
 /// global methods.
 enum class GlobalSearch { starts, crs2, direct, mlsl, esch };
 
-/// How a start is refined where new simulations are needed. `automatic`: Sbplx for one unknown,
+/// How a start is refined where new simulations are needed. `automatic`: COBYLA for one unknown,
 /// BOBYQA for more.
 enum class LocalSearch { automatic, bobyqa, sbplx, cobyla };
 

@@ -47,7 +47,7 @@ CoverageSummary summary_of(const std::string& design, const std::string& paramet
 }  // namespace
 
 bool CoverageSummary::holds() const {
-  return inside.interval_95[0] <= 0.95 && 0.95 <= inside.interval_95[1];
+  return informed == 0 || (inside.interval_95[0] <= 0.95 && 0.95 <= inside.interval_95[1]);
 }
 
 std::vector<Design> coverage_designs() {

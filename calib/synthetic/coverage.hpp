@@ -30,7 +30,7 @@ struct CoverageSummary {
   Rate inside;                       ///< Of those informed.
   std::array<double, 3> half_width;  ///< ½ log(upper/lower): 10, 50 and 90 %; NaN if none. [-]
 
-  /// 95 % is within the interval of the share.
+  /// 95 % is within the interval of the share, or no study informs it.
   [[nodiscard]] bool holds() const;
 };
 

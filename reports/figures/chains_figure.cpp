@@ -14,7 +14,7 @@ Figure chains_figure(const calib::ChainBenchmark& benchmark, ChainCost cost,
   const bool simulations = cost == ChainCost::simulations;
   Figure figure{.id = id,
                 .description = "Error of the best point so far against what it cost, by chain",
-                .height = 420};
+                .height = 380};
   std::string band, lines;
   for (std::size_t i = 0; i < benchmark.summaries.size(); ++i) {
     const calib::ChainSummary& summary = benchmark.summaries[i];
@@ -42,7 +42,7 @@ Figure chains_figure(const calib::ChainBenchmark& benchmark, ChainCost cost,
   if (figure.commands.empty()) return figure;
   figure.commands += fmt::format(
       "set logscale xy\nset format y '%g'\nset format x '%g'\n"
-      "set key outside top center horizontal maxcols 2\n"
+      "set key inside left bottom\n"
       "set xlabel '{}' offset 0,0.5\nset ylabel 'Error of the parameters (%)' offset 1.5,0\n"
       "plot $chain0 using 1:2:4 with filledcurves lc rgb band title '10 to 90 % of the default', "
       "{}{}\n",

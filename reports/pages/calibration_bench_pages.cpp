@@ -23,10 +23,11 @@ std::string rate_text(const calib::Rate& rate) {
                      rate.interval_95[0] / in::percent, rate.interval_95[1] / in::percent);
 }
 
-mstch::map chain_row(const calib::ChainSummary& chain) {
-  return {{"chain", text(chain.chain)},
+mstch::map chain_row(const calib::ChainSummary& chain, bool usual) {
+  const auto& [low, median, high] = chain.simulations;
+  return {{"chain", text(chain.chain + (usual ? " (default)" : ""))},
           {"error", text(spread(chain.error, in::percent, 2))},
-          {"simulations", text(spread(chain.simulations, 1.0, 4))},
+          {"simulations", text(fmt::format("{:.0f} ({:.0f} to {:.0f})", median, low, high))},
           {"seconds", text(spread(chain.seconds, 1.0, 2))},
           {"success", text(rate_text(chain.success))}};
 }
@@ -46,7 +47,8 @@ std::string chains_page(const ChainsReport& report) {
   const calib::ChainSummary& winner = report.benchmark.winner();
   const bool usual = winner.chain == summaries.front().chain;
   mstch::array chains;
-  for (const calib::ChainSummary& chain : summaries) chains.emplace_back(chain_row(chain));
+  for (const calib::ChainSummary& chain : summaries)
+    chains.emplace_back(chain_row(chain, &chain == &summaries.front()));
   return render_page(
       "havers bench: chains of optimisers", "chains",
       {{"grade", text(usual ? "good" : "bad")},

@@ -57,6 +57,32 @@ TEST(Bench, ComparesWaysToMeasurePorosityWithoutAScene) {
   EXPECT_FALSE(fs::exists(folder / "out/section.png"));
 }
 
+TEST(Bench, ComparesChainsOfOptimisersWithoutAScene) {
+  const fs::path folder = own_folder();
+  const auto answer = run_havers(folder, "bench --calibration --studies 1 -o out --json");
+  ASSERT_NE(answer.exit_code, 2) << answer.err;
+  const auto result = nlohmann::json::parse(answer.out);
+  const bool usual = result["winner"] == result["chains"][0]["chain"];
+  EXPECT_EQ(answer.exit_code, usual ? 0 : 1);
+  EXPECT_EQ(result["fits"], result["chains"].size());
+  for (const auto& chain : result["chains"]) {
+    EXPECT_LT(chain["error_10_50_90"][1], 0.2) << chain["chain"];
+    EXPECT_GT(chain["by_simulations"].size(), 5U);
+  }
+  EXPECT_TRUE(fs::exists(folder / "out/chains.csv"));
+}
+
+TEST(Bench, MeasuresWhatIntervalsHoldWithoutAScene) {
+  const fs::path folder = own_folder();
+  const auto answer = run_havers(folder, "bench --coverage --studies 1 -o out --json");
+  ASSERT_NE(answer.exit_code, 2) << answer.err;
+  const auto result = nlohmann::json::parse(answer.out);
+  ASSERT_EQ(result["coverage"].size(), 12U);
+  for (const auto& row : result["coverage"]) EXPECT_EQ(row["studies"], 1);
+  const std::string table = test::read_text(folder / "out/coverage.csv");
+  EXPECT_EQ(std::ranges::count(table, '\n'), 13);
+}
+
 TEST(Bench, ReadsTheSceneThatIsShippedForIt) {
   const fs::path folder = own_folder();
   const auto answer = run_havers(

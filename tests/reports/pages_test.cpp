@@ -272,6 +272,50 @@ TEST(MethodsPage, ComparesMethodsByErrorAndTime) {
   EXPECT_TRUE(contains(page, "33.3"));  // MPix/s of 0.03 s for a million pixels
 }
 
+calib::ChainRow chain_row(const std::string& chain, double error, long simulations) {
+  return {.chain = chain,
+          .study = 1,
+          .error = error,
+          .cost = 1.0,
+          .informed = 3,
+          .simulations = simulations,
+          .seconds = 0.5,
+          .success = true,
+          .trace = {{simulations / 10, 0.1, 0.4}, {simulations, 0.5, error}}};
+}
+
+TEST(ChainsPage, NamesTheWinnerAndDrawsErrorAgainstCost) {
+  std::vector<calib::ChainRow> rows;
+  for (const calib::Chain& chain : calib::all_chains())
+    rows.push_back(chain_row(chain.name, 0.0123, rows.empty() ? 300 : 400));
+  const auto benchmark = calib::summarise(std::move(rows));
+  const std::string page = chains_page({benchmark, {{"seed", "1"}}});
+  expect_sound(page);
+  EXPECT_TRUE(contains(page, calib::all_chains().front().name + " needs the fewest simulations"));
+  EXPECT_TRUE(contains(page, "It is the default."));
+  EXPECT_TRUE(contains(page, "1.2 (1.2 to 1.2)"));
+  EXPECT_TRUE(contains(page, "bysimulations"));
+}
+
+TEST(CoveragePage, SaysWhichIntervalsHoldLessThanTheyPromise) {
+  calib::Coverage coverage;
+  coverage.summaries = {
+      {.design = "0, 90 deg",
+       .parameter = "young_GPa",
+       .studies = 100,
+       .informed = 100,
+       .inside = calib::rate_of(95, 100),
+       .half_width = {0.01, 0.02, 0.03}},
+      {.design = "0, 90 deg", .parameter = "ratio", .studies = 100, .half_width = {NAN, NAN, NAN}}};
+  const std::string page = coverage_page({coverage, {{"seed", "1"}}});
+  expect_sound(page);
+  EXPECT_TRUE(contains(page, "95.0 % of 100 intervals hold the truth; 95 % should."));
+  EXPECT_TRUE(contains(page, "100 of 100"));
+  EXPECT_TRUE(contains(page, "No parameter differs"));
+  coverage.summaries.front().inside = calib::rate_of(80, 100);
+  EXPECT_TRUE(contains(coverage_page({coverage, {{"seed", "1"}}}), "Some parameters differ"));
+}
+
 TEST(ComparisonPage, PutsFitsSideBySide) {
   const auto a = test::fit_sample();
   auto b = test::fit_sample();
