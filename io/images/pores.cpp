@@ -103,9 +103,11 @@ cv::Mat find_pore_level(const cv::Mat& grey, const cv::Mat& bone, Levels& levels
 
 // Depth that small pores' cores keep under blur: the pores' image, blurred alike, is read there.
 double depth_left_in(const cv::Mat& cores, const cv::Mat& pores, double blur) {
-  if (blur <= 0.0) return 1.0;
   cv::Mat blurred;
-  cv::GaussianBlur(pores, blurred, {}, blur, blur, cv::BORDER_REPLICATE);
+  if (blur > 0.0)
+    cv::GaussianBlur(pores, blurred, {}, blur, blur, cv::BORDER_REPLICATE);
+  else
+    blurred = pores;
   double sum = 0.0;
   for (int y = 0; y < cores.rows; ++y) {
     const auto* left = blurred.ptr<std::uint8_t>(y);

@@ -79,6 +79,18 @@ TEST_P(UnderHardship, ASectionWithoutPoresHasNone) {
   }
 }
 
+// Noise that passes the test for a second level by chance: next to nothing must come of it.
+TEST(Section, MakesLittleOfNoiseThatLooksLikeAPore) {
+  const auto drawn = test::draw({.outline = Outline::filled,
+                                 .width = 441,
+                                 .height = 558,
+                                 .porosity = 0.0,
+                                 .noise = 0.25,
+                                 .blur = 0.7,
+                                 .seed = 9000182});
+  EXPECT_LT(100.0 * measure(drawn, "noise.png").porosity, 0.05);
+}
+
 // On the small copy, where bone is looked for, the walls that hold this corner are gone.
 TEST(Section, KeepsACornerThatPoresNearlyCutOff) {
   const auto drawn = test::draw({.width = 520,
