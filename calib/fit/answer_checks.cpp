@@ -155,12 +155,14 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
     if (!target.present[strength] || target.censored) continue;
     const auto scene = replicate_scenes(problem, answer.best.point, s, 1).front();
     specimens.push_back({problem.study.specimens[s].orientation, scene.joints.scatter,
-                         target.value[strength], answer.best.predictions[f].mean[strength]});
+                         ratio(scene.assembly, scene.joints), target.value[strength],
+                         answer.best.predictions[f].mean[strength]});
   }
   const PlainLaw law =
       specimens.empty()
           ? PlainLaw{.criterion = INFINITY}
-          : best_plain_law(specimens, parameters_spent(answer.slopes.jacobian)[strength]);
+          : best_plain_law(specimens, parameters_spent(answer.slopes.jacobian)[strength],
+                           problem.study.laws);
   if (!std::isfinite(law.criterion) || !std::isfinite(law.model_criterion))
     return {name, Outcome::pass,
             fmt::format("{} strengths are too few to compare the model with a law without fibres.",

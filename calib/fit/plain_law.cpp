@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 namespace havers::calib {
 namespace {
@@ -45,6 +46,28 @@ std::vector<Design> designs_of(std::span<const Broken> specimens) {
 
 }  // namespace
 
+double strength_by(std::span<const SweepLaw> laws, const Broken& specimen) {
+  constexpr double degree = std::numbers::pi / 180.0, same_angle = 0.5 * degree;
+  const SweepLaw* nearest = nullptr;
+  double distance = std::numeric_limits<double>::infinity();
+  for (const SweepLaw& law : laws) {
+    double away = 0.0;
+    if (law.per == "assembly.orientation_deg")
+      away = std::abs(law.at * degree - specimen.orientation);
+    else if (law.per == "joints.ratio")
+      away = std::abs(std::log(law.at / specimen.ratio));
+    if (away >= distance || (law.per == "assembly.orientation_deg" && away > same_angle)) continue;
+    nearest = &law;
+    distance = away;
+  }
+  if (nearest == nullptr) return std::numeric_limits<double>::quiet_NaN();
+  double strength = nearest->coefficients.back();
+  for (std::size_t i = 0; i < nearest->terms.size(); ++i)
+    strength += nearest->coefficients[i] *
+                (nearest->terms[i] == "joints.ratio" ? specimen.ratio : specimen.scatter);
+  return strength;
+}
+
 double aicc(double sum_of_squares, double specimens, double parameters) {
   const double k = parameters + 1.0;
   if (specimens - k - 1.0 < 0.5) return std::numeric_limits<double>::infinity();
@@ -52,7 +75,8 @@ double aicc(double sum_of_squares, double specimens, double parameters) {
          2.0 * k * (k + 1.0) / (specimens - k - 1.0);
 }
 
-PlainLaw best_plain_law(std::span<const Broken> specimens, double model_parameters) {
+PlainLaw best_plain_law(std::span<const Broken> specimens, double model_parameters,
+                        std::span<const SweepLaw> laws) {
   const auto n = static_cast<double>(specimens.size());
   Eigen::VectorXd strength(static_cast<Index>(specimens.size()));
   double by_model = 0.0;
@@ -70,6 +94,14 @@ PlainLaw best_plain_law(std::span<const Broken> specimens, double model_paramete
       best.name = design.name;
       best.criterion = criterion;
     }
+  }
+  Eigen::VectorXd off(strength.size());  // by the sweep's laws; their factor is the mean
+  for (Index i = 0; i < off.size(); ++i)
+    off[i] = strength[i] - std::log(strength_by(laws, specimens[static_cast<std::size_t>(i)]));
+  if (!laws.empty() && off.allFinite()) {
+    const double criterion = aicc((off.array() - off.mean()).matrix().squaredNorm(), n, 1.0);
+    if (criterion < best.criterion) best.name = "the sweep's laws times a factor";
+    best.criterion = std::min(best.criterion, criterion);
   }
   return best;
 }

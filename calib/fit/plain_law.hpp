@@ -11,16 +11,30 @@ namespace havers::calib {
 struct Broken {
   double orientation = 0.0;  ///< θ. [rad]
   double scatter = 0.0;      ///< d. [-]
+  double ratio = 1.0;        ///< r that the fitted model has. [-]
   double strength = 0.0;     ///< log of the measured strength.
   double model = 0.0;        ///< log of the strength that the fitted model gives.
 };
+
+/// A law of strength that a sweep found: Σ coefficient · term + constant, for one value of a key.
+struct SweepLaw {
+  std::string per;  ///< assembly.orientation_deg, joints.ratio, or empty: it holds everywhere.
+  double at = 0.0;  ///< Its value of that key.
+  std::vector<std::string> terms;    ///< joints.scatter, joints.ratio.
+  std::vector<double> coefficients;  ///< Those of the terms, then the constant. [Pa]
+};
+
+/// The strength by the law that holds at the specimen's orientation or nearest to its ratio; NaN
+/// where there is none. [Pa]
+double strength_by(std::span<const SweepLaw> laws, const Broken& specimen);
 
 /// Corrected information criterion of Akaike (F19); infinite where there are too few specimens.
 /// @param parameters  those of the mean; the variance is one more.
 double aicc(double sum_of_squares, double specimens, double parameters);
 
 /// The best law of those that are linear elastic and brittle, after the laws of failure strain of
-/// Pithioux et al.: per orientation a strength, and a slope in d or none.
+/// Pithioux et al.: per orientation a strength, and a slope in d or none; or a sweep's laws times a
+/// factor.
 struct PlainLaw {
   std::string name;
   double criterion = 0.0;        ///< aicc of the law.
@@ -28,7 +42,8 @@ struct PlainLaw {
 };
 
 /// @param model_parameters  spent by the model on the strengths.
-PlainLaw best_plain_law(std::span<const Broken> specimens, double model_parameters);
+PlainLaw best_plain_law(std::span<const Broken> specimens, double model_parameters,
+                        std::span<const SweepLaw> laws = {});
 
 /// Weibull's modulus of positive values by maximum likelihood, and its relative standard error.
 struct Weibull {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calib/experiment/measured_test.hpp"
+#include "calib/fit/plain_law.hpp"
 #include "calib/porosity/scatter_map.hpp"
 #include "sim/scene.hpp"
 
@@ -50,7 +51,8 @@ struct CalibrateOptions {
   /// Terms of the objective (F4) that count; also "pre-peak curve", "energy", "post-peak drop".
   std::vector<std::string> terms{"modulus", "strength", "failure strain"};
   int replicates = 8;  ///< Seeds per specimen, or replicates_by_need.
-  /// The same seeds at every point of a search (F2); false: each point has its own, to compare with.
+  /// The same seeds at every point of a search (F2); false: each point has its own, to compare
+  /// with.
   bool common_seeds = true;
   GlobalSearch global = GlobalSearch::starts;
   LocalSearch local = LocalSearch::automatic;
@@ -72,6 +74,7 @@ struct Study {
       model;  ///< Starting point; orientation, scatter, strain rate and seed are set per specimen.
   PorosityOptions porosity;
   CalibrateOptions calibrate;
+  std::vector<SweepLaw> laws;  ///< Of strength, for the model to be better than.
 };
 
 }  // namespace havers::calib

@@ -11,6 +11,7 @@
 #include "io/config/reduction_table.hpp"
 #include "io/config/scene_tables.hpp"
 #include "io/config/study_keys.hpp"
+#include "io/sweep/sweep_files.hpp"
 
 namespace havers::io {
 namespace {
@@ -197,6 +198,10 @@ StudyFile read_study(const std::filesystem::path& file, const Overrides& overrid
 
   read_porosity(top.table("porosity"), read.study.porosity);
   read_calibrate(top.table("calibrate"), read.study.model, read.study.calibrate);
+  std::filesystem::path laws;
+  TableReader calibrate = top.table("calibrate");
+  if (calibrate.key("laws", laws) && calibrate.require_file("laws", laws))
+    read.study.laws = read_laws(laws);
   read_synthesize(top.table("synthesize"), read.synthesize);
   read_reduction(top.table("reduction"), read.reduction);
   read_sections(top.table("sections"), read.sections);

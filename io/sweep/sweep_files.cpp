@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <exception>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "io/input_error.hpp"
 #include "io/results/csv_numbers.hpp"
 #include "io/results/json_table.hpp"
 #include "io/sweep/sweep_keys.hpp"
@@ -78,6 +82,35 @@ nlohmann::json laws_json(const calib::SweepResult& result) {
            "response = sum of coefficients[i] * terms[i] + coefficients.back(); the "
            "terms as in a scene file, the response in SI units"},
           {"laws", json_of(laws)}};
+}
+
+std::vector<calib::SweepLaw> read_laws(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  std::vector<calib::SweepLaw> laws;
+  try {
+    for (const nlohmann::json& one : json.at("laws")) {
+      calib::Law law;
+      JsonReader table(one);
+      keys(table, law);
+      const calib::LawRequest& asked = law.request;
+      const bool known = std::ranges::all_of(asked.terms, [](const std::string& term) {
+        return term == "joints.scatter" || term == "joints.ratio";
+      });
+      const bool somewhere = asked.per.empty() || asked.per == "assembly.orientation_deg" ||
+                             asked.per == "joints.ratio";
+      if (asked.response == Measure::strength && law.status == calib::LawStatus::fitted && known &&
+          somewhere && law.coefficients.size() == asked.terms.size() + 1)
+        laws.push_back({asked.per, asked.per.empty() ? 0.0 : std::stod(law.at), asked.terms,
+                        law.coefficients});
+    }
+  } catch (const std::exception&) {
+    throw InputError(file.string(), "is no file of laws", "name the laws.json of a sweep");
+  }
+  if (laws.empty())
+    throw InputError(file.string(), "has no law of strength in joints.scatter or joints.ratio",
+                     "ask for one in the sweep file: [[law]] response = \"strength\"");
+  return laws;
 }
 
 nlohmann::json sweep_json(const calib::Sweep& sweep, const calib::SweepResult& result) {

@@ -1,10 +1,12 @@
 // What a sweep leaves: tidy tables and result.json.
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "calib/fit/plain_law.hpp"
 #include "calib/sweep/sweep.hpp"
 #include "io/results/result_files.hpp"
 
@@ -18,6 +20,10 @@ std::string summary_csv(const calib::Sweep& sweep, const calib::SweepResult& res
 
 /// The laws alone: the phenomenological model, without fibres.
 nlohmann::json laws_json(const calib::SweepResult& result);
+
+/// The laws of strength in such a file that a specimen can be put into.
+/// @throws InputError when the file is no such file or has none.
+std::vector<calib::SweepLaw> read_laws(const std::filesystem::path& file);
 
 /// The object of a sweep in result.json.
 nlohmann::json sweep_json(const calib::Sweep& sweep, const calib::SweepResult& result);

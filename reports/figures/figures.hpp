@@ -28,7 +28,7 @@ Figure profile_figure(const std::vector<calib::Profile>& profiles, const std::st
 Figure waterfall_figure(const calib::CalibrationResult& result, const std::string& id);
 
 /// Stress, broken joints and energies of a simulation against strain.
-Figure simulation_figure(const sim::Simulation& simulation, const std::string& id);
+Figure simulation_figure(const SimulationReport& report, const std::string& id);
 
 /// A test as read and as used, with the modulus line and the strength.
 Figure test_figure(const ImportReport& report, const std::string& id);

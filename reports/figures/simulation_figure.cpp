@@ -20,7 +20,8 @@ plot {left}$curve using ($1*100):($2*1e-6) with lines lw 1.8 lc rgb blue title '
 {middle}
 set ylabel 'Broken joints'
 set yrange [0:*]
-plot $curve using ($1*100):4 with fsteps lw 1.8 lc rgb red notitle
+plot $head_tail using ($1*100):2 with steps lw 1.8 lc rgb red title 'head to tail', \
+  $flank using ($1*100):2 with steps lw 1.8 dt 2 lc rgb blue title 'flank'
 {bottom}
 set xtics format '%g'
 set xlabel 'Strain (%)' offset 0,0.5
@@ -53,6 +54,24 @@ std::string curve_data(const std::vector<sim::CurvePoint>& curve) {
   return block + "EOD\n";
 }
 
+// Joints of a kind, counted as they break; those missing from the start are no breaks.
+std::string breaks_data(const SimulationReport& report, sim::JointKind kind,
+                        std::string_view name) {
+  std::vector<double> strains;
+  for (std::size_t j = 0; j < report.simulation.joints.size(); ++j) {
+    const sim::JointOutcome& joint = report.simulation.joints[j];
+    if (report.assembly.joints[j].kind == kind && joint.broken && !is_missing(joint.threshold))
+      strains.push_back(joint.broken_at_strain);
+  }
+  std::ranges::sort(strains);
+  std::string block = fmt::format("${} << EOD\n0 0\n", name);
+  for (std::size_t i = 0; i < strains.size(); ++i)
+    if (i + 1 == strains.size() || strains[i + 1] != strains[i])
+      block += fmt::format("{:.9g} {}\n", strains[i], i + 1);
+  return block +
+         fmt::format("{:.9g} {}\nEOD\n", report.simulation.curve.back().strain, strains.size());
+}
+
 double largest_energy(const std::vector<sim::CurvePoint>& curve) {
   double largest = 0.0;
   for (const sim::CurvePoint& p : curve)
@@ -63,9 +82,10 @@ double largest_energy(const std::vector<sim::CurvePoint>& curve) {
 
 }  // namespace
 
-Figure simulation_figure(const sim::Simulation& simulation, const std::string& id) {
+Figure simulation_figure(const SimulationReport& report, const std::string& id) {
+  const sim::Simulation& simulation = report.simulation;
   Figure figure{.id = id,
-                .description = "Stress, number of broken joints and energies against strain",
+                .description = "Stress, broken joints of either kind and energies against strain",
                 .height = 660};
   std::vector<double> strain;
   for (const sim::CurvePoint& point : simulation.curve) strain.push_back(point.strain);
@@ -74,7 +94,8 @@ Figure simulation_figure(const sim::Simulation& simulation, const std::string& i
   const bool dynamic = simulation.regime == sim::Regime::dynamic;
   const Prefix prefix = prefix_for(largest_energy(simulation.curve));
   figure.commands =
-      curve_data(simulation.curve) +
+      curve_data(simulation.curve) + breaks_data(report, sim::JointKind::head_tail, "head_tail") +
+      breaks_data(report, sim::JointKind::flank, "flank") +
       fmt::format(simulation_commands, fmt::arg("range", range),
                   fmt::arg("top", panel(0.635, 0.955)), fmt::arg("middle", panel(0.41, 0.61)),
                   fmt::arg("bottom", panel(0.095, 0.345)),

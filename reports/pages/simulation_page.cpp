@@ -98,7 +98,7 @@ std::string simulation_page(const SimulationReport& report) {
        {"sentence", text(sentence_of(simulation))},
        {"detail", text(cost_of(report))},
        {"facts", mstch::node{fact_list(key_numbers(report))}},
-       {"curve", text(draw(simulation_figure(simulation, "curve")))},
+       {"curve", text(draw(simulation_figure(report, "curve")))},
        {"fracture", text(fracture_svg(report.assembly, simulation))},
        {"left_out", left_out_section(simulation.left_out)},
        {"scene",

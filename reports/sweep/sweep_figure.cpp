@@ -75,19 +75,35 @@ Line line_of(const Panel& panel, std::vector<std::size_t> points) {
   return line;
 }
 
-std::string x_axis(const std::vector<Line>& lines) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  double low = infinity, high = -infinity;
-  for (const Line& line : lines)
-    for (const double x : line.x) {
-      low = std::min(low, x);
-      high = std::max(high, x);
+struct Range {
+  double low = std::numeric_limits<double>::infinity(),
+         high = -std::numeric_limits<double>::infinity();
+
+  void take(const std::vector<double>& values) {
+    for (const double value : values) {
+      low = std::min(low, value);
+      high = std::max(high, value);
     }
-  if (low > 0.0 && high >= 100.0 * low)
-    return fmt::format("set logscale x\nset format x '10^{{%T}}'\nset xrange [{}:{}]\n", 0.7 * low,
-                       1.4 * high);
-  const double margin = high > low ? 0.04 * (high - low) : 1.0;
-  return fmt::format("set xrange [{}:{}]\n", low - margin, high + margin);
+  }
+  [[nodiscard]] bool many_decades() const { return low > 0.0 && high >= 100.0 * low; }
+};
+
+std::string log_axis(char axis, const Range& range) {
+  return fmt::format("set logscale {0}\nset format {0} '10^{{%T}}'\nset {0}range [{1}:{2}]\n", axis,
+                     0.7 * range.low, 1.4 * range.high);
+}
+
+std::string axes(const std::vector<Line>& lines) {
+  Range x, y;
+  for (const Line& line : lines) {
+    x.take(line.x);
+    y.take(line.low);
+    y.take(line.high);
+  }
+  const double margin = x.high > x.low ? 0.04 * (x.high - x.low) : 1.0;
+  return (x.many_decades() ? log_axis('x', x)
+                           : fmt::format("set xrange [{}:{}]\n", x.low - margin, x.high + margin)) +
+         (y.many_decades() ? log_axis('y', y) : "set offsets 0, 0, graph 0.06, graph 0.06\n");
 }
 
 // Means with the band of their 95 % intervals, a line for each series.
@@ -116,10 +132,10 @@ std::string mean_commands(const Panel& panel) {
   }
   if (lines.empty()) return {};
   const MeasureWords words = words_of(panel.wanted.response);
-  return data + x_axis(lines) + key_of(panel) +
+  return data + axes(lines) + key_of(panel) +
          fmt::format(
              "set xlabel '{}' offset 0,0.4\nset ylabel '{}{}' offset 0.5,0\n"
-             "set offsets 0, 0, graph 0.06, graph 0.06\nplot {}{}\n",
+             "plot {}{}\n",
              plain(name_of_key(panel.wanted.x)), plain(words.name),
              words.unit.empty() ? "" : fmt::format(" ({})", words.unit), bands, marks);
 }

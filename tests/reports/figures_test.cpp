@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 
 #include "reports/figures/process.hpp"
 #include "reports/figures/thin.hpp"
+#include "sim/simulation.hpp"
 #include "tests/support/results.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace havers::reports {
 namespace {
@@ -62,9 +65,28 @@ TEST(Figure, NamesTheSpecimensThatHaveRoom) {
 TEST(Figure, ShowsBothSidesOnlyWhereTheyDiffer) {
   const sim::Assembly assembly;
   auto simulation = test::simulation_sample(assembly);
-  EXPECT_TRUE(contains(draw(simulation_figure(simulation, "c")), "left side"));
+  const SimulationReport report{{}, assembly, simulation, {}};
+  EXPECT_TRUE(contains(draw(simulation_figure(report, "c")), "left side"));
   simulation.regime = sim::Regime::quasi_static;
-  EXPECT_FALSE(contains(draw(simulation_figure(simulation, "c")), "left side"));
+  EXPECT_FALSE(contains(draw(simulation_figure(report, "c")), "left side"));
+}
+
+TEST(Figure, CountsBrokenJointsOfEitherKindAsTheyBreak) {
+  const sim::Scene scene = test::small_scene();
+  const sim::Assembly assembly = sim::build_assembly(scene.assembly, scene.loading.lateral);
+  const sim::Simulation simulation = sim::simulate(scene);
+  const std::string commands = simulation_figure({scene, assembly, simulation, {}}, "c").commands;
+  const auto last_count = [&](const std::string& name) {
+    const std::size_t begin = commands.find("$" + name + " << EOD");
+    const std::size_t end = commands.find("\nEOD", begin);
+    return std::stoi(commands.substr(commands.rfind(' ', end)));
+  };
+  std::map<sim::JointKind, int> broken;
+  for (std::size_t j = 0; j < assembly.joints.size(); ++j)
+    broken[assembly.joints[j].kind] += simulation.joints[j].broken ? 1 : 0;
+  EXPECT_EQ(last_count("head_tail"), broken[sim::JointKind::head_tail]);
+  EXPECT_EQ(last_count("flank"), broken[sim::JointKind::flank]);
+  EXPECT_GT(broken[sim::JointKind::flank], 0);
 }
 
 TEST(Figure, LetsNoNameReachTheCommandsOfGnuplot) {
@@ -79,7 +101,7 @@ TEST(Figure, LetsNoNameReachTheCommandsOfGnuplot) {
 TEST(Figure, SaysSoWhenThereIsNothingToDraw) {
   EXPECT_TRUE(contains(draw(specimen_figure({}, "s")), "Nothing to draw"));
   EXPECT_TRUE(contains(draw(strength_figure({}, "s")), "Nothing to draw"));
-  EXPECT_TRUE(contains(draw(simulation_figure({}, "s")), "Nothing to draw"));
+  EXPECT_TRUE(contains(draw(simulation_figure({{}, {}, {}, {}}, "s")), "Nothing to draw"));
   EXPECT_TRUE(contains(draw(intervals_figure({}, "s")), "Nothing to draw"));
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace havers::calib {
@@ -21,7 +22,7 @@ std::vector<Broken> strengths(double slope, double noise, double model_bias) {
   for (int i = 0; i < 30; ++i) {
     const double orientation = 0.7 * (i % 3), scatter = 0.2 + 0.02 * i;
     const double truth = 18.0 - orientation - slope * scatter;
-    specimens.push_back({orientation, scatter, truth + noise * normal(random),
+    specimens.push_back({orientation, scatter, 1.0, truth + noise * normal(random),
                          truth + (i % 3 == 1 ? model_bias : 0.0)});
   }
   return specimens;
@@ -39,6 +40,39 @@ TEST(PlainLaw, DoesNotRejectAModelThatIsTrueAndRejectsOneThatIsNot) {
   EXPECT_GT(loses.criterion, loses.model_criterion - 6.0);
   const PlainLaw wins = best_plain_law(strengths(0.5, 0.02, 0.2), 2.0);
   EXPECT_LT(wins.criterion, wins.model_criterion - 6.0);
+}
+
+// Laws of another modulus and unit of strength: a factor is free, the shape is not.
+TEST(PlainLaw, TakesASweepsLawsWhereTheyHold) {
+  const std::vector<SweepLaw> laws{
+      {"assembly.orientation_deg", 0.0, {"joints.scatter"}, {-20e6, 60e6}},
+      {"assembly.orientation_deg", 90.0, {"joints.ratio", "joints.scatter"}, {2e6, -5e6, 10e6}}};
+  const double across = std::numbers::pi / 2.0;
+  EXPECT_DOUBLE_EQ(strength_by(laws, {0.0, 0.5}), 50e6);
+  EXPECT_DOUBLE_EQ(strength_by(laws, {across, 0.4, 3.0}), 14e6);
+  EXPECT_TRUE(std::isnan(strength_by(laws, {0.7, 0.5})));
+
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  std::vector<Broken> specimens;
+  for (int i = 0; i < 10; ++i) {
+    Broken one{i % 2 == 0 ? 0.0 : across, 0.2 + 0.06 * i, 2.0};
+    one.strength = one.model = std::log(1.7 * strength_by(laws, one)) + 0.01 * normal(random);
+    one.model += 0.05 * normal(random);
+    specimens.push_back(one);
+  }
+  const PlainLaw best = best_plain_law(specimens, 2.0, laws);
+  EXPECT_EQ(best.name, "the sweep's laws times a factor");
+  EXPECT_LT(best.criterion, best.model_criterion - 6.0);
+  specimens.front().orientation = 0.7;
+  EXPECT_NE(best_plain_law(specimens, 2.0, laws).name, best.name);
+}
+
+TEST(PlainLaw, TakesTheLawOfTheNearestRatio) {
+  const std::vector<SweepLaw> laws{{"joints.ratio", 0.333, {}, {1e6}},
+                                   {"joints.ratio", 3.0, {}, {2e6}}};
+  EXPECT_EQ(strength_by(laws, {0.0, 0.2, 0.5}), 1e6);
+  EXPECT_EQ(strength_by(laws, {0.0, 0.2, 1.5}), 2e6);
 }
 
 TEST(Weibull, FindsItsModulusAgain) {

@@ -110,10 +110,21 @@ TEST(SweepFiles, ExportTheLawsAndTheFindings) {
   const nlohmann::json laws = laws_json(result);
   EXPECT_EQ(laws["laws"][0]["terms"][0], "joints.scatter");
   EXPECT_EQ(laws["laws"][0]["coefficients"].size(), 2U);
+  const std::vector<calib::SweepLaw> read = read_laws(folder.write("laws.json", laws.dump()));
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(read[0].terms, result.laws[0].request.terms);
+  EXPECT_EQ(read[0].coefficients, result.laws[0].coefficients);
   const nlohmann::json json = sweep_json(sweep, result);
   EXPECT_EQ(json["points"][2]["keys"]["joints.distribution"], "weibull");
   EXPECT_EQ(json["points"][2]["measures"]["strength_Pa"]["n"], 3);
   EXPECT_EQ(json["findings"][0]["id"], "A");
+}
+
+TEST(SweepFiles, RefuseWhatIsNoFileOfLaws) {
+  const ScratchFolder folder;
+  for (const char* text : {"", "{}", "[1]", R"({"laws": 3})", R"({"laws": []})",
+                           R"({"laws": [{"response": "failure_strain", "status": "fitted"}]})"})
+    EXPECT_THROW(read_laws(folder.write("laws.json", text)), InputError) << text;
 }
 
 }  // namespace
