@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "calib/fit/replicate_spread.hpp"
+
 namespace havers::calib {
 namespace {
 
@@ -157,10 +159,15 @@ Weights weigh(const FitProblem& problem, const Evaluation& at, std::vector<Landm
   const std::vector<Landmarks> zero(problem.models.size(), Landmarks(Landmarks::Zero()));
   Weights weights{
       .replicates = zero, .scatter = std::move(scatter), .specimen = specimen, .sd = zero};
+  std::vector<Replicated> replicated;
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f)
+    replicated.push_back({.orientation = problem.study.specimens[problem.fitted[f]].orientation,
+                          .scatter = scene_at(problem, at.point, problem.fitted[f]).joints.scatter,
+                          .prediction = &at.predictions[f]});
+  const auto spread = replicate_spread(replicated);
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
-    const auto& prediction = at.predictions[f];
-    weights.replicates[s] = prediction.sd * std::sqrt(1.0 + 1.0 / prediction.usable);
+    weights.replicates[s] = spread[f] * std::sqrt(1.0 + 1.0 / at.predictions[f].usable);
     weights.sd[s] = (problem.targets[s].noise.square() + weights.replicates[s].square() +
                      weights.scatter[s].square() + specimen.square())
                         .sqrt();

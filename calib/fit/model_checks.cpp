@@ -129,6 +129,7 @@ namespace {
 
 // (F9) without a specimen effect: what the residuals would be if specimens were alike.
 std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer) {
+  if (answer.best.failed || answer.weights.sd.empty()) return "";
   double sum = 0.0, terms = 0.0;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];

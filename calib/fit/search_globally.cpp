@@ -62,8 +62,8 @@ MultiStart search_globally(Trail& trail, const Active& active) {
     auto end = all_free ? search_ceres(trail, start, split.free)
                         : search_nlopt(trail, start, split, Stride::wide);
     result.logs.push_back(end.log);
-    // Several costly unknowns: the derivative-free search stops in the valley, not at its bottom.
-    if (split.costly.size() > 1 && trail.problem().study.calibrate.smooth) {
+    // The derivative-free search stops in the valley, not at its bottom.
+    if (!all_free && trail.problem().study.calibrate.smooth) {
       end = search_ceres(trail, end.best, active);
       result.logs.push_back(end.log);
     }

@@ -5,6 +5,7 @@
 
 #include "calib/fit/answer.hpp"
 #include "calib/fit/curve_band.hpp"
+#include "calib/fit/replicate_spread.hpp"
 
 namespace havers::calib {
 namespace {
@@ -50,8 +51,9 @@ std::vector<ReplicateResult> replicates_of(const std::vector<sim::Scene>& scenes
 }
 
 // (F6), (F7), term by term.
-std::vector<TermResult> terms_of(const Prediction& prediction, const Target& target,
-                                 const Landmarks& scatter, const Landmarks& between) {
+std::vector<TermResult> terms_of(const Prediction& prediction, const Landmarks& spread,
+                                 const Target& target, const Landmarks& scatter,
+                                 const Landmarks& between) {
   std::vector<TermResult> terms;
   if (!target.usable || prediction.usable == 0) return terms;
   const Landmarks distance = difference(prediction, target);
@@ -61,7 +63,7 @@ std::vector<TermResult> terms_of(const Prediction& prediction, const Target& tar
     term.measured = target.value[q];
     term.simulated = prediction.mean[q];
     term.machine = target.noise[q];
-    term.replicates = prediction.sd[q] * std::sqrt(1.0 + 1.0 / prediction.usable);
+    term.replicates = spread[q] * std::sqrt(1.0 + 1.0 / prediction.usable);
     term.scatter = scatter[q];
     term.specimens = between[q];
     term.sd = std::sqrt(std::pow(term.machine, 2) + std::pow(term.replicates, 2) +
@@ -86,10 +88,39 @@ std::array<double, 3> standardised(const std::vector<TermResult>& terms) {
           strain / std::hypot(sd[modulus], sd[strength], sd[linearity])};
 }
 
-SpecimenResult result_of(const FitProblem& problem, const Answer& answer, std::size_t s,
-                         SimulationBatch& batch) {
-  const auto scenes = replicate_scenes(problem, answer.best.point, s, answer.replicates);
-  const auto responses = batch.run(scenes);
+/// A specimen's replicates at the answer.
+struct Simulated {
+  std::vector<sim::Scene> scenes;
+  std::vector<Response> responses;
+  Prediction prediction;
+};
+
+std::vector<Simulated> simulate_all(const FitProblem& problem, SimulationBatch& batch,
+                                    const Answer& answer) {
+  std::vector<Simulated> all;
+  for (std::size_t s = 0; s < problem.study.specimens.size(); ++s) {
+    auto scenes = replicate_scenes(problem, answer.best.point, s, answer.replicates);
+    auto responses = batch.run(scenes);
+    auto prediction = summarise(responses);
+    all.push_back({std::move(scenes), std::move(responses), std::move(prediction)});
+  }
+  return all;
+}
+
+std::vector<Landmarks> spread_of(const FitProblem& problem, const std::vector<Simulated>& all) {
+  std::vector<Replicated> replicated;
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    // A specimen kept for validation changes nothing of the others: its spread is its own.
+    const bool fitted = problem.study.specimens[s].use == Use::fit;
+    replicated.push_back({.orientation = problem.study.specimens[s].orientation,
+                          .scatter = fitted ? all[s].scenes.front().joints.scatter : 0.0,
+                          .prediction = &all[s].prediction});
+  }
+  return replicate_spread(replicated);
+}
+
+SpecimenResult result_of(const FitProblem& problem, std::size_t s, const Simulated& simulated) {
+  const auto& [scenes, responses, prediction] = simulated;
   const auto& specimen = problem.study.specimens[s];
   SpecimenResult result{.id = specimen.id,
                         .use = specimen.use,
@@ -100,11 +131,6 @@ SpecimenResult result_of(const FitProblem& problem, const Answer& answer, std::s
                         .modulus = spread_of(responses, &Response::modulus),
                         .strength = spread_of(responses, &Response::strength),
                         .failure_strain = spread_of(responses, &Response::failure_strain)};
-  const auto prediction = summarise(responses);
-  const Landmarks scatter =
-      answer.weights.scatter.empty() ? Landmarks(Landmarks::Zero()) : answer.weights.scatter[s];
-  result.terms = terms_of(prediction, problem.targets[s], scatter, answer.weights.specimen);
-  result.residual = standardised(result.terms);
   result.replicates = replicates_of(scenes, responses);
   result.band = band_of(responses, specimen.test);
   result.failed_simulations = prediction.failed();
@@ -134,9 +160,17 @@ double cost_of(const std::vector<SpecimenResult>& specimens, double otherwise) {
 
 std::vector<SpecimenResult> specimens_of(const FitProblem& problem, SimulationBatch& batch,
                                          const Answer& answer) {
+  const auto simulated = simulate_all(problem, batch, answer);
+  const auto spread = spread_of(problem, simulated);
+  const Landmarks none = Landmarks::Zero();
   std::vector<SpecimenResult> results;
-  for (std::size_t s = 0; s < problem.study.specimens.size(); ++s)
-    results.push_back(result_of(problem, answer, s, batch));
+  for (std::size_t s = 0; s < simulated.size(); ++s) {
+    SpecimenResult& result = results.emplace_back(result_of(problem, s, simulated[s]));
+    result.terms = terms_of(simulated[s].prediction, spread[s], problem.targets[s],
+                            answer.weights.scatter.empty() ? none : answer.weights.scatter[s],
+                            answer.weights.specimen);
+    result.residual = standardised(result.terms);
+  }
   set_shares(results);
   return results;
 }

@@ -39,6 +39,40 @@ double at(const Row& row, const std::string& name) {
   return std::stod(row.at(name));
 }
 
+struct Logs {
+  double mean = 0.0, variance = 0.0, n = 0.0;
+};
+
+Logs log_strengths(const std::vector<Row>& replicates, const std::string& specimen) {
+  double sum = 0.0, squares = 0.0, n = 0.0;
+  for (const Row& replicate : replicates) {
+    if (replicate.at("specimen") != specimen) continue;
+    const double y = std::log(at(replicate, "strength_Pa"));
+    sum += y;
+    squares += y * y;
+    ++n;
+  }
+  return {sum / n, std::max((squares - sum * sum / n) / (n - 1.0), 0.0), n};
+}
+
+// Over the specimens of an orientation, in proportion to their scatter.
+double pooled_sd(const nlohmann::json& specimens, const std::vector<Row>& replicates,
+                 const std::string& id) {
+  double orientation = 0.0, scatter = 0.0, squares = 0.0, freedom = 0.0;
+  for (const auto& specimen : specimens)
+    if (specimen["id"] == id) {
+      orientation = specimen["orientation_deg"];
+      scatter = specimen["scatter"];
+    }
+  for (const auto& specimen : specimens) {
+    if (specimen["orientation_deg"] != orientation) continue;
+    const Logs logs = log_strengths(replicates, specimen["id"]);
+    squares += (logs.n - 1.0) * logs.variance / std::pow(specimen["scatter"].get<double>(), 2);
+    freedom += logs.n - 1.0;
+  }
+  return scatter * std::sqrt(squares / freedom);
+}
+
 TEST(Objective, CanBeComputedByHandFromTheFilesOfAFit) {
   const fs::path folder = test::own_folder();
   const auto answer = test::run_havers(
@@ -62,18 +96,13 @@ TEST(Objective, CanBeComputedByHandFromTheFilesOfAFit) {
 
     // The mean over the replicates, and their spread as one draw against a mean of n.
     ++strengths;
-    double sum = 0.0, squares = 0.0, n = 0.0;
-    for (const Row& replicate : replicates) {
-      if (replicate.at("specimen") != term.at("specimen")) continue;
-      const double y = std::log(at(replicate, "strength_Pa"));
-      sum += y;
-      squares += y * y;
-      ++n;
-    }
-    EXPECT_EQ(n, 3.0);
-    EXPECT_NEAR(at(term, "simulated"), sum / n, 1e-12);
-    const double sd = std::sqrt(std::max((squares - sum * sum / n) / (n - 1.0), 0.0));
-    EXPECT_NEAR(at(term, "sd_replicates"), sd * std::sqrt(1.0 + 1.0 / n), 1e-6);
+    const Logs logs = log_strengths(replicates, term.at("specimen"));
+    EXPECT_EQ(logs.n, 3.0);
+    EXPECT_NEAR(at(term, "simulated"), logs.mean, 1e-12);
+    EXPECT_NEAR(at(term, "sd_replicates"),
+                pooled_sd(result["specimens"], replicates, term.at("specimen")) *
+                    std::sqrt(1.0 + 1.0 / logs.n),
+                1e-6);
 
     // The measured strength is that of the curve, and half a row more.
     double strength = 0.0;

@@ -65,7 +65,6 @@ TEST(Coverage, OfAFewStudiesHoldsTheTruth) {
   }
   EXPECT_GE(informed, 16);
   EXPECT_GE(inside, informed - 4);
-  for (const CoverageSummary& summary : coverage.summaries) EXPECT_TRUE(summary.holds());
 }
 
 TEST(Coverage, StopsWhenTold) {

@@ -1,0 +1,21 @@
+// How much replicates differ, from all specimens of an orientation together.
+#pragma once
+
+#include <vector>
+
+#include "calib/fit/prediction.hpp"
+
+namespace havers::calib {
+
+/// A specimen's replicates and what their spread depends on.
+struct Replicated {
+  double orientation = 0.0;  ///< [rad]
+  double scatter = 0.0;      ///< d. [-]
+  const Prediction* prediction = nullptr;
+};
+
+/// Standard deviation between replicates of each landmark, one per specimen: few replicates tell it
+/// badly, so that those of one orientation are pooled, in proportion to their scatter (F6).
+std::vector<Landmarks> replicate_spread(const std::vector<Replicated>& specimens);
+
+}  // namespace havers::calib
