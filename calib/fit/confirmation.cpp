@@ -11,19 +11,19 @@ namespace havers::calib {
 namespace {
 
 /// One replicate as it was fitted, and the same in time.
-struct Pair {
+struct RunPair {
   Confirmation names;
   double transit = 0.0;  // strain that is imposed while a wave goes through the specimen
   sim::Scene still, moving;
 };
 
-std::vector<Pair> pairs_of(const FitProblem& problem, const Answer& answer) {
-  std::vector<Pair> pairs;
+std::vector<RunPair> pairs_of(const FitProblem& problem, const Answer& answer) {
+  std::vector<RunPair> pairs;
   std::map<std::size_t, int> taken;
   const auto runs = static_cast<std::size_t>(problem.study.calibrate.confirm);
   for (std::size_t run = 0; run < runs; ++run) {
     const std::size_t s = problem.fitted[run * problem.fitted.size() / runs];
-    Pair pair;
+    RunPair pair;
     pair.still = replicate_scenes(problem, answer.best.point, s, ++taken[s]).back();
     pair.still.solver.regime = sim::Regime::automatic;
     const auto choice = sim::choose_regime(pair.still);
@@ -64,9 +64,9 @@ double largest_mean_stress(const Response& response, double span) {
 
 std::vector<Confirmation> confirm_in_time(SimulationBatch& batch, const FitProblem& problem,
                                           const Answer& answer) {
-  const std::vector<Pair> pairs = pairs_of(problem, answer);
+  const std::vector<RunPair> pairs = pairs_of(problem, answer);
   std::vector<sim::Scene> still, moving;
-  for (const Pair& pair : pairs) {
+  for (const RunPair& pair : pairs) {
     still.push_back(pair.still);
     moving.push_back(pair.moving);
   }

@@ -13,13 +13,13 @@ namespace {
 using Eigen::Index;
 
 /// A law as the columns of its design matrix.
-struct Design {
+struct LawDesign {
   std::string name;
   Eigen::MatrixXd columns;
 };
 
 // Columns: one constant per orientation; then d, shared or per orientation.
-std::vector<Design> designs_of(std::span<const Broken> specimens) {
+std::vector<LawDesign> designs_of(std::span<const Broken> specimens) {
   std::map<double, Index> groups;
   for (const Broken& one : specimens) groups.emplace(one.orientation, 0);
   Index next = 0;
@@ -34,7 +34,7 @@ std::vector<Design> designs_of(std::span<const Broken> specimens) {
     slope(i, groups[one.orientation]) = one.scatter;
     scatter[i] = one.scatter;
   }
-  std::vector<Design> designs{{"one strength per orientation", strength}};
+  std::vector<LawDesign> designs{{"one strength per orientation", strength}};
   designs.push_back({"one strength per orientation, falling with the scatter", {}});
   designs.back().columns.resize(n, next + 1);
   designs.back().columns << strength, scatter;
@@ -86,7 +86,7 @@ PlainLaw best_plain_law(std::span<const Broken> specimens, double model_paramete
   }
   PlainLaw best{.criterion = std::numeric_limits<double>::infinity(),
                 .model_criterion = aicc(by_model, n, model_parameters)};
-  for (const Design& design : designs_of(specimens)) {
+  for (const LawDesign& design : designs_of(specimens)) {
     const auto qr = design.columns.colPivHouseholderQr();
     const double left = (design.columns * qr.solve(strength) - strength).squaredNorm();
     const double criterion = aicc(left, n, static_cast<double>(qr.rank()));
