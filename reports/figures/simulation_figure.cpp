@@ -35,6 +35,27 @@ unset multiplot
 constexpr std::string_view left_side =
     "$curve using ($1*100):($3*1e-6) with lines lw 1.2 lc rgb orange title 'left side', ";
 
+// A quasi-static run has rows at breaks only: between them stress grows with the strain, and energy
+// with its square.
+std::vector<sim::CurvePoint> with_parabolas(const sim::Simulation& simulation) {
+  if (simulation.regime == sim::Regime::dynamic) return simulation.curve;
+  constexpr int parts = 60;
+  const double piece = simulation.curve.back().strain / parts;
+  std::vector<sim::CurvePoint> curve;
+  for (const sim::CurvePoint& end : simulation.curve) {
+    const sim::CurvePoint begin = curve.empty() ? end : curve.back();
+    for (double strain = begin.strain + piece; strain < end.strain; strain += piece) {
+      sim::CurvePoint& point = curve.emplace_back(begin);
+      const double part = strain / end.strain;
+      point.strain = strain;
+      point.stress_right = point.stress_left = part * end.stress_right;
+      point.elastic = part * part * end.elastic;
+    }
+    curve.push_back(end);
+  }
+  return curve;
+}
+
 // Rows of a long run are thinned evenly; those at which a joint broke and the strongest all stay.
 std::string curve_data(const std::vector<sim::CurvePoint>& curve) {
   const std::size_t stride = curve.size() / most_points + 1;
@@ -94,10 +115,11 @@ Figure simulation_figure(const SimulationReport& report, const std::string& id) 
   const bool dynamic = simulation.regime == sim::Regime::dynamic;
   const Prefix prefix = prefix_for(largest_energy(simulation.curve));
   figure.commands =
-      curve_data(simulation.curve) + breaks_data(report, sim::JointKind::head_tail, "head_tail") +
+      curve_data(with_parabolas(simulation)) +
+      breaks_data(report, sim::JointKind::head_tail, "head_tail") +
       breaks_data(report, sim::JointKind::flank, "flank") +
       fmt::format(simulation_commands, fmt::arg("range", range),
-                  fmt::arg("top", panel(0.635, 0.955)), fmt::arg("middle", panel(0.41, 0.61)),
+                  fmt::arg("top", panel(0.66, 0.955)), fmt::arg("middle", panel(0.41, 0.595)),
                   fmt::arg("bottom", panel(0.095, 0.345)),
                   fmt::arg("left", dynamic ? left_side : ""),
                   fmt::arg("right", dynamic ? "right side" : "stress"),
