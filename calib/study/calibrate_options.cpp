@@ -12,7 +12,7 @@ namespace {
 
 using Complaints = std::vector<std::string>;
 
-std::string known_parameters() {
+std::string names_to_choose_from() {
   std::string names;
   for (const auto& info : all_parameters())
     names += (names.empty() ? "" : ", ") + std::string(info.name);
@@ -22,7 +22,7 @@ std::string known_parameters() {
 void check_name(const std::string& name, const std::string& where, Complaints& found) {
   if (!find_parameter(name))
     found.push_back(
-        fmt::format("{} names \"{}\", must be one of {}", where, name, known_parameters()));
+        fmt::format("{} names \"{}\", must be one of {}", where, name, names_to_choose_from()));
 }
 
 void check_parameters(const CalibrateOptions& options, Complaints& found) {

@@ -29,11 +29,12 @@ double noise_at(const cv::Mat& grey, const cv::Mat& mask) {
 // What a program has segmented before is told by its two values, however much of it is pore.
 std::optional<double> bone_of_two_values(const std::vector<Sample>& samples, bool dark_pores) {
   if (samples.empty()) return std::nullopt;
-  const auto [low, high] = std::ranges::minmax(samples, {}, &Sample::value);
+  const auto ends = std::ranges::minmax(samples, {}, &Sample::value);
+  const double low = ends.min.value, high = ends.max.value;
   const bool only_these = std::ranges::all_of(
-      samples, [&](const Sample& s) { return s.value == low.value || s.value == high.value; });
+      samples, [&](const Sample& s) { return s.value == low || s.value == high; });
   if (!only_these) return std::nullopt;
-  return dark_pores ? high.value : low.value;
+  return dark_pores ? high : low;
 }
 
 }  // namespace

@@ -146,7 +146,8 @@ void cut(const cv::Mat& inner, const PoreOptions& options, PoreMap& map) {
 }  // namespace
 
 cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Levels levels, cv::Mat& depth) {
-  const cv::Mat bone = std::move(regions.bone), background = std::move(regions.background);
+  cv::Mat bone = std::move(regions.bone);
+  const cv::Mat background = std::move(regions.background);
   if (!regions.outlined) return bone;
   fit_contrast(grey, background, levels);
   if (!(levels.contrast(levels.bone.coefficients[0]) > 0.0)) return {};
