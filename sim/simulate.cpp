@@ -51,7 +51,7 @@ std::vector<LeftOut> left_out(const Scene& scene, const Simulation& simulation) 
     if (end_fraction_used(scene) > scene.loading.end_fraction)
       list.push_back(
           {fmt::format("the avalanche below {:g} of the strength", end_fraction_used(scene)),
-           "it happens at one strain, and with scatter_d <= 1 none was seen to stop"});
+           "it happens at one strain, and none of such thresholds was seen to stop below"});
     if (simulation.events_without_contact > 0)
       list.push_back({fmt::format("contact of broken joints in {} of {} events",
                                   simulation.events_without_contact, simulation.steps),
