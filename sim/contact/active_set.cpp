@@ -30,7 +30,9 @@ ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, int max_iterations, bool 
       stiffness_(joint_stiffness(bodies)) {}
 
 LooseJoints ActiveSetSolver::make_loose() const {
-  return {structure_.joints(), [this](int joint) { return structure_.respond_to_jump(joint); }};
+  return {structure_, [this](int joint) {
+            return std::make_shared<const JumpResponse>(structure_.respond_to_jump(joint));
+          }};
 }
 
 void ActiveSetSolver::rebuild(std::vector<Held> held) {
@@ -81,7 +83,8 @@ bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded
     for (Index i = 0; i < n; ++i)
       result.states[static_cast<std::size_t>(loose_.joints()[static_cast<std::size_t>(i)])] =
           local.states[static_cast<std::size_t>(i)];
-    if (!loosen_violated(step, bonded_reactions + loose_.reactions_to(y), result)) return true;
+    if (!loosen_violated(step, bonded_reactions + loose_.answer_to(y).reactions, result))
+      return true;
   }
 }
 
@@ -150,7 +153,7 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step) {
     result.iterations += response.solves;
     result.displacements = std::move(response.displacements);
     result.reactions = std::move(response.reactions);
-    result.gaps = step.predicted + joint_gaps(*bodies_, result.displacements);
+    result.gaps = step.predicted + response.gaps;
     result.residual = std::max(joint_residual(step, result, stiffness_), response.residual);
   } while (result.converged && reattach_closed(result));
   return result;

@@ -14,28 +14,28 @@ bool LooseJoints::contains(int joint) const {
 void LooseJoints::add(int joint) {
   assert(!contains(joint));
   const auto first = static_cast<Index>(2 * joints_.size());
-  if (first + 2 > reactions_.cols()) {
-    const Index columns = std::max<Index>(16, 2 * reactions_.cols());
-    reactions_.conservativeResize(2 * joint_count_, columns);
-    gaps_.conservativeResize(2 * joint_count_, columns);
+  if (first + 2 > stiffness_.cols()) {
+    const Index size = std::max<Index>(16, 2 * stiffness_.cols());
+    stiffness_.conservativeResize(size, size);
   }
-  const JumpResponse response = source_(joint);
-  reactions_.middleCols<2>(first) = response.reactions;
-  gaps_.middleCols<2>(first) = response.gaps;
   joints_.push_back(joint);
+  responses_.push_back(source_(joint));
+  stiffness_.block(first, 0, 2, first + 2) =
+      structure_->reactions_between(*responses_.back(), responses_);
 }
 
 Eigen::MatrixXd LooseJoints::stiffness() const {
   const auto n = static_cast<Index>(2 * joints_.size());
   Eigen::MatrixXd S(n, n);
-  for (Index i = 0; i < n; i += 2)
-    S.middleRows(i, 2) = reactions_.block(2 * joints_[static_cast<std::size_t>(i / 2)], 0, 2, n);
-  return 0.5 * (S + S.transpose());
+  S.triangularView<Eigen::Lower>() = stiffness_.topLeftCorner(n, n);
+  S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
+  return S;
 }
 
-Eigen::VectorXd LooseJoints::times(const Eigen::MatrixXd& columns, const Eigen::VectorXd& y) const {
-  if (y.size() == 0) return Eigen::VectorXd::Zero(2 * joint_count_);
-  return columns.leftCols(y.size()) * y;
+JumpAnswer LooseJoints::answer_to(const Eigen::VectorXd& y) const {
+  const Index rows = 2 * structure_->joints();
+  if (y.isZero(0.0)) return {Eigen::VectorXd::Zero(rows), Eigen::VectorXd::Zero(rows)};
+  return structure_->answer_to_jumps(responses_, y);
 }
 
 }  // namespace havers::sim

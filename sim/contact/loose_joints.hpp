@@ -3,20 +3,22 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "sim/structure/structure.hpp"
 
 namespace havers::sim {
 
-/// Influence columns of a structure, made once for each joint that comes loose and reused until the
+/// Answers of a structure to jumps, made once for each joint that comes loose and reused until the
 /// structure changes.
 class LooseJoints {
  public:
-  /// Where columns come from: Structure::respond_to_jump, or something that remembers its answers.
-  using Source = std::function<JumpResponse(int joint)>;
-  LooseJoints(Eigen::Index joints, Source source)
-      : joint_count_(joints), source_(std::move(source)) {}
+  using Response = std::shared_ptr<const JumpResponse>;
+  /// Where they come from: Structure::respond_to_jump, or something that remembers its answers.
+  using Source = std::function<Response(int joint)>;
+  LooseJoints(const Structure& structure, Source source)
+      : structure_(&structure), source_(std::move(source)) {}
 
   [[nodiscard]] std::size_t size() const { return joints_.size(); }
   [[nodiscard]] const std::vector<int>& joints() const { return joints_; }
@@ -27,23 +29,16 @@ class LooseJoints {
   /// S over the loose joints. [N/m²]
   [[nodiscard]] Eigen::MatrixXd stiffness() const;
 
-  /// Change of all reactions by gaps y of the loose joints: S y. [N/m]
-  [[nodiscard]] Eigen::VectorXd reactions_to(const Eigen::VectorXd& y) const {
-    return times(reactions_, y);
-  }
-
-  /// Change of all gaps: y itself at the loose joints, nothing at bonded ones, and what detached
-  /// ones do. [m]
-  [[nodiscard]] Eigen::VectorXd gaps_to(const Eigen::VectorXd& y) const { return times(gaps_, y); }
+  /// Change of all reactions and gaps by gaps y of the loose joints: S y; y itself at the loose
+  /// joints, nothing at bonded ones, and what detached ones do.
+  [[nodiscard]] JumpAnswer answer_to(const Eigen::VectorXd& y) const;
 
  private:
-  [[nodiscard]] Eigen::VectorXd times(const Eigen::MatrixXd& columns,
-                                      const Eigen::VectorXd& y) const;
-
-  Eigen::Index joint_count_;
+  const Structure* structure_;
   Source source_;
   std::vector<int> joints_;
-  Eigen::MatrixXd reactions_, gaps_;  // two columns a joint; grow by doubling
+  std::vector<Response> responses_;  // of each
+  Eigen::MatrixXd stiffness_;        // lower triangle of 2 × 2 blocks; grows by doubling
 };
 
 }  // namespace havers::sim

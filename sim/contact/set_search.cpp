@@ -77,7 +77,7 @@ JointStepResult SetSearch::solve(const JointStep& step) {
     if (!structure_->ok()) return result;
     StructureResponse response = answer(step, result.states);
     ++result.iterations;
-    result.gaps = step.predicted + joint_gaps(*bodies_, response.displacements);
+    result.gaps = step.predicted + response.gaps;
     result.reactions = response.reactions;
     result.displacements = response.displacements;
     result.residual = std::max(joint_residual(step, result, stiffness_), response.residual);

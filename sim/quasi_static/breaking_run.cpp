@@ -20,13 +20,18 @@ namespace {
 // Joints that meet their cones at strains closer than this break together, whatever their order.
 constexpr double together = 1e-9;
 
+// Answers are refined until a change of the gaps moves the reactions by no more than this part.
+constexpr double refined = 1e-11;
+constexpr int most_refinements = 5;
+
 }  // namespace
 
-BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact)
+BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact,
+                         bool careful)
     : scene_(scene),
+      careful_(careful),
       intact_(std::move(intact)),
-      loose_(intact_->structure().joints(),
-             [this](int joint) { return intact_->respond_to_jump(joint); }),
+      loose_(intact_->structure(), [this](int joint) { return intact_->respond_to_jump(joint); }),
       reactions_(intact_->answer().reactions),
       force_(intact_->answer().force),
       noise_(1e-10 * intact_->answer().reactions.lpNorm<Eigen::Infinity>()),
@@ -136,10 +141,43 @@ bool BreakingRun::settle() {
   }
   system_.set(result.states);
   y_ = result.y;
-  reactions_ = intact_->answer().reactions + loose_.reactions_to(y_);
+  if (careful_) {
+    const UnitAnswer answer = refine();
+    reactions_ = answer.reactions;
+    force_ = answer.force;
+    return result.converged;
+  }
+  reactions_ = intact_->answer().reactions + loose_.answer_to(y_).reactions;
   // By reciprocity the force at the end changes by r⁰·y/W.
   force_ = intact_->answer().force + contact_.r0.dot(y_) / intact_->assembly().width;
   return result.converged;
+}
+
+VectorXd BreakingRun::gaps() const {
+  VectorXd gaps = VectorXd::Zero(2 * static_cast<Index>(joints.size()));
+  for (std::size_t i = 0; i < loose_.size(); ++i)
+    gaps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) =
+        y_.segment<2>(2 * static_cast<Index>(i));
+  return gaps;
+}
+
+// The whole structure with the gaps found, and again with what that shows them to lack.
+UnitAnswer BreakingRun::refine() {
+  const double scale = intact_->answer().reactions.norm();
+  UnitAnswer found = intact_->stretch(gaps());
+  for (int i = 0; i < most_refinements && loose_.size() > 0; ++i) {
+    VectorXd lacking = -contact_.S * y_;
+    for (std::size_t k = 0; k < loose_.size(); ++k)
+      lacking.segment<2>(2 * static_cast<Index>(k)) +=
+          found.reactions.segment<2>(2 * static_cast<Index>(loose_.joints()[k]));
+    const StateSolution solution =
+        system_.solve(lacking, VectorXd::Zero(y_.size()), cohesions(contact_));
+    const double change = (contact_.S * (solution.y - y_)).norm();
+    y_ = solution.y;
+    found = intact_->stretch(gaps());
+    if (change <= refined * scale) break;
+  }
+  return found;
 }
 
 CurvePoint BreakingRun::point(double strain) const {
@@ -167,28 +205,11 @@ double BreakingRun::law_residual_of(const VectorXd& reactions, const VectorXd& g
   return std::sqrt(squared);
 }
 
-// The whole structure with the gaps found, and once more with what that shows them to lack: wide
-// cracks leave few digits to influence columns. What events computed is checked against it,
-// ½ qᵀĀq = ½ (F W ε + r·u) too.
-void BreakingRun::finish(double strain, double energy_scale, Simulation& simulation) const {
+// What events computed is checked against the refined answer, ½ qᵀĀq = ½ (F W ε + r·u) too.
+void BreakingRun::finish(double strain, double energy_scale, Simulation& simulation) {
   const double scale = intact_->answer().reactions.norm();
-  const auto n = static_cast<Index>(loose_.size());
-  VectorXd gaps = VectorXd::Zero(2 * static_cast<Index>(joints.size())), y = y_;
-  StateSystem system(contact_, system_.states());
-  UnitAnswer last;
-  for (const bool again : {true, false}) {
-    VectorXd lacking = -contact_.S * y;
-    for (Index i = 0; i < n; ++i)
-      gaps.segment<2>(2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)])) =
-          y.segment<2>(2 * i);
-    last = intact_->stretch(gaps);
-    if (!again || n == 0) break;
-    for (Index i = 0; i < n; ++i)
-      lacking.segment<2>(2 * i) += last.reactions.segment<2>(
-          2 * static_cast<Index>(loose_.joints()[static_cast<std::size_t>(i)]));
-    y = system.solve(lacking, VectorXd::Zero(2 * n), cohesions(contact_)).y;
-  }
-
+  const UnitAnswer last = refine();
+  const VectorXd gaps = this->gaps();
   const double young = scene_.material.young;
   simulation.displacements = strain * last.displacements;
   simulation.joints = joints;

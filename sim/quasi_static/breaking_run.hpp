@@ -17,7 +17,9 @@ namespace havers::sim {
 /// from ε = 1.
 class BreakingRun {
  public:
-  BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact);
+  /// @param careful  refines every answer: influences of joints on each other have few digits
+  /// where cracks are wide
+  BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact, bool careful);
 
   /// Strain at which the next joints meet their cones; infinite when none ever will.
   [[nodiscard]] double next_event() const;
@@ -31,16 +33,19 @@ class BreakingRun {
 
   [[nodiscard]] CurvePoint point(double strain) const;
   /// Fills in the last row's joints and displacements, and the checks.
-  void finish(double strain, double energy_scale, Simulation& simulation) const;
+  void finish(double strain, double energy_scale, Simulation& simulation);
 
  private:
   [[nodiscard]] double meets_cone_at(std::size_t joint) const;
   void loosen(const std::vector<std::size_t>& breaking);
   [[nodiscard]] std::vector<char> apart() const;
+  [[nodiscard]] Eigen::VectorXd gaps() const;
+  UnitAnswer refine();
   [[nodiscard]] double law_residual_of(const Eigen::VectorXd& reactions,
                                        const Eigen::VectorXd& gaps) const;
 
   const Scene& scene_;
+  bool careful_;
   std::shared_ptr<const IntactStructure> intact_;
   LooseJoints loose_;
   LocalContact contact_;  // of the loose joints

@@ -17,7 +17,7 @@ constexpr std::size_t kept = 8;
 // stand in for them. Where they miss by more, self-stress is not determined (M10).
 constexpr double known = 1e-6;
 constexpr std::size_t remembered_bytes = std::size_t{128}
-                                         << 20U;  // of influence columns, for each structure
+                                         << 20U;  // of jump responses, for each structure
 
 // A trace of inertia, that of h c = 3e6 specimens, holds what hangs on a single joint or floats,
 // and nothing else feels it.
@@ -92,19 +92,17 @@ double IntactStructure::energy(const Eigen::VectorXd& q) const {
   return 0.5 * q.dot(Eigen::VectorXd(bodies_.shifted_times(q)));
 }
 
-JumpResponse IntactStructure::respond_to_jump(int joint) const {
-  Eigen::MatrixX2d gaps = Eigen::MatrixX2d::Zero(2 * structure_.joints(), 2);
-  gaps.middleRows<2>(2 * static_cast<Eigen::Index>(joint)).setIdentity();
+std::shared_ptr<const JumpResponse> IntactStructure::respond_to_jump(int joint) const {
   {
     const std::scoped_lock lock(mutex_);
-    const auto known = reactions_to_jump_.find(joint);
-    if (known != reactions_to_jump_.end()) return {known->second, std::move(gaps)};
+    const auto known = responses_.find(joint);
+    if (known != responses_.end()) return known->second;
   }
-  JumpResponse response = structure_.respond_to_jump(joint);
+  auto response = std::make_shared<const JumpResponse>(structure_.respond_to_jump(joint));
   const std::scoped_lock lock(mutex_);
-  const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(response.reactions.size());
-  if ((reactions_to_jump_.size() + 1) * bytes <= remembered_bytes)
-    reactions_to_jump_.emplace(joint, response.reactions);
+  const std::size_t bytes = response->half.rows.size() * (sizeof(int) + sizeof(Eigen::RowVector2d));
+  if (response_bytes_ + bytes <= remembered_bytes && responses_.emplace(joint, response).second)
+    response_bytes_ += bytes;
   return response;
 }
 

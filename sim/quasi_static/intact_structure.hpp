@@ -43,7 +43,7 @@ class IntactStructure {
 
   /// Structure::respond_to_jump, remembered for later runs as long as memory allows. May be called
   /// by several threads.
-  [[nodiscard]] JumpResponse respond_to_jump(int joint) const;
+  [[nodiscard]] std::shared_ptr<const JumpResponse> respond_to_jump(int joint) const;
 
  private:
   Assembly assembly_;
@@ -54,7 +54,8 @@ class IntactStructure {
   Eigen::VectorXd lost_;  // forces of the uniform stress that a solve does not find [N/m]
   std::vector<int> held_bodies_;
   mutable std::mutex mutex_;
-  mutable std::map<int, Eigen::MatrixX2d> reactions_to_jump_;
+  mutable std::map<int, std::shared_ptr<const JumpResponse>> responses_;
+  mutable std::size_t response_bytes_ = 0;
 };
 
 /// The one for a scene, made once and shared between runs and threads; the last few are kept.

@@ -41,6 +41,10 @@ class Bodies {
     return first_port_[static_cast<std::size_t>(body)];
   }
 
+  [[nodiscard]] Eigen::Index first_compatibility(int body) const {
+    return first_compatibility_[static_cast<std::size_t>(body)];
+  }
+
   [[nodiscard]] const Eigen::VectorXd& mass() const { return mass_; }             ///< M. [kg/m]
   [[nodiscard]] Eigen::MatrixXd stiffness_times(const Eigen::MatrixXd& q) const;  ///< K q. [N/m]
   [[nodiscard]] Eigen::MatrixXd shifted_times(const Eigen::MatrixXd& q) const;    ///< Ā q. [N/m]

@@ -3,11 +3,13 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/structure/bodies.hpp"
-#include "sim/structure/cholesky.hpp"
+#include "sim/structure/sparse_factor.hpp"
 
 namespace havers::sim {
 
@@ -35,18 +37,26 @@ struct StructureResponse {
   Eigen::VectorXd displacements;  ///< δ. [m]
   Eigen::VectorXd reactions;      ///< r of every joint: R_N, R_T. [N/m]
   Eigen::VectorXd tie_forces;     ///< Of every tie, pushing its top point up. [N/m]
+  Eigen::VectorXd gaps;           ///< u_b − u_a of every joint: normal, tangential. [m]
   int solves = 0;                 ///< Triangular solves spent.
   double residual = 0.0;          ///< Relative error of the port forces, as corrections shrink. [-]
 };
 
-/// Answers of all joints to unit jumps at one joint: a column for the normal, one for the
-/// tangential jump.
+/// Unit jumps at one joint, a column for the normal, one for the tangential jump, solved half way
+/// (S8): enough for the reactions of such joints to each other.
 struct JumpResponse {
-  Eigen::MatrixX2d reactions;  ///< [N/m²]
-  Eigen::MatrixX2d gaps;       ///< u_b − u_a; what is not held follows the structure. [-]
+  int joint = 0;
+  HalfSolution half;     ///< Of the loads that the jumps are.
+  Eigen::MatrixX2d own;  ///< Forces on the ports of the joint's body b, all else held. [N/m²]
 };
 
-/// Factor of the structure in which the joints hold as given (S5)-(S7),
+/// What jumps at some joints do to all of them.
+struct JumpAnswer {
+  Eigen::VectorXd reactions;  ///< [N/m]
+  Eigen::VectorXd gaps;       ///< u_b − u_a; what is not held follows the structure. [m]
+};
+
+/// Factor of the structure in which the joints hold as given (S5)-(S8),
 /// sim/README.md. Unknowns are the joints' own displacements; what an even ring of ports
 /// cannot do is imposed by multipliers, so that no digits are lost at large steps (M10).
 class Structure {
@@ -58,17 +68,24 @@ class Structure {
   [[nodiscard]] const Bodies& bodies() const { return *bodies_; }
   [[nodiscard]] const std::vector<Held>& held() const { return held_; }
   [[nodiscard]] Eigen::Index joints() const { return static_cast<Eigen::Index>(held_.size()); }
-  [[nodiscard]] const Cholesky& factor() const { return *factor_; }
-  [[nodiscard]] Eigen::Index unknowns() const { return unknowns_; }  ///< Rows of the factor.
+  [[nodiscard]] const SparseFactor& factor() const { return *factor_; }
 
   [[nodiscard]] StructureResponse solve(const StructureLoads& loads) const;
 
   [[nodiscard]] JumpResponse respond_to_jump(int joint) const;
+  /// Reactions at the joint of `a` to unit jumps at that of each `b`. [N/m²]
+  [[nodiscard]] Eigen::Matrix2Xd reactions_between(
+      const JumpResponse& a, const std::vector<std::shared_ptr<const JumpResponse>>& b) const;
+  /// @param y  jumps at the joints of `responses`, normal and tangential [m]
+  [[nodiscard]] JumpAnswer answer_to_jumps(
+      const std::vector<std::shared_ptr<const JumpResponse>>& responses,
+      const Eigen::VectorXd& y) const;
 
  private:
   struct PortLoads;
   struct PortState;
   struct Correction;
+  struct Branch;
   [[nodiscard]] PortState solve_ports(const PortLoads& loads) const;
   [[nodiscard]] Correction correct(const Eigen::MatrixXd& forces, const Eigen::MatrixXd& gap,
                                    const Eigen::VectorXd& friction) const;
@@ -76,20 +93,38 @@ class Structure {
                                           const Eigen::MatrixXd& gap) const;
   void rub(const Eigen::VectorXd& friction, Eigen::MatrixXd& port_forces) const;
   [[nodiscard]] bool holds(int unknown) const;
+  [[nodiscard]] Eigen::Index ports() const {
+    return static_cast<Eigen::Index>(unknowns_of_port_.size());
+  }
+  [[nodiscard]] std::span<const Eigen::Index> unknowns_of_port(Eigen::Index port) const {
+    const auto& both = unknowns_of_port_[static_cast<std::size_t>(port)];
+    return {both.data(), both[1] < 0 ? 1U : 2U};
+  }
+  [[nodiscard]] Eigen::Index port_b(int joint, int component) const {
+    return ports_of_[static_cast<std::size_t>(2 * joint + component)][1];
+  }
+  [[nodiscard]] Eigen::MatrixXd stiffened(const BodyOperator& op) const;
+  [[nodiscard]] Eigen::VectorXd gaps_of(const Eigen::MatrixXd& displacements) const;
   [[nodiscard]] Eigen::MatrixXd unknowns_to_ports(const Eigen::MatrixXd& unknowns) const;
   [[nodiscard]] Eigen::MatrixXd ports_to_unknowns(const Eigen::MatrixXd& forces) const;
   [[nodiscard]] Eigen::MatrixXd reactions_of(const Eigen::MatrixXd& port_forces) const;
   void assemble();
+  [[nodiscard]] std::vector<char> conducting() const;
+  [[nodiscard]] std::vector<Branch> network(const std::vector<int>& place) const;
+  [[nodiscard]] Eigen::Index first_multiplier(std::size_t body) const {
+    return unknowns_ + bodies_->first_compatibility(static_cast<int>(body));
+  }
+  [[nodiscard]] std::vector<int> elimination_order(const Eigen::SparseMatrix<double>& matrix) const;
 
   const Bodies* bodies_;
   std::vector<Held> held_;
   std::vector<std::array<Eigen::Index, 2>> ports_of_;  // sides a and b of each joint's component
-  std::vector<int> unknown_of_port_;
-  std::vector<char> tie_top_;  // 1 for a port that also moves with the common distance of the ties
+  // A tie's top also moves with the distance common to all ties; for the others that is -1.
+  std::vector<std::array<Eigen::Index, 2>> unknowns_of_port_;
   Eigen::Index unknowns_ = 0;
   double stiffness_ = 0.0;  // the largest of Z [N/m²]
-  double penalty_ = 0.0;    // ρ of the compatibility term [N/m²]
-  std::optional<Cholesky> factor_;
+  std::vector<const BodyOperator*> op_of_body_;
+  std::optional<SparseFactor> factor_;
 };
 
 }  // namespace havers::sim

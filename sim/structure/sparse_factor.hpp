@@ -1,0 +1,57 @@
+// Sparse factor of a saddle-point matrix (CHOLMOD), shared by threads once made.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <memory>
+#include <vector>
+
+namespace havers::sim {
+
+/// L⁻¹ P b for two columns b, where it is not zero.
+struct HalfSolution {
+  std::vector<int> rows;    ///< Ascending.
+  Eigen::MatrixX2d values;  ///< One row for each of them.
+};
+
+/// An order of elimination that leaves little fill. [rows of a symmetric matrix]
+std::vector<int> order_of_little_fill(const Eigen::SparseMatrix<double>& lower);
+
+/// L D Lᵀ = P A Pᵀ of A = (K Nᵀ; N 0), K positive definite, the rows of N independent. There is no
+/// pivoting: the order has to make sure that no pivot is small.
+class SparseFactor {
+ public:
+  /// @param lower  lower triangle of A
+  /// @param multipliers  rows of N; they come last in A
+  /// @param order  of elimination: each row of N behind some of those it has entries with
+  SparseFactor(const Eigen::SparseMatrix<double>& lower, Eigen::Index multipliers,
+               std::vector<int> order);
+  ~SparseFactor();
+  SparseFactor(SparseFactor&& other) noexcept;
+  SparseFactor& operator=(SparseFactor&& other) noexcept;
+
+  /// Whether K was positive definite and N independent; only then may anything be solved.
+  [[nodiscard]] bool ok() const;
+
+  // All of these may be called by several threads at once.
+  /// A⁻¹ b for each column of b.
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+  /// The first half of it, quick for a b of few entries.
+  /// @param rows  those of b that are not zero, `values` has one row for each
+  [[nodiscard]] HalfSolution solve_half(const std::vector<int>& rows,
+                                        const Eigen::MatrixX2d& values) const;
+  /// The other half, Pᵀ L⁻ᵀ D⁻¹ w.
+  [[nodiscard]] Eigen::VectorXd finish(const Eigen::VectorXd& w) const;
+
+  [[nodiscard]] const Eigen::VectorXd& pivots() const { return pivots_; }  ///< D.
+  [[nodiscard]] long nonzeros() const;                                     ///< Of L.
+
+ private:
+  struct Factor;
+  std::unique_ptr<Factor> factor_;
+  std::vector<int> place_;  // of each row in P
+  Eigen::VectorXd pivots_;
+  bool ok_ = false;
+};
+
+}  // namespace havers::sim

@@ -1,0 +1,160 @@
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "sim/structure/disjoint_sets.hpp"
+#include "sim/structure/structure.hpp"
+
+namespace havers::sim {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+namespace {
+
+constexpr double most_hold = 1e-9;   // of a mechanism, part of the diagonal
+constexpr double determined = 0.01;  // least share of a joint in multipliers to give them a pivot
+
+// Least share of a direction in a set of orthonormal rows, where only some columns are looked at.
+double least_share(const MatrixXd& rows) {
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(rows * rows.transpose(), Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .minCoeff();
+}
+
+}  // namespace
+
+// Where, in the order of elimination, a joint connects two bodies.
+struct Structure::Branch {
+  int place;
+  std::size_t a, b;
+};
+
+// Of each body: whether every joint determines its multipliers. All fibres of full size are so.
+std::vector<char> Structure::conducting() const {
+  std::vector<char> conducts(op_of_body_.size(), 1);
+  for (std::size_t joint = 0; joint < held_.size(); ++joint) {
+    const Joint& between = bodies_->assembly().joints[joint];
+    for (const std::size_t side : {0U, 1U}) {
+      const int body = side == 0 ? between.body_a : between.body_b;
+      const MatrixXd& N = op_of_body_[static_cast<std::size_t>(body)]->compatibility;
+      const std::array<Index, 2> columns{
+          ports_of_[2 * joint][side] - bodies_->first_port(body),
+          ports_of_[2 * joint + 1][side] - bodies_->first_port(body)};
+      if (N.rows() > 0 && least_share(N(Eigen::all, columns)) < determined)
+        conducts[static_cast<std::size_t>(body)] = 0;
+    }
+  }
+  return conducts;
+}
+
+// Joints by the place at which both of their unknowns are eliminated. A joint that holds nothing
+// has unknowns of its own for each body, which connect it to what needs no multipliers.
+std::vector<Structure::Branch> Structure::network(const std::vector<int>& place) const {
+  const std::vector<char> conducts = conducting();
+  const std::size_t ground = op_of_body_.size();
+  std::vector<Branch> branches;
+  branches.reserve(held_.size());
+  const auto last = [&](std::size_t joint, std::size_t side) {
+    const auto of = [&](std::size_t component) {
+      const auto port = static_cast<std::size_t>(ports_of_[2 * joint + component][side]);
+      return place[static_cast<std::size_t>(unknowns_of_port_[port][0])];
+    };
+    return std::max(of(0), of(1));
+  };
+  for (std::size_t j = 0; j < held_.size(); ++j) {
+    const Joint& joint = bodies_->assembly().joints[j];
+    const auto a = static_cast<std::size_t>(joint.body_a),
+               b = static_cast<std::size_t>(joint.body_b);
+    if (held_[j] == Held::fully && conducts[a] != 0 && conducts[b] != 0)
+      branches.push_back({last(j, 0), a, b});
+    if (held_[j] != Held::not_at_all) continue;
+    if (conducts[a] != 0) branches.push_back({last(j, 0), ground, a});
+    if (conducts[b] != 0) branches.push_back({last(j, 1), ground, b});
+  }
+  std::sort(branches.begin(), branches.end(),
+            [](const Branch& x, const Branch& y) { return x.place < y.place; });
+  return branches;
+}
+
+// The multipliers of two bodies that share a joint say the same of it with opposite signs: over all
+// bodies they are the nodes of a network, and the joints its branches. Where joints have been
+// eliminated, bodies that they connect have their pivots, but for one in each connected part that
+// no branch leads out of yet. So a body's multipliers follow the joint by which its part meets
+// another one, or a body without any; those of clipped bodies that are no such nodes come last.
+std::vector<int> Structure::elimination_order(const Eigen::SparseMatrix<double>& matrix) const {
+  std::vector<int> order = order_of_little_fill(matrix.topLeftCorner(unknowns_, unknowns_));
+  std::vector<int> place(static_cast<std::size_t>(matrix.rows()), 2 * static_cast<int>(unknowns_));
+  for (std::size_t i = 0; i < order.size(); ++i)
+    place[static_cast<std::size_t>(order[i])] = 2 * static_cast<int>(i);
+
+  const std::size_t ground = op_of_body_.size();
+  const auto rows = [&](std::size_t body) {
+    return body == ground ? Index{0} : op_of_body_[body]->compatibility.rows();
+  };
+  DisjointSets parts(ground + 1);
+  for (std::size_t body = 0; body < ground; ++body)
+    if (rows(body) == 0) parts.unite(ground, body);
+  for (const Branch& branch : network(place)) {
+    std::size_t stays = parts.find(branch.a), goes = parts.find(branch.b), through = branch.b;
+    if (stays == goes) continue;
+    if (goes == ground || (stays != ground && rows(stays) < rows(goes))) {
+      std::swap(stays, goes);
+      through = branch.a;
+    }
+    if (rows(through) < rows(goes)) continue;
+    parts.unite(stays, goes);
+    for (Index i = 0; i < rows(goes); ++i)
+      place[static_cast<std::size_t>(first_multiplier(goes) + i)] = branch.place + 1;
+  }
+  for (Index row = unknowns_; row < matrix.rows(); ++row) order.push_back(static_cast<int>(row));
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return place[static_cast<std::size_t>(a)] < place[static_cast<std::size_t>(b)];
+  });
+  return order;
+}
+
+// (S7): the mixed form with NᵀN added to Z, which changes nothing where Np = 0 and makes the block
+// of the unknowns positive definite.
+void Structure::assemble() {
+  op_of_body_.resize(bodies_->assembly().bodies.size());
+  for (const BodyClass& bodies : bodies_->classes()) {
+    if (bodies.op.impedance.size() > 0)
+      stiffness_ = std::max(stiffness_, bodies.op.impedance.diagonal().maxCoeff());
+    for (const int body : bodies.bodies) op_of_body_[static_cast<std::size_t>(body)] = &bodies.op;
+  }
+  if (unknowns_ == 0) return;
+
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](Index row, Index column, double value) {
+    if (row >= column) entries.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
+  };
+  for (const BodyClass& group : bodies_->classes()) {
+    const MatrixXd& N = group.op.compatibility;
+    const MatrixXd Z = stiffened(group.op);
+    for (const int body : group.bodies) {
+      const Index first = bodies_->first_port(body);
+      const Index multiplier = first_multiplier(static_cast<std::size_t>(body));
+      for (Index j = 0; j < Z.cols(); ++j)
+        for (const Index column : unknowns_of_port(first + j)) {
+          for (Index i = 0; i < Z.rows(); ++i)
+            for (const Index row : unknowns_of_port(first + i)) add(row, column, Z(i, j));
+          for (Index i = 0; i < N.rows(); ++i) add(multiplier + i, column, N(i, j));
+        }
+    }
+  }
+  const Index n = unknowns_ + bodies_->compatibilities();
+  Eigen::SparseMatrix<double> matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const std::vector<int> order = elimination_order(matrix);
+  factor_.emplace(matrix, bodies_->compatibilities(), order);
+  // A mechanism has nothing but its trace of inertia. The factor may hold it, for the corrections
+  // take what it adds away from everything that bears a load.
+  for (double hold = 1e-13; !factor_->ok() && hold < most_hold; hold *= 10.0) {
+    matrix.diagonal() *= 1.0 + hold;
+    factor_.emplace(matrix, bodies_->compatibilities(), order);
+  }
+}
+
+}  // namespace havers::sim
