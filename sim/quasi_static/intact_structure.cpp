@@ -95,8 +95,8 @@ double IntactStructure::energy(const Eigen::VectorXd& q) const {
 std::shared_ptr<const JumpResponse> IntactStructure::respond_to_jump(int joint) const {
   {
     const std::scoped_lock lock(mutex_);
-    const auto known = responses_.find(joint);
-    if (known != responses_.end()) return known->second;
+    const auto answered = responses_.find(joint);
+    if (answered != responses_.end()) return answered->second;
   }
   auto response = std::make_shared<const JumpResponse>(structure_.respond_to_jump(joint));
   const std::scoped_lock lock(mutex_);

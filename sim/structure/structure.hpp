@@ -100,8 +100,8 @@ class Structure {
     const auto& both = unknowns_of_port_[static_cast<std::size_t>(port)];
     return {both.data(), both[1] < 0 ? 1U : 2U};
   }
-  [[nodiscard]] Eigen::Index port_b(int joint, int component) const {
-    return ports_of_[static_cast<std::size_t>(2 * joint + component)][1];
+  [[nodiscard]] Eigen::Index port_b(int joint, std::size_t component) const {
+    return ports_of_[2 * static_cast<std::size_t>(joint) + component][1];
   }
   [[nodiscard]] Eigen::MatrixXd stiffened(const BodyOperator& op) const;
   [[nodiscard]] Eigen::VectorXd gaps_of(const Eigen::MatrixXd& displacements) const;

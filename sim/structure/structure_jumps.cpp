@@ -51,8 +51,8 @@ Eigen::Matrix2Xd Structure::reactions_between(
     auto block = reactions.middleCols<2>(2 * static_cast<Index>(k));
     const JumpResponse& other = *b[k];
     if (joints[static_cast<std::size_t>(other.joint)].body_b == body)
-      for (const int component : {0, 1})
-        block.row(component) =
+      for (const std::size_t component : {0U, 1U})
+        block.row(static_cast<Index>(component)) =
             other.own.row(port_b(a.joint, component) - bodies_->first_port(body));
     for (std::size_t i = 0; i < other.half.rows.size(); ++i)
       block -=
@@ -70,8 +70,8 @@ JumpAnswer Structure::answer_to_jumps(
     const Eigen::Vector2d jump = y.segment<2>(2 * static_cast<Index>(k));
     for (std::size_t i = 0; i < response.half.rows.size(); ++i)
       half(response.half.rows[i]) -= response.half.values.row(static_cast<Index>(i)).dot(jump);
-    for (const int component : {0, 1})
-      displacements(port_b(response.joint, component)) = jump(component);
+    for (const std::size_t component : {0U, 1U})
+      displacements(port_b(response.joint, component)) = jump(static_cast<Index>(component));
   }
   const VectorXd answer = factor_->finish(half);
   displacements += unknowns_to_ports(answer);

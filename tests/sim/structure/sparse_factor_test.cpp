@@ -87,6 +87,7 @@ TEST(SparseFactor, ServesSeveralThreadsAtOnce) {
   const Eigen::VectorXd alone = factor.solve(stretch);
   std::vector<Eigen::VectorXd> found(4);
   std::vector<std::thread> threads;
+  threads.reserve(found.size());
   for (Eigen::VectorXd& x : found)
     threads.emplace_back([&] {
       for (int i = 0; i < 50; ++i) x = factor.solve(stretch);
