@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "sim/contact/given_friction.hpp"
 #include "sim/contact/release_path.hpp"
 #include "sim/contact/state_system.hpp"
 
@@ -17,8 +18,8 @@ using Eigen::VectorXd;
 using States = std::vector<JointState>;
 
 constexpr double rounding = 1e-12;
-constexpr int sets_at_once = 3;  // that follow from each other, before sweeps look for a better one
-constexpr int searches = 6;      // by sweeps, before a safer way is taken
+constexpr int sets_at_once = 3;  // that follow from each other, before a better one is looked for
+constexpr int searches = 6;      // by sweeps, before the release path is taken
 constexpr int sweeps_of_search = 200;
 constexpr int calm = 10;  // sweeps without a change of state, after which the set is worth a solve
 
@@ -118,26 +119,32 @@ LocalContactResult solve_local_contact(const LocalContact& problem, States state
                                        int max_iterations) {
   if (states.empty()) return {.converged = true, .y = {}, .states = {}, .iterations = 0};
   LocalContactResult result = try_sets(problem, std::move(states), sets_at_once);
-  const auto search = [&] {
-    int spent = result.iterations;
+  int spent = result.iterations;
+  const auto try_from = [&](States found) {
+    result = try_sets(problem, std::move(found), sets_at_once);
+    spent += result.iterations;
+  };
+  if (!result.converged) {
+    StatesOfGivenFriction found = states_by_given_friction(problem);
+    spent += found.iterations;
+    if (!found.states.empty()) try_from(std::move(found.states));
+  }
+  for (int i = 0; i < searches && !result.converged; ++i) {
     if (!result.y.allFinite()) result.y.setZero();
     spent +=
         gauss_seidel(problem, result.y, result.states, std::min(max_iterations, sweeps_of_search));
-    result = try_sets(problem, std::move(result.states), sets_at_once);
-    result.iterations += spent;
-  };
-  for (int i = 0; i < searches && !result.converged; ++i) search();
-  if (result.converged) return result;
-
-  const int spent = result.iterations;
-  States stuck(problem.laws.size(), JointState::stick);
-  for (std::size_t i = 0; i < stuck.size(); ++i)
-    if (problem.is_apart(i)) stuck[i] = JointState::open;
-  StateSystem system(problem, stuck);
-  result =
-      follow_release(system, cohesion_to_stick(problem.r0 - problem.S * problem.u0, problem.laws));
-  result.iterations += spent;
-  if (!result.converged) search();
+    try_from(std::move(result.states));
+  }
+  if (!result.converged) {
+    States stuck(problem.laws.size(), JointState::stick);
+    for (std::size_t i = 0; i < stuck.size(); ++i)
+      if (problem.is_apart(i)) stuck[i] = JointState::open;
+    StateSystem system(problem, stuck);
+    result = follow_release(system,
+                            cohesion_to_stick(problem.r0 - problem.S * problem.u0, problem.laws));
+    spent += result.iterations;
+  }
+  result.iterations = spent;
   return result;
 }
 

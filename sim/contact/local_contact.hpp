@@ -31,7 +31,7 @@ struct LocalContactResult {
   bool converged = false;
   Eigen::VectorXd y;               ///< 2n. [m]
   std::vector<JointState> states;  ///< n.
-  int iterations = 0;              ///< Sets tried, and sweeps of the fallback.
+  int iterations = 0;              ///< Sets tried, and solves and sweeps in between.
 };
 
 /// Which state a joint with that reaction and gap belongs in. `scale` is a force: less than 1e-12
@@ -49,9 +49,9 @@ struct SingleJoint {
 SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const Local& u0,
                                const JointLaw& law);
 
-/// Active set started from `states`: each set is one linear solve (C2), and sweeps over the joints,
-/// each solved alone (C3), find a better set where sets do not lead to each other (C4). Where that
-/// ends nowhere, the release of cohesion is followed (C5).
+/// Active set started from `states`: each set is one linear solve (C2). Where sets do not lead to
+/// each other, convex problems (C7), then sweeps over the joints, each solved alone (C3), find a
+/// better one (C4). Where that ends nowhere, the release of cohesion is followed (C5).
 LocalContactResult solve_local_contact(const LocalContact& problem, std::vector<JointState> states,
                                        int max_iterations);
 

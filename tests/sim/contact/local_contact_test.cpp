@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "sim/contact/given_friction.hpp"
 #include "sim/contact/release_path.hpp"
 #include "tests/sim/contact/enumerated_contact.hpp"
 
@@ -69,6 +70,22 @@ TEST_P(LocalContactProblems, AreSolvedAlongTheReleasePathToo) {
     EXPECT_TRUE(test::keeps_law(problem, result.y, 1e-10)) << "seed " << seed;
   }
   EXPECT_GE(reached, friction > 1.0 ? 30 : 50);
+}
+
+// Without friction, and with little, the sequence of convex problems ends at a solution.
+TEST_P(LocalContactProblems, AreSolvedByGivenFrictionWhereItIsModerate) {
+  int solvable = 0, reached = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    const LocalContact problem = test::random_contact(joints, friction, seed);
+    if (test::all_solutions(problem).empty()) continue;
+    ++solvable;
+    const States states = states_by_given_friction(problem).states;
+    ASSERT_EQ(states.size(), problem.laws.size());
+    const VectorXd y =
+        StateSystem(problem, states).solve(problem.r0, -problem.u0, cohesions(problem)).y;
+    reached += test::keeps_law(problem, y, 1e-10) ? 1 : 0;
+  }
+  EXPECT_GE(reached, friction < 1.0 ? solvable : solvable / 2);
 }
 
 // Lengths, forces and stiffnesses in other units: the same states, the gaps in the other unit.
