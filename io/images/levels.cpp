@@ -37,6 +37,52 @@ std::optional<double> bone_of_two_values(const std::vector<Sample>& samples, boo
   return dark_pores ? high : low;
 }
 
+// The rows of an image in bands that stay in a core's cache.
+constexpr int band_height = 64;
+std::vector<cv::Range> bands_of(int rows) {
+  std::vector<cv::Range> bands;
+  for (int top = 0; top < rows; top += band_height)
+    bands.emplace_back(top, std::min(top + band_height, rows));
+  return bands;
+}
+
+void fill_rows(const DepthSource& source, const cv::Range& rows, cv::Mat& depth) {
+  const Levels& levels = source.levels;
+  const auto sign = static_cast<float>(levels.sign), slope = static_cast<float>(levels.slope);
+  const auto offset = static_cast<float>(levels.offset);
+  std::vector<float> bone(static_cast<std::size_t>(depth.cols));
+  cv::Mat row;
+  for (int y = rows.start; y < rows.end; ++y) {
+    levels.bone.evaluate_row(y, bone.data());
+    const float least = 1e-3F * std::abs(offset + slope * bone[0]);
+    source.grey.row(y).convertTo(row, CV_32F);
+    const auto* value = row.ptr<float>();
+    auto* out = depth.ptr<float>(y - rows.start);
+    for (std::size_t x = 0; x < bone.size(); ++x)
+      out[x] = sign * (bone[x] - value[x]) / std::max(offset + slope * bone[x], least);
+    if (source.within.empty()) continue;
+    const auto* within = source.within.ptr<std::uint8_t>(y);
+    for (std::size_t x = 0; x < bone.size(); ++x) {
+      const float there = out[x];  // read in any case, or the loop is not vectorised
+      out[x] = within[x] != 0 ? there : 0.0F;
+    }
+  }
+}
+
+// Depth of a band of rows; `wide` is working space for them and the rows about them that smoothing
+// reaches.
+void make_rows(const DepthSource& source, const cv::Range& rows, cv::Mat& wide, cv::Mat depth) {
+  if (source.sigma == 0.0) return fill_rows(source, rows, depth);
+  const int side = cvRound(8.0 * source.sigma + 1.0) | 1, reach = side / 2;
+  const cv::Range all(std::max(0, rows.start - reach),
+                      std::min(source.grey.rows, rows.end + reach));
+  wide.create(all.size(), depth.cols, CV_32F);
+  fill_rows(source, all, wide);
+  // Of a part of a matrix OpenCV reads what is about it as well.
+  cv::GaussianBlur(wide.rowRange(rows.start - all.start, rows.end - all.start), depth, {side, side},
+                   source.sigma, source.sigma, cv::BORDER_REPLICATE);
+}
+
 }  // namespace
 
 Levels bone_levels(const cv::Mat& grey, const Regions& regions) {
@@ -74,26 +120,21 @@ void fit_contrast(const cv::Mat& grey, const cv::Mat& pores, Levels& levels) {
   levels.offset = d - levels.slope * b;
 }
 
-void make_depth(const cv::Mat& grey, const Levels& levels, double sigma, cv::Mat& depth) {
-  depth.create(grey.size(), CV_32F);
-  const auto sign = static_cast<float>(levels.sign), slope = static_cast<float>(levels.slope);
-  const auto offset = static_cast<float>(levels.offset);
-  std::vector<float> bone(static_cast<std::size_t>(grey.cols));
-  cv::Mat row;
-  for (int y = 0; y < grey.rows; ++y) {
-    levels.bone.evaluate_row(y, bone.data());
-    const float least = 1e-3F * std::abs(offset + slope * bone[0]);
-    grey.row(y).convertTo(row, CV_32F);
-    const auto* value = row.ptr<float>();
-    auto* out = depth.ptr<float>(y);
-    for (std::size_t x = 0; x < bone.size(); ++x)
-      out[x] = sign * (bone[x] - value[x]) / std::max(offset + slope * bone[x], least);
-  }
-  smooth(depth, sigma);
+void make_depth(const DepthSource& source, cv::Mat& depth) {
+  depth.create(source.grey.size(), CV_32F);
+  cv::Mat wide;
+  for (const cv::Range& rows : bands_of(depth.rows))
+    make_rows(source, rows, wide, depth.rowRange(rows));
 }
 
-void smooth(cv::Mat& depth, double sigma) {
-  if (sigma > 0.0) cv::GaussianBlur(depth, depth, {}, sigma, sigma, cv::BORDER_REPLICATE);
+void keep_shallower(const DepthSource& source, double threshold, cv::Mat& mask) {
+  cv::Mat wide, depth, shallower;
+  for (const cv::Range& rows : bands_of(mask.rows)) {
+    depth.create(rows.size(), mask.cols, CV_32F);
+    make_rows(source, rows, wide, depth);
+    cv::compare(depth, threshold, shallower, cv::CMP_LT);
+    mask.rowRange(rows) &= shallower;
+  }
 }
 
 }  // namespace havers::images

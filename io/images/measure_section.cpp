@@ -115,11 +115,11 @@ io::SectionMeasurement measure_page(const cv::Mat& image, const std::string& nam
   Regions regions = regions_of(whole, options);
   const cv::Mat grey = whole(regions.box);
   const Levels levels = bone_levels(grey, regions);
-  cv::Mat depth;  // one for all steps: it is the largest
-  cv::Mat bone = find_bone(grey, regions, levels, depth);
+  cv::Mat bone = find_bone(grey, regions, levels);
   if (!bone.empty()) leave_out_rim(options, name, bone);
   if (bone.empty() || cv::countNonZero(bone) == 0)
     throw io::InputError(name, "no bone was found", "give a mask that is white where the bone is");
+  cv::Mat depth;
   const PoreMap map = find_pores(grey, bone, levels,
                                  {.threshold = options.threshold,
                                   .crack_slenderness = options.crack_slenderness,

@@ -63,12 +63,12 @@ cv::Mat deeper(const cv::Mat& depth, double threshold, const cv::Mat& bone) {
 // chance. Small pores show under little smoothing, strong noise needs more. The half-way depth
 // between bone and such patches; infinite: one level.
 double rough_threshold(cv::Mat& depth, const cv::Mat& bone, double noise) {
-  depth.setTo(0.0, ~bone);  // Or background would be smoothed into the bone.
   for (int round = 0; round < 2; ++round) {
-    if (noise > 0.0) smooth(depth, round == 0 ? 1.0 : 2.0);
+    if (noise > 0.0 && round == 1)
+      cv::GaussianBlur(depth, depth, {}, 2.0, 2.0, cv::BORDER_REPLICATE);
     const BoneDepth solid = bone_depth(depth, bone);
     const double least = solid.middle + std::max(5.0 * solid.spread, 0.01 * noise);
-    const DepthCount seeds(depth, eroded(deeper(depth, least, bone), 3) & bone);
+    const DepthCount seeds(depth, eroded(deeper(depth, least, bone), 3));
     if (seeds.all() > 0.0) return 0.5 * (solid.middle + seeds.sum() / seeds.all());
   }
   return std::numeric_limits<double>::infinity();
@@ -89,7 +89,8 @@ cv::Mat clean_bone(const cv::Mat& solid) {
 // empty: none.
 cv::Mat find_pore_level(const cv::Mat& grey, const cv::Mat& bone, Levels& levels, cv::Mat& depth) {
   levels.offset = 1.0, levels.slope = 0.0;
-  make_depth(grey, levels, 0.0, depth);
+  // Within the bone, or background would be smoothed into it.
+  make_depth({grey, levels, levels.noise > 0.0 ? 1.0 : 0.0, bone}, depth);
   const double threshold = rough_threshold(depth, bone, levels.noise);
   const cv::Mat pores = deeper(depth, threshold, bone);
   if (cv::countNonZero(pores) == 0) return {};
@@ -145,14 +146,15 @@ void cut(const cv::Mat& inner, const PoreOptions& options, PoreMap& map) {
 
 }  // namespace
 
-cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Levels levels, cv::Mat& depth) {
+cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Levels levels) {
   cv::Mat bone = std::move(regions.bone);
   const cv::Mat background = std::move(regions.background);
   if (!regions.outlined) return bone;
   fit_contrast(grey, background, levels);
   if (!(levels.contrast(levels.bone.coefficients[0]) > 0.0)) return {};
-  make_depth(grey, levels, enough_smoothing(levels), depth);
-  return outline((depth < 0.5F) & regions.search);
+  cv::Mat solid = std::move(regions.search);
+  keep_shallower({grey, levels, enough_smoothing(levels)}, 0.5, solid);
+  return outline(solid);
 }
 
 PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const Levels& coarse,
@@ -163,7 +165,7 @@ PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const Levels& coars
   Levels levels = coarse;
   // Blur reaches further in than noise does: a sharp eye would take it for a second level.
   const cv::Mat cores = find_pore_level(grey, options.rim ? eroded(bone, 9) : bone, levels, depth);
-  make_depth(grey, levels, enough_smoothing(levels), depth);
+  make_depth({grey, levels, enough_smoothing(levels)}, depth);
   if (cores.empty()) return map;
 
   const cv::Mat inner = options.rim ? eroded(bone, 5) : bone;

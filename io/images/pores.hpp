@@ -46,8 +46,8 @@ struct PoreOptions {
 Levels bone_levels(const cv::Mat& grey, const Regions& regions);
 
 /// The bone on the full image; empty when there is none. Takes the masks of `regions`, which nobody
-/// needs after this. `depth` is working space.
-cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Levels levels, cv::Mat& depth);
+/// needs after this.
+cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Levels levels);
 
 /// The pores in `bone`; `depth` becomes the image they were cut from. An image without a second
 /// level has none.

@@ -93,6 +93,21 @@ bool tail_is_dark(const cv::Mat& grey, const cv::Mat& mask) {
   return third <= 0.0;
 }
 
+// Each cell as `factor` × `factor` pixels; what is beyond `size` is cut off.
+cv::Mat enlarged(const cv::Mat& cells, int factor, cv::Size size) {
+  cv::Mat full(size, CV_8U);
+  for (int y = 0; y < size.height; ++y) {
+    if (y % factor != 0) {
+      full.row(y - 1).copyTo(full.row(y));
+      continue;
+    }
+    const auto* cell = cells.ptr<std::uint8_t>(y / factor);
+    auto* row = full.ptr<std::uint8_t>(y);
+    for (int x = 0; x < size.width; ++x) row[x] = cell[x / factor];
+  }
+  return full;
+}
+
 bool are_dark(io::Pores pores, bool found) {
   return pores == io::Pores::found ? found : pores == io::Pores::dark;
 }
@@ -158,14 +173,10 @@ Regions divide(const cv::Mat& grey, io::Pores pores) {
   const cv::Rect large(near.tl() * factor, near.size() * factor);
   Regions regions{.outlined = true, .dark_pores = bright_bone};
   regions.box = large & cv::Rect({}, grey.size());
-  const cv::Mat sure = cv::countNonZero(core) > 0 ? core : bone;
-  const cv::Mat labels = (sure & 1) | (search & 2) | (background & 4);
-  cv::Mat full;
-  cv::resize(labels(near), full, large.size(), 0.0, 0.0, cv::INTER_NEAREST);
-  full = full(cv::Rect({}, regions.box.size()));
-  regions.bone = (full & 1) > 0;
-  regions.search = (full & 2) > 0;
-  regions.background = (full & 4) > 0;
+  const cv::Mat& sure = cv::countNonZero(core) > 0 ? core : bone;
+  regions.bone = enlarged(sure(near), factor, regions.box.size());
+  regions.search = enlarged(search(near), factor, regions.box.size());
+  regions.background = enlarged(background(near), factor, regions.box.size());
   return regions;
 }
 

@@ -144,11 +144,10 @@ std::vector<Sample> sample(const cv::Mat& image, const cv::Mat& mask, int count)
   for (int y = stride / 2; y < image.rows; y += stride) {
     image.row(y).convertTo(row, CV_32F);
     const auto* values = row.ptr<float>();
-    int next = stride / 2;
-    for_each_set(mask, y, [&](int x) {
-      while (next < x) next += stride;
-      if (x == next) samples.push_back({static_cast<float>(x), static_cast<float>(y), values[x]});
-    });
+    const auto* wanted = mask.ptr<std::uint8_t>(y);
+    for (int x = stride / 2; x < image.cols; x += stride)
+      if (wanted[x] != 0)
+        samples.push_back({static_cast<float>(x), static_cast<float>(y), values[x]});
   }
   return samples;
 }

@@ -15,7 +15,7 @@ DepthCount::DepthCount(const cv::Mat& depth, const cv::Mat& mask) {
     const auto* values = depth.ptr<float>(y);
     for_each_set(mask, y, [&](int x) {
       const float bin = std::clamp(100.0F * (values[x] + 1.0F), 0.0F, last);
-      counts_[static_cast<std::size_t>(bin)] += 1.0;
+      ++counts_[static_cast<std::size_t>(bin)];
       sum_ += values[x];
     });
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <opencv2/core.hpp>
 
 namespace havers::images {
@@ -18,7 +19,8 @@ class DepthCount {
   [[nodiscard]] double sum() const { return sum_; }
 
  private:
-  std::array<double, 300> counts_{};  ///< From −1 to 2; what lies outside is in the last ones.
+  /// From −1 to 2; what lies outside is in the last ones.
+  std::array<std::uint32_t, 300> counts_{};
   double sum_ = 0.0;
 };
 

@@ -30,7 +30,8 @@ class PoresToTheLeft {
   explicit PoresToTheLeft(const cv::Mat& pores)
       : pores_(pores),
         rows_(static_cast<std::size_t>(pores.cols)),
-        sums_(static_cast<std::size_t>(pores.cols) + 1) {}
+        whole_(rows_.size() + 1),
+        last_(rows_.size() + 1) {}
 
   void count(int y, double height) {
     std::fill(rows_.begin(), rows_.end(), std::uint16_t{0});
@@ -40,23 +41,29 @@ class PoresToTheLeft {
       for (std::size_t x = 0; x < rows_.size(); ++x)
         rows_[x] = static_cast<std::uint16_t>(rows_[x] + (set[x] & 1U));
     }
-    const double part = height - whole;
-    const auto* last = pores_.ptr<std::uint8_t>(part > 0.0 ? y + whole : y);
-    for (std::size_t x = 0; x < rows_.size(); ++x)
-      sums_[x + 1] = sums_[x] + rows_[x] + part * (last[x] & 1U);
+    for (std::size_t x = 0; x < rows_.size(); ++x) whole_[x + 1] = whole_[x] + rows_[x];
+    share_ = height - whole;
+    if (share_ == 0.0) return;
+    const auto* last = pores_.ptr<std::uint8_t>(y + whole);
+    for (std::size_t x = 0; x < rows_.size(); ++x) last_[x + 1] = last_[x] + (last[x] & 1U);
   }
   // In the columns from x to x + width; the last one may be cut.
   [[nodiscard]] double between(int x, double width) const {
-    const auto* first = &sums_[static_cast<std::size_t>(x)];
-    const int whole = static_cast<int>(width);
-    const double part = width - whole, all = first[whole] - first[0];
-    return part > 0.0 ? all + part * (first[whole + 1] - first[whole]) : all;
+    const int end = x + static_cast<int>(width);
+    const double part = width - static_cast<int>(width), all = left_of(end) - left_of(x);
+    return part > 0.0 ? all + part * (left_of(end + 1) - left_of(end)) : all;
   }
 
  private:
+  [[nodiscard]] double left_of(int column) const {
+    const auto x = static_cast<std::size_t>(column);
+    return whole_[x] + share_ * last_[x];
+  }
   const cv::Mat& pores_;
-  std::vector<std::uint16_t> rows_;
-  std::vector<double> sums_;
+  std::vector<std::uint16_t> rows_;   // Pores in each column.
+  std::vector<std::uint32_t> whole_;  // Sums of them.
+  std::vector<std::uint32_t> last_;   // The same of the last row, which may be cut.
+  double share_ = 0.0;                // How much of that row counts.
 };
 
 // Adds the windows of one orientation to the sums of the blocks they start in.
