@@ -15,7 +15,7 @@ struct RegimeChoice {
 };
 
 /// Below this inertia number `automatic` takes the quasi-static limit.
-inline constexpr double quasi_static_below = 1e-3;
+inline constexpr double quasi_static_below = 2e-4;
 
 RegimeChoice choose_regime(const Scene& scene);
 

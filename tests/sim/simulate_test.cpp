@@ -29,13 +29,13 @@ Scene unit_scene(double rate) {
 }
 
 TEST(ChooseRegime, FollowsTheInertiaNumber) {
-  const RegimeChoice slow = choose_regime(unit_scene(0.009)),
-                     fast = choose_regime(unit_scene(0.011));
-  EXPECT_NEAR(slow.inertia_number, 0.9e-3, 1e-12);
+  const RegimeChoice slow = choose_regime(unit_scene(0.0019)),
+                     fast = choose_regime(unit_scene(0.0021));
+  EXPECT_NEAR(slow.inertia_number, 1.9e-4, 1e-12);
   EXPECT_EQ(slow.regime, Regime::quasi_static);
   EXPECT_EQ(fast.regime, Regime::dynamic);
-  EXPECT_THAT(slow.ground, HasSubstr("inertia number 0.0009 is below 0.001"));
-  EXPECT_THAT(fast.ground, HasSubstr("inertia number 0.0011 is not below 0.001"));
+  EXPECT_THAT(slow.ground, HasSubstr("inertia number 0.00019 is below 0.0002"));
+  EXPECT_THAT(fast.ground, HasSubstr("inertia number 0.00021 is not below 0.0002"));
 }
 
 TEST(ChooseRegime, KeepsTimeForWhatNeedsIt) {
