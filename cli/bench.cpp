@@ -49,6 +49,12 @@ Command bench_command(CLI::App& app, CommonOptions& common) {
   parser->add_option("--studies", arguments->studies, "studies of known truth (default: 20, 100)")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
+  parser
+      ->add_option("--costly", arguments->costly,
+                   "with --calibration, unknowns that cost simulations: 1, the ratio (default), or "
+                   "2, ratio and scatter")
+      ->type_name("N")
+      ->check(CLI::Range(1, 2));
   for (const Flag& flag : flags)
     parser->add_flag_callback(
         flag.name, [mode, run = flag.run] { *mode = run; }, flag.help);

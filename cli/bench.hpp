@@ -12,6 +12,7 @@ struct BenchArguments {
   std::filesystem::path folder;
   int seeds = 3;    ///< Runs of each setting.
   int studies = 0;  ///< Known studies of a calibration's bench; 0: as many as the mode wants.
+  int costly = 1;   ///< Unknowns of theirs whose moves need new simulations, 1 or 2.
 };
 
 /// A mode is one function that returns the exit code; bench.cpp lists them with their flags.

@@ -71,10 +71,12 @@ int bench_calibration(const BenchArguments& arguments, const CommonOptions& comm
   const Stopwatch watch;
   OutputFolder output(arguments.folder, common.force);
   const int studies = arguments.studies > 0 ? arguments.studies : chain_studies;
-  const auto fits = static_cast<std::size_t>(studies) * calib::all_chains().size();
+  const auto costly =
+      arguments.costly == 2 ? calib::CostlyUnknowns::two : calib::CostlyUnknowns::one;
+  const auto fits = static_cast<std::size_t>(studies) * calib::all_chains(costly).size();
   FitCounter counter(common, fits);
   const calib::ChainBenchmark benchmark =
-      calib::benchmark_chains(studies, common.threads, std::ref(counter));
+      calib::benchmark_chains(costly, studies, common.threads, std::ref(counter));
   const io::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::chains_json(benchmark, provenance);
   io::write_file(output.stage("result.json"), result.dump(2) + "\n");

@@ -1,9 +1,12 @@
 #include "calib/experiment/modulus.hpp"
 
 #include <fmt/format.h>
+#include <gsl/gsl_statistics_double.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "calib/experiment/channel_noise.hpp"
 
 namespace havers::calib {
 namespace {
@@ -104,6 +107,27 @@ bool fit_standard(const Curve& curve, const ReductionOptions& options, ModulusFi
   return true;
 }
 
+// (X4) Noise of the strain flattens the slope by its part of the strain's variance.
+void steepen(const Curve& curve, RowRange window, Line& line) {
+  constexpr double most = 0.5;
+  const auto strain = curve.strain.subspan(window.first, window.rows());
+  if (!line.fitted || strain.size() < 2) return;
+  const double mean = gsl_stats_mean(strain.data(), 1, strain.size());
+  const double variance = gsl_stats_variance_m(strain.data(), 1, strain.size(), mean);
+  const double noise = noise_of(curve.strain);
+  const double factor = 1.0 / (1.0 - std::min(noise * noise / variance, most));
+  line.intercept -= (factor - 1.0) * line.slope * mean;
+  line.slope *= factor;
+  line.slope_standard_error *= factor;
+}
+
+// (X4) What so few rows scatter about a line is itself uncertain: the variance of Student's t.
+double widened_by_few(std::size_t rows) {
+  constexpr double fewest_freedom = 3.0;
+  const double freedom = std::max(static_cast<double>(rows) - 2.0, fewest_freedom);
+  return std::sqrt(freedom / (freedom - 2.0));
+}
+
 void fall_back(const Curve& curve, const Window& window, const ReductionOptions& options,
                ModulusFit& fit) {
   const std::string complaint = fmt::format(
@@ -133,7 +157,11 @@ ModulusFit fit_modulus(std::span<const double> strain, std::span<const double> s
   ModulusFit fit;
   fit.window = between(stress, window.low, window.high);
   fit.line = curve.robust(fit.window);
-  if (!window.straight) fall_back(curve, window, options, fit);
+  if (window.straight)
+    steepen(curve, fit.window, fit.line);
+  else
+    fall_back(curve, window, options, fit);
+  fit.line.slope_standard_error *= widened_by_few(fit.window.rows());
   const double low = window.low / strength, high = window.high / strength;
   if (low > options.window_low + 1e-9 || high < options.window_high - 1e-9)
     fit.corrections.push_back(

@@ -19,6 +19,8 @@ constexpr int scouting_replicates = 3;
 constexpr int most_rounds = 8;
 // Cost that a search may leave on the table: a fifth of a standard deviation (½·0.2²).
 constexpr double close_enough = 0.02;
+// Rise of the cost by which specimens contradict a value: chi² of 95 %, halved.
+constexpr double contradicts = 1.92;
 
 // The first of the study's start and the middle of the bounds where the simulations answer.
 bool begin(const FitProblem& problem, Trail& trail, int replicates) {
@@ -65,14 +67,23 @@ void search(Trail& trail, const Active& active, bool polish, Answer& answer) {
   answer.stages.push_back(search_nlopt(trail, trail.best(), split, Stride::polish).log);
 }
 
-// Unknowns that turn out uninformed at the answer go back to where the study has them.
-void leave_out(Trail& trail, const std::vector<LeftUnknown>& left, Answer& answer) {
-  Point point = trail.best().point;
-  for (const auto& [unknown, because] : left)
-    point[unknown] = trail.problem().unknowns[static_cast<std::size_t>(unknown)].start;
+// Unknowns that turn out uninformed at the answer go back to where the study has them, unless the
+// specimens contradict that: then what they do not tell would be wrong, and spoil what they do.
+void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
+  const Evaluation found = trail.best();
+  Point point = found.point;
+  for (const auto& one : left)
+    point[one.unknown] = trail.problem().unknowns[static_cast<std::size_t>(one.unknown)].start;
   answer.active = without(answer.active, left);
-  answer.left.insert(answer.left.end(), left.begin(), left.end());
   trail.restart(trail.weights(), trail.evaluate(point));
+  search_ceres(trail, trail.best(), answer.active);
+  if (!trail.stopped() && trail.best().cost > found.cost + contradicts) {
+    for (auto& one : left)
+      one.because +=
+          "; kept where the fit found it, for the study's value contradicts the specimens";
+    trail.restart(trail.weights(), found);
+  }
+  answer.left.insert(answer.left.end(), left.begin(), left.end());
 }
 
 bool settled(const Landmarks& before, const Landmarks& now) {
@@ -115,9 +126,9 @@ void refine(Trail& trail, Answer& answer) {
     polished = polished || rough;
     const auto slopes = differentiate(trail, trail.best(), answer.active, slope_step);
     if (slopes.failed) continue;
-    const auto left = uninformed(trail.problem(), trail.best().point, answer.active, slopes);
+    auto left = uninformed(trail.problem(), trail.best().point, answer.active, slopes);
     if (!left.empty()) {
-      leave_out(trail, left, answer);
+      leave_out(trail, std::move(left), answer);
       if (answer.active.empty() || trail.best().failed) return;
       continue;
     }

@@ -6,9 +6,9 @@
 namespace havers::calib {
 namespace {
 
-// No testing machine knows force, area and strain better than this: ISO 7500-1 and ISO 9513 grade
-// them in half percents.
-constexpr double machine_class = 1e-3;
+// No testing machine knows force or strain better than this: ISO 7500-1 and ISO 9513 grade them in
+// half percents.
+constexpr double channel_class = 1e-3;
 
 /// Change of strain and stress from one row to the next before the break; nothing where the peak is
 /// smooth.
@@ -58,7 +58,9 @@ Target target_of(const Specimen& specimen, const std::vector<std::string>& terms
   const double by_end = by_strength + by_strain;
   Landmarks variance;
   variance << by_modulus, by_strength, by_modulus + by_end, 0.25 * by_end, by_end, by_strain;
-  target.noise = (variance + squared(machine_class)).sqrt();
+  variance += squared(channel_class);
+  variance[modulus] += squared(channel_class);  // of both channels
+  target.noise = variance.sqrt();
   target.censored = !specimen.broke;
   for (Eigen::Index q = 0; q < landmark_count; ++q)
     target.present[q] = std::ranges::find(terms, name_of(static_cast<Landmark>(q))) != terms.end();

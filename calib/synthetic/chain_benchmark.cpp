@@ -24,14 +24,14 @@ class Clock {
 
 // Over the parameters `counts` says yes to.
 template <class Counts>
-double log_error(const std::vector<std::pair<std::string, double>>& values,
-                 const std::array<double, 3>& truth, Counts counts) {
+double log_error(const std::vector<std::pair<std::string, double>>& values, const KnownStudy& known,
+                 Counts counts) {
   double sum = 0.0;
   int n = 0;
-  for (std::size_t k = 0; k < truth.size(); ++k)
+  for (std::size_t k = 0; k < known.truth.size(); ++k)
     for (const auto& [name, value] : values) {
-      if (name != known_parameters.at(k) || !counts(name)) continue;
-      sum += std::pow(std::log(value / truth.at(k)), 2);
+      if (name != known.parameters.at(k) || !counts(name)) continue;
+      sum += std::pow(std::log(value / known.truth.at(k)), 2);
       ++n;
     }
   return std::sqrt(sum / std::max(n, 1));
@@ -65,9 +65,9 @@ ChainRow fit_by(const Chain& chain, KnownStudy known, int number) {
   for (const auto& parameter : result.parameters)
     answer.emplace_back(parameter.name, parameter.value);
   row.informed = static_cast<int>(result.fitted.size());
-  row.error = log_error(answer, known.truth, informed);
+  row.error = log_error(answer, known, informed);
   for (Step& step : steps) {
-    step.point.error = log_error(step.best, known.truth, informed);
+    step.point.error = log_error(step.best, known, informed);
     row.trace.push_back(step.point);
   }
   return row;
@@ -129,16 +129,21 @@ ChainSummary summary_of(const std::string& chain, const std::vector<ChainRow>& r
 
 }  // namespace
 
-std::vector<Chain> all_chains() {
+std::vector<Chain> all_chains(CostlyUnknowns unknowns) {
   using enum GlobalSearch;
-  // With one costly unknown `automatic` is COBYLA, and BOBYQA cannot do.
-  return {{.name = "starts, COBYLA, least squares"},
-          {.name = "starts, COBYLA", .smooth = false},
-          {.name = "starts, Sbplx, least squares", .local = LocalSearch::sbplx},
-          {.name = "CRS2, COBYLA, least squares", .global = crs2},
-          {.name = "DIRECT-L, COBYLA, least squares", .global = direct},
-          {.name = "MLSL, COBYLA, least squares", .global = mlsl},
-          {.name = "ESCH, COBYLA, least squares", .global = esch}};
+  // BOBYQA cannot do with one unknown.
+  const bool two = unknowns == CostlyUnknowns::two;
+  const std::string local = two ? "BOBYQA" : "COBYLA";
+  std::vector<Chain> chains{{.name = "starts, " + local + ", least squares"},
+                            {.name = "starts, " + local, .smooth = false},
+                            {.name = "starts, Sbplx, least squares", .local = LocalSearch::sbplx},
+                            {.name = "CRS2, " + local + ", least squares", .global = crs2},
+                            {.name = "DIRECT-L, " + local + ", least squares", .global = direct},
+                            {.name = "MLSL, " + local + ", least squares", .global = mlsl},
+                            {.name = "ESCH, " + local + ", least squares", .global = esch}};
+  if (two)
+    chains.push_back({.name = "starts, COBYLA, least squares", .local = LocalSearch::cobyla});
+  return chains;
 }
 
 const ChainSummary& ChainBenchmark::winner() const {
@@ -156,17 +161,21 @@ const ChainSummary& ChainBenchmark::winner() const {
 ChainBenchmark summarise(std::vector<ChainRow> rows) {
   ChainBenchmark benchmark{.rows = std::move(rows), .summaries = {}};
   judge(benchmark.rows);
-  for (const Chain& chain : all_chains())
-    benchmark.summaries.push_back(summary_of(chain.name, benchmark.rows));
+  for (const ChainRow& row : benchmark.rows)
+    if (std::ranges::find(benchmark.summaries, row.chain, &ChainSummary::chain) ==
+        benchmark.summaries.end())
+      benchmark.summaries.push_back(summary_of(row.chain, benchmark.rows));
   return benchmark;
 }
 
-ChainBenchmark benchmark_chains(int studies, int threads, const std::function<bool()>& go_on) {
+ChainBenchmark benchmark_chains(CostlyUnknowns unknowns, int studies, int threads,
+                                const std::function<bool()>& go_on) {
+  const Design design = unknowns == CostlyUnknowns::two ? unknown_scatter() : three_orientations();
   std::vector<ChainRow> rows;
   for (int number = 1; number <= studies; ++number) {
-    KnownStudy known = known_study(three_orientations(), number);
+    KnownStudy known = known_study(design, number);
     known.study.calibrate.threads = threads;
-    for (const Chain& chain : all_chains()) {
+    for (const Chain& chain : all_chains(unknowns)) {
       if (!go_on()) return {.rows = std::move(rows), .summaries = {}};
       rows.push_back(fit_by(chain, known, number));
     }

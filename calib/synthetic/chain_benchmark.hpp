@@ -18,8 +18,11 @@ struct Chain {
   bool smooth = true;
 };
 
+/// How many unknowns need new simulations when they move: the ratio, or ratio and scatter.
+enum class CostlyUnknowns { one, two };
+
 /// The default chain first, then every other.
-std::vector<Chain> all_chains();
+std::vector<Chain> all_chains(CostlyUnknowns unknowns = CostlyUnknowns::one);
 
 /// Where a fit was when it had cost so much.
 struct TracePoint {
@@ -57,7 +60,7 @@ struct ChainSummary {
 
 struct ChainBenchmark {
   std::vector<ChainRow> rows;
-  std::vector<ChainSummary> summaries;  ///< In the order of all_chains(); empty when stopped.
+  std::vector<ChainSummary> summaries;  ///< In the order of the rows; empty when stopped.
 
   /// The chain with the fewest simulations (median) of those that succeed as often as the best,
   /// within the best's interval. Precondition: there are summaries.
@@ -65,7 +68,8 @@ struct ChainBenchmark {
 };
 
 /// Fits `studies` known studies by every chain. `go_on` is asked before every fit; false ends.
-ChainBenchmark benchmark_chains(int studies, int threads, const std::function<bool()>& go_on);
+ChainBenchmark benchmark_chains(CostlyUnknowns unknowns, int studies, int threads,
+                                const std::function<bool()>& go_on);
 
 /// What the rows come to, chain by chain. Precondition: as many rows of each chain.
 ChainBenchmark summarise(std::vector<ChainRow> rows);

@@ -10,10 +10,10 @@ namespace {
 
 void add_rows(const Design& design, int number, const KnownStudy& known, Coverage& coverage) {
   const CalibrationResult result = calibrate(known.study);
-  for (std::size_t k = 0; k < known_parameters.size(); ++k) {
-    const auto parameter =
-        std::ranges::find(result.parameters, known_parameters.at(k), &CalibratedParameter::name);
-    CoverageRow row{.design = design.name, .study = number, .parameter = known_parameters.at(k)};
+  for (std::size_t k = 0; k < known.parameters.size(); ++k) {
+    const std::string name = known.parameters.at(k);
+    const auto parameter = std::ranges::find(result.parameters, name, &CalibratedParameter::name);
+    CoverageRow row{.design = design.name, .study = number, .parameter = name};
     row.truth = known.truth.at(k);
     row.value = parameter->value;
     row.lower = parameter->interval_95[0];
@@ -69,7 +69,7 @@ Coverage measure_coverage(const std::vector<Design>& designs, int studies, int t
       add_rows(design, number, known, coverage);
     }
   for (const Design& design : designs)
-    for (const char* parameter : known_parameters)
+    for (const char* parameter : design.parameters)
       coverage.summaries.push_back(summary_of(design.name, parameter, coverage.rows));
   return coverage;
 }

@@ -9,24 +9,30 @@
 
 namespace havers::calib {
 
-/// What is tested, and how unlike the specimens are.
+/// What known studies calibrate.
+using KnownParameters = std::array<const char*, 3>;
+inline constexpr KnownParameters known_parameters{"young_GPa", "head_tail_MPa", "ratio"};
+
+/// What is tested, what is unknown, and how unlike the specimens are.
 struct Design {
   std::string name;             ///< "0, 45, 90 deg".
   std::vector<double> degrees;  ///< Orientation of each specimen. [°]
   /// Standard deviation between specimens of log modulus and of log strength, beyond what the model
   /// itself scatters. [-]
   double specimen_effect = 0.0;
+  KnownParameters parameters = known_parameters;
 };
 
 /// Two specimens each at 0°, 45° and 90°, all of one bone.
 Design three_orientations();
 
-/// What known studies calibrate.
-inline constexpr std::array<const char*, 3> known_parameters{"young_GPa", "head_tail_MPa", "ratio"};
+/// The same with scatter unknown instead of threshold: two unknowns that cost simulations.
+Design unknown_scatter();
 
 struct KnownStudy {
   Study study;
-  std::array<double, 3> truth{};  ///< Of `known_parameters`, in their units.
+  KnownParameters parameters;
+  std::array<double, 3> truth{};  ///< Of `parameters`, in their units.
 };
 
 /// A study on walls of 8 x 6 fibres. Truth, tests and noise are drawn by `number` alone.

@@ -10,7 +10,7 @@ namespace havers::calib {
 namespace {
 
 // What a random number is for; with the seed and the row it names the number.
-enum class Draw : std::uint64_t { noise = 1, seed = 2, modulus = 3 };
+enum class Draw : std::uint64_t { noise = 1, seed = 2, modulus = 3, gain = 4 };
 
 r123::Philox2x64::ctr_type draw(std::uint64_t seed, std::uint64_t row, Draw purpose) {
   return r123::Philox2x64()({{row, static_cast<std::uint64_t>(purpose)}}, {{seed}});
@@ -85,6 +85,9 @@ RawTest record_test(const sim::Simulation& simulation, const Bar& bar, const Lab
   // preload.
   const double start = strain_of_gauge(laboratory.preload / (bar.area() * simulation.modulus),
                                        laboratory.toe_strain);
+  const auto gain = gauss_pair(seed, 0, Draw::gain);
+  const double force_gain = 1.0 + laboratory.gain_error * gain.x;
+  const double strain_gain = 1.0 + laboratory.gain_error * gain.y;
   Pulled pulled(simulation.curve);
   for (int row = 0, after_break = 0; after_break < laboratory.rows_after_break; ++row) {
     const double time = row * laboratory.sampling;
@@ -95,9 +98,10 @@ RawTest record_test(const sim::Simulation& simulation, const Bar& bar, const Lab
     // (Y3) Parted, the halves carry nothing and the gauge springs back.
     test.time.push_back(time);
     test.extension.push_back(laboratory.crosshead_rate * time);
-    test.force.push_back((parted ? 0.0 : bar.area() * pulled.stress(strain)) +
+    test.force.push_back((parted ? 0.0 : force_gain * bar.area() * pulled.stress(strain)) +
                          laboratory.force_noise * noise.x);
-    test.strain.push_back((parted ? -start : since_start) + laboratory.strain_noise * noise.y);
+    test.strain.push_back(strain_gain * (parted ? -start : since_start) +
+                          laboratory.strain_noise * noise.y);
     if (parted) ++after_break;
   }
   return test;

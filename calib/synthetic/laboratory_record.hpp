@@ -27,6 +27,7 @@ struct Laboratory {
   double toe_strain = 1e-4;  ///< Strain lost while the specimen settles in its grips. [-]
   double force_noise = 0.5;  ///< Standard deviation. [N]
   double strain_noise = 2e-6;  ///< Standard deviation. [-]
+  double gain_error = 0.0;     ///< Of each channel's calibration, standard deviation. [-]
   int rows_after_break = 5;    ///< The machine stops so many rows after the parting.
 };
 
@@ -34,8 +35,8 @@ struct Laboratory {
 double strain_rate(const Bar& bar, const Laboratory& laboratory);
 
 /// Time, force, extension and strain as recorded, equations (Y1) to (Y3) of
-/// calib/synthetic/README.md. The noise is a function of seed, row and channel alone. Precondition:
-/// the simulation has rows; all rates and sizes are positive.
+/// calib/synthetic/README.md. Noise and gains are functions of seed, row and channel alone.
+/// Precondition: the simulation has rows; all rates and sizes are positive.
 RawTest record_test(const sim::Simulation& simulation, const Bar& bar, const Laboratory& laboratory,
                     std::uint64_t seed);
 

@@ -114,9 +114,24 @@ TEST(ChainBenchmark, IsWonByTheFewestSimulationsAmongThoseThatSucceed) {
   EXPECT_EQ(first.by_simulations.back().error[1], 0.01);
 }
 
+// What BOBYQA is for: ratio and scatter both move the order of breaks.
+TEST(ChainBenchmark, HasStudiesInWhichTwoUnknownsCostSimulations) {
+  KnownStudy known = known_study(unknown_scatter(), 1);
+  known.study.calibrate.threads = 1;
+  const auto result = calibrate(known.study);
+  EXPECT_EQ(result.fitted, (std::vector<std::string>{"young_GPa", "ratio", "scatter"}));
+  EXPECT_TRUE(std::ranges::any_of(
+      result.stages, [](const StageLog& stage) { return stage.optimiser == "NLopt BOBYQA"; }));
+  EXPECT_EQ(all_chains(CostlyUnknowns::two).front().name, "starts, BOBYQA, least squares");
+  for (std::size_t k = 0; k < known.truth.size(); ++k) {
+    const auto parameter = test::parameter_of(result, known.parameters.at(k));
+    EXPECT_NEAR(parameter.value, known.truth.at(k), 5.0 * parameter.standard_error);
+  }
+}
+
 TEST(ChainBenchmark, KeepsTheRowsOfAnUnfinishedOne) {
   int asked = 0;
-  const auto benchmark = benchmark_chains(1, 1, [&] { return ++asked < 3; });
+  const auto benchmark = benchmark_chains(CostlyUnknowns::one, 1, 1, [&] { return ++asked < 3; });
   EXPECT_EQ(benchmark.rows.size(), 2U);
   EXPECT_TRUE(benchmark.summaries.empty());
   EXPECT_EQ(benchmark.rows.front().trace.back().simulations <= benchmark.rows.front().simulations,

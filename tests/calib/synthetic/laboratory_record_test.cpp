@@ -58,6 +58,22 @@ TEST(LaboratoryRecord, OfALinearCurveIsTheLineUpToTheBreak) {
   for (std::size_t row = loaded; row < test.rows(); ++row) EXPECT_EQ(test.force[row], 0.0);
 }
 
+// One gain for a whole test, another for the next.
+TEST(LaboratoryRecord, HasChannelsThatAreCalibratedAsWellAsAsked) {
+  Laboratory laboratory = silent();
+  laboratory.gain_error = 1e-2;
+  std::vector<double> force_gains, strain_gains;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const RawTest test = record_test(brittle(), {}, laboratory, seed);
+    const RawTest exact = record_test(brittle(), {}, silent(), seed);
+    force_gains.push_back(test.force[20] / exact.force[20]);
+    strain_gains.push_back(test.strain[20] / exact.strain[20]);
+    EXPECT_NEAR(test.force[10], force_gains.back() * exact.force[10], 1e-9);
+  }
+  EXPECT_NEAR(standard_deviation(force_gains), 1e-2, 1.5e-3);
+  EXPECT_NEAR(standard_deviation(strain_gains), 1e-2, 1.5e-3);
+}
+
 TEST(LaboratoryRecord, StartsAtThePreloadWithStrainZeroed) {
   Laboratory laboratory = silent();
   laboratory.preload = 12.0;
