@@ -7,7 +7,6 @@ namespace havers::sim {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -18,10 +17,10 @@ namespace {
 constexpr double trace = 1e-11;
 constexpr int corrections = 5;
 constexpr double accuracy = 1e-13;
-// An updated inverse that leaves more of the reactions than this is made anew, and after so many
-// updates in any case.
-constexpr double tolerated = 1e-10;
-constexpr int most_updates = 100;
+// A bordered factor that leaves more of the reactions than this, and more than rounding leaves of
+// those by the gaps, is made anew.
+constexpr double tolerated = 1e-10, rounding = 1e-15;
+constexpr std::size_t most_borders = 40;
 
 double friction_slope(JointState state, const JointLaw& law) {
   if (state == JointState::slip_forward) return law.friction;
@@ -35,9 +34,9 @@ StateSystem::StateSystem(const LocalContact& problem) : problem_(&problem) {
   grow();
 }
 
-StateSystem::StateSystem(const LocalContact& problem, const std::vector<JointState>& states)
+StateSystem::StateSystem(const LocalContact& problem, std::vector<JointState> states)
     : StateSystem(problem) {
-  set(states);
+  set(std::move(states));
 }
 
 void StateSystem::grow() {
@@ -49,173 +48,168 @@ double StateSystem::scale() const {
   return problem_->S.diagonal().maxCoeff();
 }
 
-RowVectorXd StateSystem::coefficients(const Equation& equation) const {
-  const auto n = static_cast<Index>(equations_.size());
-  RowVectorXd row(n);
-  for (Index k = 0; k < n; ++k) {
-    const Index column = equations_[static_cast<std::size_t>(k)].row;
-    row(k) = problem_->S(equation.row, column);
-    if (equation.slope != 0.0) row(k) += equation.slope * problem_->S(equation.row - 1, column);
-    if (column == equation.row) row(k) += trace * scale();
+double StateSystem::coefficient(const Equation& equation, Index unknown) const {
+  double value = problem_->S(equation.row, unknown);
+  if (equation.slope != 0.0) value += equation.slope * problem_->S(equation.row - 1, unknown);
+  return value;
+}
+
+std::vector<StateSystem::Equation> StateSystem::equations_of_states() const {
+  std::vector<Equation> equations;
+  equations.reserve(2 * states_.size());
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    const auto row = static_cast<Index>(2 * i);
+    if (states_[i] == JointState::open) equations.push_back({row, 0.0});
+    if (states_[i] != JointState::stick)
+      equations.push_back({row + 1, friction_slope(states_[i], problem_->laws[i])});
   }
-  return row;
+  return equations;
 }
 
 void StateSystem::factorise() {
-  const auto n = static_cast<Index>(equations_.size());
+  factorised_ = equations_;
+  const auto n = static_cast<Index>(factorised_.size());
+  const double hold = n > 0 ? trace * scale() : 0.0;
   MatrixXd matrix(n, n);
-  for (Index k = 0; k < n; ++k)
-    matrix.row(k) = coefficients(equations_[static_cast<std::size_t>(k)]);
-  if (inverse_.rows() < n) inverse_.resize(n, n);
-  if (n > 0) inverse_.topLeftCorner(n, n) = matrix.partialPivLu().inverse();
-  updates_ = 0;
-}
-
-// Bordering: one equation and its unknown more.
-void StateSystem::add(Index row, double slope) {
-  const auto n = static_cast<Index>(equations_.size());
-  const RowVectorXd last = coefficients({row, slope});
-  VectorXd column(n);
-  for (Index k = 0; k < n; ++k) {
-    const Equation& equation = equations_[static_cast<std::size_t>(k)];
-    column(k) = problem_->S(equation.row, row);
-    if (equation.slope != 0.0) column(k) += equation.slope * problem_->S(equation.row - 1, row);
-  }
-  place_[static_cast<std::size_t>(row)] = n;
-  equations_.push_back({row, slope});
-  if (inverse_.rows() <= n) inverse_.conservativeResize(2 * n + 8, 2 * n + 8);
-  const RowVectorXd left = last * inverse_.topLeftCorner(n, n);
-  const VectorXd right = inverse_.topLeftCorner(n, n) * column;
-  double diagonal = problem_->S(row, row);
-  if (slope != 0.0) diagonal += slope * problem_->S(row - 1, row);
-  const double pivot = diagonal + trace * scale() - last.dot(right);
-  inverse_.topLeftCorner(n, n) += right / pivot * left;
-  inverse_.block(0, n, n, 1) = -right / pivot;
-  inverse_.block(n, 0, 1, n) = -left / pivot;
-  inverse_(n, n) = 1.0 / pivot;
-  ++updates_;
-}
-
-void StateSystem::remove(Index row) {
-  const Index gone = place_[static_cast<std::size_t>(row)];
-  const auto last = static_cast<Index>(equations_.size()) - 1;
-  auto used = inverse_.topLeftCorner(last + 1, last + 1);
-  used.col(gone).swap(used.col(last));
-  used.row(gone).swap(used.row(last));
-  place_[static_cast<std::size_t>(equations_.back().row)] = gone;
-  place_[static_cast<std::size_t>(row)] = -1;
-  equations_[static_cast<std::size_t>(gone)] = equations_.back();
-  equations_.pop_back();
-  const VectorXd column = used.col(last).head(last) / used(last, last);
-  const RowVectorXd below = used.row(last).head(last);
-  used.topLeftCorner(last, last) -= column * below;
-  ++updates_;
-}
-
-// Another slope of an equation: Sherman and Morrison's formula.
-void StateSystem::incline(Index row, double slope) {
-  const Index place = place_[static_cast<std::size_t>(row)];
-  Equation& equation = equations_[static_cast<std::size_t>(place)];
-  if (equation.slope == slope) return;
-  const auto n = static_cast<Index>(equations_.size());
-  const RowVectorXd before = coefficients(equation);
-  equation.slope = slope;
-  auto used = inverse_.topLeftCorner(n, n);
-  const RowVectorXd change = (coefficients(equation) - before) * used;
-  const VectorXd column = used.col(place) / (1.0 + change(place));
-  used -= column * change;
-  ++updates_;
-}
-
-void StateSystem::set(std::size_t joint, JointState state) {
-  const auto normal = static_cast<Index>(2 * joint), tangent = normal + 1;
-  const double slope = friction_slope(state, problem_->laws[joint]);
-  const auto has = [&](Index row) { return place_[static_cast<std::size_t>(row)] >= 0; };
-  states_[joint] = state;
-  if (has(normal) && state != JointState::open) remove(normal);
-  if (has(tangent) && state == JointState::stick) remove(tangent);
-  if (has(tangent)) incline(tangent, slope);
-  if (!has(tangent) && state != JointState::stick) add(tangent, slope);
-  if (!has(normal) && state == JointState::open) add(normal, 0.0);
-  const auto n = static_cast<Index>(equations_.size());
-  if (updates_ > most_updates || !inverse_.topLeftCorner(n, n).allFinite()) factorise();
-}
-
-void StateSystem::set(const std::vector<JointState>& states) {
-  std::vector<std::size_t> changed;
-  for (std::size_t i = 0; i < states.size(); ++i)
-    if (states[i] != states_[i]) changed.push_back(i);
-  if (4 * changed.size() < equations_.size()) {
-    for (const std::size_t i : changed) set(i, states[i]);
-    return;
-  }
-  states_ = states;
-  equations_.clear();
   std::fill(place_.begin(), place_.end(), -1);
-  const auto include = [&](Index row, double slope) {
-    place_[static_cast<std::size_t>(row)] = static_cast<Index>(equations_.size());
-    equations_.push_back({row, slope});
-  };
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const auto row = static_cast<Index>(2 * i);
-    if (states[i] == JointState::open) include(row, 0.0);
-    if (states[i] != JointState::stick)
-      include(row + 1, friction_slope(states[i], problem_->laws[i]));
+  for (Index k = 0; k < n; ++k) {
+    const Equation& equation = factorised_[static_cast<std::size_t>(k)];
+    place_[static_cast<std::size_t>(equation.row)] = k;
+    for (Index j = 0; j < n; ++j)
+      matrix(k, j) = coefficient(equation, factorised_[static_cast<std::size_t>(j)].row);
+    matrix(k, k) += hold;
   }
-  factorise();
+  factor_.compute(matrix);
+  columns_.clear();
+  borders_.clear();
 }
 
-// What the reactions lack in the equations.
+// The factor's answer to what a border adds to its equations: the effect of a gap that it does not
+// know, or an arbitrary force in place of the row's equation.
+const VectorXd& StateSystem::column(Index row) {
+  const auto known = columns_.find(row);
+  if (known != columns_.end()) return known->second;
+  const auto n = static_cast<Index>(factorised_.size());
+  VectorXd load = VectorXd::Zero(n);
+  const Index place = place_[static_cast<std::size_t>(row)];
+  if (place >= 0) load(place) = 1.0;
+  for (Index k = 0; k < n && place < 0; ++k)
+    load(k) = coefficient(factorised_[static_cast<std::size_t>(k)], row);
+  return columns_.emplace(row, factor_.solve(load)).first->second;
+}
+
+// (C8). Whether the states are near enough to those of the factor.
+bool StateSystem::border_factor() {
+  std::vector<std::optional<double>> slopes(place_.size());
+  for (const Equation& equation : equations_)
+    slopes[static_cast<std::size_t>(equation.row)] = equation.slope;
+  borders_.clear();
+  for (const Equation& old : factorised_) {
+    const std::optional<double>& now = slopes[static_cast<std::size_t>(old.row)];
+    if (now != old.slope) borders_.push_back({old.row, false, now});
+  }
+  for (const Equation& equation : equations_)
+    if (place_[static_cast<std::size_t>(equation.row)] < 0)
+      borders_.push_back({equation.row, true, equation.slope});
+  if (borders_.size() > most_borders) return false;
+
+  const auto n = static_cast<Index>(factorised_.size());
+  const auto k = static_cast<Index>(borders_.size());
+  border_columns_.resize(n, k);
+  border_rows_ = MatrixXd::Zero(k, n);
+  MatrixXd corner = MatrixXd::Zero(k, k);
+  for (Index i = 0; i < k; ++i) {
+    const Border& border = borders_[static_cast<std::size_t>(i)];
+    border_columns_.col(i) = column(border.row);
+    if (!border.slope) {
+      border_rows_(i, place_[static_cast<std::size_t>(border.row)]) = 1.0;
+      continue;
+    }
+    const Equation equation{border.row, *border.slope};
+    for (Index j = 0; j < n; ++j)
+      border_rows_(i, j) = coefficient(equation, factorised_[static_cast<std::size_t>(j)].row);
+    for (Index j = 0; j < k; ++j)
+      if (borders_[static_cast<std::size_t>(j)].has_unknown)
+        corner(i, j) = coefficient(equation, borders_[static_cast<std::size_t>(j)].row);
+    const double hold = trace * scale();
+    if (border.has_unknown)
+      corner(i, i) += hold;
+    else
+      border_rows_(i, place_[static_cast<std::size_t>(border.row)]) += hold;
+  }
+  if (k > 0) complement_.compute(corner - border_rows_ * border_columns_);
+  return true;
+}
+
+// What the gaps lack by what the equations lack, one value for each row.
+VectorXd StateSystem::corrected_by(const VectorXd& missing) {
+  const auto n = static_cast<Index>(factorised_.size());
+  const auto k = static_cast<Index>(borders_.size());
+  VectorXd load(n), border_load(k);
+  for (Index j = 0; j < n; ++j) load(j) = missing(factorised_[static_cast<std::size_t>(j)].row);
+  for (Index i = 0; i < k; ++i) {
+    const Border& border = borders_[static_cast<std::size_t>(i)];
+    border_load(i) = border.slope ? missing(border.row) : 0.0;
+    if (!border.has_unknown) load(place_[static_cast<std::size_t>(border.row)]) = 0.0;
+  }
+  VectorXd known = factor_.solve(load), change = VectorXd::Zero(missing.size());
+  VectorXd added;
+  if (k > 0) {
+    added = complement_.solve(border_load - border_rows_ * known);
+    known -= border_columns_ * added;
+  }
+  for (Index j = 0; j < n; ++j) change(factorised_[static_cast<std::size_t>(j)].row) = known(j);
+  for (Index i = 0; i < k; ++i) {
+    const Border& border = borders_[static_cast<std::size_t>(i)];
+    if (border.has_unknown) change(border.row) = added(i);
+    if (!border.slope) change(border.row) = 0.0;
+  }
+  return change;
+}
+
+// What the reactions lack in the equations, one value for each row.
 MatrixXd StateSystem::missing(const MatrixXd& r, const MatrixXd& cohesion) const {
-  MatrixXd b(static_cast<Index>(equations_.size()), r.cols());
-  for (Index k = 0; k < b.rows(); ++k) {
-    const auto& [row, slope] = equations_[static_cast<std::size_t>(k)];
-    b.row(k) = -r.row(row);
-    if (row % 2 == 0) b.row(k) -= cohesion.row(row / 2);
-    if (slope != 0.0) b.row(k) -= slope * (r.row(row - 1) + cohesion.row(row / 2));
+  MatrixXd b = MatrixXd::Zero(r.rows(), r.cols());
+  for (const auto& [row, slope] : equations_) {
+    b.row(row) = -r.row(row);
+    if (row % 2 == 0) b.row(row) -= cohesion.row(row / 2);
+    if (slope != 0.0) b.row(row) -= slope * (r.row(row - 1) + cohesion.row(row / 2));
   }
   return b;
 }
 
-namespace {
-
-// A product for few columns: Eigen's would first copy the matrix into panels.
-void add_product(const Eigen::Ref<const MatrixXd>& A, const MatrixXd& x, MatrixXd& sum) {
-  for (Index c = 0; c < x.cols(); ++c) sum.col(c).noalias() += A * x.col(c);
-}
-
-}  // namespace
-
 StateSolution StateSystem::solve(const MatrixXd& r0, const MatrixXd& held,
                                  const MatrixXd& cohesion) {
+  equations_ = equations_of_states();
+  if (!border_factor()) factorise();
   StateSolution solution = try_to_solve(r0, held, cohesion);
-  const auto lacks = [&] {
-    const double size = missing(solution.r, cohesion).norm();
-    return !(size <= tolerated * solution.r.norm());
-  };
-  if (updates_ == 0 || !lacks()) return solution;
+  if (borders_.empty()) return solution;
+  const double lacks = missing(solution.r, cohesion).norm();
+  if (lacks <= tolerated * solution.r.norm() + rounding * scale() * solution.y.norm())
+    return solution;
   factorise();
   return try_to_solve(r0, held, cohesion);
 }
 
 StateSolution StateSystem::try_to_solve(const MatrixXd& r0, const MatrixXd& held,
-                                        const MatrixXd& cohesion) const {
+                                        const MatrixXd& cohesion) {
+  // Column by column: for few of them Eigen's product of matrices would first copy S into panels.
+  const auto add_reactions = [&](const MatrixXd& gaps, MatrixXd& r) {
+    for (Index c = 0; c < r.cols(); ++c) r.col(c).noalias() += problem_->S * gaps.col(c);
+  };
   StateSolution solution{held, r0};
   for (const Equation& equation : equations_) solution.y.row(equation.row).setZero();
-  if (!solution.y.isZero(0.0)) add_product(problem_->S, solution.y, solution.r);
-  const auto n = static_cast<Index>(equations_.size());
+  if (!solution.y.isZero(0.0)) add_reactions(solution.y, solution.r);
   double before = 0.0;
-  for (int i = 0; i <= corrections && n > 0; ++i) {
+  for (int i = 0; i <= corrections && !equations_.empty(); ++i) {
     const MatrixXd b = missing(solution.r, cohesion);
     const double size = b.norm();
     if (i == 0) before = size;
     if (size <= accuracy * before) break;
-    MatrixXd x = MatrixXd::Zero(n, b.cols()), change = MatrixXd::Zero(held.rows(), b.cols());
-    add_product(inverse_.topLeftCorner(n, n), b, x);
-    for (Index k = 0; k < n; ++k)
-      change.row(equations_[static_cast<std::size_t>(k)].row) = x.row(k);
+    MatrixXd change(b.rows(), b.cols());
+    for (Index c = 0; c < b.cols(); ++c) change.col(c) = corrected_by(b.col(c));
     solution.y += change;
-    add_product(problem_->S, change, solution.r);
+    add_reactions(change, solution.r);
   }
   return solution;
 }

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <map>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "sim/contact/local_contact.hpp"
@@ -15,49 +18,63 @@ struct StateSolution {
 };
 
 /// (C2): gaps are held where a joint sticks, along the normal also where it slips; for each other
-/// gap one equation, no force beyond −c where open, friction on the cone where slipping. A change
-/// of one state is an update of the inverse.
+/// gap one equation, no force beyond −c where open, friction on the cone where slipping. The factor
+/// of some states serves others too: what they change borders it (C8).
 class StateSystem {
  public:
   /// The problem may change its loads and laws' cohesions, and get more joints (see `grow`).
   explicit StateSystem(const LocalContact& problem);
-  StateSystem(const LocalContact& problem, const std::vector<JointState>& states);
+  StateSystem(const LocalContact& problem, std::vector<JointState> states);
 
   [[nodiscard]] const LocalContact& problem() const { return *problem_; }
   [[nodiscard]] const std::vector<JointState>& states() const { return states_; }
 
   /// Takes note of joints that the problem has got; they stick.
   void grow();
-  void set(std::size_t joint, JointState state);
-  void set(const std::vector<JointState>& states);
+  void set(std::size_t joint, JointState state) { states_[joint] = state; }
+  void set(std::vector<JointState> states) { states_ = std::move(states); }
 
   /// For free reactions `r0` [N/m], gaps `held` where they are held [m] and cohesions c [N/m].
   [[nodiscard]] StateSolution solve(const Eigen::MatrixXd& r0, const Eigen::MatrixXd& held,
                                     const Eigen::MatrixXd& cohesion);
 
  private:
+  // The equation for a gap; the gap is its unknown.
   struct Equation {
     Eigen::Index row;
     double slope;  // r_T = −slope (r_N + c)
   };
+  // An unknown beyond those of the factor, and an equation beyond its own.
+  struct Border {
+    Eigen::Index row;
+    bool has_unknown;             // the gap; else what frees the factor's equation of this row
+    std::optional<double> slope;  // of the equation; none: the gap does not change
+  };
 
-  [[nodiscard]] StateSolution try_to_solve(const Eigen::MatrixXd& r0, const Eigen::MatrixXd& held,
-                                           const Eigen::MatrixXd& cohesion) const;
-  [[nodiscard]] double scale() const;
+  [[nodiscard]] std::vector<Equation> equations_of_states() const;
   void factorise();
-  void add(Eigen::Index row, double slope);
-  void remove(Eigen::Index row);
-  void incline(Eigen::Index row, double slope);
-  [[nodiscard]] Eigen::RowVectorXd coefficients(const Equation& equation) const;
+  bool border_factor();
+  [[nodiscard]] double scale() const;
+  [[nodiscard]] double coefficient(const Equation& equation, Eigen::Index unknown) const;
+  [[nodiscard]] const Eigen::VectorXd& column(Eigen::Index row);
+  [[nodiscard]] Eigen::VectorXd corrected_by(const Eigen::VectorXd& missing);
   [[nodiscard]] Eigen::MatrixXd missing(const Eigen::MatrixXd& r,
                                         const Eigen::MatrixXd& cohesion) const;
+  [[nodiscard]] StateSolution try_to_solve(const Eigen::MatrixXd& r0, const Eigen::MatrixXd& held,
+                                           const Eigen::MatrixXd& cohesion);
 
   const LocalContact* problem_;
   std::vector<JointState> states_;
-  std::vector<Equation> equations_;
-  std::vector<Eigen::Index> place_;  // of each row's equation; −1: held
-  Eigen::MatrixXd inverse_;          // leading part in use
-  int updates_ = 0;                  // of the inverse since it was made
+  std::vector<Equation> equations_;  // of the states that are solved for
+
+  std::vector<Equation> factorised_;
+  std::vector<Eigen::Index> place_;  // of each row in the factor; −1: none
+  Eigen::PartialPivLU<Eigen::MatrixXd> factor_;
+  std::map<Eigen::Index, Eigen::VectorXd> columns_;  // factor⁻¹ of a border's column
+
+  std::vector<Border> borders_;
+  Eigen::MatrixXd border_columns_, border_rows_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> complement_;
 };
 
 }  // namespace havers::sim

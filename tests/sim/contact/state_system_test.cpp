@@ -1,0 +1,52 @@
+#include "sim/contact/state_system.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "sim/contact/release_path.hpp"
+#include "tests/sim/contact/enumerated_contact.hpp"
+
+namespace havers::sim {
+namespace {
+
+using Eigen::VectorXd;
+
+VectorXd gaps(StateSystem& system) {
+  const LocalContact& problem = system.problem();
+  return system.solve(problem.r0, -problem.u0, cohesions(problem)).y;
+}
+
+// More changes than a factor is bordered with, one at a time: each answer is that of the full
+// equations.
+TEST(StateSystem, FollowsAnyWalkOfItsStates) {
+  const LocalContact problem = test::random_contact(40, 0.3, 1);
+  StateSystem system(problem);
+  std::mt19937 random(1);
+  for (int i = 0; i < 300; ++i) {
+    const auto joint = static_cast<std::size_t>(random() % 40);
+    system.set(joint, static_cast<JointState>(random() % 4));
+    const VectorXd truth = test::gaps_of(problem, system.states());
+    ASSERT_LT((gaps(system) - truth).norm(), 1e-9 * truth.norm()) << "change " << i;
+  }
+}
+
+TEST(StateSystem, TakesJointsInOnTheWay) {
+  const LocalContact whole = test::random_contact(12, 0.3, 2);
+  LocalContact problem;
+  StateSystem system(problem);
+  for (Eigen::Index n = 1; n <= 12; ++n) {
+    problem.S = whole.S.topLeftCorner(2 * n, 2 * n);
+    problem.r0 = whole.r0.head(2 * n);
+    problem.u0 = whole.u0.head(2 * n);
+    problem.laws.push_back(whole.laws[static_cast<std::size_t>(n - 1)]);
+    system.grow();
+    system.set(static_cast<std::size_t>(n - 1),
+               n % 2 == 0 ? JointState::open : JointState::slip_forward);
+    const VectorXd truth = test::gaps_of(problem, system.states());
+    EXPECT_LT((gaps(system) - truth).norm(), 1e-9 * truth.norm()) << n << " joints";
+  }
+}
+
+}  // namespace
+}  // namespace havers::sim
