@@ -21,7 +21,7 @@ double end_fraction_used(const Scene& scene) {
 namespace {
 
 // Residual above which a run is done again with care.
-constexpr double accurate = 1e-10;
+constexpr double accurate = 1e-9;
 
 Simulation break_event_by_event(const Scene& scene,
                                 const std::shared_ptr<const IntactStructure>& intact, bool careful,
