@@ -14,9 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // A force below this part of the largest is none. [-]
-constexpr double nothing = 1e-12;
-// Of the largest stiffness: holds pieces that hang on nothing. [-]
-constexpr double trace = 1e-11;
+constexpr double no_force = 1e-12;
 // More changes than this for every component, and rounding leads in circles.
 constexpr int most_changes = 20;
 constexpr int most_rounds = 200;
@@ -35,8 +33,8 @@ class ConvexContact {
         side_(static_cast<std::size_t>(b_.size()), 0) {
     const VectorXd c = cohesions(problem);
     for (Index i = 0; i < c.size(); ++i) b_(2 * i) += c(i);
-    S_.diagonal().array() += trace * S_.diagonal().maxCoeff();
-    tolerance_ = nothing * b_.lpNorm<Eigen::Infinity>();
+    S_.diagonal().array() += trace_stiffness * S_.diagonal().maxCoeff();
+    tolerance_ = no_force * b_.lpNorm<Eigen::Infinity>();
   }
 
   // Whether the minimum was found; `changes` counts.

@@ -11,15 +11,12 @@ using Eigen::VectorXd;
 
 namespace {
 
-// A piece that hangs on nothing leaves the equations singular: a trace of the largest stiffness
-// holds it, and a few corrections take the trace's effect on everything else away. A long strip
-// beside a crack bends as softly as 1e-8 of that, so the trace has to be less.
-constexpr double trace = 1e-11;
+// A few corrections take the effect of the trace on everything else away.
 constexpr int corrections = 5;
 constexpr double accuracy = 1e-13;
 // A bordered factor that leaves more of the reactions than this, and more than rounding leaves of
 // those by the gaps, is made anew.
-constexpr double tolerated = 1e-10, rounding = 1e-15;
+constexpr double tolerated = 1e-10, rounding_of_gaps = 1e-15;
 constexpr std::size_t most_borders = 40;
 
 double friction_slope(JointState state, const JointLaw& law) {
@@ -69,7 +66,7 @@ std::vector<StateSystem::Equation> StateSystem::equations_of_states() const {
 void StateSystem::factorise() {
   factorised_ = equations_;
   const auto n = static_cast<Index>(factorised_.size());
-  const double hold = n > 0 ? trace * scale() : 0.0;
+  const double hold = n > 0 ? trace_stiffness * scale() : 0.0;
   MatrixXd matrix(n, n);
   std::fill(place_.begin(), place_.end(), -1);
   for (Index k = 0; k < n; ++k) {
@@ -131,7 +128,7 @@ bool StateSystem::border_factor() {
     for (Index j = 0; j < k; ++j)
       if (borders_[static_cast<std::size_t>(j)].has_unknown)
         corner(i, j) = coefficient(equation, borders_[static_cast<std::size_t>(j)].row);
-    const double hold = trace * scale();
+    const double hold = trace_stiffness * scale();
     if (border.has_unknown)
       corner(i, i) += hold;
     else
@@ -185,7 +182,7 @@ StateSolution StateSystem::solve(const MatrixXd& r0, const MatrixXd& held,
   StateSolution solution = try_to_solve(r0, held, cohesion);
   if (borders_.empty()) return solution;
   const double lacks = missing(solution.r, cohesion).norm();
-  if (lacks <= tolerated * solution.r.norm() + rounding * scale() * solution.y.norm())
+  if (lacks <= tolerated * solution.r.norm() + rounding_of_gaps * scale() * solution.y.norm())
     return solution;
   factorise();
   return try_to_solve(r0, held, cohesion);

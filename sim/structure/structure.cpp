@@ -12,10 +12,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double accuracy = 1e-12;  // of the port forces, relative
+constexpr double accuracy_of_forces = 1e-12;  // of the port forces, relative
 // Forces err by more than the bodies' imbalance: 5 times as a rule, 200 times at the most over all
 // scenes of known answer.
-constexpr double spread = 1e3;
+constexpr double forces_by_imbalance = 1e3;
 constexpr int max_solves = 12;
 constexpr int max_solves_with_friction = 40;
 
@@ -177,8 +177,9 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads) const {
     const double shrinkage = std::max(correction / before, 1e-6);
     state.error = correction * std::min(shrinkage, 1.0);
     if (!rubs && scale > 0.0)
-      state.error = std::min(state.error, spread * in_forces(state.forces, gap).norm() / scale);
-    if (!(state.error > accuracy)) break;
+      state.error =
+          std::min(state.error, forces_by_imbalance * in_forces(state.forces, gap).norm() / scale);
+    if (!(state.error > accuracy_of_forces)) break;
     if (state.solves > 3 && shrinkage > 0.5 && !rubs) break;
     before = correction;
     if (rubs) past.push_back(std::move(change));
