@@ -74,6 +74,14 @@ void check_assembly(const AssemblyOptions& assembly, Checker& checker) {
         fmt::format("and fibres make {:g} fibres, must be at most {:g}", fibres, most_fibres),
         "check layers and fibres");
 
+  // Every fibre then is held at an end, and joints may push and pull each other at no cost (M10).
+  if (assembly.fibres == 1 && assembly.layers >= 3 && assembly.orientation == 0.0)
+    checker.say("assembly.fibres",
+                fmt::format("is 1 in each of {} layers along the load, which leaves the forces of "
+                            "their joints undetermined",
+                            assembly.layers),
+                "take 2 fibres or more, or at most 2 layers");
+
   checker.positive("assembly.fibre_length_um", assembly.fibre_length * 1e6);
   checker.positive("assembly.fibre_height_um", assembly.fibre_height * 1e6);
   if (is_positive(assembly.fibre_length) && is_positive(assembly.fibre_height))

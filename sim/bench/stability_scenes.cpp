@@ -95,16 +95,20 @@ void add_geometries(Scenes& scenes) {
     add_both(scenes, fmt::format("fibres at {:g}°", degrees), wall(4, 3, degrees));
   add_both(scenes, "one fibre", wall(1, 1));
   add_both(scenes, "one layer", wall(1, 6));
-  add_both(scenes, "layers of one fibre", wall(6, 1));
+  add_both(scenes, "two layers of one fibre", wall(2, 1));
   add_both(scenes, "a chain of 1000", wall(1, 1000));
   for (const int refinement : {2, 4}) {
     Scene scene = wall();
     scene.assembly.refinement = refinement;
     add_both(scenes, fmt::format("{} triangles a fibre", 8 * refinement * refinement), scene);
   }
-  Scene free = wall(4, 3, 30.0);
-  free.loading.lateral = Lateral::free;
-  add_both(scenes, "free sides at 30°", free);
+  const auto add_free = [&](const std::string& name, Scene scene) {
+    scene.loading.lateral = Lateral::free;
+    add_both(scenes, name, scene);
+  };
+  add_free("free sides at 30°", wall(4, 3, 30.0));
+  add_free("one fibre with free sides", wall(1, 1));
+  add_free("a chain of hinges at 90° with free sides", wall(1, 2, 90.0));
 }
 
 void add_strengths(Scenes& scenes) {
@@ -163,6 +167,10 @@ void add_refused(Scenes& scenes) {
          [](Scene& s) { s.loading.strain_rate = std::numeric_limits<double>::infinity(); });
   refuse("a step of no time", [](Scene& s) { s.solver.step = 0.0; });
   refuse("thresholds of another wall", [](Scene& s) { s.joints.thresholds = {{1.0, 1.0}}; });
+  refuse("six layers of one fibre", [](Scene& s) {
+    s.assembly.layers = 6;
+    s.assembly.fibres = 1;
+  });
   refuse("more fibres than fit", [](Scene& s) { s.assembly.layers = s.assembly.fibres = 100000; });
 }
 

@@ -37,6 +37,8 @@ struct PortSplit {
 };
 
 PortSplit split_by_ports(const MatrixXd& ports) {
+  const Index n = ports.cols();
+  if (ports.rows() == 0) return {MatrixXd(n, 0), MatrixXd::Identity(n, n), MatrixXd(0, 0)};
   const Eigen::JacobiSVD<MatrixXd> svd(ports, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::VectorXd& values = svd.singularValues();
   Index rank = 0;

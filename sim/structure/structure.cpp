@@ -156,7 +156,7 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads) const {
   MatrixXd gap = bodies_->incompatibility(state.displacements);
   std::vector<Correction> past;
   double before = 1.0;
-  while (state.solves < (rubs ? max_solves_with_friction : max_solves)) {
+  while (factor_ && state.solves < (rubs ? max_solves_with_friction : max_solves)) {
     Correction change = correct(state.forces, gap, friction);
     ++state.solves;
     double length = 1.0;

@@ -64,7 +64,8 @@ class Structure {
   /// @param held  One per joint; empty: all hold fully.
   explicit Structure(const Bodies& bodies, std::vector<Held> held = {});
 
-  [[nodiscard]] bool ok() const { return factor_.has_value() && factor_->ok(); }
+  /// Whether it can be solved; bodies without ports need no factor.
+  [[nodiscard]] bool ok() const { return factor_ ? factor_->ok() : unknowns_ == 0; }
   [[nodiscard]] const Bodies& bodies() const { return *bodies_; }
   [[nodiscard]] const std::vector<Held>& held() const { return held_; }
   [[nodiscard]] Eigen::Index joints() const { return static_cast<Eigen::Index>(held_.size()); }

@@ -13,7 +13,7 @@ using Eigen::MatrixXd;
 
 namespace {
 
-constexpr double most_hold = 1e-9;   // of a mechanism, part of the diagonal
+constexpr double most_hold = 1e-9;   // of a mechanism, part of the largest stiffness
 constexpr double determined = 0.01;  // least share of a joint in multipliers to give them a pivot
 
 // Least share of a direction in a set of orthonormal rows, where only some columns are looked at.
@@ -152,7 +152,7 @@ void Structure::assemble() {
   // A mechanism has nothing but its trace of inertia. The factor may hold it, for the corrections
   // take what it adds away from everything that bears a load.
   for (double hold = 1e-13; !factor_->ok() && hold < most_hold; hold *= 10.0) {
-    matrix.diagonal() *= 1.0 + hold;
+    matrix.diagonal().head(unknowns_).array() += hold * stiffness_;
     factor_.emplace(matrix, bodies_->compatibilities(), order);
   }
 }
