@@ -119,8 +119,12 @@ bool ActiveSetSolver::reattach_closed(const JointStepResult& result) {
 }
 
 JointStepResult ActiveSetSolver::solve(const JointStep& step) {
-  const bool many =
-      detach_open_ && std::count(step.broken.begin(), step.broken.end(), 1) >= worth_searching;
+  // Sweeps lead nowhere where inertia is but a trace.
+  const std::vector<BodyClass>& classes = bodies_->classes();
+  const bool at_rest = std::any_of(classes.begin(), classes.end(),
+                                   [](const BodyClass& bodies) { return bodies.op.at_rest; });
+  const bool many = detach_open_ && !at_rest &&
+                    std::count(step.broken.begin(), step.broken.end(), 1) >= worth_searching;
   JointStepResult result = many ? search_.solve(step) : solve_loose(step);
   if (result.converged) return result;
   // Either way may find the set that the other misses.
