@@ -81,6 +81,10 @@ void StateSystem::factorise() {
   borders_.clear();
 }
 
+VectorXd StateSystem::from_factor(const VectorXd& load) const {
+  return load.size() == 0 ? load : VectorXd(factor_.solve(load));
+}
+
 // The factor's answer to what a border adds to its equations: the effect of a gap that it does not
 // know, or an arbitrary force in place of the row's equation.
 const VectorXd& StateSystem::column(Index row) {
@@ -92,7 +96,7 @@ const VectorXd& StateSystem::column(Index row) {
   if (place >= 0) load(place) = 1.0;
   for (Index k = 0; k < n && place < 0; ++k)
     load(k) = coefficient(factorised_[static_cast<std::size_t>(k)], row);
-  return columns_.emplace(row, factor_.solve(load)).first->second;
+  return columns_.emplace(row, from_factor(load)).first->second;
 }
 
 // (C8). Whether the states are near enough to those of the factor.
@@ -149,7 +153,7 @@ VectorXd StateSystem::corrected_by(const VectorXd& missing) {
     border_load(i) = border.slope ? missing(border.row) : 0.0;
     if (!border.has_unknown) load(place_[static_cast<std::size_t>(border.row)]) = 0.0;
   }
-  VectorXd known = factor_.solve(load), change = VectorXd::Zero(missing.size());
+  VectorXd known = from_factor(load), change = VectorXd::Zero(missing.size());
   VectorXd added;
   if (k > 0) {
     added = complement_.solve(border_load - border_rows_ * known);

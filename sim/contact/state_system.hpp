@@ -58,6 +58,7 @@ class StateSystem {
   [[nodiscard]] std::vector<Equation> equations_of_states() const;
   void factorise();
   bool border_factor();
+  [[nodiscard]] Eigen::VectorXd from_factor(const Eigen::VectorXd& load) const;
   [[nodiscard]] double scale() const;
   [[nodiscard]] double coefficient(const Equation& equation, Eigen::Index unknown) const;
   [[nodiscard]] const Eigen::VectorXd& column(Eigen::Index row);
