@@ -17,7 +17,8 @@ constexpr double accuracy = 1e-13;
 // A bordered factor that leaves more of the reactions than this, and more than rounding leaves of
 // those by the gaps, is made anew.
 constexpr double tolerated = 1e-10, rounding_of_gaps = 1e-15;
-constexpr std::size_t most_borders = 40;
+// A border costs its cube, a factor that of all equations: so many, and a tenth of these.
+constexpr std::size_t borders_at_least = 4;
 
 double friction_slope(JointState state, const JointLaw& law) {
   if (state == JointState::slip_forward) return law.friction;
@@ -112,7 +113,7 @@ bool StateSystem::border_factor() {
   for (const Equation& equation : equations_)
     if (place_[static_cast<std::size_t>(equation.row)] < 0)
       borders_.push_back({equation.row, true, equation.slope});
-  if (borders_.size() > most_borders) return false;
+  if (borders_.size() > borders_at_least + factorised_.size() / 10) return false;
 
   const auto n = static_cast<Index>(factorised_.size());
   const auto k = static_cast<Index>(borders_.size());
