@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "sim/contact/release_path.hpp"
 #include "sim/joint/thresholds.hpp"
 #include "sim/outcome.hpp"
+#include "sim/structure/disjoint_sets.hpp"
 
 namespace havers::sim {
 
@@ -98,24 +98,19 @@ void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {
 std::vector<char> BreakingRun::apart() const {
   const Assembly& assembly = intact_->assembly();
   const std::size_t end = assembly.bodies.size();  // stands for both ends
-  std::vector<std::size_t> piece(end + 1);         // a body of the same piece; itself at its root
-  std::iota(piece.begin(), piece.end(), std::size_t{0});
-  const auto root = [&](std::size_t body) {
-    while (piece[body] != body) body = piece[body] = piece[piece[body]];
-    return body;
-  };
-  for (const int body : intact_->held_bodies())
-    piece[root(static_cast<std::size_t>(body))] = root(end);
+  DisjointSets pieces(end + 1);
+  for (const int body : intact_->held_bodies()) pieces.unite(end, static_cast<std::size_t>(body));
   for (std::size_t j = 0; j < joints.size(); ++j)
     if (!joints[j].broken)
-      piece[root(static_cast<std::size_t>(assembly.joints[j].body_a))] =
-          root(static_cast<std::size_t>(assembly.joints[j].body_b));
+      pieces.unite(static_cast<std::size_t>(assembly.joints[j].body_a),
+                   static_cast<std::size_t>(assembly.joints[j].body_b));
 
   std::vector<char> apart;
   for (const int joint : loose_.joints()) {
     const Joint& between = assembly.joints[static_cast<std::size_t>(joint)];
-    const bool carried = root(static_cast<std::size_t>(between.body_a)) == root(end) &&
-                         root(static_cast<std::size_t>(between.body_b)) == root(end);
+    const bool carried =
+        pieces.find(static_cast<std::size_t>(between.body_a)) == pieces.find(end) &&
+        pieces.find(static_cast<std::size_t>(between.body_b)) == pieces.find(end);
     apart.push_back(carried ? 0 : 1);
   }
   return apart;

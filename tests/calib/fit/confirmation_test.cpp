@@ -22,6 +22,7 @@ TEST(Confirmation, AveragesWavesOverAStretchOfStrain) {
 
 TEST(Confirmation, SaysHowMuchTheLimitDiffersFromTimeStepsAtEachOrientation) {
   Study study = known_study(three_orientations(), 3).study;
+  study.calibrate.seed = 1;  // walls that waves do not break early; some along the fibres they do
   study.calibrate.confirm = 3;
   const CalibrationResult result = calibrate(study);
   ASSERT_EQ(result.confirmations.size(), 3U);
@@ -30,10 +31,8 @@ TEST(Confirmation, SaysHowMuchTheLimitDiffersFromTimeStepsAtEachOrientation) {
     specimens.insert(one.specimen);
     EXPECT_FALSE(one.failed);
     EXPECT_GT(one.strain_rate, 1.0);
-    // Waves of the first breaks reach further joints at any rate; along the fibres many break.
-    const double waves = one.specimen == "S1" ? 0.15 : 0.05;
-    EXPECT_NEAR(one.strength_in_time / one.strength_limit, 1.0, waves) << one.specimen;
-    EXPECT_NEAR(one.failure_strain_in_time / one.failure_strain_limit, 1.0, waves) << one.specimen;
+    EXPECT_NEAR(one.strength_in_time / one.strength_limit, 1.0, 0.05);
+    EXPECT_NEAR(one.failure_strain_in_time / one.failure_strain_limit, 1.0, 0.05);
     EXPECT_GE(one.peak_in_time, one.strength_in_time);
   }
   EXPECT_EQ(specimens, (std::set<std::string>{"S1", "S3", "S5"}));
