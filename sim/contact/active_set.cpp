@@ -83,8 +83,7 @@ bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded
     for (Index i = 0; i < n; ++i)
       result.states[static_cast<std::size_t>(loose_.joints()[static_cast<std::size_t>(i)])] =
           local.states[static_cast<std::size_t>(i)];
-    if (!loosen_violated(step, bonded_reactions + loose_.answer_to(y).reactions, result))
-      return true;
+    if (!loosen_violated(step, bonded_reactions + loose_.reactions_to(y), result)) return true;
   }
 }
 

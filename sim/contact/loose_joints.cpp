@@ -32,10 +32,9 @@ Eigen::MatrixXd LooseJoints::stiffness() const {
   return S;
 }
 
-JumpAnswer LooseJoints::answer_to(const Eigen::VectorXd& y) const {
-  const Index rows = 2 * structure_->joints();
-  if (y.isZero(0.0)) return {Eigen::VectorXd::Zero(rows), Eigen::VectorXd::Zero(rows)};
-  return structure_->answer_to_jumps(responses_, y);
+Eigen::VectorXd LooseJoints::reactions_to(const Eigen::VectorXd& y) const {
+  if (y.isZero(0.0)) return Eigen::VectorXd::Zero(2 * structure_->joints());
+  return structure_->reactions_to_jumps(responses_, y);
 }
 
 }  // namespace havers::sim

@@ -29,9 +29,8 @@ class LooseJoints {
   /// S over the loose joints. [N/m²]
   [[nodiscard]] Eigen::MatrixXd stiffness() const;
 
-  /// Change of all reactions and gaps by gaps y of the loose joints: S y; y itself at the loose
-  /// joints, nothing at bonded ones, and what detached ones do.
-  [[nodiscard]] JumpAnswer answer_to(const Eigen::VectorXd& y) const;
+  /// Change of all reactions by gaps y of the loose joints: S y. [N/m]
+  [[nodiscard]] Eigen::VectorXd reactions_to(const Eigen::VectorXd& y) const;
 
  private:
   const Structure* structure_;

@@ -142,7 +142,7 @@ bool BreakingRun::settle() {
     force_ = answer.force;
     return result.converged;
   }
-  reactions_ = intact_->answer().reactions + loose_.answer_to(y_).reactions;
+  reactions_ = intact_->answer().reactions + loose_.reactions_to(y_);
   // By reciprocity the force at the end changes by r⁰·y/W.
   force_ = intact_->answer().force + contact_.r0.dot(y_) / intact_->assembly().width;
   return result.converged;

@@ -50,12 +50,6 @@ struct JumpResponse {
   Eigen::MatrixX2d own;  ///< Forces on the ports of the joint's body b, all else held. [N/m²]
 };
 
-/// What jumps at some joints do to all of them.
-struct JumpAnswer {
-  Eigen::VectorXd reactions;  ///< [N/m]
-  Eigen::VectorXd gaps;       ///< u_b − u_a; what is not held follows the structure. [m]
-};
-
 /// Factor of the structure in which the joints hold as given (S5)-(S8),
 /// sim/README.md. Unknowns are the joints' own displacements; what an even ring of ports
 /// cannot do is imposed by multipliers, so that no digits are lost at large steps (M10).
@@ -77,8 +71,8 @@ class Structure {
   /// Reactions at the joint of `a` to unit jumps at that of each `b`. [N/m²]
   [[nodiscard]] Eigen::Matrix2Xd reactions_between(
       const JumpResponse& a, const std::vector<std::shared_ptr<const JumpResponse>>& b) const;
-  /// @param y  jumps at the joints of `responses`, normal and tangential [m]
-  [[nodiscard]] JumpAnswer answer_to_jumps(
+  /// Reactions of all joints to jumps `y` [m] at those of `responses`, normal and tangential. [N/m]
+  [[nodiscard]] Eigen::VectorXd reactions_to_jumps(
       const std::vector<std::shared_ptr<const JumpResponse>>& responses,
       const Eigen::VectorXd& y) const;
 

@@ -61,7 +61,7 @@ Eigen::Matrix2Xd Structure::reactions_between(
   return reactions;
 }
 
-JumpAnswer Structure::answer_to_jumps(
+VectorXd Structure::reactions_to_jumps(
     const std::vector<std::shared_ptr<const JumpResponse>>& responses, const VectorXd& y) const {
   VectorXd half = VectorXd::Zero(factor_->pivots().size());
   MatrixXd displacements = MatrixXd::Zero(ports(), 1);
@@ -77,7 +77,7 @@ JumpAnswer Structure::answer_to_jumps(
   displacements += unknowns_to_ports(answer);
   const MatrixXd forces =
       bodies_->port_forces(displacements, answer.tail(bodies_->compatibilities()));
-  return {reactions_of(forces).topRows(2 * joints()), gaps_of(displacements)};
+  return reactions_of(forces).topRows(2 * joints());
 }
 
 }  // namespace havers::sim
