@@ -185,13 +185,11 @@ VectorXd JointSweeps::port_forces() const {
 VectorXd JointSweeps::displacements(const JointStep& step) const {
   const VectorXd load = step.forces + bodies_->port_forces_on_nodes(port_forces()) -
                         bodies_->shifted_times(step.prescribed);
-  MatrixXd d = step.prescribed;
-  const auto dof = [&](int body) { return bodies_->first_dof(body); };
+  VectorXd d = step.prescribed;
   for (std::size_t c = 0; c < inverses_.size(); ++c) {
     const BodyClass& group = bodies_->classes()[c];
-    const Index rows = inverses_[c].rows();
-    scatter(gather(d, group, rows, dof) + inverses_[c] * gather(load, group, rows, dof), group, dof,
-            d);
+    bodies_->scatter(bodies_->gather(d, group) + inverses_[c] * bodies_->gather(load, group), group,
+                     d);
   }
   return d;
 }

@@ -136,16 +136,25 @@ bool BreakingRun::settle() {
   }
   system_.set(result.states);
   y_ = result.y;
-  if (careful_) {
-    const UnitAnswer answer = refine();
-    reactions_ = answer.reactions;
-    force_ = answer.force;
-    return result.converged;
-  }
   reactions_ = intact_->answer().reactions + loose_.reactions_to(y_);
   // By reciprocity the force at the end changes by r⁰·y/W.
   force_ = intact_->answer().force + contact_.r0.dot(y_) / intact_->assembly().width;
+  // Where a piece swings freely, its gaps are so large that digits are lost.
+  if (careful_ || difference(reactions_).norm() > refined * intact_->answer().reactions.norm()) {
+    const UnitAnswer answer = refine();
+    reactions_ = answer.reactions;
+    force_ = answer.force;
+  }
   return result.converged;
+}
+
+// By which reactions of the loose joints differ from what they solved for among themselves.
+VectorXd BreakingRun::difference(const VectorXd& reactions) const {
+  VectorXd difference = -(contact_.r0 + contact_.S * y_);
+  for (std::size_t i = 0; i < loose_.size(); ++i)
+    difference.segment<2>(2 * static_cast<Index>(i)) +=
+        reactions.segment<2>(2 * static_cast<Index>(loose_.joints()[i]));
+  return difference;
 }
 
 VectorXd BreakingRun::gaps() const {
@@ -156,21 +165,17 @@ VectorXd BreakingRun::gaps() const {
   return gaps;
 }
 
-// The whole structure with the gaps found, and again with what that shows them to lack.
+// The whole structure with the gaps found, and again as long as it shows the joints other reactions
+// than they solved for among themselves.
 UnitAnswer BreakingRun::refine() {
   const double scale = intact_->answer().reactions.norm();
   UnitAnswer found = intact_->stretch(gaps());
-  for (int i = 0; i < most_refinements && loose_.size() > 0; ++i) {
-    VectorXd lacking = -contact_.S * y_;
-    for (std::size_t k = 0; k < loose_.size(); ++k)
-      lacking.segment<2>(2 * static_cast<Index>(k)) +=
-          found.reactions.segment<2>(2 * static_cast<Index>(loose_.joints()[k]));
-    const StateSolution solution =
-        system_.solve(lacking, VectorXd::Zero(y_.size()), cohesions(contact_));
-    const double change = (contact_.S * (solution.y - y_)).norm();
-    y_ = solution.y;
+  for (int i = 0; i < most_refinements; ++i) {
+    const VectorXd missing = difference(found.reactions);
+    if (missing.norm() <= refined * scale) break;
+    const VectorXd free = contact_.r0 + missing;
+    y_ = system_.solve(free, VectorXd::Zero(y_.size()), cohesions(contact_)).y;
     found = intact_->stretch(gaps());
-    if (change <= refined * scale) break;
   }
   return found;
 }

@@ -40,6 +40,7 @@ class BreakingRun {
   void loosen(const std::vector<std::size_t>& breaking);
   [[nodiscard]] std::vector<char> apart() const;
   [[nodiscard]] Eigen::VectorXd gaps() const;
+  [[nodiscard]] Eigen::VectorXd difference(const Eigen::VectorXd& reactions) const;
   UnitAnswer refine();
   [[nodiscard]] double law_residual_of(const Eigen::VectorXd& reactions,
                                        const Eigen::VectorXd& gaps) const;

@@ -89,7 +89,7 @@ UnitAnswer IntactStructure::stretch(const Eigen::VectorXd& gaps) const {
 }
 
 double IntactStructure::energy(const Eigen::VectorXd& q) const {
-  return 0.5 * q.dot(Eigen::VectorXd(bodies_.shifted_times(q)));
+  return 0.5 * q.dot(bodies_.shifted_times(q));
 }
 
 std::shared_ptr<const JumpResponse> IntactStructure::respond_to_jump(int joint) const {

@@ -135,87 +135,78 @@ Index Bodies::first_dof(int body) const {
   return 2 * static_cast<Index>(assembly_->bodies[static_cast<std::size_t>(body)].first_node);
 }
 
-namespace {
-
-// y = A x body by body, A being one of the operator's matrices; `starts` says where a body's part
-// begins in x and in y.
-template <class Matrix, class Starts>
-void apply(const std::vector<BodyClass>& classes, const Matrix& matrix, const Starts& starts,
-           const MatrixXd& x, MatrixXd& y) {
-  for (const BodyClass& bodies : classes) {
-    const auto& A = matrix(bodies.op);
-    scatter(A * gather(x, bodies, A.cols(), starts.first), bodies, starts.second, y);
-  }
+MatrixXd Bodies::gather(const VectorXd& q, const BodyClass& group) const {
+  MatrixXd columns(group.op.shifted.rows(), static_cast<Index>(group.bodies.size()));
+  for (Index k = 0; k < columns.cols(); ++k)
+    columns.col(k) =
+        q.segment(first_dof(group.bodies[static_cast<std::size_t>(k)]), columns.rows());
+  return columns;
 }
 
-}  // namespace
+void Bodies::scatter(const MatrixXd& columns, const BodyClass& group, VectorXd& q) const {
+  for (Index k = 0; k < columns.cols(); ++k)
+    q.segment(first_dof(group.bodies[static_cast<std::size_t>(k)]), columns.rows()) =
+        columns.col(k);
+}
 
 // K only knows differences between nodes: those to a body's first node lose no digits to its path.
-MatrixXd Bodies::stiffness_times(const MatrixXd& q) const {
-  MatrixXd y(dofs(), q.cols());
-  const auto dof = [&](int b) { return first_dof(b); };
+VectorXd Bodies::stiffness_times(const VectorXd& q) const {
+  VectorXd y(dofs());
   for (const BodyClass& group : classes_) {
-    const MatrixXd& K = group.op.matrices.stiffness;
-    MatrixXd moved = gather(q, group, K.cols(), dof);
-    for (Index row = K.cols() - 1; row >= 0; --row) moved.row(row) -= moved.row(row % 2);
-    scatter(K * moved, group, dof, y);
+    MatrixXd moved = gather(q, group);
+    for (Index row = moved.rows() - 1; row >= 0; --row) moved.row(row) -= moved.row(row % 2);
+    scatter(group.op.matrices.stiffness * moved, group, y);
   }
   return y;
 }
 
-MatrixXd Bodies::shifted_times(const MatrixXd& q) const {
-  return shift_.beta * stiffness_times(q) + shift_.alpha * (mass_.asDiagonal() * q);
+VectorXd Bodies::shifted_times(const VectorXd& q) const {
+  return shift_.beta * stiffness_times(q) + shift_.alpha * mass_.cwiseProduct(q);
 }
 
-MatrixXd Bodies::port_displacements(const MatrixXd& q) const {
-  MatrixXd y(static_cast<Index>(ports_.size()), q.cols());
-  const auto ports = [](const BodyOperator& op) -> const MatrixXd& { return op.ports; };
-  apply(classes_, ports,
-        std::pair([&](int b) { return first_dof(b); }, [&](int b) { return first_port(b); }), q, y);
-  return y;
-}
-
-MatrixXd Bodies::port_forces_on_nodes(const MatrixXd& t) const {
-  MatrixXd y(dofs(), t.cols());
-  const auto ports = [](const BodyOperator& op) { return op.ports.transpose(); };
-  apply(classes_, ports,
-        std::pair([&](int b) { return first_port(b); }, [&](int b) { return first_dof(b); }), t, y);
-  return y;
-}
-
-MatrixXd Bodies::incompatibility(const MatrixXd& p) const {
-  MatrixXd y(compatibilities_, p.cols());
+VectorXd Bodies::port_displacements(const VectorXd& q) const {
+  VectorXd p(static_cast<Index>(ports_.size()));
   for (const BodyClass& group : classes_)
-    for (Index c = 0; c < p.cols(); ++c)
-      compatibilities_in(y, group, c).noalias() = group.op.compatibility * ports_in(p, group, c);
-  return y;
+    ports_in(p, group).noalias() = group.op.ports * gather(q, group);
+  return p;
 }
 
-MatrixXd Bodies::compatibility_forces(const MatrixXd& a) const {
-  MatrixXd y(static_cast<Index>(ports_.size()), a.cols());
+VectorXd Bodies::port_forces_on_nodes(const VectorXd& t) const {
+  VectorXd y(dofs());
   for (const BodyClass& group : classes_)
-    for (Index c = 0; c < a.cols(); ++c)
-      ports_in(y, group, c).noalias() =
-          group.op.compatibility.transpose() * compatibilities_in(a, group, c);
+    scatter(group.op.ports.transpose() * ports_in(t, group), group, y);
   return y;
 }
 
-MatrixXd Bodies::port_forces(const MatrixXd& p, const MatrixXd& a) const {
-  MatrixXd y(p.rows(), p.cols());
+VectorXd Bodies::incompatibility(const VectorXd& p) const {
+  VectorXd y(compatibilities_);
+  for (const BodyClass& group : classes_)
+    compatibilities_in(y, group).noalias() = group.op.compatibility * ports_in(p, group);
+  return y;
+}
+
+VectorXd Bodies::compatibility_forces(const VectorXd& a) const {
+  VectorXd y(static_cast<Index>(ports_.size()));
+  for (const BodyClass& group : classes_)
+    ports_in(y, group).noalias() =
+        group.op.compatibility.transpose() * compatibilities_in(a, group);
+  return y;
+}
+
+VectorXd Bodies::port_forces(const VectorXd& p, const VectorXd& a) const {
+  VectorXd y(p.size());
   for (const BodyClass& group : classes_) {
     const BodyOperator& op = group.op;
-    for (Index c = 0; c < p.cols(); ++c) {
-      auto forces = ports_in(y, group, c);
-      const auto moved = ports_in(p, group, c);
-      if (op.rigid.cols() > 0) {
-        const MatrixXd rigidly = op.rigid.transpose() * moved;
-        forces.noalias() = op.impedance * (moved - op.rigid * rigidly);
-        forces.noalias() += op.inertia * rigidly;
-      } else {
-        forces.noalias() = op.impedance * moved;
-      }
-      forces.noalias() += op.compatibility.transpose() * compatibilities_in(a, group, c);
+    auto forces = ports_in(y, group);
+    const auto moved = ports_in(p, group);
+    if (op.rigid.cols() > 0) {
+      const MatrixXd rigidly = op.rigid.transpose() * moved;
+      forces.noalias() = op.impedance * (moved - op.rigid * rigidly);
+      forces.noalias() += op.inertia * rigidly;
+    } else {
+      forces.noalias() = op.impedance * moved;
     }
+    forces.noalias() += op.compatibility.transpose() * compatibilities_in(a, group);
   }
   return y;
 }

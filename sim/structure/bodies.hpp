@@ -18,14 +18,14 @@ struct Port {
   PortSide side = PortSide::a;
 };
 
-/// Bodies with the same operator; columns of the gathered matrices.
+/// Bodies with the same operator.
 struct BodyClass {
   BodyOperator op;
   std::vector<int> bodies;
 };
 
-/// Matrices hold one case a column. Vectors over the degrees of freedom have x and y of every node
-/// of the assembly; vectors over the ports have each body's ports in order.
+/// Vectors over the degrees of freedom have x and y of every node of the assembly; vectors over the
+/// ports have each body's ports in order, those of a class together.
 class Bodies {
  public:
   /// @param share  false: one operator per body, for comparison (section 7).
@@ -46,40 +46,45 @@ class Bodies {
   }
 
   [[nodiscard]] const Eigen::VectorXd& mass() const { return mass_; }             ///< M. [kg/m]
-  [[nodiscard]] Eigen::MatrixXd stiffness_times(const Eigen::MatrixXd& q) const;  ///< K q. [N/m]
-  [[nodiscard]] Eigen::MatrixXd shifted_times(const Eigen::MatrixXd& q) const;    ///< Ā q. [N/m]
+  [[nodiscard]] Eigen::VectorXd stiffness_times(const Eigen::VectorXd& q) const;  ///< K q. [N/m]
+  [[nodiscard]] Eigen::VectorXd shifted_times(const Eigen::VectorXd& q) const;    ///< Ā q. [N/m]
   /// Z p + Nᵀ a at the ports (S4). [N/m]
-  [[nodiscard]] Eigen::MatrixXd port_forces(const Eigen::MatrixXd& p,
-                                            const Eigen::MatrixXd& a) const;
-  [[nodiscard]] Eigen::MatrixXd incompatibility(const Eigen::MatrixXd& p) const;  ///< N p. [m]
-  [[nodiscard]] Eigen::MatrixXd compatibility_forces(
-      const Eigen::MatrixXd& a) const;  ///< Nᵀ a. [N/m]
+  [[nodiscard]] Eigen::VectorXd port_forces(const Eigen::VectorXd& p,
+                                            const Eigen::VectorXd& a) const;
+  [[nodiscard]] Eigen::VectorXd incompatibility(const Eigen::VectorXd& p) const;  ///< N p. [m]
+  [[nodiscard]] Eigen::VectorXd compatibility_forces(
+      const Eigen::VectorXd& a) const;  ///< Nᵀ a. [N/m]
   [[nodiscard]] Eigen::Index compatibilities() const {
     return compatibilities_;
   }  ///< Rows of all N.
-  [[nodiscard]] Eigen::MatrixXd port_displacements(const Eigen::MatrixXd& q) const;  ///< B q. [m]
-  [[nodiscard]] Eigen::MatrixXd port_forces_on_nodes(
-      const Eigen::MatrixXd& t) const;  ///< Bᵀ t. [N/m]
+  [[nodiscard]] Eigen::VectorXd port_displacements(const Eigen::VectorXd& q) const;  ///< B q. [m]
+  [[nodiscard]] Eigen::VectorXd port_forces_on_nodes(
+      const Eigen::VectorXd& t) const;  ///< Bᵀ t. [N/m]
+
+  // What of a vector belongs to a class, a body a column.
+  /// Of one over the degrees of freedom, copied, and back.
+  [[nodiscard]] Eigen::MatrixXd gather(const Eigen::VectorXd& q, const BodyClass& group) const;
+  void scatter(const Eigen::MatrixXd& columns, const BodyClass& group, Eigen::VectorXd& q) const;
+  /// Of one over the ports, in place.
+  template <class Values>
+  [[nodiscard]] auto ports_in(Values& values, const BodyClass& group) const {
+    return part(values, group, first_port_, group.op.impedance.rows());
+  }
+  /// Of one over the rows of all N, in place.
+  template <class Values>
+  [[nodiscard]] auto compatibilities_in(Values& values, const BodyClass& group) const {
+    return part(values, group, first_compatibility_, group.op.compatibility.rows());
+  }
 
  private:
-  // Ports and compatibilities are numbered class by class: those of a class, in one case, are a
-  // matrix with a body a column.
   template <class Values>
-  [[nodiscard]] auto ports_in(Values& values, const BodyClass& group, Eigen::Index c) const {
-    return Eigen::Map<like<Values>>(values.col(c).data() + first_port(group.bodies.front()),
-                                    group.op.impedance.rows(),
-                                    static_cast<Eigen::Index>(group.bodies.size()));
+  [[nodiscard]] static auto part(Values& values, const BodyClass& group,
+                                 const std::vector<Eigen::Index>& first, Eigen::Index rows) {
+    using Part =
+        std::conditional_t<std::is_const_v<Values>, const Eigen::MatrixXd, Eigen::MatrixXd>;
+    return Eigen::Map<Part>(values.data() + first[static_cast<std::size_t>(group.bodies.front())],
+                            rows, static_cast<Eigen::Index>(group.bodies.size()));
   }
-  template <class Values>
-  [[nodiscard]] auto compatibilities_in(Values& values, const BodyClass& group,
-                                        Eigen::Index c) const {
-    const auto body = static_cast<std::size_t>(group.bodies.front());
-    return Eigen::Map<like<Values>>(values.col(c).data() + first_compatibility_[body],
-                                    group.op.compatibility.rows(),
-                                    static_cast<Eigen::Index>(group.bodies.size()));
-  }
-  template <class Values>
-  using like = std::conditional_t<std::is_const_v<Values>, const Eigen::MatrixXd, Eigen::MatrixXd>;
 
   const Assembly* assembly_;
   Shift shift_;
@@ -91,26 +96,5 @@ class Bodies {
   std::vector<char> held_;
   Eigen::VectorXd mass_;
 };
-
-/// Columns of the result: the segment [starts(body), + rows) of `values` for each body of a class,
-/// and back. With several columns of values, all bodies of the first come first.
-template <class Starts>
-Eigen::MatrixXd gather(const Eigen::MatrixXd& values, const BodyClass& group, Eigen::Index rows,
-                       const Starts& starts) {
-  Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(group.bodies.size()) * values.cols());
-  Eigen::Index to = 0;
-  for (Eigen::Index c = 0; c < values.cols(); ++c)
-    for (const int body : group.bodies)
-      columns.col(to++) = values.col(c).segment(starts(body), rows);
-  return columns;
-}
-template <class Starts>
-void scatter(const Eigen::MatrixXd& columns, const BodyClass& group, const Starts& starts,
-             Eigen::MatrixXd& values) {
-  Eigen::Index from = 0;
-  for (Eigen::Index c = 0; c < values.cols(); ++c)
-    for (const int body : group.bodies)
-      values.col(c).segment(starts(body), columns.rows()) = columns.col(from++);
-}
 
 }  // namespace havers::sim

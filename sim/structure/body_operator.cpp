@@ -79,8 +79,9 @@ BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
   body.impedance = 0.5 * (Z + Z.transpose());
   body.compatibility = split.impossible;
   body.rigid = body.inertia = MatrixXd(p, 0);
+  body.held = free.size() != held.size();
   body.at_rest = shift.alpha * matrices.mass.maxCoeff() < inertia_trace * A.diagonal().maxCoeff();
-  if (body.at_rest && free.size() == held.size()) {
+  if (body.at_rest && !body.held) {
     const MatrixXd motions = own_motions(matrices.stiffness);
     const Eigen::ColPivHouseholderQR<MatrixXd> at_ports(ports * motions);
     body.rigid = MatrixXd(at_ports.householderQ()).leftCols(at_ports.rank());

@@ -19,6 +19,7 @@ struct Shift {
 /// sim/README.md. n degrees of freedom (those held by the boundary included), p ports.
 struct BodyOperator {
   BodyMatrices matrices;
+  bool held = false;           ///< Whether the boundary holds some of its degrees of freedom.
   bool at_rest = false;        ///< Whether inertia is but a trace of Ā.
   Eigen::MatrixXd shifted;     ///< Ā, n × n. [N/m²]
   Eigen::MatrixXd ports;       ///< B, p × n. [-]

@@ -11,7 +11,6 @@
 namespace havers::sim {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // CHOLMOD keeps its workspace in a `common`; one per thread makes a factor usable by all of them.
@@ -102,12 +101,10 @@ cholmod_sparse view_of(const Eigen::SparseMatrix<double>& lower) {
   return view;
 }
 
-cholmod_dense view_of(const MatrixXd& b) {
+cholmod_dense view_of(const VectorXd& b) {
   cholmod_dense view{};
-  view.nrow = static_cast<std::size_t>(b.rows());
-  view.ncol = static_cast<std::size_t>(b.cols());
-  view.nzmax = static_cast<std::size_t>(b.size());
-  view.d = static_cast<std::size_t>(b.rows());
+  view.nrow = view.nzmax = view.d = static_cast<std::size_t>(b.size());
+  view.ncol = 1;
   view.x = const_cast<double*>(b.data());  // NOLINT
   view.xtype = CHOLMOD_REAL;
   view.dtype = CHOLMOD_DOUBLE;
@@ -169,11 +166,11 @@ bool SparseFactor::ok() const {
   return ok_;
 }
 
-MatrixXd SparseFactor::solve(const MatrixXd& b) const {
+VectorXd SparseFactor::solve(const VectorXd& b) const {
   assert(ok());
   cholmod_dense view = view_of(b);
   const double* x = this_threads_common().solve(CHOLMOD_A, factor_->L, &view);
-  return Eigen::Map<const MatrixXd>(x, b.rows(), b.cols());
+  return Eigen::Map<const VectorXd>(x, b.size());
 }
 
 HalfSolution SparseFactor::solve_half(const std::vector<int>& rows,
@@ -201,8 +198,7 @@ HalfSolution SparseFactor::solve_half(const std::vector<int>& rows,
 
 VectorXd SparseFactor::finish(const VectorXd& w) const {
   assert(ok());
-  const MatrixXd b = w;
-  cholmod_dense view = view_of(b);
+  cholmod_dense view = view_of(w);
   const double* x = this_threads_common().solve(CHOLMOD_DLt, factor_->L, &view);
   VectorXd solved(w.size());
   for (Index row = 0; row < w.size(); ++row) solved(row) = x[place_[static_cast<std::size_t>(row)]];

@@ -34,8 +34,8 @@ class SparseFactor {
   [[nodiscard]] bool ok() const;
 
   // All of these may be called by several threads at once.
-  /// A⁻¹ b for each column of b.
-  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+  /// A⁻¹ b.
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   /// The first half of it, quick for a b of few entries.
   /// @param rows  those of b that are not zero, `values` has one row for each
   [[nodiscard]] HalfSolution solve_half(const std::vector<int>& rows,

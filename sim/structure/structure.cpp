@@ -21,19 +21,19 @@ constexpr int max_solves_with_friction = 40;
 
 }  // namespace
 
-// What acts at the ports of all bodies; a case a column.
+// What acts at the ports of all bodies.
 struct Structure::PortLoads {
-  MatrixXd forces;    // on the bodies
-  MatrixXd offsets;   // displacements that the ports have beyond those of their unknowns
+  VectorXd forces;    // on the bodies
+  VectorXd offsets;   // displacements that the ports have beyond those of their unknowns
   VectorXd friction;  // of each joint; empty: none
   double force_scale = 0.0;
 };
 
 // Displacements, forces and compatibility multipliers at the ports of all bodies.
 struct Structure::PortState {
-  MatrixXd displacements;  // p, offsets included
-  MatrixXd forces;         // t, on the bodies, beyond the loads
-  MatrixXd multipliers;    // a
+  VectorXd displacements;  // p, offsets included
+  VectorXd forces;         // t, on the bodies, beyond the loads
+  VectorXd multipliers;    // a
   int solves = 0;
   double error = 0.0;  // of the forces, relative, as far as the corrections tell
 };
@@ -71,42 +71,37 @@ MatrixXd Structure::stiffened(const BodyOperator& op) const {
   return op.impedance + stiffness_ * op.compatibility.transpose() * op.compatibility;
 }
 
-MatrixXd Structure::unknowns_to_ports(const MatrixXd& unknowns) const {
-  MatrixXd p(ports(), unknowns.cols());
-  for (Index c = 0; c < p.cols(); ++c)
-    for (Index i = 0; i < p.rows(); ++i) {
-      const auto& [own, common] = unknowns_of_port_[static_cast<std::size_t>(i)];
-      p(i, c) = unknowns(own, c) + (common < 0 ? 0.0 : unknowns(common, c));
-    }
+VectorXd Structure::unknowns_to_ports(const VectorXd& unknowns) const {
+  VectorXd p(ports());
+  for (Index i = 0; i < p.size(); ++i) {
+    const auto& [own, common] = unknowns_of_port_[static_cast<std::size_t>(i)];
+    p(i) = unknowns(own) + (common < 0 ? 0.0 : unknowns(common));
+  }
   return p;
 }
 
-MatrixXd Structure::ports_to_unknowns(const MatrixXd& forces) const {
-  MatrixXd f = MatrixXd::Zero(unknowns_, forces.cols());
-  for (Index c = 0; c < f.cols(); ++c)
-    for (Index i = 0; i < forces.rows(); ++i)
-      for (const Index unknown : unknowns_of_port(i)) f(unknown, c) += forces(i, c);
+VectorXd Structure::ports_to_unknowns(const VectorXd& forces) const {
+  VectorXd f = VectorXd::Zero(unknowns_);
+  for (Index i = 0; i < forces.size(); ++i)
+    for (const Index unknown : unknowns_of_port(i)) f(unknown) += forces(i);
   return f;
 }
 
 // Takes the friction of sliding joints from the forces that the bodies still have to bear.
-void Structure::rub(const VectorXd& friction, MatrixXd& port_forces) const {
+void Structure::rub(const VectorXd& friction, VectorXd& port_forces) const {
   for (std::size_t j = 0; j < held_.size(); ++j) {
     const double slope = friction(static_cast<Index>(j));
     if (held_[j] != Held::normal || slope == 0.0) continue;
     const auto& [a, b] = ports_of_[2 * j + 1];
-    for (Index c = 0; c < port_forces.cols(); ++c) {
-      const double force = slope * port_forces(ports_of_[2 * j][1], c);
-      port_forces(b, c) -= force;
-      port_forces(a, c) += force;
-    }
+    const double force = slope * port_forces(ports_of_[2 * j][1]);
+    port_forces(b) -= force;
+    port_forces(a) += force;
   }
 }
 
 // A correction, what it does to the equations, and that as one vector, all in units of a force.
 struct Structure::Correction {
-  MatrixXd displacements, multipliers, forces, gap;
-  VectorXd effect;
+  VectorXd displacements, multipliers, forces, gap, effect;
 
   void subtract(double part, const Correction& other) {
     displacements -= part * other.displacements;
@@ -117,23 +112,22 @@ struct Structure::Correction {
   }
 };
 
-VectorXd Structure::in_forces(const MatrixXd& forces, const MatrixXd& gap) const {
-  const MatrixXd at_unknowns = ports_to_unknowns(forces);
-  VectorXd all(at_unknowns.size() + gap.size());
-  all << at_unknowns.reshaped(), stiffness_ * gap.reshaped();
+VectorXd Structure::in_forces(const VectorXd& forces, const VectorXd& gap) const {
+  VectorXd all(unknowns_ + gap.size());
+  all << ports_to_unknowns(forces), stiffness_ * gap;
   return all;
 }
 
 // One solve with the factor (S7), which knows no friction.
-Structure::Correction Structure::correct(const MatrixXd& forces, const MatrixXd& gap,
+Structure::Correction Structure::correct(const VectorXd& forces, const VectorXd& gap,
                                          const VectorXd& friction) const {
-  MatrixXd load(unknowns_ + gap.rows(), forces.cols());
+  VectorXd load(unknowns_ + gap.size());
   load << -ports_to_unknowns(forces + stiffness_ * bodies_->compatibility_forces(gap)), -gap;
-  const MatrixXd answer = factor_->solve(load);
+  const VectorXd answer = factor_->solve(load);
   Correction change;
   change.displacements = unknowns_to_ports(answer);
   change.gap = bodies_->incompatibility(change.displacements);
-  change.multipliers = answer.bottomRows(gap.rows());
+  change.multipliers = answer.tail(gap.size());
   change.forces = bodies_->port_forces(change.displacements, change.multipliers);
   if (friction.size() > 0) {
     rub(friction, change.forces);
@@ -145,15 +139,14 @@ Structure::Correction Structure::correct(const MatrixXd& forces, const MatrixXd&
 // Corrections of the mixed system (S6) until its own residuals are rounding. Friction makes them
 // generalised conjugate residuals [EES83].
 Structure::PortState Structure::solve_ports(const PortLoads& loads) const {
-  PortState state{
-      loads.offsets, {}, MatrixXd::Zero(bodies_->compatibilities(), loads.offsets.cols()), 0, 0.0};
+  PortState state{loads.offsets, {}, VectorXd::Zero(bodies_->compatibilities()), 0, 0.0};
   const bool rubs = loads.friction.size() > 0 && !loads.friction.isZero(0.0);
   const VectorXd friction = rubs ? loads.friction : VectorXd();
   state.forces = -loads.forces;
   if (!loads.offsets.isZero(0.0))
     state.forces += bodies_->port_forces(state.displacements, state.multipliers);
   if (rubs) rub(friction, state.forces);
-  MatrixXd gap = bodies_->incompatibility(state.displacements);
+  VectorXd gap = bodies_->incompatibility(state.displacements);
   std::vector<Correction> past;
   double before = 1.0;
   while (factor_ && state.solves < (rubs ? max_solves_with_friction : max_solves)) {
@@ -177,8 +170,10 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads) const {
     const double shrinkage = std::max(correction / before, 1e-6);
     state.error = correction * std::min(shrinkage, 1.0);
     if (!rubs && scale > 0.0)
-      state.error =
-          std::min(state.error, forces_by_imbalance * in_forces(state.forces, gap).norm() / scale);
+      state.error = std::min(
+          state.error,
+          forces_by_imbalance *
+              std::hypot(ports_to_unknowns(state.forces).norm(), stiffness_ * gap.norm()) / scale);
     if (!(state.error > accuracy_of_forces)) break;
     if (state.solves > 3 && shrinkage > 0.5 && !rubs) break;
     before = correction;
@@ -188,38 +183,31 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads) const {
 }
 
 // Forces on the b sides of joints, then of ties.
-MatrixXd Structure::reactions_of(const MatrixXd& port_forces) const {
-  MatrixXd r = MatrixXd::Zero(2 * joints() + static_cast<Index>(bodies_->assembly().ties.size()),
-                              port_forces.cols());
+VectorXd Structure::reactions_of(const VectorXd& port_forces) const {
+  VectorXd r = VectorXd::Zero(2 * joints() + static_cast<Index>(bodies_->assembly().ties.size()));
   const std::vector<Port>& ports = bodies_->ports();
   for (std::size_t i = 0; i < ports.size(); ++i)
     if (ports[i].side == PortSide::b &&
         (ports[i].unknown >= 2 * joints() || holds(ports[i].unknown)))
-      r.row(ports[i].unknown) = port_forces.row(static_cast<Index>(i));
+      r(ports[i].unknown) = port_forces(static_cast<Index>(i));
   return r;
 }
 
 StructureResponse Structure::solve(const StructureLoads& loads) const {
-  const auto dof = [&](int body) { return bodies_->first_dof(body); };
-  const auto port = [&](int body) { return bodies_->first_port(body); };
-  PortLoads at_ports{MatrixXd(ports(), 1), MatrixXd(ports(), 1), loads.friction, loads.force_scale};
-  MatrixXd displacements(bodies_->dofs(), 1);
-
+  PortLoads at_ports{VectorXd(ports()), VectorXd::Zero(ports()), loads.friction, loads.force_scale};
+  std::vector<MatrixXd> forces;  // on the free degrees of freedom of each class
+  forces.reserve(bodies_->classes().size());
   for (const BodyClass& group : bodies_->classes()) {  // (S3): condense the loads
     const BodyOperator& op = group.op;
-    MatrixXd forces = gather(loads.forces, group, op.shifted.rows(), dof);
-    MatrixXd moved = gather(loads.prescribed, group, op.shifted.rows(), dof);
-    MatrixXd offsets = MatrixXd::Zero(op.ports.rows(), moved.cols());
-    if (!moved.isZero(0.0)) {  // few classes are
-      forces -= op.shifted * moved;
-      offsets = -op.ports * moved;
+    MatrixXd& on_class = forces.emplace_back(bodies_->gather(loads.forces, group));
+    if (op.held) {
+      const MatrixXd moved = bodies_->gather(loads.prescribed, group);
+      on_class.noalias() -= op.shifted * moved;
+      bodies_->ports_in(at_ports.offsets, group).noalias() = -op.ports * moved;
     }
-    moved += op.compliance * forces;
-    scatter(op.recovery.transpose() * forces, group, port, at_ports.forces);
-    scatter(offsets, group, port, at_ports.offsets);
-    scatter(moved, group, dof, displacements);
+    bodies_->ports_in(at_ports.forces, group).noalias() = op.recovery.transpose() * on_class;
   }
-  const MatrixXd prescribed = at_ports.offsets;
+  const VectorXd prescribed = at_ports.offsets;
   for (int unknown = 0; unknown < 2 * static_cast<int>(joints()); ++unknown) {
     const auto& [a, b] = ports_of_[static_cast<std::size_t>(unknown)];
     if (holds(unknown)) {
@@ -231,14 +219,16 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
   }
 
   const PortState state = solve_ports(at_ports);
-  for (const BodyClass& group : bodies_->classes()) {  // (S4): recover the displacements
-    const MatrixXd& T = group.op.recovery;
-    scatter(gather(displacements, group, T.rows(), dof) +
-                T * gather(state.displacements, group, T.cols(), port),
-            group, dof, displacements);
+  VectorXd displacements = loads.prescribed;
+  for (std::size_t k = 0; k < forces.size(); ++k) {  // (S4): recover the displacements
+    const BodyClass& group = bodies_->classes()[k];
+    MatrixXd moved = group.op.compliance * forces[k];
+    moved.noalias() += group.op.recovery * bodies_->ports_in(state.displacements, group);
+    if (group.op.held) moved += bodies_->gather(loads.prescribed, group);
+    bodies_->scatter(moved, group, displacements);
   }
-  const MatrixXd all = reactions_of(state.forces);
-  VectorXd reactions = all.topRows(2 * joints());
+  const VectorXd all = reactions_of(state.forces);
+  VectorXd reactions = all.head(2 * joints());
   for (int unknown = 0; unknown < reactions.size() && loads.given.size() > 0; ++unknown)
     if (!holds(unknown)) reactions(unknown) = loads.given(unknown);
   for (Index j = 0; j < joints() && loads.friction.size() > 0; ++j)
@@ -246,13 +236,13 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
       reactions(2 * j + 1) += loads.friction(j) * reactions(2 * j);
   return {displacements,
           reactions,
-          all.bottomRows(all.rows() - 2 * joints()),
+          all.tail(all.size() - 2 * joints()),
           gaps_of(state.displacements - prescribed),
           state.solves,
           state.error};
 }
 
-VectorXd Structure::gaps_of(const MatrixXd& displacements) const {
+VectorXd Structure::gaps_of(const VectorXd& displacements) const {
   VectorXd gaps(2 * joints());
   for (Index unknown = 0; unknown < gaps.size(); ++unknown) {
     const auto& [a, b] = ports_of_[static_cast<std::size_t>(unknown)];

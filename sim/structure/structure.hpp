@@ -82,11 +82,11 @@ class Structure {
   struct Correction;
   struct Branch;
   [[nodiscard]] PortState solve_ports(const PortLoads& loads) const;
-  [[nodiscard]] Correction correct(const Eigen::MatrixXd& forces, const Eigen::MatrixXd& gap,
+  [[nodiscard]] Correction correct(const Eigen::VectorXd& forces, const Eigen::VectorXd& gap,
                                    const Eigen::VectorXd& friction) const;
-  [[nodiscard]] Eigen::VectorXd in_forces(const Eigen::MatrixXd& forces,
-                                          const Eigen::MatrixXd& gap) const;
-  void rub(const Eigen::VectorXd& friction, Eigen::MatrixXd& port_forces) const;
+  [[nodiscard]] Eigen::VectorXd in_forces(const Eigen::VectorXd& forces,
+                                          const Eigen::VectorXd& gap) const;
+  void rub(const Eigen::VectorXd& friction, Eigen::VectorXd& port_forces) const;
   [[nodiscard]] bool holds(int unknown) const;
   [[nodiscard]] Eigen::Index ports() const {
     return static_cast<Eigen::Index>(unknowns_of_port_.size());
@@ -99,10 +99,10 @@ class Structure {
     return ports_of_[2 * static_cast<std::size_t>(joint) + component][1];
   }
   [[nodiscard]] Eigen::MatrixXd stiffened(const BodyOperator& op) const;
-  [[nodiscard]] Eigen::VectorXd gaps_of(const Eigen::MatrixXd& displacements) const;
-  [[nodiscard]] Eigen::MatrixXd unknowns_to_ports(const Eigen::MatrixXd& unknowns) const;
-  [[nodiscard]] Eigen::MatrixXd ports_to_unknowns(const Eigen::MatrixXd& forces) const;
-  [[nodiscard]] Eigen::MatrixXd reactions_of(const Eigen::MatrixXd& port_forces) const;
+  [[nodiscard]] Eigen::VectorXd gaps_of(const Eigen::VectorXd& displacements) const;
+  [[nodiscard]] Eigen::VectorXd unknowns_to_ports(const Eigen::VectorXd& unknowns) const;
+  [[nodiscard]] Eigen::VectorXd ports_to_unknowns(const Eigen::VectorXd& forces) const;
+  [[nodiscard]] Eigen::VectorXd reactions_of(const Eigen::VectorXd& port_forces) const;
   void assemble();
   [[nodiscard]] std::vector<char> conducting() const;
   [[nodiscard]] std::vector<Branch> network(const std::vector<int>& place) const;

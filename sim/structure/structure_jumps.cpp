@@ -5,7 +5,6 @@
 namespace havers::sim {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // The load of unit jumps: forces at the ports of body b, and what they ask of its ring.
@@ -64,7 +63,7 @@ Eigen::Matrix2Xd Structure::reactions_between(
 VectorXd Structure::reactions_to_jumps(
     const std::vector<std::shared_ptr<const JumpResponse>>& responses, const VectorXd& y) const {
   VectorXd half = VectorXd::Zero(factor_->pivots().size());
-  MatrixXd displacements = MatrixXd::Zero(ports(), 1);
+  VectorXd displacements = VectorXd::Zero(ports());
   for (std::size_t k = 0; k < responses.size(); ++k) {
     const JumpResponse& response = *responses[k];
     const Eigen::Vector2d jump = y.segment<2>(2 * static_cast<Index>(k));
@@ -75,9 +74,8 @@ VectorXd Structure::reactions_to_jumps(
   }
   const VectorXd answer = factor_->finish(half);
   displacements += unknowns_to_ports(answer);
-  const MatrixXd forces =
-      bodies_->port_forces(displacements, answer.tail(bodies_->compatibilities()));
-  return reactions_of(forces).topRows(2 * joints());
+  return reactions_of(bodies_->port_forces(displacements, answer.tail(bodies_->compatibilities())))
+      .head(2 * joints());
 }
 
 }  // namespace havers::sim
