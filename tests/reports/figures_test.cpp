@@ -15,9 +15,7 @@
 namespace havers::reports {
 namespace {
 
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
-}
+using test::contains;
 
 TEST(Thin, KeepsThePeakTheEndAndTheOrder) {
   std::vector<double> x, y;

@@ -15,9 +15,7 @@
 namespace havers::reports {
 namespace {
 
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
-}
+using test::contains;
 
 // What stands between each `before` and the next of `ends`.
 std::vector<std::string> after(const std::string& text, std::string_view before,

@@ -16,6 +16,10 @@
 
 namespace havers::test {
 
+inline bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A PNG of one pixel.

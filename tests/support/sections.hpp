@@ -16,7 +16,7 @@ namespace havers::test {
 
 enum class Outline { filled, bar, tilted_bar, ring };
 
-struct SectionCase {
+struct SectionTruth {
   Outline outline = Outline::bar;
   int width = 700, height = 600;
   double porosity = 0.05;
@@ -52,7 +52,7 @@ struct Ellipse {
 };
 
 /// Depth of a point inside the outline. [px]
-inline double depth_inside(const SectionCase& c, double x, double y) {
+inline double depth_inside(const SectionTruth& c, double x, double y) {
   const double u = x - 0.5 * c.width, v = y - 0.5 * c.height;
   const double side = std::min(c.width, c.height);
   const double tilt = c.outline == Outline::tilted_bar ? 0.2 : 0.0;
@@ -78,7 +78,7 @@ inline cv::Mat random_texture(cv::Size size, cv::RNG& random) {
   return (field - mean[0]) / deviation[0];
 }
 
-inline cv::Mat photograph(const SectionCase& c, const cv::Mat& bone, const cv::Mat& pores) {
+inline cv::Mat photograph(const SectionTruth& c, const cv::Mat& bone, const cv::Mat& pores) {
   cv::RNG random(0x9e3779b97f4a7c15ULL * (c.seed + 1));
   const double contrast = std::abs(c.bone - c.pore);
   cv::Mat solid = bone - pores, level(bone.size(), CV_32F, cv::Scalar(c.bone)), noise;
@@ -98,7 +98,7 @@ inline cv::Mat photograph(const SectionCase& c, const cv::Mat& bone, const cv::M
 }
 
 /// Largest first, each where it keeps three pixels from the others and from the surface.
-inline std::vector<Ellipse> place_pores(const SectionCase& c, double bone_area) {
+inline std::vector<Ellipse> place_pores(const SectionTruth& c, double bone_area) {
   std::mt19937 random(c.seed);
   std::uniform_real_distribution<double> uniform;
   std::vector<Ellipse> placed, wanted;
@@ -150,7 +150,7 @@ inline void draw_pore(const Ellipse& pore, cv::Mat& shares) {
     }
 }
 
-inline DrawnSection draw(const SectionCase& c) {
+inline DrawnSection draw(const SectionTruth& c) {
   DrawnSection drawn{
       {}, cv::Mat(c.height, c.width, CV_32F), cv::Mat::zeros(c.height, c.width, CV_32F)};
   for (int y = 0; y < c.height; ++y)

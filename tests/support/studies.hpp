@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/fit/calibrate.hpp"
 #include "calib/fit/simulation_batch.hpp"
 #include "calib/study/parameter.hpp"
 #include "calib/study/study.hpp"
@@ -108,6 +109,12 @@ inline calib::Study synthetic_study(const std::vector<double>& degrees, const Tr
     }
   }
   return study;
+}
+
+inline const std::vector<double> three_orientations{0.0, 45.0, 90.0};
+
+inline calib::CalibrationResult fit(const calib::Study& study, const ClosedForm& law = {}) {
+  return calib::calibrate_with(law.simulator(), study);
 }
 
 /// The parameter of that name; an empty one if there is none.

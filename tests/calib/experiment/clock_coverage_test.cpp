@@ -13,16 +13,16 @@
 namespace havers::calib {
 namespace {
 
-using Curve = std::function<double(double)>;
+using TimeCourse = std::function<double(double)>;
 
 // Strain of the specimen over time, and what the two recorders make of it. [s], [-]
 struct Situation {
   const char* name;
   double end = 70.0, breaks_at = 60.0;
-  Curve strain;
-  Curve force = [](double of) { return of; };  // of the specimen, in parts
-  Curve gauge = [](double of) { return of; };  // what the gauge shows of the strain
-  double after_break = 0.0;                    // what the gauge shows then
+  TimeCourse strain;
+  TimeCourse force = [](double of) { return of; };  // of the specimen, in parts
+  TimeCourse gauge = [](double of) { return of; };  // what the gauge shows of the strain
+  double after_break = 0.0;                         // what the gauge shows then
   double machine_sampling = 0.1, logger_sampling = 0.073;
   double rate = 1.0, noise = 7e-4;
   double largest_error = 0.05;  // that may be stated [s]

@@ -7,26 +7,17 @@
 #include "calib/experiment/measured_test.hpp"
 #include "calib/experiment/quality.hpp"
 #include "tests/support/machine_files.hpp"
+#include "tests/support/reduction.hpp"
 
 namespace havers::calib {
 namespace {
 
+using test::detail_of;
 using test::record;
+using test::reduced;
 using test::TensileTruth;
 
 const TensileTruth fine{.strain_rate = 2e-5};
-
-std::string detail_of(const MeasuredTest& test, const std::string& what) {
-  for (const Correction& correction : test.corrections)
-    if (correction.what == what) return correction.detail;
-  return {};
-}
-
-MeasuredTest reduced(const RawTest& raw, const ReductionOptions& options = {}) {
-  const Reduction reduction = reduce_test(raw, options);
-  EXPECT_TRUE(reduction.problems.empty()) << reduction.problems.front();
-  return reduction.test;
-}
 
 void expect_the_truth(const MeasuredTest& test, double tolerance) {
   EXPECT_NEAR(test.modulus, fine.young, tolerance * fine.young);

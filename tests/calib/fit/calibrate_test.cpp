@@ -12,19 +12,13 @@
 namespace havers::calib {
 namespace {
 
-const std::vector<double> three_orientations{0.0, 45.0, 90.0};
-
-CalibrationResult fit(const Study& study, const test::ClosedForm& law = {}) {
-  return calibrate_with(law.simulator(), study);
-}
-
 void expect_within(const CalibratedParameter& parameter, double truth, double part) {
   EXPECT_TRUE(parameter.identifiable) << parameter.name;
   EXPECT_NEAR(parameter.value, truth, part * truth) << parameter.name;
 }
 
 TEST(Calibrate, FindsKnownParameters) {
-  const auto result = fit(test::synthetic_study(three_orientations));
+  const auto result = test::fit(test::synthetic_study(test::three_orientations));
   EXPECT_EQ(result.status, CalibrationStatus::converged);
   EXPECT_TRUE(result.trusted());
   expect_within(test::parameter_of(result, "young_GPa"), 14.0, 0.005);
@@ -35,8 +29,8 @@ TEST(Calibrate, FindsKnownParameters) {
 
 // Nothing scales in a dynamic scene: every point is simulated, and the answer is the same.
 TEST(Calibrate, FindsTheSameWhereNothingScales) {
-  const auto study = test::synthetic_study(three_orientations);
-  const auto scaled = fit(study), plain = fit(study, {.quasi_static = false});
+  const auto study = test::synthetic_study(test::three_orientations);
+  const auto scaled = test::fit(study), plain = test::fit(study, {.quasi_static = false});
   EXPECT_EQ(plain.status, CalibrationStatus::converged);
   EXPECT_GT(plain.simulated, 2 * scaled.simulated);
   for (const auto& parameter : scaled.parameters)
@@ -50,9 +44,9 @@ TEST(Calibrate, FindsTheSameWhereNothingScales) {
 void expect_coverage(const test::Truth& truth) {
   int inside = 0, asked = 0;
   for (unsigned draw = 1; draw <= 100; ++draw) {
-    auto study = test::synthetic_study(three_orientations, truth, draw);
+    auto study = test::synthetic_study(test::three_orientations, truth, draw);
     study.calibrate.replicates = 4;
-    const auto result = fit(study);
+    const auto result = test::fit(study);
     for (const auto& [name, value] :
          {std::pair("young_GPa", truth.young_GPa), std::pair("head_tail_MPa", truth.head_tail_MPa),
           std::pair("ratio", truth.ratio)}) {
@@ -78,17 +72,18 @@ TEST(Calibrate, GivesIntervalsThatHoldTheTruthAmongUnequalSpecimens) {
 TEST(Calibrate, EstimatesHowMuchSpecimensDiffer) {
   double sum = 0.0;
   for (unsigned draw = 1; draw <= 20; ++draw)
-    sum += std::pow(fit(test::synthetic_study(three_orientations, {.specimen_effect = 0.1}, draw))
-                        .specimen_effect[0],
-                    2);
+    sum += std::pow(
+        test::fit(test::synthetic_study(test::three_orientations, {.specimen_effect = 0.1}, draw))
+            .specimen_effect[0],
+        2);
   EXPECT_NEAR(std::sqrt(sum / 20.0), 0.1, 0.02);
 }
 
 TEST(Calibrate, GivesTheSameNumbersForAnyNumberOfThreads) {
-  auto study = test::synthetic_study(three_orientations);
-  const auto one = fit(study);
+  auto study = test::synthetic_study(test::three_orientations);
+  const auto one = test::fit(study);
   study.calibrate.threads = 2;
-  const auto two = fit(study);
+  const auto two = test::fit(study);
   EXPECT_EQ(one.cost, two.cost);
   EXPECT_EQ(one.evaluations, two.evaluations);
   for (std::size_t k = 0; k < one.parameters.size(); ++k) {
@@ -99,7 +94,7 @@ TEST(Calibrate, GivesTheSameNumbersForAnyNumberOfThreads) {
 
 TEST(Calibrate, SimulatesNothingAgainWhatTheStoreHolds) {
   test::MemoryStore store;
-  const auto study = test::synthetic_study(three_orientations);
+  const auto study = test::synthetic_study(test::three_orientations);
   const auto simulator = test::ClosedForm{}.simulator();
   const auto first = calibrate_with(simulator, study, &store);
   const auto again = calibrate_with(simulator, study, &store);
@@ -117,7 +112,7 @@ TEST(Calibrate, ToleratesSimulationsThatFail) {
     if (scene.joints.seed % 10 == 1) response.strength = std::numeric_limits<double>::quiet_NaN();
     return response;
   };
-  const auto result = calibrate_with(simulator, test::synthetic_study(three_orientations));
+  const auto result = calibrate_with(simulator, test::synthetic_study(test::three_orientations));
   EXPECT_EQ(result.status, CalibrationStatus::converged);
   EXPECT_GT(result.failed_simulations, 0);
   expect_within(test::parameter_of(result, "head_tail_MPa"), 60.0, 0.01);
@@ -131,7 +126,7 @@ TEST(Calibrate, ToleratesARegionThatFails) {
     response.failed = sim::ratio(scene.assembly, scene.joints) > 5.0;
     return response;
   };
-  const auto result = calibrate_with(simulator, test::synthetic_study(three_orientations));
+  const auto result = calibrate_with(simulator, test::synthetic_study(test::three_orientations));
   EXPECT_EQ(result.status, CalibrationStatus::converged);
   expect_within(test::parameter_of(result, "ratio"), 2.0, 0.03);
 }
@@ -139,7 +134,7 @@ TEST(Calibrate, ToleratesARegionThatFails) {
 TEST(Calibrate, SaysThatEverySimulationFailed) {
   auto simulator = test::ClosedForm{}.simulator();
   simulator.run = [](const sim::Scene&) -> Response { throw std::runtime_error("broken model"); };
-  const auto result = calibrate_with(simulator, test::synthetic_study(three_orientations));
+  const auto result = calibrate_with(simulator, test::synthetic_study(test::three_orientations));
   EXPECT_EQ(result.status, CalibrationStatus::all_failed);
   EXPECT_FALSE(result.trusted());
   EXPECT_EQ(result.failed_simulations, result.distinct_simulations);
@@ -148,15 +143,15 @@ TEST(Calibrate, SaysThatEverySimulationFailed) {
 TEST(Calibrate, SaysThatThereIsNothingToFit) {
   auto study = test::synthetic_study({0.0});
   study.calibrate.parameters = {"ratio"};
-  EXPECT_EQ(fit(study).status, CalibrationStatus::nothing_to_fit);
+  EXPECT_EQ(test::fit(study).status, CalibrationStatus::nothing_to_fit);
   study.specimens.clear();
-  EXPECT_EQ(fit(study).status, CalibrationStatus::nothing_to_fit);
+  EXPECT_EQ(test::fit(study).status, CalibrationStatus::nothing_to_fit);
 }
 
 TEST(Calibrate, SaysThatTheBudgetIsSpentAndKeepsTheBestPoint) {
-  auto study = test::synthetic_study(three_orientations);
+  auto study = test::synthetic_study(test::three_orientations);
   study.calibrate.budget = 6;
-  const auto result = fit(study);
+  const auto result = test::fit(study);
   EXPECT_EQ(result.status, CalibrationStatus::budget_spent);
   EXPECT_FALSE(result.trusted());
   EXPECT_LT(result.cost, 1e4);
@@ -164,7 +159,7 @@ TEST(Calibrate, SaysThatTheBudgetIsSpentAndKeepsTheBestPoint) {
 
 TEST(Calibrate, StopsWhenToldToAndGoesOnFromTheStore) {
   test::MemoryStore store;
-  const auto study = test::synthetic_study(three_orientations);
+  const auto study = test::synthetic_study(test::three_orientations);
   const auto simulator = test::ClosedForm{}.simulator();
   int calls = 0;
   const auto stopped = calibrate_with(simulator, study, &store,
@@ -179,19 +174,19 @@ TEST(Calibrate, StopsWhenToldToAndGoesOnFromTheStore) {
 
 TEST(Calibrate, TellsTheObserverTheBestPointInItsUnits) {
   CalibrationProgress last;
-  const auto result =
-      calibrate_with(test::ClosedForm{}.simulator(), test::synthetic_study(three_orientations),
-                     nullptr, [&](const CalibrationProgress& progress) {
-                       last = progress;
-                       return true;
-                     });
+  const auto result = calibrate_with(test::ClosedForm{}.simulator(),
+                                     test::synthetic_study(test::three_orientations), nullptr,
+                                     [&](const CalibrationProgress& progress) {
+                                       last = progress;
+                                       return true;
+                                     });
   ASSERT_EQ(last.best.size(), 3U);
   EXPECT_EQ(last.best[0].first, "young_GPa");
   EXPECT_EQ(last.best[0].second, result.parameters[0].value);
 }
 
 TEST(Calibrate, FitsAValuePerOrientationOrSpecimen) {
-  auto study = test::synthetic_study(three_orientations);
+  auto study = test::synthetic_study(test::three_orientations);
   study.specimens[2].test.modulus *= 0.8;
   study.specimens[3].test.modulus *= 0.8;
   for (const std::size_t s : {2U, 3U}) {
@@ -199,21 +194,21 @@ TEST(Calibrate, FitsAValuePerOrientationOrSpecimen) {
     for (double& strain : study.specimens[s].test.strain) strain /= 0.8;
   }
   study.calibrate.level["young_GPa"] = Level::orientation;
-  const auto result = fit(study);
+  const auto result = test::fit(study);
   expect_within(test::parameter_of(result, "young_GPa[0 deg]"), 14.0, 0.01);
   expect_within(test::parameter_of(result, "young_GPa[45 deg]"), 11.2, 0.01);
   study.calibrate.level["young_GPa"] = Level::specimen;
-  expect_within(test::parameter_of(fit(study), "young_GPa[S3]"), 11.2, 0.01);
+  expect_within(test::parameter_of(test::fit(study), "young_GPa[S3]"), 11.2, 0.01);
 }
 
 TEST(Calibrate, SimulatesHeldOutSpecimensWithoutFittingThem) {
-  auto study = test::synthetic_study(three_orientations);
-  const auto without = fit(study);
+  auto study = test::synthetic_study(test::three_orientations);
+  const auto without = test::fit(study);
   study.specimens.push_back(study.specimens.front());
   study.specimens.back().id = "V1";
   study.specimens.back().use = Use::validate;
   study.specimens.back().test = test::straight_test(14e9, 120e6);  // far off
-  const auto with = fit(study);
+  const auto with = test::fit(study);
   EXPECT_EQ(with.cost, without.cost);
   ASSERT_EQ(with.specimens.size(), 7U);
   EXPECT_NEAR(with.specimens.back().strength.mean, 51e6, 1e6);

@@ -10,19 +10,13 @@
 namespace havers::calib {
 namespace {
 
-const std::vector<double> three_orientations{0.0, 45.0, 90.0};
-
-CalibrationResult fit(const Study& study, const test::ClosedForm& law = {}) {
-  return calibrate_with(law.simulator(), study);
-}
-
 double log_width(const std::array<double, 2>& interval) {
   return std::log(interval[1] / interval[0]);
 }
 
 // The law is a product of powers, so that in logarithms the cost is a parabola.
 TEST(Hindsight, ProfilesAgreeWithTheSlopesWhereTheCostIsAParabola) {
-  const auto result = fit(test::synthetic_study(three_orientations));
+  const auto result = test::fit(test::synthetic_study(test::three_orientations));
   ASSERT_EQ(result.profiles.size(), 3U);
   for (const char* name : {"young_GPa", "head_tail_MPa"}) {
     const auto parameter = test::parameter_of(result, name);
@@ -38,9 +32,9 @@ TEST(Hindsight, ProfilesAgreeWithTheSlopesWhereTheCostIsAParabola) {
 }
 
 TEST(Hindsight, NoProfileIsMadeThatWasNotAskedFor) {
-  auto study = test::synthetic_study(three_orientations);
+  auto study = test::synthetic_study(test::three_orientations);
   study.calibrate.profiles = false;
-  const auto result = fit(study);
+  const auto result = test::fit(study);
   EXPECT_TRUE(result.profiles.empty());
   EXPECT_FALSE(test::parameter_of(result, "ratio").profile_missing.empty());
 }
@@ -48,21 +42,21 @@ TEST(Hindsight, NoProfileIsMadeThatWasNotAskedFor) {
 TEST(Hindsight, BootstrapIntervalsAreLikeTheOthersOrSayWhyTheyAreMissing) {
   auto study = test::synthetic_study({0.0, 0.0, 0.0, 45.0, 45.0, 45.0, 90.0, 90.0, 90.0},
                                      {.specimen_effect = 0.05});
-  const auto many = test::parameter_of(fit(study), "young_GPa");
+  const auto many = test::parameter_of(test::fit(study), "young_GPa");
   ASSERT_TRUE(many.bootstrap_missing.empty()) << many.bootstrap_missing;
   EXPECT_NEAR(log_width(many.bootstrap_95) / log_width(many.interval_95), 1.0, 0.4);
-  const auto few = test::parameter_of(fit(test::synthetic_study({0.0})), "young_GPa");
+  const auto few = test::parameter_of(test::fit(test::synthetic_study({0.0})), "young_GPa");
   EXPECT_NE(few.bootstrap_missing.find("too few"), std::string::npos);
   EXPECT_TRUE(std::isnan(few.bootstrap_95[0]));
 }
 
 // One step with the slopes says what a fit without the specimen finds.
 TEST(Hindsight, TellsHowTheAnswerMovesWithoutASpecimen) {
-  const auto study = test::synthetic_study(three_orientations, {.specimen_effect = 0.05});
-  const auto whole = fit(study);
+  const auto study = test::synthetic_study(test::three_orientations, {.specimen_effect = 0.05});
+  const auto whole = test::fit(study);
   auto rest = study;
   rest.specimens[1].use = Use::validate;
-  const auto without = test::parameter_of(fit(rest), "young_GPa");
+  const auto without = test::parameter_of(test::fit(rest), "young_GPa");
   const auto with = test::parameter_of(whole, "young_GPa");
   ASSERT_EQ(whole.specimens[1].influence.front().parameter, "young_GPa");
   EXPECT_NEAR(whole.specimens[1].influence.front().shift,
@@ -70,7 +64,7 @@ TEST(Hindsight, TellsHowTheAnswerMovesWithoutASpecimen) {
 }
 
 TEST(Hindsight, KnowsWhichFurtherTestTellsMost) {
-  const auto result = fit(test::synthetic_study({0.0, 0.0, 45.0}, {.specimen_effect = 0.05}));
+  const auto result = test::fit(test::synthetic_study({0.0, 0.0, 45.0}, {.specimen_effect = 0.05}));
   ASSERT_EQ(result.next_tests.size(), 3U);  // 90 degrees is simulated
   const auto ratio =
       static_cast<std::size_t>(std::ranges::find(result.fitted, "ratio") - result.fitted.begin());
@@ -83,9 +77,9 @@ TEST(Hindsight, KnowsWhichFurtherTestTellsMost) {
 
 // In the quasi-static limit a faster test is the same test.
 TEST(Hindsight, KnowsWhatATestAtAnotherRateWouldTell) {
-  auto study = test::synthetic_study(three_orientations);
+  auto study = test::synthetic_study(test::three_orientations);
   for (auto& specimen : study.specimens) specimen.test.strain_rate = 1e-3;
-  const auto result = fit(study);
+  const auto result = test::fit(study);
   ASSERT_EQ(result.next_tests.size(), 4U);
   EXPECT_EQ(result.next_tests[3].what, "one more specimen at 0 deg, 10 times as fast");
   for (std::size_t k = 0; k < result.fitted.size(); ++k)
@@ -93,7 +87,7 @@ TEST(Hindsight, KnowsWhatATestAtAnotherRateWouldTell) {
 }
 
 TEST(Hindsight, SaysInWordsWhatIsDetermined) {
-  const auto result = fit(test::synthetic_study(three_orientations));
+  const auto result = test::fit(test::synthetic_study(test::three_orientations));
   ASSERT_EQ(result.directions.size(), 4U);
   EXPECT_NE(result.directions[0].find("3 of 3 directions"), std::string::npos);
   ASSERT_EQ(result.correlation.size(), 3U);
@@ -103,7 +97,7 @@ TEST(Hindsight, SaysInWordsWhatIsDetermined) {
 
 // The closed form's noise is a factor of the seed alone: common seeds cancel it altogether.
 TEST(Hindsight, LooksAtTheAnswerWithFreshSeeds) {
-  const auto result = fit(test::synthetic_study(three_orientations));
+  const auto result = test::fit(test::synthetic_study(test::three_orientations));
   EXPECT_TRUE(std::isinf(result.randomness.common_gain));
   EXPECT_GT(result.randomness.fresh_shift, 0.0);
   EXPECT_LT(result.randomness.fresh_shift, 1.5);
@@ -113,29 +107,29 @@ TEST(Hindsight, LooksAtTheAnswerWithFreshSeeds) {
 
 // Seeds of each point's own: differences keep all of the noise, and the slopes are worse.
 TEST(Hindsight, DoesWithoutCommonRandomNumbersAndSaysWhatThatCosts) {
-  auto study = test::synthetic_study(three_orientations);
+  auto study = test::synthetic_study(test::three_orientations);
   study.calibrate.common_seeds = false;
-  const auto result = fit(study);
+  const auto result = test::fit(study);
   EXPECT_GT(result.randomness.common_gain, 0.5);
   EXPECT_LT(result.randomness.common_gain, 2.0);
   EXPECT_NEAR(test::parameter_of(result, "head_tail_MPa").value, 60.0, 1.0);
 }
 
 TEST(Hindsight, TakesAsManyReplicatesAsItNeeds) {
-  auto study = test::synthetic_study(three_orientations);
+  auto study = test::synthetic_study(test::three_orientations);
   study.calibrate.replicates = replicates_by_need;
-  const auto few = fit(study, {.noise = 1e-5});
-  const auto many = fit(study, {.noise = 0.02});
+  const auto few = test::fit(study, {.noise = 1e-5});
+  const auto many = test::fit(study, {.noise = 0.02});
   EXPECT_EQ(few.randomness.replicates, 4);
   EXPECT_GT(many.randomness.replicates, 8);
   EXPECT_NEAR(test::parameter_of(many, "head_tail_MPa").value, 60.0, 2.0);
 }
 
 TEST(Hindsight, TermsAddUpToTheCost) {
-  auto study = test::synthetic_study(three_orientations);
+  auto study = test::synthetic_study(test::three_orientations);
   for (const char* more : {"pre-peak curve", "energy", "post-peak drop"})
     study.calibrate.terms.emplace_back(more);
-  const auto result = fit(study);
+  const auto result = test::fit(study);
   double squares = 0.0, shares = 0.0;
   for (const auto& specimen : result.specimens) {
     EXPECT_EQ(specimen.terms.size(), 6U);
@@ -156,13 +150,13 @@ TEST(Hindsight, TermsAddUpToTheCost) {
 
 // A test that was stopped at half its strength knows the modulus and a bound.
 TEST(Hindsight, AStoppedTestIsABoundAndNoError) {
-  auto study = test::synthetic_study(three_orientations);
-  const auto whole = fit(study);
+  auto study = test::synthetic_study(test::three_orientations);
+  const auto whole = test::fit(study);
   study.specimens.push_back(study.specimens[0]);
   study.specimens.back().id = "stopped";
   study.specimens.back().broke = false;
   study.specimens.back().test = test::straight_test(14e9, 25e6, 2e-3, 2e-3);
-  const auto result = fit(study);
+  const auto result = test::fit(study);
   EXPECT_NEAR(test::parameter_of(result, "head_tail_MPa").value,
               test::parameter_of(whole, "head_tail_MPa").value, 0.2);
   ASSERT_EQ(result.specimens.back().terms.size(), 2U);
@@ -171,7 +165,7 @@ TEST(Hindsight, AStoppedTestIsABoundAndNoError) {
 
 // Every chain comes to the same answer, and none simulates outside the bounds.
 TEST(Hindsight, AnyOptimisersFindTheSame) {
-  auto study = test::synthetic_study(three_orientations);
+  auto study = test::synthetic_study(test::three_orientations);
   study.calibrate.bounds["ratio"] = {0.5, 2.2};
   study.calibrate.threads = 1;
   auto simulator = test::ClosedForm{}.simulator();
@@ -197,9 +191,9 @@ TEST(Hindsight, AnyOptimisersFindTheSame) {
 }
 
 TEST(Hindsight, DoesWithoutTheSmoothStage) {
-  auto study = test::synthetic_study(three_orientations);
+  auto study = test::synthetic_study(test::three_orientations);
   study.calibrate.smooth = false;
-  const auto result = fit(study);
+  const auto result = test::fit(study);
   EXPECT_NEAR(test::parameter_of(result, "ratio").value, 2.0, 0.1);
 }
 
@@ -217,7 +211,7 @@ TEST(Hindsight, FitsTheLawOfModulusAndPorosity) {
         test::straight_test(factor * specimen.test.modulus, specimen.test.strength, 2e-3, 2e-3);
   }
   study.porosity.to_scatter = ToScatter::none;
-  const auto result = fit(study);
+  const auto result = test::fit(study);
   const auto exponent = test::parameter_of(result, "modulus_exponent");
   EXPECT_TRUE(exponent.identifiable) << exponent.left_out_because;
   EXPECT_LE(exponent.interval_95[0], 2.2);

@@ -10,12 +10,6 @@
 namespace havers::calib {
 namespace {
 
-const std::vector<double> three_orientations{0.0, 45.0, 90.0};
-
-CalibrationResult fit(const Study& study) {
-  return calibrate_with(test::ClosedForm{}.simulator(), study);
-}
-
 Check check_of(const CalibrationResult& result, const std::string& name) {
   for (const auto& check : result.verdict)
     if (check.check == name) return check;
@@ -44,16 +38,16 @@ MeasuredTest ductile_test(double modulus) {
 }
 
 TEST(Verdict, PassesAModelThatIsTrue) {
-  for (const auto& check : fit(test::synthetic_study(three_orientations)).verdict)
+  for (const auto& check : test::fit(test::synthetic_study(test::three_orientations)).verdict)
     EXPECT_EQ(check.outcome, Outcome::pass) << check.check << ": " << check.text;
 }
 
 TEST(Verdict, GivesChiSquaredOfSpecimensThatWereAlike) {
-  const auto alike =
-      check_of(fit(test::synthetic_study(three_orientations)), "spread between specimens");
+  const auto alike = check_of(test::fit(test::synthetic_study(test::three_orientations)),
+                              "spread between specimens");
   EXPECT_TRUE(says(alike, "15 degrees of freedom")) << alike.text;
   const auto unlike =
-      check_of(fit(test::synthetic_study(three_orientations, {.specimen_effect = 0.1})),
+      check_of(test::fit(test::synthetic_study(test::three_orientations, {.specimen_effect = 0.1})),
                "spread between specimens");
   EXPECT_TRUE(says(unlike, "(p = 0)")) << unlike.text;
 }
@@ -62,7 +56,7 @@ TEST(Verdict, RejectsTheModelWhereCurvesAreNotBrittle) {
   auto study = test::synthetic_study({0.0, 0.0, 0.0, 0.0, 0.0});
   for (std::size_t s = 0; s < study.specimens.size(); ++s)
     study.specimens[s].test = ductile_test(1e9 * (205.0 + static_cast<double>(s)));
-  const auto result = fit(study);
+  const auto result = test::fit(study);
   const auto check = check_of(result, "brittle");
   EXPECT_EQ(check.outcome, Outcome::fail);
   EXPECT_TRUE(says(check, "These curves are not brittle"));
@@ -72,39 +66,39 @@ TEST(Verdict, RejectsTheModelWhereCurvesAreNotBrittle) {
 }
 
 TEST(Verdict, SaysWhichParameterLiesAtABound) {
-  auto study = test::synthetic_study(three_orientations);
+  auto study = test::synthetic_study(test::three_orientations);
   study.calibrate.bounds["young_GPa"] = {5.0, 12.0};
-  const auto check = check_of(fit(study), "inside bounds");
+  const auto check = check_of(test::fit(study), "inside bounds");
   EXPECT_EQ(check.outcome, Outcome::fail);
   EXPECT_TRUE(says(check, "young_GPa = 12 of [5, 12]"));
 }
 
 TEST(Verdict, SeesAModulusThatDiffersBetweenOrientations) {
-  auto study = test::synthetic_study(three_orientations);
+  auto study = test::synthetic_study(test::three_orientations);
   for (const std::size_t s : {4U, 5U}) {
     auto& test = study.specimens[s].test;
     test = test::straight_test(0.7 * test.modulus, test.strength);
   }
-  const auto check = check_of(fit(study), "residuals unstructured");
+  const auto check = check_of(test::fit(study), "residuals unstructured");
   EXPECT_EQ(check.outcome, Outcome::fail);
   EXPECT_TRUE(says(check, "young_GPa = \"orientation\""));
 }
 
 TEST(Verdict, SaysWhatIsLeftOut) {
-  const auto check = check_of(fit(test::synthetic_study({0.0})), "identifiable");
+  const auto check = check_of(test::fit(test::synthetic_study({0.0})), "identifiable");
   EXPECT_EQ(check.outcome, Outcome::warn);
   EXPECT_TRUE(says(check, "ratio is left out"));
 }
 
 TEST(Verdict, SaysThatTwoSpecimensDoNotShowTheirSpread) {
-  EXPECT_EQ(check_of(fit(test::synthetic_study({0.0})), "spread between specimens").outcome,
+  EXPECT_EQ(check_of(test::fit(test::synthetic_study({0.0})), "spread between specimens").outcome,
             Outcome::warn);
 }
 
 TEST(Verdict, SaysThatSimulationsDoNotBreak) {
-  auto study = test::synthetic_study(three_orientations);
+  auto study = test::synthetic_study(test::three_orientations);
   study.model.loading.max_strain = 1e-4;
-  const auto check = check_of(fit(study), "simulations break");
+  const auto check = check_of(test::fit(study), "simulations break");
   EXPECT_EQ(check.outcome, Outcome::fail);
   EXPECT_TRUE(says(check, "loading.max_strain"));
 }
@@ -116,16 +110,16 @@ TEST(Verdict, CountsFailedSimulations) {
     response.failed = scene.joints.seed % 10 < 3;
     return response;
   };
-  const auto result = calibrate_with(simulator, test::synthetic_study(three_orientations));
+  const auto result = calibrate_with(simulator, test::synthetic_study(test::three_orientations));
   EXPECT_EQ(check_of(result, "simulations").outcome, Outcome::fail);
 }
 
 TEST(Verdict, SaysThatAHeldOutSpecimenIsOff) {
-  auto study = test::synthetic_study(three_orientations);
+  auto study = test::synthetic_study(test::three_orientations);
   study.specimens[0].use = Use::validate;
-  EXPECT_EQ(check_of(fit(study), "held-out specimens").outcome, Outcome::pass);
+  EXPECT_EQ(check_of(test::fit(study), "held-out specimens").outcome, Outcome::pass);
   study.specimens[0].test = test::straight_test(14e9, 90e6);
-  const auto check = check_of(fit(study), "held-out specimens");
+  const auto check = check_of(test::fit(study), "held-out specimens");
   EXPECT_EQ(check.outcome, Outcome::fail);
   EXPECT_TRUE(says(check, "S1"));
 }

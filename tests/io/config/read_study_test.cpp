@@ -232,12 +232,12 @@ TEST_F(ReadStudy, AsksForSpecimens) {
       ElementsAre("study.toml:1: specimen: is a table, must be tables (write [[specimen]])"));
 }
 
-struct Impossible {
+struct ImpossibleStudy {
   std::string text, sentence;
 };
 
 TEST_F(ReadStudy, NamesImpossibleValuesWithLineAndRule) {
-  const std::vector<Impossible> cases{
+  const std::vector<ImpossibleStudy> cases{
       {"[[specimen]]\ntest = \"t\"\n", "study.toml:1: specimen.id: is missing (name the specimen)"},
       {"[[specimen]]\nid = \"\"\ntest = \"t\"\n",
        "study.toml:2: specimen.id: is empty (name the specimen)"},
@@ -284,7 +284,7 @@ TEST_F(ReadStudy, NamesImpossibleValuesWithLineAndRule) {
       {one_specimen + "[synthesize]\nsection_pixels = 3",
        "study.toml:5: synthesize.section_pixels: is 3, must be at least 16"},
   };
-  for (const Impossible& wrong : cases)
+  for (const ImpossibleStudy& wrong : cases)
     EXPECT_THAT(complaints(wrong.text), ElementsAre(wrong.sentence)) << wrong.text;
 }
 

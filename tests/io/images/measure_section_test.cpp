@@ -12,7 +12,7 @@ namespace havers::io {
 namespace {
 
 using test::Outline;
-using test::SectionCase;
+using test::SectionTruth;
 constexpr double pixel = 2e-6;
 
 calib::SectionPorosity measure(const test::DrawnSection& section, const std::string& name,
@@ -22,7 +22,7 @@ calib::SectionPorosity measure(const test::DrawnSection& section, const std::str
 
 struct Hardship {
   const char* name;
-  SectionCase section;
+  SectionTruth section;
 };
 
 const std::vector<Hardship>& hardships() {
@@ -47,7 +47,7 @@ class UnderHardship : public testing::TestWithParam<Hardship> {};
 INSTANTIATE_TEST_SUITE_P(, UnderHardship, testing::ValuesIn(hardships()),
                          [](const auto& hardship) { return hardship.param.name; });
 
-void expect_porosity_within(double points, SectionCase section, const std::string& name) {
+void expect_porosity_within(double points, SectionTruth section, const std::string& name) {
   const test::DrawnSection drawn = test::draw(section);
   const calib::SectionPorosity measured = measure(drawn, name + ".png");
   EXPECT_NEAR(100.0 * measured.porosity, 100.0 * drawn.porosity, points)
@@ -59,7 +59,7 @@ TEST_P(UnderHardship, PorosityIsRightToThreeTenthsOfAPoint) {
   unsigned seed = 0;
   for (const Outline outline : {Outline::filled, Outline::bar, Outline::tilted_bar, Outline::ring})
     for (const double porosity : {0.01, 0.05, 0.2}) {
-      SectionCase section = GetParam().section;
+      SectionTruth section = GetParam().section;
       section.width = 520, section.height = 440;
       section.outline = outline;
       section.porosity = porosity;
@@ -72,7 +72,7 @@ TEST_P(UnderHardship, PorosityIsRightToThreeTenthsOfAPoint) {
 TEST_P(UnderHardship, ASectionWithoutPoresHasNone) {
   for (const Outline outline :
        {Outline::filled, Outline::bar, Outline::tilted_bar, Outline::ring}) {
-    SectionCase section = GetParam().section;
+    SectionTruth section = GetParam().section;
     section.outline = outline;
     section.porosity = 0.0;
     expect_porosity_within(0.05, section, GetParam().name);

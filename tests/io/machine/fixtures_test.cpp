@@ -14,7 +14,7 @@
 namespace havers::io {
 namespace {
 
-const std::filesystem::path folder =
+const std::filesystem::path fixtures =
     std::filesystem::path(HAVERS_SOURCE_DIR) / "tests/fixtures/machine";
 
 enum Field {
@@ -34,7 +34,7 @@ enum Field {
 using Expected = std::vector<std::string>;
 
 std::vector<Expected> expected_rows() {
-  std::ifstream stream(folder / "expected.csv");
+  std::ifstream stream(fixtures / "expected.csv");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   std::vector<Expected> all;
   CsvRows rows_of_table(',', [&](const Row& row) {
@@ -79,7 +79,7 @@ TEST(Fixtures, GiveTheQuantitiesOrTheSentenceOfTheirTable) {
     ASSERT_EQ(first.size(), static_cast<std::size_t>(fields));
     SCOPED_TRACE(first[file]);
     try {
-      const std::vector<TestFile> tests = read_tests(folder / first[file]);
+      const std::vector<TestFile> tests = read_tests(fixtures / first[file]);
       EXPECT_EQ(first[refused], "");
       for (const TestFile& test : tests) {
         ASSERT_LT(i, table.size());
@@ -97,7 +97,7 @@ TEST(Fixtures, GiveTheQuantitiesOrTheSentenceOfTheirTable) {
 TEST(Fixtures, AreAllInTheTable) {
   std::set<std::string> named, there;
   for (const Expected& row : expected_rows()) named.insert(row[file]);
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  for (const auto& entry : std::filesystem::directory_iterator(fixtures))
     if (entry.path().filename() != "expected.csv") there.insert(entry.path().filename().string());
   EXPECT_EQ(named, there);
 }
@@ -106,11 +106,11 @@ TEST(Fixtures, OneOfSeveralSpecimensIsChosenByNameOrNumber) {
   ReadOptions options;
   for (const char* second : {"South", "2"}) {
     options.specimen = second;
-    EXPECT_EQ(read_test(folder / "side_by_side.csv", options).rows, 21U);
+    EXPECT_EQ(read_test(fixtures / "side_by_side.csv", options).rows, 21U);
   }
   const auto complaint = [&](const ReadOptions& chosen) -> std::string {
     try {
-      read_test(folder / "side_by_side.csv", chosen);
+      read_test(fixtures / "side_by_side.csv", chosen);
     } catch (const InputError& error) {
       return error.problems()[0].what + "; " + error.problems()[0].hint;
     }

@@ -8,30 +8,30 @@
 namespace havers::io {
 namespace {
 
-std::string complaint(const std::filesystem::path& file, const ReadOptions& options = {}) {
+std::string refusal(const std::filesystem::path& file, const ReadOptions& options = {}) {
   try {
     read_test(file, options);
   } catch (const InputError& error) {
     EXPECT_TRUE(error.problems()[0].where.starts_with(file.string()));
     return test::replaced(error.what(), file.parent_path().string() + "/", "");
   }
-  return "read without complaint";
+  return "read without refusal";
 }
 
 std::string complaint_of(const std::string& content, const ReadOptions& options = {}) {
   const test::TemporaryFile file(content);
-  return complaint(file.path(), options);
+  return refusal(file.path(), options);
 }
 
 const std::string header = "Time (s),Load (N),Extension (mm)\n0,1,2\n1,2,3\n";
 
 TEST(InputFaults, NamesAMissingFile) {
-  EXPECT_EQ(complaint("nowhere/none.csv"), "none.csv: there is no such file");
+  EXPECT_EQ(refusal("nowhere/none.csv"), "none.csv: there is no such file");
 }
 
 TEST(InputFaults, NamesAFolder) {
   const test::TemporaryFile file("x");
-  EXPECT_NE(complaint(file.path().parent_path()).find("is a folder, not a test file"),
+  EXPECT_NE(refusal(file.path().parent_path()).find("is a folder, not a test file"),
             std::string::npos);
 }
 
@@ -104,7 +104,7 @@ TEST(InputFaults, NamesAnOpenQuoteEvenWhereMostRowsWouldReadWithoutIt) {
 TEST(InputFaults, NamesAFileLargerThanAnyTest) {
   const test::TemporaryFile file(header);
   std::filesystem::resize_file(file.path(), 2'000'000'000);  // sparse
-  EXPECT_EQ(complaint(file.path()),
+  EXPECT_EQ(refusal(file.path()),
             "test.csv: is larger than 1000 MB, which no tensile test is (export one test alone, or "
             "fewer rows a second)");
 }

@@ -169,7 +169,7 @@ TEST_F(Store, LosesNothingThatWasSavedWhenKilled) {
       }
     });
     char byte = 0;
-    for (int i = 0; i < told; ++i) ASSERT_EQ(read(pipe_ends[0], &byte, 1), 1);
+    for (int i = 0; i < told; ++i) ASSERT_EQ(::read(pipe_ends[0], &byte, 1), 1);
     kill(child, SIGKILL);
     int status = 0;
     waitpid(child, &status, 0);

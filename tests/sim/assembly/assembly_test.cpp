@@ -19,7 +19,7 @@ const Vector2d& node(const Assembly& assembly, int i) {
   return assembly.nodes[static_cast<std::size_t>(i)];
 }
 
-double triangle_area(const Assembly& assembly, const std::array<int, 3>& nodes) {
+double area_of(const Assembly& assembly, const std::array<int, 3>& nodes) {
   const Vector2d a = node(assembly, nodes[1]) - node(assembly, nodes[0]),
                  b = node(assembly, nodes[2]) - node(assembly, nodes[0]);
   return 0.5 * (a.x() * b.y() - a.y() * b.x());
@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(Negative, AssemblyAt,
 TEST_P(AssemblyAt, FillsTheRectangle) {
   double sum = 0.0;
   for (const auto& triangle : assembly.triangles) {
-    const double area = triangle_area(assembly, triangle);
+    const double area = area_of(assembly, triangle);
     EXPECT_GT(area, 0.0);
     sum += area;
   }
@@ -228,7 +228,7 @@ TEST(Assembly, SaysWhatItDropped) {
   const Assembly assembly = build_assembly(options, Lateral::periodic);
   EXPECT_GT(assembly.dropped, 0);
   double sum = 0.0;
-  for (const auto& triangle : assembly.triangles) sum += triangle_area(assembly, triangle);
+  for (const auto& triangle : assembly.triangles) sum += area_of(assembly, triangle);
   EXPECT_NEAR(sum / (options.width() * options.height()), 1.0, 1e-6);
 }
 

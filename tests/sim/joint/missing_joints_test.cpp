@@ -10,15 +10,15 @@
 namespace havers::sim {
 namespace {
 
-constexpr std::uint64_t draws = 50000;
+constexpr std::uint64_t drawn_joints = 50000;
 
 TEST(MissingJoints, AreTheFractionAskedFor) {
   for (const double fraction : {0.01, 0.1, 0.5}) {
     int missing = 0;
-    for (std::uint64_t joint = 0; joint < draws; ++joint)
+    for (std::uint64_t joint = 0; joint < drawn_joints; ++joint)
       missing += is_drawn_missing(11, joint, fraction) ? 1 : 0;
-    EXPECT_NEAR(missing / double(draws), fraction,
-                4.0 * std::sqrt(fraction * (1.0 - fraction) / draws));
+    EXPECT_NEAR(missing / double(drawn_joints), fraction,
+                4.0 * std::sqrt(fraction * (1.0 - fraction) / drawn_joints));
   }
   for (std::uint64_t joint = 0; joint < 1000; ++joint) EXPECT_FALSE(is_drawn_missing(1, joint, 0));
 }
@@ -31,7 +31,7 @@ TEST(MissingJoints, StayMissingAtALargerFraction) {
 // Were both drawn from one number, the weakest joints would be the missing ones.
 TEST(MissingJoints, AreDrawnApartFromTheThresholds) {
   double sum = 0.0, missing = 0.0;
-  for (std::uint64_t joint = 0; joint < draws; ++joint) {
+  for (std::uint64_t joint = 0; joint < drawn_joints; ++joint) {
     if (!is_drawn_missing(5, joint, 0.2)) continue;
     sum += threshold_factor(5, joint, 1.0, Distribution::uniform);
     missing += 1.0;
