@@ -63,7 +63,7 @@ VectorXd ActiveSetSolver::jumps(const JointStep& step) const {
 
 // The loose joints among themselves, and again with those that the answer overloads, until none is.
 bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded_reactions,
-                                   JointStepResult& result, VectorXd& y) {
+                                   bool combine, JointStepResult& result, VectorXd& y) {
   for (;;) {
     const auto n = static_cast<Index>(loose_.size());
     LocalContact contact{loose_.stiffness(), VectorXd(2 * n), VectorXd(2 * n), {}, {}};
@@ -76,7 +76,8 @@ bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded
       states.push_back(result.states[static_cast<std::size_t>(joint)]);
     }
     const LocalContactResult local =
-        solve_local_contact(contact, std::move(states), max_iterations_);
+        combine ? combine_states(contact, std::move(states))
+                : solve_local_contact(contact, std::move(states), max_iterations_);
     result.iterations += local.iterations;
     y = local.y;
     if (!local.converged) return false;
@@ -128,10 +129,12 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
   if (result.converged) return result;
   // Either way may find the set that the other misses.
   JointStepResult other = many ? solve_loose(step) : search_.solve(step);
-  return other.converged || many ? other : result;
+  if (other.converged) return other;
+  JointStepResult combined = solve_loose(step, true);
+  return combined.converged || many ? combined : result;
 }
 
-JointStepResult ActiveSetSolver::solve_loose(const JointStep& step) {
+JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, bool combine) {
   detach_opened(step);
   // What is broken and not detached may move; after a rebuild it has to be said again.
   for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint)
@@ -146,7 +149,7 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step) {
     StructureLoads loads{step.forces, step.prescribed, jumps(step), step.force_scale};
     StructureResponse response = structure_.solve(loads);
     VectorXd y;
-    result.converged = settle_loose(step, response.reactions, result, y);
+    result.converged = settle_loose(step, response.reactions, combine, result, y);
     if (y.size() > 0 && !y.isZero(0.0)) {
       for (std::size_t i = 0; i < loose_.size(); ++i)
         loads.jumps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) +=

@@ -19,7 +19,9 @@ using States = std::vector<JointState>;
 
 constexpr double rounding = 1e-12;
 constexpr int sets_at_once = 3;  // that follow from each other, before a better one is looked for
-constexpr int searches = 6;      // by sweeps, before the release path is taken
+constexpr int sets_of_a_cycle = 20;       // after which it is none, or too long to look at
+constexpr std::size_t most_combined = 5;  // joints whose states are combined in every way
+constexpr int searches = 6;               // by sweeps, before the release path is taken
 constexpr int sweeps_of_search = 200;
 constexpr int calm = 10;  // sweeps without a change of state, after which the set is worth a solve
 
@@ -96,20 +98,45 @@ int gauss_seidel(const LocalContact& p, VectorXd& y, States& states, int max_swe
   return sweep;
 }
 
-// Sets tried one after the other until one is right or comes back.
-LocalContactResult try_sets(const LocalContact& p, States states, int max_iterations) {
-  LocalContactResult result;
+// What the answer to some states makes of them; nothing where there is no answer.
+States answered(const LocalContact& p, LocalContactResult& result) {
+  ++result.iterations;
+  result.y = StateSystem(p, result.states).solve(p.r0, -p.u0, cohesions(p)).y;
+  if (!result.y.allFinite()) return {};
+  States wanted = states_of(p, result.y, result.states);
+  result.converged = wanted == result.states;
+  return wanted;
+}
+
+// Sets tried one after the other until one is right or comes back; `changed` are the joints whose
+// states did not stay.
+LocalContactResult try_sets(const LocalContact& p, States states, int max_iterations,
+                            std::set<std::size_t>& changed) {
+  LocalContactResult result{.states = std::move(states)};
   std::set<States> tried;
-  while (result.iterations < max_iterations && tried.insert(states).second) {
-    ++result.iterations;
-    result.y = StateSystem(p, states).solve(p.r0, -p.u0, cohesions(p)).y;
-    if (!result.y.allFinite()) break;
-    States wanted = states_of(p, result.y, states);
-    result.converged = wanted == states;
-    if (result.converged) break;
-    states = std::move(wanted);
+  while (result.iterations < max_iterations && tried.insert(result.states).second) {
+    States wanted = answered(p, result);
+    if (result.converged || wanted.empty()) break;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      if (wanted[i] != result.states[i]) changed.insert(i);
+    result.states = std::move(wanted);
   }
-  result.states = std::move(states);
+  return result;
+}
+
+// Every combination of the states of a few joints.
+LocalContactResult try_combinations(const LocalContact& p, States states,
+                                    const std::set<std::size_t>& joints) {
+  LocalContactResult result{.states = std::move(states)};
+  const int combinations = 1 << (2 * joints.size());
+  for (int code = 0; code < combinations && !result.converged; ++code) {
+    int digits = code;
+    for (const std::size_t joint : joints) {
+      result.states[joint] = static_cast<JointState>(digits % 4);
+      digits /= 4;
+    }
+    answered(p, result);
+  }
   return result;
 }
 
@@ -118,12 +145,14 @@ LocalContactResult try_sets(const LocalContact& p, States states, int max_iterat
 LocalContactResult solve_local_contact(const LocalContact& problem, States states,
                                        int max_iterations) {
   if (states.empty()) return {.converged = true, .y = {}, .states = {}, .iterations = 0};
-  LocalContactResult result = try_sets(problem, std::move(states), sets_at_once);
-  int spent = result.iterations;
+  LocalContactResult result;
+  int spent = 0;
   const auto try_from = [&](States found) {
-    result = try_sets(problem, std::move(found), sets_at_once);
+    std::set<std::size_t> changed;
+    result = try_sets(problem, std::move(found), sets_at_once, changed);
     spent += result.iterations;
   };
+  try_from(std::move(states));
   if (!result.converged) {
     StatesOfGivenFriction found = states_by_given_friction(problem);
     spent += found.iterations;
@@ -145,6 +174,16 @@ LocalContactResult solve_local_contact(const LocalContact& problem, States state
     spent += result.iterations;
   }
   result.iterations = spent;
+  return result;
+}
+
+LocalContactResult combine_states(const LocalContact& problem, States states) {
+  std::set<std::size_t> changed;
+  LocalContactResult result = try_sets(problem, std::move(states), sets_of_a_cycle, changed);
+  if (result.converged || changed.size() > most_combined) return result;
+  const int spent = result.iterations;
+  result = try_combinations(problem, std::move(result.states), changed);
+  result.iterations += spent;
   return result;
 }
 

@@ -55,4 +55,9 @@ SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, cons
 LocalContactResult solve_local_contact(const LocalContact& problem, std::vector<JointState> states,
                                        int max_iterations);
 
+/// For what that does not solve: sets follow from each other until one comes back, then the states
+/// of the few joints that changed on the way are combined in every way. Where friction leaves
+/// several answers, it is not the nearest that this finds.
+LocalContactResult combine_states(const LocalContact& problem, std::vector<JointState> states);
+
 }  // namespace havers::sim

@@ -128,6 +128,10 @@ bool BreakingRun::settle() {
     result = solve_local_contact(contact_, result.states, scene_.solver.max_iterations);
     iterations += result.iterations;
   }
+  if (!result.converged) {
+    result = combine_states(contact_, result.states);
+    iterations += result.iterations;
+  }
   if (!result.converged) {  // an answer without contact, counted and reported, instead of none
     ++without_contact;
     contact_.apart.assign(loose_.size(), 1);

@@ -19,9 +19,8 @@ TEST(Stability, HasFortyScenesOfDistinctNames) {
 }
 
 // Scenes for which the simulator has no answer yet, and says so.
-const std::set<std::string> known_failures{"fibres 1000 times as long as high, stepped",
-                                           "fibres at 0.01°, quasi-static",
-                                           "fibres at 0.01°, stepped", "r = 0.0001, stepped"};
+const std::set<std::string> known_failures{"fibres at 0.01°, quasi-static",
+                                           "fibres at 0.01°, stepped"};
 
 TEST(Stability, EverySceneIsSolvedOrRefusedAsItMust) {
   std::vector<StabilityResult> results;

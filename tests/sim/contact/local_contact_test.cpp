@@ -177,6 +177,38 @@ TEST(StateOf, LeavesAStateOnlyWhenItsConditionFails) {
   EXPECT_EQ(state_of({0.0, 0.5 + 1e-14}, none, stick, law, 1.0), stick);  // rounding
 }
 
+// A broken joint beside one of ratio f1/f2 = 1e-4, whose friction is above the wedging limit: sets
+// cycle between stick and open while it slides forward.
+TEST(CombineStates, FindsTheSlidingJointThatSetsCycleAround) {
+  LocalContact problem;
+  problem.S.resize(4, 4);
+  problem.S << 162.588, 0.723324, 93.318, -9.76308, 0.723324, 28.6504, -8.6074, 7.87179, 93.318,
+      -8.6074, 137.629, -3.38088, -9.76308, 7.87179, -3.38088, 27.281;
+  problem.r0 = Eigen::Vector4d(-49.3834, -0.343279, -530.679, -59.6599);
+  problem.u0 = Eigen::Vector4d(7.6057, 0.0, 0.0, 0.0);
+  problem.laws = {broken_law(0.3), {501.694, 1e4}};
+  const auto result = combine_states(problem, {JointState::open, JointState::slip_backward});
+  ASSERT_TRUE(result.converged);
+  EXPECT_EQ(result.states, (std::vector{JointState::open, JointState::slip_forward}));
+  EXPECT_TRUE(test::keeps_law(problem, result.y, 1e-9));
+}
+
+TEST(CombineStates, SolvesWhatNothingElseDoes) {
+  int solved = 0, more = 0;
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    const LocalContact problem = test::random_contact(3, 5.0, seed);
+    const auto usual = solve_local_contact(problem, std::vector(3, JointState::stick), 1000);
+    solved += usual.converged ? 1 : 0;
+    if (usual.converged) continue;
+    const auto found = combine_states(problem, usual.states);
+    if (!found.converged) continue;
+    ++more;
+    EXPECT_TRUE(test::keeps_law(problem, found.y, 1e-9)) << seed;
+  }
+  EXPECT_GT(solved, 100);
+  EXPECT_GT(more, 0);
+}
+
 // A path on which friction leaves no answer: with μ above the wedging limit the branch turns back.
 TEST(ReleasePath, SaysWhenItTurnsBack) {
   int turned = 0;
