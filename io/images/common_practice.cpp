@@ -28,8 +28,8 @@ double by_otsu(const cv::Mat& grey) {
 double by_otsu_in_bone(const cv::Mat& grey) {
   Regions regions = divide(grey, io::Pores::dark);
   const cv::Mat part = grey(regions.box);
-  const Levels levels = bone_levels(part, regions);
-  const cv::Mat bone = find_bone(part, regions, levels);
+  Depth depth{.levels = bone_levels(part, regions)};
+  const cv::Mat bone = find_bone(part, regions, depth);
   std::vector<std::uint8_t> inside;
   inside.reserve(part.total());
   for (int y = 0; y < bone.rows; ++y) {

@@ -1,25 +1,66 @@
-// The depth image: 0 in bone, 1 in pores. Private to io/images.
+// Depth: 0 in bone, 1 in pores (I6). No image of depths is kept; they are read where they are asked
+// for. Private to io/images.
 #pragma once
 
-#include "io/images/pores.hpp"
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "io/images/masks.hpp"
+#include "io/images/surface.hpp"
 
 namespace havers::images {
+
+/// Grey levels of bone and pores, wherever the shade is.
+struct Levels {
+  Surface bone;                      ///< B.
+  double sign = 1.0;                 ///< −1 where pores are brighter than bone.
+  double offset = 1.0, slope = 0.0;  ///< The contrast is offset + slope B,
+  double least = 0.0;                ///< but not less than this.
+  double noise = 0.0;                ///< SD of a pixel. [grey levels]
+
+  [[nodiscard]] double contrast(double bone_level) const {
+    return std::max(offset + slope * bone_level, least);
+  }
+  [[nodiscard]] double depth(double bone_level, double grey) const {
+    return sign * (bone_level - grey) / contrast(bone_level);
+  }
+};
 
 /// Sets `levels`' contrast from pixels known to be pores or background.
 void fit_contrast(const cv::Mat& grey, const cv::Mat& pores, Levels& levels);
 
-/// What a depth image (I6) is made of.
-struct DepthSource {
-  const cv::Mat& grey;
-  const Levels& levels;
-  double sigma = 0.0;   ///< Of the smoothing. [px]
-  cv::Mat within = {};  ///< Where not set, depth is 0 before it is smoothed; empty: set everywhere.
+/// What depths are read from.
+struct Depth {
+  cv::Mat grey;        ///< The image under less noise: 8 bit become 16, 16 become float.
+  double unit = 1.0;   ///< A grey level in steps of `grey`.
+  double sigma = 0.0;  ///< Of the smoothing. [px]
+  Levels levels;
 };
 
-/// Depth of every pixel, float.
-void make_depth(const DepthSource& source, cv::Mat& depth);
+/// Makes `depth.grey` of the image, unless it is that already. Where `within` is not set, as if
+/// bone went on.
+void smooth(const cv::Mat& image, double sigma, Depth& depth, const cv::Mat& within = {});
 
-/// Clears `mask` where depth is not less than `threshold`, without a depth image.
-void keep_shallower(const DepthSource& source, double threshold, cv::Mat& mask);
+/// 255 in `within` where depth is more, or less, than `threshold`.
+cv::Mat deeper(const Depth& depth, double threshold, const cv::Mat& within);
+cv::Mat shallower(const Depth& depth, double threshold, const cv::Mat& within);
+
+/// Calls `use(x, y, depth)` for every set pixel.
+template <class Use>
+void for_each_depth(const Depth& depth, const cv::Mat& mask, Use use) {
+  cv::Mat row;
+  for (int y = 0; y < mask.rows; ++y) {
+    depth.grey.row(y).convertTo(row, CV_32F, 1.0 / depth.unit);
+    const auto* grey = row.ptr<float>();
+    const SurfaceRow bone = depth.levels.bone.row(y);
+    for_each_set(mask, y, [&](int x) {
+      use(x, y, depth.levels.depth(bone.at(static_cast<float>(x)), grey[x]));
+    });
+  }
+}
+
+/// Depths of about `count` pixels where `mask` is set, on a square grid.
+std::vector<float> sample_depths(const Depth& depth, const cv::Mat& mask, int count);
 
 }  // namespace havers::images

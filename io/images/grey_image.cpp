@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "io/images/png.hpp"
 #include "io/input_error.hpp"
 
 namespace havers::images {
@@ -24,11 +25,19 @@ void check_file(const std::filesystem::path& file) {
     throw io::InputError(file.string(), "is an empty file", "export the image again");
 }
 
-bool is_tiff(const std::filesystem::path& file) {
+std::vector<cv::Mat> decoded(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".tif" || ending == ".tiff";
+  std::vector<cv::Mat> pages;
+  if (ending == ".tif" || ending == ".tiff") {
+    cv::imreadmulti(file.string(), pages, cv::IMREAD_UNCHANGED);
+    return pages;
+  }
+  if (ending == ".png") pages.push_back(read_png(file));
+  if (pages.empty() || pages.front().empty())
+    pages = {cv::imread(file.string(), cv::IMREAD_UNCHANGED)};
+  return pages;
 }
 
 // What is transparent takes the colour, black or white, that is farther from the opaque pixels'
@@ -77,10 +86,7 @@ std::vector<cv::Mat> read_pages(const std::filesystem::path& file) {
   check_file(file);
   std::vector<cv::Mat> pages;
   try {
-    if (is_tiff(file))
-      cv::imreadmulti(file.string(), pages, cv::IMREAD_UNCHANGED);
-    else
-      pages.push_back(cv::imread(file.string(), cv::IMREAD_UNCHANGED));
+    pages = decoded(file);
   } catch (const cv::Exception& error) {
     throw io::InputError(file.string(), fmt::format("cannot be decoded: {}", error.err));
   }

@@ -1,10 +1,10 @@
-// Grey levels of bone, background and pores, and the depth image they make.
+// Grey levels of bone, background and pores.
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "io/images/depth.hpp"
+#include "io/images/pores.hpp"
 
 namespace havers::images {
 namespace {
@@ -35,52 +35,6 @@ std::optional<double> bone_of_two_values(const std::vector<Sample>& samples, boo
       samples, [&](const Sample& s) { return s.value == low || s.value == high; });
   if (!only_these) return std::nullopt;
   return dark_pores ? high : low;
-}
-
-// The rows of an image in bands that stay in a core's cache.
-constexpr int band_height = 64;
-std::vector<cv::Range> bands_of(int rows) {
-  std::vector<cv::Range> bands;
-  for (int top = 0; top < rows; top += band_height)
-    bands.emplace_back(top, std::min(top + band_height, rows));
-  return bands;
-}
-
-void fill_rows(const DepthSource& source, const cv::Range& rows, cv::Mat& depth) {
-  const Levels& levels = source.levels;
-  const auto sign = static_cast<float>(levels.sign), slope = static_cast<float>(levels.slope);
-  const auto offset = static_cast<float>(levels.offset);
-  std::vector<float> bone(static_cast<std::size_t>(depth.cols));
-  cv::Mat row;
-  for (int y = rows.start; y < rows.end; ++y) {
-    levels.bone.evaluate_row(y, bone.data());
-    const float least = 1e-3F * std::abs(offset + slope * bone[0]);
-    source.grey.row(y).convertTo(row, CV_32F);
-    const auto* value = row.ptr<float>();
-    auto* out = depth.ptr<float>(y - rows.start);
-    for (std::size_t x = 0; x < bone.size(); ++x)
-      out[x] = sign * (bone[x] - value[x]) / std::max(offset + slope * bone[x], least);
-    if (source.within.empty()) continue;
-    const auto* within = source.within.ptr<std::uint8_t>(y);
-    for (std::size_t x = 0; x < bone.size(); ++x) {
-      const float there = out[x];  // read in any case, or the loop is not vectorised
-      out[x] = within[x] != 0 ? there : 0.0F;
-    }
-  }
-}
-
-// Depth of a band of rows; `wide` is working space for them and the rows about them that smoothing
-// reaches.
-void make_rows(const DepthSource& source, const cv::Range& rows, cv::Mat& wide, cv::Mat depth) {
-  if (source.sigma == 0.0) return fill_rows(source, rows, depth);
-  const int side = cvRound(8.0 * source.sigma + 1.0) | 1, reach = side / 2;
-  const cv::Range all(std::max(0, rows.start - reach),
-                      std::min(source.grey.rows, rows.end + reach));
-  wide.create(all.size(), depth.cols, CV_32F);
-  fill_rows(source, all, wide);
-  // Of a part of a matrix OpenCV reads what is about it as well.
-  cv::GaussianBlur(wide.rowRange(rows.start - all.start, rows.end - all.start), depth, {side, side},
-                   source.sigma, source.sigma, cv::BORDER_REPLICATE);
 }
 
 }  // namespace
@@ -118,23 +72,7 @@ void fit_contrast(const cv::Mat& grey, const cv::Mat& pores, Levels& levels) {
                           std::abs(slope) * 3.0 * std::sqrt(spread) < std::abs(d);
   levels.slope = determined ? slope : 0.0;
   levels.offset = d - levels.slope * b;
-}
-
-void make_depth(const DepthSource& source, cv::Mat& depth) {
-  depth.create(source.grey.size(), CV_32F);
-  cv::Mat wide;
-  for (const cv::Range& rows : bands_of(depth.rows))
-    make_rows(source, rows, wide, depth.rowRange(rows));
-}
-
-void keep_shallower(const DepthSource& source, double threshold, cv::Mat& mask) {
-  cv::Mat wide, depth, shallower;
-  for (const cv::Range& rows : bands_of(mask.rows)) {
-    depth.create(rows.size(), mask.cols, CV_32F);
-    make_rows(source, rows, wide, depth);
-    cv::compare(depth, threshold, shallower, cv::CMP_LT);
-    mask.rowRange(rows) &= shallower;
-  }
+  levels.least = 1e-3 * d;  // or a depth might be infinite
 }
 
 }  // namespace havers::images

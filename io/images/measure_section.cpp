@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "io/images/density.hpp"
 #include "io/images/grey_image.hpp"
@@ -109,18 +110,18 @@ Regions regions_of(const cv::Mat& whole, const io::SectionOptions& options) {
   return divide(whole, options.pores);
 }
 
-io::SectionMeasurement measure_page(const cv::Mat& image, const std::string& name,
+io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
                                     const io::SectionOptions& options) {
   const cv::Mat whole = to_grey(image, name);
+  image.release();
   Regions regions = regions_of(whole, options);
   const cv::Mat grey = whole(regions.box);
-  const Levels levels = bone_levels(grey, regions);
-  cv::Mat bone = find_bone(grey, regions, levels);
+  Depth depth{.levels = bone_levels(grey, regions)};
+  cv::Mat bone = find_bone(grey, regions, depth);
   if (!bone.empty()) leave_out_rim(options, name, bone);
   if (bone.empty() || cv::countNonZero(bone) == 0)
     throw io::InputError(name, "no bone was found", "give a mask that is white where the bone is");
-  cv::Mat depth;
-  const PoreMap map = find_pores(grey, bone, levels,
+  const PoreMap map = find_pores(grey, bone,
                                  {.threshold = options.threshold,
                                   .crack_slenderness = options.crack_slenderness,
                                   .rim = regions.outlined},
@@ -150,10 +151,9 @@ std::vector<io::SectionMeasurement> measure_sections(const std::filesystem::path
   for (std::size_t i = 0; i < pages.size(); ++i) {
     const std::string name =
         pages.size() == 1 ? image.string() : fmt::format("{} page {}", image.string(), i + 1);
-    measured.push_back(measure_page(pages[i], name, options));
+    measured.push_back(measure_page(std::move(pages[i]), name, options));
     auto& all = measured.back().porosity.warnings;
     all.insert(all.begin(), warnings.begin(), warnings.end());
-    pages[i].release();
   }
   return measured;
 }

@@ -7,9 +7,8 @@ namespace {
 
 InputError not_built_in(const std::filesystem::path& image) {
   return {image.string(), "images are not built into this havers",
-          "apt-get install libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev, then "
-          "build "
-          "with -DHAVERS_IMAGES=ON; or give the porosity in the study"};
+          "apt-get install libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev "
+          "libdeflate-dev, then build with -DHAVERS_IMAGES=ON; or give the porosity in the study"};
 }
 
 }  // namespace

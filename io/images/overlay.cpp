@@ -45,14 +45,14 @@ std::vector<std::uint8_t> draw_overlay(const cv::Mat& grey, const PoreMap& map,
   return png;
 }
 
-io::Histogram histogram_of(const cv::Mat& depth, const PoreMap& map) {
+io::Histogram histogram_of(const Depth& depth, const PoreMap& map) {
   constexpr int bins = 80;
   constexpr double from = -0.5, width = 2.0 / bins;
   io::Histogram histogram{.share = std::vector<double>(bins, 0.0), .threshold = map.threshold};
-  const std::vector<Sample> samples = sample(depth, map.bone, 100000);
+  const std::vector<float> samples = sample_depths(depth, map.bone, 100000);
   for (int bin = 0; bin < bins; ++bin) histogram.depth.push_back(from + width * (bin + 0.5));
-  for (const Sample& s : samples) {
-    const auto bin = static_cast<int>((s.value - from) / width);
+  for (const float value : samples) {
+    const auto bin = static_cast<int>((value - from) / width);
     histogram.share[static_cast<std::size_t>(std::clamp(bin, 0, bins - 1))] +=
         1.0 / static_cast<double>(samples.size());
   }

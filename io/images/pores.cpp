@@ -7,7 +7,6 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "io/images/depth.hpp"
 #include "io/images/masks.hpp"
 #include "io/images/thresholds.hpp"
 
@@ -15,8 +14,8 @@ namespace havers::images {
 namespace {
 
 double relative_noise(const Levels& levels) {
-  const double contrast = std::abs(levels.contrast(levels.bone.coefficients[0]));
-  return levels.noise / std::max(contrast, 1e-300);
+  const double in_the_middle = std::abs(levels.contrast(levels.bone.coefficients[0]));
+  return levels.noise / std::max(in_the_middle, 1e-300);
 }
 
 // Smoothing σ divides white noise by 2√π σ. As much as brings it to a tenth of the contrast, where
@@ -33,9 +32,8 @@ double enough_smoothing(const Levels& levels) {
 struct BoneDepth {
   double middle = 0.0, spread = 0.0;
 };
-BoneDepth bone_depth(const cv::Mat& depth, const cv::Mat& bone) {
-  std::vector<float> values;
-  for (const Sample& s : sample(depth, bone, 20000)) values.push_back(s.value);
+BoneDepth bone_depth(const Depth& depth, const cv::Mat& bone) {
+  std::vector<float> values = sample_depths(depth, bone, 20000);
   const double upper = quantile(values, 0.30), lower = quantile(values, 0.05);
   const double spread =
       (upper - lower) / (1.645 - 0.524);  // Their places in a normal distribution.
@@ -52,20 +50,14 @@ cv::Mat cores_of(const cv::Mat& pores) {
   return cv::countNonZero(cores) > 0 ? cores : pores;
 }
 
-cv::Mat deeper(const cv::Mat& depth, double threshold, const cv::Mat& bone) {
-  cv::Mat found;
-  cv::compare(depth, threshold, found, cv::CMP_GT);
-  found &= bone;
-  return found;
-}
-
 // The test for a second level: patches of three by three pixels, all five deviations deep, are no
 // chance. Small pores show under little smoothing, strong noise needs more. The half-way depth
 // between bone and such patches; infinite: one level.
-double rough_threshold(cv::Mat& depth, const cv::Mat& bone, double noise) {
+double rough_threshold(Depth& depth, const cv::Mat& bone) {
+  const double noise = depth.levels.noise;
   for (int round = 0; round < 2; ++round) {
     if (noise > 0.0 && round == 1)
-      cv::GaussianBlur(depth, depth, {}, 2.0, 2.0, cv::BORDER_REPLICATE);
+      cv::GaussianBlur(depth.grey, depth.grey, {}, 2.0, 2.0, cv::BORDER_REPLICATE);
     const BoneDepth solid = bone_depth(depth, bone);
     const double least = solid.middle + std::max(5.0 * solid.spread, 0.01 * noise);
     const DepthCount seeds(depth, eroded(deeper(depth, least, bone), 3));
@@ -87,18 +79,23 @@ cv::Mat clean_bone(const cv::Mat& solid) {
 
 // Sets the pores' level and refits that of the bone away from pores. Returns the pores' cores;
 // empty: none.
-cv::Mat find_pore_level(const cv::Mat& grey, const cv::Mat& bone, Levels& levels, cv::Mat& depth) {
-  levels.offset = 1.0, levels.slope = 0.0;
+cv::Mat find_pore_level(const cv::Mat& grey, const cv::Mat& bone, Levels& levels) {
+  Depth depth{.levels = levels};
+  depth.levels.offset = 1.0, depth.levels.slope = depth.levels.least = 0.0;
   // Within the bone, or background would be smoothed into it.
-  make_depth({grey, levels, levels.noise > 0.0 ? 1.0 : 0.0, bone}, depth);
-  const double threshold = rough_threshold(depth, bone, levels.noise);
+  smooth(grey, levels.noise > 0.0 ? 1.0 : 0.0, depth, bone);
+  const double threshold = rough_threshold(depth, bone);
+  if (std::isinf(threshold)) return {};
   const cv::Mat pores = deeper(depth, threshold, bone);
   if (cv::countNonZero(pores) == 0) return {};
 
+  Levels found = levels;
   const std::vector<Sample> samples = sample(grey, clean_bone(bone - pores), 20000);
-  if (samples.size() >= 500) levels.bone = fit_surface(samples, grey.size(), 4);
+  if (samples.size() >= 500) found.bone = fit_surface(samples, grey.size(), 4);
   cv::Mat cores = cores_of(pores);
-  fit_contrast(grey, cores, levels);
+  fit_contrast(grey, cores, found);
+  if (relative_noise(found) > 1.0) return {};  // The deepest of many patches of noise.
+  levels = found;
   return cores;
 }
 
@@ -120,10 +117,9 @@ double depth_left_in(const cv::Mat& cores, const cv::Mat& pores, double blur) {
 // (I7) Blur σ pulls the half-maximum contour of a pore inwards by σ²κ/2, κ its curvature: π σ² less
 // area a pore, whatever its shape. Noise s lets the contour tremble by √(2π) σ s, which adds the
 // share 2π s² of that again. A lower threshold gives the rest back. Sets the area by grey level.
-double threshold_without_blur(const cv::Mat& depth, const cv::Mat& cores, const Levels& levels,
-                              PoreMap& map) {
-  const double smoothing = enough_smoothing(levels);
-  const double noise = relative_noise(levels) / std::max(1.0, noise_divisor * smoothing);
+double threshold_without_blur(const Depth& depth, const cv::Mat& cores, PoreMap& map) {
+  const double smoothing = depth.sigma;
+  const double noise = relative_noise(depth.levels) / std::max(1.0, noise_divisor * smoothing);
   cv::Mat surroundings = dilated(map.pores, 7);
   surroundings &= map.bone;
   const DepthCount about(depth, surroundings);
@@ -146,39 +142,42 @@ void cut(const cv::Mat& inner, const PoreOptions& options, PoreMap& map) {
 
 }  // namespace
 
-cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Levels levels) {
+cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Depth& depth) {
   cv::Mat bone = std::move(regions.bone);
-  const cv::Mat background = std::move(regions.background);
+  const cv::Mat background = std::move(regions.background), search = std::move(regions.search);
   if (!regions.outlined) return bone;
-  fit_contrast(grey, background, levels);
-  if (!(levels.contrast(levels.bone.coefficients[0]) > 0.0)) return {};
-  cv::Mat solid = std::move(regions.search);
-  keep_shallower({grey, levels, enough_smoothing(levels)}, 0.5, solid);
-  return outline(solid);
+  fit_contrast(grey, background, depth.levels);
+  if (!(depth.levels.contrast(depth.levels.bone.coefficients[0]) > 0.0)) return {};
+  smooth(grey, enough_smoothing(depth.levels), depth);
+  return outline(shallower(depth, 0.5, search));
 }
 
-PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const Levels& coarse,
-                   const PoreOptions& options, cv::Mat& depth) {
+PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const PoreOptions& options,
+                   Depth& depth) {
   PoreMap map;
   map.bone = bone;
-  map.pores = cv::Mat::zeros(bone.size(), CV_8U);
-  Levels levels = coarse;
   // Blur reaches further in than noise does: a sharp eye would take it for a second level.
-  const cv::Mat cores = find_pore_level(grey, options.rim ? eroded(bone, 9) : bone, levels, depth);
-  make_depth({grey, levels, enough_smoothing(levels)}, depth);
-  if (cores.empty()) return map;
-
   const cv::Mat inner = options.rim ? eroded(bone, 5) : bone;
+  if (depth.grey.depth() == CV_32F) depth.grey.release();  // Four bytes a pixel are made anew.
+  const cv::Mat cores = find_pore_level(grey, options.rim ? eroded(inner, 5) : bone, depth.levels);
+  smooth(grey, enough_smoothing(depth.levels), depth);
+  if (cores.empty()) {
+    map.pores = cv::Mat::zeros(bone.size(), CV_8U);
+    return map;
+  }
   const bool half_maximum = options.threshold == io::Threshold::half_maximum;
   double next = options.threshold == io::Threshold::otsu ? otsu_threshold(depth, bone) : 0.5;
+  bool settled = false;
   for (int round = 0; round < 4; ++round) {
     map.threshold = next;
-    map.pores = options.threshold == io::Threshold::sauvola ? below_sauvola(depth) & bone
+    map.pores = options.threshold == io::Threshold::sauvola ? below_sauvola(depth, bone)
                                                             : deeper(depth, next, bone);
     cut(inner, options, map);
-    if (map.areas.empty()) break;
-    next = threshold_without_blur(depth, cores, levels, map);
-    if (!half_maximum || std::abs(next - map.threshold) < 0.003) break;
+    if (map.areas.empty() || settled) break;
+    next = threshold_without_blur(depth, cores, map);
+    const double change = std::abs(next - map.threshold);
+    if (!half_maximum || change < 0.003) break;
+    settled = change < 0.02;  // The next change would be less than a sixth of this one.
   }
   return map;
 }

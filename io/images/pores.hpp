@@ -4,21 +4,10 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "io/images/depth.hpp"
 #include "io/images/regions.hpp"
-#include "io/images/surface.hpp"
 
 namespace havers::images {
-
-/// Grey levels of bone and pores. Depth is 0 in bone and 1 in pores wherever the shade is (I6):
-/// sign (B − I) / (offset + slope B).
-struct Levels {
-  Surface bone;       ///< B.
-  double sign = 1.0;  ///< −1 where pores are brighter than bone.
-  double offset = 1.0, slope = 0.0;
-  double noise = 0.0;  ///< SD of a pixel. [grey levels]
-
-  [[nodiscard]] double contrast(double bone_level) const { return offset + slope * bone_level; }
-};
 
 /// The pores of one section. Areas in pixels.
 struct PoreMap {
@@ -46,13 +35,13 @@ struct PoreOptions {
 Levels bone_levels(const cv::Mat& grey, const Regions& regions);
 
 /// The bone on the full image; empty when there is none. Takes the masks of `regions`, which nobody
-/// needs after this.
-cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Levels levels);
+/// needs after this. `depth`, whose levels of bone are known, becomes that against the background.
+cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Depth& depth);
 
-/// The pores in `bone`; `depth` becomes the image they were cut from. An image without a second
-/// level has none.
-PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const Levels& coarse,
-                   const PoreOptions& options, cv::Mat& depth);
+/// The pores in `bone`; `depth` becomes the one they were cut at. An image without a second level
+/// has none.
+PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const PoreOptions& options,
+                   Depth& depth);
 
 /// Sorts the objects of `map.pores` into pores, cracks and specks.
 void sort_objects(double crack_slenderness, PoreMap& map);

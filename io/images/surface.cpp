@@ -58,7 +58,7 @@ void add_row(std::span<const Sample> row, cv::Size size, Normal& normal) {
 
 }  // namespace
 
-std::array<double, 5> Surface::row(double y) const {
+SurfaceRow Surface::row(double y) const {
   const double v = scaled(y, size.height);
   std::array<double, 5> along{};
   std::size_t k = 0;
@@ -67,29 +67,24 @@ std::array<double, 5> Surface::row(double y) const {
     for (std::size_t j = 0; j <= degree; ++j, power *= v)
       along[degree - j] += coefficients[k++] * power;
   }
-  return along;
+  SurfaceRow row{.scale = 2.0F / static_cast<float>(size.width)};
+  std::copy(along.begin(), along.end(), row.c.begin());
+  return row;
 }
 
-void Surface::evaluate_row(int y, float* values) const {
-  const std::array<double, 5> exact = row(y);
-  std::array<float, 5> c{};
-  std::copy(exact.begin(), exact.end(), c.begin());
-  const auto scale = static_cast<float>(2.0 / size.width);
-  for (int x = 0; x < size.width; ++x) {
-    const float u = scale * static_cast<float>(x) - 1.0F;
-    values[x] = c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * c[4])));
-  }
+void Surface::evaluate_row(double y, float* values) const {
+  const SurfaceRow along = row(y);
+  for (int x = 0; x < size.width; ++x) values[x] = along.at(static_cast<float>(x));
 }
 
 std::vector<float> values_at(const Surface& surface, const std::vector<Sample>& samples) {
   std::vector<float> values;
   values.reserve(samples.size());
-  std::array<double, 5> c{};
+  SurfaceRow along;
   float row = -1.0F;
   for (const Sample& s : samples) {
-    if (s.y != row) c = surface.row(row = s.y);
-    const double u = scaled(s.x, surface.size.width);
-    values.push_back(static_cast<float>(c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * c[4])))));
+    if (s.y != row) along = surface.row(row = s.y);
+    values.push_back(along.at(s.x));
   }
   return values;
 }
@@ -115,22 +110,26 @@ Surface fit_surface(const std::vector<Sample>& samples, cv::Size size, int degre
   return surface;
 }
 
-// Least squares, again and again without what lies far from the median of its residuals.
+// Least squares, again and again without what lies far from the median of its residuals; the last
+// time over all samples, before over as few as tell which these are.
 Surface fit_majority(const std::vector<Sample>& samples, cv::Size size) {
-  Surface surface = fit_surface(samples, size, 2);
-  std::vector<float> residual(samples.size()), deviation(samples.size());
+  const std::size_t stride = std::max<std::size_t>(1, samples.size() / 5000);
+  std::vector<Sample> few;
+  for (std::size_t i = 0; i < samples.size(); i += stride) few.push_back(samples[i]);
+  Surface surface = fit_surface(few, size, 2);
   for (int round = 0; round < 6; ++round) {
-    const std::vector<float> level = values_at(surface, samples);
-    for (std::size_t i = 0; i < samples.size(); ++i) residual[i] = samples[i].value - level[i];
-    deviation = residual;
-    const double middle = quantile(deviation, 0.5);
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      deviation[i] = std::abs(residual[i] - static_cast<float>(middle));
+    const std::vector<Sample>& used = round < 5 ? few : samples;
+    std::vector<float> residual = values_at(surface, used);
+    for (std::size_t i = 0; i < used.size(); ++i) residual[i] = used[i].value - residual[i];
+    std::vector<float> deviation = residual;
+    const auto middle = static_cast<float>(quantile(deviation, 0.5));
+    for (std::size_t i = 0; i < used.size(); ++i) deviation[i] = std::abs(residual[i] - middle);
     std::vector<float> sorted = deviation;
     const double reach = 2.5 * 1.4826 * quantile(sorted, 0.5);
     std::vector<Sample> kept;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      if (deviation[i] <= reach) kept.push_back(samples[i]);
+    kept.reserve(used.size());
+    for (std::size_t i = 0; i < used.size(); ++i)
+      if (deviation[i] <= reach) kept.push_back(used[i]);
     surface = fit_surface(kept, size, round < 3 ? 2 : 4);
   }
   return surface;
@@ -144,10 +143,10 @@ std::vector<Sample> sample(const cv::Mat& image, const cv::Mat& mask, int count)
   for (int y = stride / 2; y < image.rows; y += stride) {
     image.row(y).convertTo(row, CV_32F);
     const auto* values = row.ptr<float>();
-    const auto* wanted = mask.ptr<std::uint8_t>(y);
-    for (int x = stride / 2; x < image.cols; x += stride)
-      if (wanted[x] != 0)
+    for_each_set(mask, y, [&](int x) {
+      if (x % stride == stride / 2)
         samples.push_back({static_cast<float>(x), static_cast<float>(y), values[x]});
+    });
   }
   return samples;
 }

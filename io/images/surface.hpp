@@ -12,15 +12,25 @@ struct Sample {
   float x = 0.0F, y = 0.0F, value = 0.0F;
 };
 
+/// A quartic in x.
+struct SurfaceRow {
+  float scale = 0.0F;
+  std::array<float, 5> c{};  ///< Coefficients of u⁰…u⁴, u = scale x − 1.
+
+  [[nodiscard]] float at(float x) const {
+    const float u = scale * x - 1.0F;
+    return c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * c[4])));
+  }
+};
+
 /// Polynomial of degree ≤ 4 in x and y over an image of `size`.
 struct Surface {
   cv::Size size;
   std::array<double, 15> coefficients{};
 
-  /// Coefficients of u⁰…u⁴ along a row, u = 2x/width − 1.
-  [[nodiscard]] std::array<double, 5> row(double y) const;
+  [[nodiscard]] SurfaceRow row(double y) const;
   /// The values of row y, one a pixel.
-  void evaluate_row(int y, float* values) const;
+  void evaluate_row(double y, float* values) const;
 };
 
 /// Values of the surface at samples, which come row by row.

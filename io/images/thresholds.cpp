@@ -4,21 +4,14 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "io/images/masks.hpp"
-#include "io/images/surface.hpp"
-
 namespace havers::images {
 
-DepthCount::DepthCount(const cv::Mat& depth, const cv::Mat& mask) {
-  constexpr float last = 299.0F;
-  for (int y = 0; y < depth.rows; ++y) {
-    const auto* values = depth.ptr<float>(y);
-    for_each_set(mask, y, [&](int x) {
-      const float bin = std::clamp(100.0F * (values[x] + 1.0F), 0.0F, last);
-      ++counts_[static_cast<std::size_t>(bin)];
-      sum_ += values[x];
-    });
-  }
+DepthCount::DepthCount(const Depth& depth, const cv::Mat& mask) {
+  constexpr double last = 299.0;
+  for_each_depth(depth, mask, [&](int, int, double value) {
+    ++counts_[static_cast<std::size_t>(std::clamp(100.0 * (value + 1.0), 0.0, last))];
+    sum_ += value;
+  });
 }
 
 double DepthCount::above(double depth) const {
@@ -29,19 +22,22 @@ double DepthCount::above(double depth) const {
   return found;
 }
 
-double otsu_threshold(const cv::Mat& depth, const cv::Mat& mask) {
+double otsu_threshold(const Depth& depth, const cv::Mat& mask) {
   std::vector<std::uint8_t> bytes;  // from −1 to 2
-  for (const Sample& s : sample(depth, mask, 200000))
-    bytes.push_back(cv::saturate_cast<std::uint8_t>(85.0F * (s.value + 1.0F)));
+  for (const float value : sample_depths(depth, mask, 200000))
+    bytes.push_back(cv::saturate_cast<std::uint8_t>(85.0F * (value + 1.0F)));
   cv::Mat ignored;
   return (cv::threshold(bytes, ignored, 0.0, 255.0, cv::THRESH_OTSU) + 0.5) / 85.0 - 1.0;
 }
 
 // T = m (1 + k (s/R − 1)) for brightness 1 − depth, of mean m and deviation s in a window.
-cv::Mat below_sauvola(const cv::Mat& depth) {
+cv::Mat below_sauvola(const Depth& source, const cv::Mat& within) {
   constexpr double k = 0.2, range = 0.5;
   constexpr int window = 101;
-  cv::Mat mean, squares;
+  cv::Mat depth(within.size(), CV_32F), mean, squares;
+  for_each_depth(
+      source, cv::Mat(within.size(), CV_8U, cv::Scalar(255)),
+      [&](int x, int y, double value) { depth.at<float>(y, x) = static_cast<float>(value); });
   cv::boxFilter(depth, mean, CV_32F, {window, window}, {-1, -1}, true, cv::BORDER_REFLECT_101);
   cv::sqrBoxFilter(depth, squares, CV_32F, {window, window}, {-1, -1}, true,
                    cv::BORDER_REFLECT_101);
@@ -55,7 +51,7 @@ cv::Mat below_sauvola(const cv::Mat& depth) {
       out[x] = 1.0 - d[x] < threshold ? 255 : 0;
     }
   }
-  return below;
+  return below & within;
 }
 
 }  // namespace havers::images

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
+#include "io/images/depth.hpp"
+
 namespace havers::images {
 
-/// How many pixels of a float depth image are how deep, where a mask is set.
+/// How many pixels are how deep, where a mask is set.
 class DepthCount {
  public:
-  DepthCount(const cv::Mat& depth, const cv::Mat& mask);
+  DepthCount(const Depth& depth, const cv::Mat& mask);
   /// Pixels deeper than `depth`, a multiple of 0.01.
   [[nodiscard]] double above(double depth) const;
   /// Pixels where the mask is set.
@@ -25,9 +27,9 @@ class DepthCount {
 };
 
 /// Otsu's threshold of the depths where `mask` is set.
-double otsu_threshold(const cv::Mat& depth, const cv::Mat& mask);
+double otsu_threshold(const Depth& depth, const cv::Mat& mask);
 
-/// 255 where depth is beyond Sauvola's local threshold (I11).
-cv::Mat below_sauvola(const cv::Mat& depth);
+/// 255 in `within` where depth is beyond Sauvola's local threshold (I11).
+cv::Mat below_sauvola(const Depth& source, const cv::Mat& within);
 
 }  // namespace havers::images

@@ -24,12 +24,12 @@ std::size_t block_of(int x, int y, cv::Size size) {
   return static_cast<std::size_t>(block);
 }
 
-// How many pore pixels lie left of each column in the rows from y to y + height.
-class PoresToTheLeft {
+// How many set pixels lie left of each column in the rows from y to y + height.
+class SetToTheLeft {
  public:
-  explicit PoresToTheLeft(const cv::Mat& pores)
-      : pores_(pores),
-        rows_(static_cast<std::size_t>(pores.cols)),
+  explicit SetToTheLeft(const cv::Mat& mask)
+      : mask_(mask),
+        rows_(static_cast<std::size_t>(mask.cols)),
         whole_(rows_.size() + 1),
         last_(rows_.size() + 1) {}
 
@@ -37,14 +37,14 @@ class PoresToTheLeft {
     std::fill(rows_.begin(), rows_.end(), std::uint16_t{0});
     const int whole = static_cast<int>(height);
     for (int row = y; row < y + whole; ++row) {
-      const auto* set = pores_.ptr<std::uint8_t>(row);
+      const auto* set = mask_.ptr<std::uint8_t>(row);
       for (std::size_t x = 0; x < rows_.size(); ++x)
         rows_[x] = static_cast<std::uint16_t>(rows_[x] + (set[x] & 1U));
     }
     for (std::size_t x = 0; x < rows_.size(); ++x) whole_[x + 1] = whole_[x] + rows_[x];
     share_ = height - whole;
     if (share_ == 0.0) return;
-    const auto* last = pores_.ptr<std::uint8_t>(y + whole);
+    const auto* last = mask_.ptr<std::uint8_t>(y + whole);
     for (std::size_t x = 0; x < rows_.size(); ++x) last_[x + 1] = last_[x] + (last[x] & 1U);
   }
   // In the columns from x to x + width; the last one may be cut.
@@ -59,8 +59,8 @@ class PoresToTheLeft {
     const auto x = static_cast<std::size_t>(column);
     return whole_[x] + share_ * last_[x];
   }
-  const cv::Mat& pores_;
-  std::vector<std::uint16_t> rows_;   // Pores in each column.
+  const cv::Mat& mask_;
+  std::vector<std::uint16_t> rows_;   // Set pixels in each column.
   std::vector<std::uint32_t> whole_;  // Sums of them.
   std::vector<std::uint32_t> last_;   // The same of the last row, which may be cut.
   double share_ = 0.0;                // How much of that row counts.
@@ -71,19 +71,17 @@ void add_windows(const cv::Mat& bone, const cv::Mat& pores, cv::Size2d window, B
   const cv::Size covered(static_cast<int>(std::ceil(window.width)),
                          static_cast<int>(std::ceil(window.height)));
   if (covered.width > bone.cols || covered.height > bone.rows) return;
-  cv::Mat fits;
-  cv::erode(bone, fits, cv::Mat::ones(covered, CV_8U), {0, 0}, 1, cv::BORDER_CONSTANT,
-            cv::Scalar(0));
   // Half a window apart: what lies between says nothing new.
   const int across = std::max(1, static_cast<int>(window.width / 2.0));
   const int down = std::max(1, static_cast<int>(window.height / 2.0));
   const double scale = 1.0 / window.area();
-  PoresToTheLeft left(pores);
+  SetToTheLeft bones(bone), holes(pores);
   for (int y = 0; y + covered.height <= bone.rows; y += down) {
-    left.count(y, window.height);
+    bones.count(y, covered.height);
+    holes.count(y, window.height);
     for (int x = 0; x + covered.width <= bone.cols; x += across) {
-      if (fits.at<std::uint8_t>(y, x) == 0) continue;
-      const double q = left.between(x, window.width) * scale;
+      if (bones.between(x, covered.width) < covered.area()) continue;
+      const double q = holes.between(x, window.width) * scale;
       Sums& sums = blocks[block_of(x, y, bone.size())];
       sums.n += 1.0, sums.q += q, sums.qq += q * q;
     }
