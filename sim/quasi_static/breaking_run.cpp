@@ -32,8 +32,9 @@ BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructu
       careful_(careful),
       intact_(std::move(intact)),
       loose_(intact_->structure(), [this](int joint) { return intact_->respond_to_jump(joint); }),
-      reactions_(intact_->answer().reactions),
-      force_(intact_->answer().force),
+      reference_{{}, intact_->answer().reactions, intact_->answer().force, 0.0},
+      reactions_(reference_.reactions),
+      force_(reference_.force),
       noise_(1e-10 * intact_->answer().reactions.lpNorm<Eigen::Infinity>()),
       joints(initial_outcomes(draw_thresholds(scene, intact_->assembly()))) {}
 
@@ -78,18 +79,19 @@ void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {
   const JointLaw law = broken_law(scene_.joints.friction);
   const auto old = static_cast<Index>(loose_.size());
   const auto n = old + static_cast<Index>(breaking.size());
-  contact_.r0.conservativeResize(2 * n);
   extra_ = VectorXd::Zero(n);
   for (Index i = old; i < n; ++i) {
     const std::size_t joint = breaking[static_cast<std::size_t>(i - old)];
     const auto row = static_cast<Index>(2 * joint);
     loose_.add(static_cast<int>(joint));
-    contact_.r0.segment<2>(2 * i) = intact_->answer().reactions.segment<2>(row);
     contact_.laws.push_back(law);
     extra_.segment<1>(i) = cohesion_to_stick(reactions_.segment<2>(row), {law});
   }
   contact_.u0 = VectorXd::Zero(2 * n);
   contact_.S = loose_.stiffness();
+  y_at_reference_.conservativeResizeLike(contact_.u0);
+  y_at_reference_.tail(2 * (n - old)).setZero();
+  contact_.r0 = of_loose(reference_.reactions) - contact_.S * y_at_reference_;
   system_.grow();
 }
 
@@ -140,25 +142,31 @@ bool BreakingRun::settle() {
   }
   system_.set(result.states);
   y_ = result.y;
-  reactions_ = intact_->answer().reactions + loose_.reactions_to(y_);
-  // By reciprocity the force at the end changes by r⁰·y/W.
-  force_ = intact_->answer().force + contact_.r0.dot(y_) / intact_->assembly().width;
-  // Where a piece swings freely, its gaps are so large that digits are lost.
-  if (careful_ || difference(reactions_).norm() > refined * intact_->answer().reactions.norm()) {
-    const UnitAnswer answer = refine();
-    reactions_ = answer.reactions;
-    force_ = answer.force;
+  const VectorXd moved = y_ - y_at_reference_;
+  reactions_ = reference_.reactions + loose_.reactions_to(moved);
+  // By reciprocity the force at the end changes by r⁰·y/W, r⁰ being those of the intact structure.
+  force_ = reference_.force +
+           of_loose(intact_->answer().reactions).dot(moved) / intact_->assembly().width;
+  // Where a piece swings freely, its gaps change so much that digits are lost.
+  if (careful_ || missing(reactions_).norm() > refined * intact_->answer().reactions.norm()) {
+    refine();
+    reactions_ = reference_.reactions;
+    force_ = reference_.force;
   }
   return result.converged;
 }
 
-// By which reactions of the loose joints differ from what they solved for among themselves.
-VectorXd BreakingRun::difference(const VectorXd& reactions) const {
-  VectorXd difference = -(contact_.r0 + contact_.S * y_);
+VectorXd BreakingRun::of_loose(const VectorXd& of_all) const {
+  VectorXd values(2 * static_cast<Index>(loose_.size()));
   for (std::size_t i = 0; i < loose_.size(); ++i)
-    difference.segment<2>(2 * static_cast<Index>(i)) +=
-        reactions.segment<2>(2 * static_cast<Index>(loose_.joints()[i]));
-  return difference;
+    values.segment<2>(2 * static_cast<Index>(i)) =
+        of_all.segment<2>(2 * static_cast<Index>(loose_.joints()[i]));
+  return values;
+}
+
+// What the loose joints' own problem lacks of their reactions.
+VectorXd BreakingRun::missing(const VectorXd& reactions) const {
+  return of_loose(reactions) - (contact_.r0 + contact_.S * y_);
 }
 
 VectorXd BreakingRun::gaps() const {
@@ -170,18 +178,18 @@ VectorXd BreakingRun::gaps() const {
 }
 
 // The whole structure with the gaps found, and again as long as it shows the joints other reactions
-// than they solved for among themselves.
-UnitAnswer BreakingRun::refine() {
+// than they solved for among themselves. What follows is reckoned from there.
+void BreakingRun::refine() {
   const double scale = intact_->answer().reactions.norm();
-  UnitAnswer found = intact_->stretch(gaps());
+  reference_ = intact_->stretch(gaps());
   for (int i = 0; i < most_refinements; ++i) {
-    const VectorXd missing = difference(found.reactions);
-    if (missing.norm() <= refined * scale) break;
-    const VectorXd free = contact_.r0 + missing;
-    y_ = system_.solve(free, VectorXd::Zero(y_.size()), cohesions(contact_)).y;
-    found = intact_->stretch(gaps());
+    const VectorXd lacking = missing(reference_.reactions);
+    if (lacking.norm() <= refined * scale) break;
+    contact_.r0 += lacking;
+    y_ = system_.solve(contact_.r0, VectorXd::Zero(y_.size()), cohesions(contact_)).y;
+    reference_ = intact_->stretch(gaps());
   }
-  return found;
+  y_at_reference_ = y_;
 }
 
 CurvePoint BreakingRun::point(double strain) const {
@@ -212,7 +220,8 @@ double BreakingRun::law_residual_of(const VectorXd& reactions, const VectorXd& g
 // What events computed is checked against the refined answer, ½ qᵀĀq = ½ (F W ε + r·u) too.
 void BreakingRun::finish(double strain, double energy_scale, Simulation& simulation) {
   const double scale = intact_->answer().reactions.norm();
-  const UnitAnswer last = refine();
+  refine();
+  const UnitAnswer& last = reference_;
   const VectorXd gaps = this->gaps();
   const double young = scene_.material.young;
   simulation.displacements = strain * last.displacements;

@@ -40,8 +40,9 @@ class BreakingRun {
   void loosen(const std::vector<std::size_t>& breaking);
   [[nodiscard]] std::vector<char> apart() const;
   [[nodiscard]] Eigen::VectorXd gaps() const;
-  [[nodiscard]] Eigen::VectorXd difference(const Eigen::VectorXd& reactions) const;
-  UnitAnswer refine();
+  [[nodiscard]] Eigen::VectorXd of_loose(const Eigen::VectorXd& of_all) const;
+  [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& reactions) const;
+  void refine();
   [[nodiscard]] double law_residual_of(const Eigen::VectorXd& reactions,
                                        const Eigen::VectorXd& gaps) const;
 
@@ -51,8 +52,11 @@ class BreakingRun {
   LooseJoints loose_;
   LocalContact contact_;  // of the loose joints
   StateSystem system_{contact_};
-  Eigen::VectorXd extra_;      // cohesion that lets those just broken bear what they bore [N/m]
-  Eigen::VectorXd y_;          // gaps of the loose joints [m per unit strain]
+  Eigen::VectorXd extra_;  // cohesion that lets those just broken bear what they bore [N/m]
+  Eigen::VectorXd y_;      // gaps of the loose joints [m per unit strain]
+  // The intact structure, or the last refined answer: what changes is reckoned from it.
+  UnitAnswer reference_;
+  Eigen::VectorXd y_at_reference_;
   Eigen::VectorXd reactions_;  // for E = 1 and ε = 1 [N/m]
   double force_;               // likewise
   double noise_;               // what rounding leaves on an unloaded joint is not a load
