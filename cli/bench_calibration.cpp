@@ -51,7 +51,7 @@ void print_chains(const calib::ChainBenchmark& benchmark) {
     fmt::print("{:<36}{:>20}{:>22}{:>24}{:>20}\n", s.chain, spread(s.error, 0.01, 2),
                spread(s.simulations, 1.0, 4), spread(s.seconds, 1.0, 2), percent(s.success));
   if (!benchmark.summaries.empty())
-    fmt::print("fewest simulations of those that succeed as often as the best: {}\n",
+    fmt::print("fewest simulations of those that succeed most often with the least error: {}\n",
                benchmark.winner().chain);
 }
 

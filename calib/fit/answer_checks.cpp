@@ -132,7 +132,7 @@ Check check_intervals(const CalibrationResult& result) {
     if (!parameter.identifiable || !parameter.profile_missing.empty()) continue;
     ++compared;
     const double part =
-        width(parameter, parameter.profile_95) / width(parameter, parameter.interval_95);
+        width(parameter, parameter.profile_95) / width(parameter, parameter.slopes_95);
     if (part < 0.5 || part > 2.0)
       differ += fmt::format("{}{} ({:.2g} times as wide)", differ.empty() ? "" : ", ",
                             parameter.name, part);

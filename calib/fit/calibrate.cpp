@@ -8,6 +8,7 @@
 #include "calib/fit/randomness.hpp"
 #include "calib/fit/search.hpp"
 #include "calib/fit/specimen_effect.hpp"
+#include "calib/fit/walk.hpp"
 
 namespace havers::calib {
 namespace {
@@ -67,6 +68,9 @@ void search(Trail& trail, const Active& active, bool polish, Answer& answer) {
   answer.stages.push_back(search_nlopt(trail, trail.best(), split, Stride::polish).log);
 }
 
+constexpr const char* kept_where_found =
+    "; kept where the fit found it, for the study's value contradicts the specimens";
+
 // Unknowns that turn out uninformed at the answer go back to where the study has them, unless the
 // specimens contradict that: then what they do not tell would be wrong, and spoil what they do.
 void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
@@ -78,16 +82,52 @@ void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
   trail.restart(trail.weights(), trail.evaluate(point));
   search_ceres(trail, trail.best(), answer.active);
   if (!trail.stopped() && trail.best().cost > found.cost + contradicts) {
-    for (auto& one : left)
-      one.because +=
-          "; kept where the fit found it, for the study's value contradicts the specimens";
+    for (auto& one : left) one.because += kept_where_found;
     trail.restart(trail.weights(), found);
   }
   answer.left.insert(answer.left.end(), left.begin(), left.end());
 }
 
+// What was asked for and left out may be wrong all the same: where the specimens contradict it
+// (F10), it is fitted along and stays there.
+bool mend_left_out(Trail& trail, const Eigen::MatrixXd& jacobian, Answer& answer) {
+  if (trail.problem().study.calibrate.automatic) return false;
+  for (LeftUnknown& one : answer.left) {
+    const auto walked = walk_along(trail, one.unknown, answer.active, jacobian);
+    const auto lowest = std::ranges::min_element(walked, {}, &Evaluation::cost);
+    if (lowest == walked.end() || lowest->cost > trail.best().cost - contradicts) continue;
+    Active along = answer.active;
+    along.push_back(one.unknown);
+    trail.restart(trail.weights(), search_ceres(trail, *lowest, along).best);
+    if (!one.because.ends_with(kept_where_found)) one.because += kept_where_found;
+    return true;
+  }
+  return false;
+}
+
 bool settled(const Landmarks& before, const Landmarks& now) {
   return ((now - before).abs() <= 0.05 * now + 1e-4).all();
+}
+
+// What the study asks for, and the specimens do not tell; what "auto" leaves out is as the study
+// says.
+Active asked_and_left(const Trail& trail, const Answer& answer) {
+  Active unknowns;
+  if (!trail.problem().study.calibrate.automatic)
+    for (const LeftUnknown& one : answer.left) unknowns.push_back(one.unknown);
+  return unknowns;
+}
+
+// Slopes of what is fitted and, beside them, of what was asked for and left out: its value is a
+// choice too, and takes freedom from the residuals (F9).
+Eigen::MatrixXd with_left_out(Trail& trail, const Answer& answer, const Differences& fitted) {
+  const Evaluation best = trail.best();
+  const auto others = differentiate(trail, best, asked_and_left(trail, answer), slope_step);
+  trail.restart(trail.weights(), best);
+  if (others.failed) return fitted.jacobian;
+  Eigen::MatrixXd all(fitted.jacobian.rows(), fitted.jacobian.cols() + others.jacobian.cols());
+  all << fitted.jacobian, others.jacobian;
+  return all;
 }
 
 void reweigh(Trail& trail, const Landmarks& effect) {
@@ -133,11 +173,12 @@ void refine(Trail& trail, Answer& answer) {
       continue;
     }
     const auto before = effect;
-    effect = specimen_effect(trail.problem(), trail.weights(), trail.best(), slopes.jacobian);
-    const auto error = uncertainty_of(trail.problem(), trail.weights(), trail.best(), answer.active,
-                                      slopes.jacobian);
+    const auto all = with_left_out(trail, answer, slopes);
+    effect = specimen_effect(trail.problem(), trail.weights(), trail.best(), all);
+    const auto error =
+        uncertainty_of(trail.problem(), trail.weights(), trail.best(), answer.active, all);
     rough = error.distance >= close_enough && !polished;
-    if (!rough && settled(before, effect)) return;
+    if (!rough && settled(before, effect) && !mend_left_out(trail, slopes.jacobian, answer)) return;
   }
 }
 
@@ -151,7 +192,14 @@ void look_back(Trail& trail, Answer& answer) {
   answer.best = trail.best();
   if (answer.slopes.failed) return;
   answer.uncertainty = uncertainty_of(trail.problem(), answer.weights, answer.best, answer.active,
-                                      answer.slopes.jacobian);
+                                      with_left_out(trail, answer, answer.slopes));
+  for (const Eigen::Index unknown : asked_and_left(trail, answer)) {
+    trail.enter("unknowns left out");
+    std::ranges::move(walk_along(trail, unknown, answer.active, answer.slopes.jacobian),
+                      std::back_inserter(answer.elsewhere));
+  }
+  if (!answer.elsewhere.empty())
+    widen_intervals(answer.best, answer.elsewhere, answer.active, answer.uncertainty);
   trail.enter("profiles");
   if (trail.problem().study.calibrate.profiles) answer.profiles = profiles_of(trail, answer);
 }

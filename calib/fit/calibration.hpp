@@ -32,14 +32,16 @@ struct CalibratedParameter {
                      ///< "young_GPa[45 deg]".
   std::string unit;
   double value = 0.0;
-  double standard_error = 0.0;          ///< NaN where not identifiable.
-  std::array<double, 2> interval_95{};  ///< NaN where not identifiable.
+  double standard_error = 0.0;  ///< NaN where not identifiable.
+  /// By profile likelihood where there is a profile, to the bound where the cost does not rise; by
+  /// the slopes otherwise. NaN where not identifiable.
+  std::array<double, 2> interval_95{};
   std::array<double, 2> bounds{};
-  /// 95 % intervals by profile likelihood (F15) and by bootstrap over specimens (F16); NaN, with
-  /// the reason, where there is none.
-  std::array<double, 2> profile_95{std::numeric_limits<double>::quiet_NaN(),
-                                   std::numeric_limits<double>::quiet_NaN()};
-  std::array<double, 2> bootstrap_95 = profile_95;
+  /// 95 % intervals by the slopes (F11), by profile likelihood (F15) and by bootstrap over
+  /// specimens (F16); NaN, with the reason, where there is none.
+  std::array<double, 2> slopes_95{std::numeric_limits<double>::quiet_NaN(),
+                                  std::numeric_limits<double>::quiet_NaN()};
+  std::array<double, 2> profile_95 = slopes_95, bootstrap_95 = slopes_95;
   std::string profile_missing{}, bootstrap_missing{};
   bool at_bound = false;
   bool identifiable = false;

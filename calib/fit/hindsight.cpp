@@ -85,8 +85,11 @@ void set_intervals(const FitProblem& problem, const Answer& answer, const Resamp
       parameter.profile_missing = "calibrate.options.profiles is false";
     } else {
       parameter.profile_95 = profile->interval_95;
-      if (!std::isfinite(profile->interval_95[0]) || !std::isfinite(profile->interval_95[1]))
-        parameter.profile_missing = "the cost does not rise enough beside the answer";
+      for (const std::size_t end : {0U, 1U}) {
+        const bool risen = std::isfinite(profile->interval_95.at(end));
+        parameter.interval_95.at(end) = (risen ? profile->interval_95 : parameter.bounds).at(end);
+        if (!risen) parameter.profile_missing = "the cost does not rise enough beside the answer";
+      }
     }
     parameter.bootstrap_missing = resampling.missing;
     if (!resampling.missing.empty()) continue;

@@ -133,7 +133,10 @@ std::vector<Profile> profiles_of(Trail& trail, const Answer& answer) {
     const double quantile = answer.uncertainty.half_width[i] / answer.uncertainty.standard_error[i];
     profile.level = 0.5 * quantile * quantile;
     const auto end = [&](bool upper) {
-      const double at = crossing(roots, quantile, upper);
+      double at = crossing(roots, quantile, upper);
+      if (!answer.elsewhere.empty())
+        at = upper ? std::max(at, centre + answer.uncertainty.upper[i])
+                   : std::min(at, centre + answer.uncertainty.lower[i]);
       return from_search(*unknown.info, std::clamp(at, unknown.lower, unknown.upper));
     };
     profile.interval_95 = {end(false), end(true)};

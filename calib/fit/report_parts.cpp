@@ -25,10 +25,10 @@ void set_error(const Unknown& unknown, const Uncertainty& uncertainty, Eigen::In
                CalibratedParameter& parameter) {
   const bool logarithmic = unknown.info->scale == Scale::logarithmic;
   const double position = to_search(*unknown.info, parameter.value);
-  const double half = uncertainty.half_width[i];
   parameter.standard_error = uncertainty.standard_error[i] * (logarithmic ? parameter.value : 1.0);
-  parameter.interval_95 = {from_search(*unknown.info, position - half),
-                           from_search(*unknown.info, position + half)};
+  parameter.slopes_95 = {from_search(*unknown.info, position + uncertainty.lower[i]),
+                         from_search(*unknown.info, position + uncertainty.upper[i])};
+  parameter.interval_95 = parameter.slopes_95;
 }
 
 // (K4) An exponent holds where there was bone to fit it to.

@@ -74,12 +74,13 @@ bool at_bound(const Unknown& unknown, double position) {
 }
 
 Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, const Evaluation& at,
-                           const Active& active, const Eigen::MatrixXd& jacobian) {
+                           const Active& active, const Eigen::MatrixXd& slopes) {
+  const Eigen::MatrixXd jacobian = slopes.leftCols(static_cast<Eigen::Index>(active.size()));
   const Svd svd(jacobian, Eigen::ComputeThinU | Eigen::ComputeThinV);
   // Row k of the pseudo-inverse says how unknown k follows each residual, which has unit variance.
   const Eigen::MatrixXd follow =
       svd.solve(Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.rows()));
-  const Landmarks freedom = landmarks_present(problem) - parameters_spent(jacobian);
+  const Landmarks freedom = landmarks_present(problem) - parameters_spent(slopes);
   const Replicates replicates = replicates_of(problem, weights, at);
 
   Uncertainty result;
@@ -90,6 +91,8 @@ Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, co
         follow.row(k).array().square() / std::max(follow.row(k).squaredNorm(), 1e-300);
     result.half_width[k] *= quantile(shares, freedom, weights.specimen, replicates);
   }
+  result.lower = -result.half_width;
+  result.upper = result.half_width;
   result.distance = distance_to_minimum(problem, at, active, jacobian);
   return result;
 }

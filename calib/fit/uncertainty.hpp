@@ -10,14 +10,16 @@ namespace havers::calib {
 /// Standard errors of the active unknowns, in the scale of their search (F11).
 struct Uncertainty {
   Eigen::VectorXd standard_error;
-  Eigen::VectorXd half_width;  ///< Of the 95 % interval: t quantile times the standard error.
+  Eigen::VectorXd half_width;    ///< t quantile of 95 % times the standard error.
+  Eigen::VectorXd lower, upper;  ///< Ends of the 95 % interval, from the answer (F11), (F22).
   double distance =
       0.0;  ///< Expected fall of the cost to the minimum of the linear model (F12). [-]
 };
 
-/// Precondition: every active unknown is informed, so that the Jacobian has full rank.
+/// @param slopes  the Jacobian of the active unknowns, then of those left out, which cost freedom.
+/// Precondition: every active unknown is informed, so that its columns have full rank.
 Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, const Evaluation& at,
-                           const Active& active, const Eigen::MatrixXd& jacobian);
+                           const Active& active, const Eigen::MatrixXd& slopes);
 
 /// Whether a position lies at a bound of its unknown.
 bool at_bound(const Unknown& unknown, double position);

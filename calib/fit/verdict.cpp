@@ -94,7 +94,9 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer) {
   return {"identifiable", asked ? Outcome::warn : Outcome::pass,
           text +
               "It keeps the value of [model] and has no interval; specimens at another orientation "
-              "may tell it."};
+              "may tell it." +
+              (asked ? " The intervals of the others hold wherever the specimens allow it to be."
+                     : "")};
 }
 
 Check check_failures(const CalibrationResult& result, long distinct) {

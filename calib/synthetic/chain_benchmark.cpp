@@ -11,6 +11,7 @@ namespace havers::calib {
 namespace {
 
 constexpr int steps_of_progress = 24;
+constexpr double equal_error = 1.1;
 
 class Clock {
  public:
@@ -148,14 +149,17 @@ std::vector<Chain> all_chains(CostlyUnknowns unknowns) {
 
 const ChainSummary& ChainBenchmark::winner() const {
   assert(!summaries.empty());
-  const auto& best = *std::ranges::max_element(
-      summaries, {}, [](const ChainSummary& s) { return s.success.part; });
-  const ChainSummary* winner = &best;
-  for (const ChainSummary& summary : summaries)
-    if (summary.success.part >= best.success.interval_95[0] &&
-        summary.simulations[1] < winner->simulations[1])
-      winner = &summary;
-  return *winner;
+  std::vector<const ChainSummary*> left;
+  const auto keep = [&](auto&& worth) {
+    std::erase_if(left, [&](const ChainSummary* one) { return !worth(*one); });
+  };
+  for (const ChainSummary& summary : summaries) left.push_back(&summary);
+  double most = 0.0, least = INFINITY;
+  for (const ChainSummary* one : left) most = std::max(most, one->success.part);
+  keep([&](const ChainSummary& one) { return one.success.part == most; });
+  for (const ChainSummary* one : left) least = std::min(least, one->error[2]);
+  keep([&](const ChainSummary& one) { return one.error[2] <= equal_error * least; });
+  return **std::ranges::min_element(left, {}, [](const auto* one) { return one->simulations[1]; });
 }
 
 ChainBenchmark summarise(std::vector<ChainRow> rows) {

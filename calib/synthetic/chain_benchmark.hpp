@@ -62,8 +62,9 @@ struct ChainBenchmark {
   std::vector<ChainRow> rows;
   std::vector<ChainSummary> summaries;  ///< In the order of the rows; empty when stopped.
 
-  /// The chain with the fewest simulations (median) of those that succeed as often as the best,
-  /// within the best's interval. Precondition: there are summaries.
+  /// Of the chains that succeed most often (all have the same studies), and whose 90 % error is
+  /// within a tenth of the least of theirs, the one with the fewest simulations (median).
+  /// Precondition: there are summaries.
   [[nodiscard]] const ChainSummary& winner() const;
 };
 

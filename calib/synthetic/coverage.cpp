@@ -66,6 +66,7 @@ Coverage measure_coverage(const std::vector<Design>& designs, int studies, int t
     for (int number = 1; number <= studies && go_on(); ++number) {
       KnownStudy known = known_study(design, number);
       known.study.calibrate.threads = threads;
+      known.study.calibrate.profiles = true;
       add_rows(design, number, known, coverage);
     }
   for (const Design& design : designs)

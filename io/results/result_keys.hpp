@@ -147,6 +147,7 @@ void keys(Table& table, calib::CalibratedParameter& parameter) {
   table.key("unit", parameter.unit);
   table.key("standard_error", parameter.standard_error);
   table.key("interval_95", parameter.interval_95);
+  table.key("slopes_95", parameter.slopes_95);
   table.key("profile_95", parameter.profile_95);
   table.key("bootstrap_95", parameter.bootstrap_95);
   table.key("profile_missing", parameter.profile_missing);

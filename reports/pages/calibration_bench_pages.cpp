@@ -52,8 +52,8 @@ std::string chains_page(const ChainsReport& report) {
   return render_page(
       "havers bench: chains of optimisers", "chains",
       {{"grade", text(usual ? "good" : "bad")},
-       {"sentence", text(fmt::format("{} needs the fewest simulations of those that succeed as "
-                                     "often as the best.",
+       {"sentence", text(fmt::format("{} needs the fewest simulations of those that succeed "
+                                     "most often with the least error.",
                                      winner.chain))},
        {"detail",
         text(fmt::format("{} fits of {} studies of known truth. {}", report.benchmark.rows.size(),

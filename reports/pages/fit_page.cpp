@@ -141,7 +141,7 @@ mstch::array interval_rows(const calib::CalibrationResult& result) {
     if (p.identifiable)
       rows.emplace_back(
           mstch::map{{"name", text(p.name)},
-                     {"interval", text(interval(p.interval_95[0], p.interval_95[1]))},
+                     {"interval", text(interval(p.slopes_95[0], p.slopes_95[1]))},
                      {"profile", text(interval_or(p.profile_95, p.profile_missing))},
                      {"bootstrap", text(interval_or(p.bootstrap_95, p.bootstrap_missing))}});
   return rows;

@@ -21,8 +21,8 @@ TEST(Hindsight, ProfilesAgreeWithTheSlopesWhereTheCostIsAParabola) {
   for (const char* name : {"young_GPa", "head_tail_MPa"}) {
     const auto parameter = test::parameter_of(result, name);
     EXPECT_TRUE(parameter.profile_missing.empty()) << parameter.profile_missing;
-    EXPECT_NEAR(log_width(parameter.profile_95) / log_width(parameter.interval_95), 1.0, 0.1)
-        << name;
+    EXPECT_NEAR(log_width(parameter.profile_95) / log_width(parameter.slopes_95), 1.0, 0.1) << name;
+    EXPECT_EQ(parameter.interval_95, parameter.profile_95) << name;
   }
   for (const auto& profile : result.profiles) {
     EXPECT_EQ(profile.value.size(), 5U);

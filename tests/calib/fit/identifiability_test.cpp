@@ -72,6 +72,25 @@ TEST(Identifiability, LeavesWhatTheStudyHasWrongWhereTheFitFoundIt) {
   EXPECT_NEAR(test::parameter_of(result, "head_tail_MPa").value, 60.0, 0.6);
 }
 
+// At one orientation only a product of threshold and ratio shows. An interval of the threshold at
+// the study's ratio, 1.0 where 2.0 is true, would be wrong by half.
+TEST(Identifiability, HoldsTheThresholdWhateverTheRatioThatIsLeftOut) {
+  for (unsigned draw = 1; draw <= 10; ++draw) {
+    auto study = test::synthetic_study({45.0}, {.specimen_effect = 0.01}, draw);
+    study.calibrate.bounds["ratio"] = {0.5, 4.0};
+    const auto result = calibrate_with(test::ClosedForm{}.simulator(), study);
+    EXPECT_FALSE(test::parameter_of(result, "ratio").identifiable);
+    const auto threshold = test::parameter_of(result, "head_tail_MPa");
+    for (const auto& interval :
+         {threshold.slopes_95, threshold.profile_95, threshold.interval_95}) {
+      EXPECT_LT(interval[0], 60.0);
+      EXPECT_GT(interval[1], 60.0);
+    }
+    // The law's 1 + r from 1.5 to 5 beside the study's 2, and what two specimens leave open.
+    EXPECT_NEAR(std::log(threshold.interval_95[1] / threshold.value), std::log(5.0 / 2.0), 0.25);
+  }
+}
+
 TEST(Identifiability, LeavesOutTheScatterBesideTheThreshold) {
   for (const auto& degrees : {std::vector{0.0}, std::vector{0.0, 45.0, 90.0}}) {
     const auto result = fit(degrees, {"young_GPa", "head_tail_MPa", "scatter"});

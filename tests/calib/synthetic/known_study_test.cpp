@@ -114,6 +114,19 @@ TEST(ChainBenchmark, IsWonByTheFewestSimulationsAmongThoseThatSucceed) {
   EXPECT_EQ(first.by_simulations.back().error[1], 0.01);
 }
 
+// One study lost, which others do not lose, is too many; so is twice the error, however cheap.
+TEST(ChainBenchmark, IsNotWonByWhatLosesAStudyOrErrsMore) {
+  const auto chains = all_chains();
+  std::vector<ChainRow> rows;
+  for (int study = 0; study < 20; ++study)
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+      const double missed = c == 0 && study == 7 ? 1.0 : 0.0;
+      rows.push_back(row_of(chains[c], study, 2.0 + missed, 100 + 100 * static_cast<long>(c)));
+      if (c == 1) rows.back().error *= 2.0;
+    }
+  EXPECT_EQ(summarise(std::move(rows)).winner().chain, chains[2].name);
+}
+
 // What BOBYQA is for: ratio and scatter both move the order of breaks.
 TEST(ChainBenchmark, HasStudiesInWhichTwoUnknownsCostSimulations) {
   KnownStudy known = known_study(unknown_scatter(), 1);

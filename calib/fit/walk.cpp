@@ -1,0 +1,67 @@
+#include "calib/fit/walk.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+namespace havers::calib {
+namespace {
+
+// Of a walk: over a factor of 20 a quarter from each to the next.
+constexpr int stations = 13;
+
+std::vector<Point> from_bound_to_bound(const Unknown& unknown, Eigen::Index index,
+                                       const Point& from) {
+  std::vector<Point> points(stations, from);
+  for (int i = 0; i < stations; ++i)
+    points[static_cast<std::size_t>(i)][index] =
+        unknown.lower + unknown.range() * i / (stations - 1);
+  return points;
+}
+
+}  // namespace
+
+std::vector<Evaluation> walk_along(Trail& trail, Eigen::Index unknown, const Active& active,
+                                   const Eigen::MatrixXd& jacobian) {
+  const auto& unknowns = trail.problem().unknowns;
+  const Evaluation best = trail.best();
+  auto walked = trail.evaluate(
+      from_bound_to_bound(unknowns[static_cast<std::size_t>(unknown)], unknown, best.point));
+  std::erase_if(walked, &Evaluation::failed);
+  std::vector<Point> points;
+  points.reserve(walked.size());
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> slopes(jacobian);
+  for (const Evaluation& one : walked) {
+    Point& point = points.emplace_back(one.point);
+    point(active) -= slopes.solve(one.residuals);
+    point = inside_bounds(unknowns, point);
+  }
+  auto refitted = trail.evaluate(points);
+  for (std::size_t i = 0; i < walked.size(); ++i)
+    if (refitted[i].cost < walked[i].cost) walked[i] = std::move(refitted[i]);
+  trail.restart(trail.weights(), best);
+  return walked;
+}
+
+void widen_intervals(const Evaluation& best, const std::vector<Evaluation>& elsewhere,
+                     const Active& active, Uncertainty& uncertainty) {
+  double lowest = best.cost;
+  for (const Evaluation& one : elsewhere) lowest = std::min(lowest, one.cost);
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double error = uncertainty.standard_error[k];
+    const double level = std::pow(uncertainty.half_width[k] / error, 2);
+    const auto include = [&](const Evaluation& one) {
+      const double left = level - 2.0 * (one.cost - lowest);
+      if (left <= 0.0) return;
+      const double shift = one.point[active[i]] - best.point[active[i]];
+      uncertainty.lower[k] = std::min(uncertainty.lower[k], shift - error * std::sqrt(left));
+      uncertainty.upper[k] = std::max(uncertainty.upper[k], shift + error * std::sqrt(left));
+    };
+    uncertainty.lower[k] = uncertainty.upper[k] = 0.0;
+    include(best);
+    for (const Evaluation& one : elsewhere) include(one);
+  }
+}
+
+}  // namespace havers::calib
