@@ -94,7 +94,8 @@ cv::Mat find_pore_level(const cv::Mat& grey, const cv::Mat& bone, Levels& levels
   if (samples.size() >= 500) found.bone = fit_surface(samples, grey.size(), 4);
   cv::Mat cores = cores_of(pores);
   fit_contrast(grey, cores, found);
-  if (relative_noise(found) > 1.0) return {};  // The deepest of many patches of noise.
+  const double contrast = found.contrast(found.bone.coefficients[0]);
+  if (!(contrast > levels.noise)) return {};  // The deepest of many patches of noise, or no deeper.
   levels = found;
   return cores;
 }
