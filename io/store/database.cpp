@@ -31,6 +31,15 @@ void Database::run(const std::string& sql) {
   if (sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail();
 }
 
+void Database::insist(const std::string& sql) {
+  for (int waited = 0;; ++waited) {
+    const int code = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
+    if (code == SQLITE_OK) return;
+    if (code != SQLITE_BUSY || waited == patience) fail();
+    sqlite3_sleep(1);
+  }
+}
+
 int Database::ask(const std::string& sql) {
   Query query(*this, sql);
   return query.step() ? static_cast<int>(query.number(0)) : 0;

@@ -20,6 +20,8 @@ class Database {
 
   /// Runs statements that answer nothing.
   void run(const std::string& sql);
+  /// The same again as long as the file is busy, for what SQLite does not wait with itself.
+  void insist(const std::string& sql);
   /// The whole number that a statement answers.
   int ask(const std::string& sql);
 

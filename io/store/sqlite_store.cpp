@@ -47,7 +47,7 @@ Database open_database(const std::filesystem::path& file) {
   create_or_recognise(database, file.string());
   // With a write-ahead log readers do not wait for writers, and a commit needs no flush to survive
   // a kill.
-  database.run("PRAGMA journal_mode = WAL");
+  database.insist("PRAGMA journal_mode = WAL");
   database.run("PRAGMA synchronous = NORMAL");
   return database;
 }

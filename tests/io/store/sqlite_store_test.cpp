@@ -133,6 +133,23 @@ pid_t in_a_child(const std::function<void()>& work) {
   _exit(0);
 }
 
+// Each wants to be the one that makes the file and sets its journal.
+TEST_F(Store, IsCreatedByManyProcessesAtOnce) {
+  for (int round = 0; round < 60; ++round) {
+    std::vector<pid_t> children;
+    for (int i = 0; i < 8; ++i)
+      children.push_back(
+          in_a_child([&] { open_store(file)->save(key_of(round), response_of(round)); }));
+    for (const pid_t child : children) {
+      int status = -1;
+      waitpid(child, &status, 0);
+      EXPECT_EQ(status, 0);
+    }
+    expect_same(open_store(file)->find(key_of(round)), response_of(round));
+    std::filesystem::remove(file);
+  }
+}
+
 // Both create the file, at the same time, and both write all the time.
 TEST_F(Store, IsSharedByTwoProcesses) {
   constexpr int many = 200;
