@@ -1,5 +1,4 @@
-// The keys of results, declared once for writing and for reading back, as io/config/scene_keys.hpp
-// does for scenes.
+// The keys of results, declared once for writing and for reading back, like those of scenes.
 #pragma once
 
 #include "calib/fit/calibration.hpp"

@@ -20,7 +20,8 @@ namespace {
 // Joints that meet their cones at strains closer than this break together, whatever their order.
 constexpr double together = 1e-9;
 
-// Answers are refined until a change of the gaps moves the reactions by no more than this part.
+// Answers are refined until the loose joints' own problem lacks no more than this part of the
+// reactions.
 constexpr double refined = 1e-11;
 constexpr int most_refinements = 5;
 

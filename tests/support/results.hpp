@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "calib/fit/calibration.hpp"
