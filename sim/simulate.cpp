@@ -44,6 +44,10 @@ std::vector<LeftOut> left_out(const Scene& scene, const Simulation& simulation) 
   if (scene.material.viscosity == 0.0) list.push_back({"viscosity", "viscosity_s is 0"});
   if (scene.loading.lateral == Lateral::free)
     list.push_back({"periodic ties", "the sides are free"});
+  if (simulation.dropped > 0)
+    list.push_back({fmt::format("{} half fibre{} at the specimen's sides", simulation.dropped,
+                                simulation.dropped == 1 ? "" : "s"),
+                    "less than 1e-6 of one is inside, and its neighbours fill the place"});
   if (!scene.solver.leave_out) return list;
   list.push_back({"one operator for each body", "equal bodies share theirs"});
   if (simulation.regime == Regime::quasi_static) {

@@ -1,6 +1,7 @@
 #include "sim/assembly/assembly.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sim/assembly/half_fibres.hpp"
@@ -10,7 +11,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double smallest_area = 1e-6;  // of a half fibre
+constexpr double smallest_area = 1e-6;    // of a half fibre
+constexpr double smallest_closed = 1e-8;  // of one whose neighbours fill a sliver's place
 
 // Fibre frame (ξ along the fibre, η across) turned by θ about the corner.
 struct FibreFrame {
@@ -44,31 +46,87 @@ GridRange grid_range(const AssemblyOptions& options, const FibreFrame& frame) {
           floor(high.y() / height) + 1};
 }
 
-Polygon half_fibre_polygon(const AssemblyOptions& options, const FibreFrame& frame, int layer,
-                           int column) {
-  const double half = 0.5 * options.fibre_length, height = options.fibre_height;
-  const double x0 = column * half, x1 = (column + 1) * half, y0 = layer * height,
-               y1 = (layer + 1) * height;
-  return clip({{frame.to_specimen(x0, y0), EdgeOrigin::lower},
-               {frame.to_specimen(x1, y0), EdgeOrigin::head},
-               {frame.to_specimen(x1, y1), EdgeOrigin::upper},
-               {frame.to_specimen(x0, y1), EdgeOrigin::tail}},
-              options.width(), options.height(), geometric_tolerance(options));
-}
+// The corners of the half fibres, and what of these lies in the specimen.
+class Grid {
+ public:
+  explicit Grid(const AssemblyOptions& options)
+      : range(grid_range(options, FibreFrame(options.orientation))), options_(options) {
+    const FibreFrame frame(options.orientation);
+    for (int layer = range.first_layer; layer <= range.last_layer + 1; ++layer)
+      for (int column = range.first_column; column <= range.last_column + 1; ++column)
+        corners_.push_back(
+            frame.to_specimen(0.5 * column * options.fibre_length, layer * options.fibre_height));
+  }
+
+  [[nodiscard]] Polygon half_fibre(int layer, int column) const {
+    Polygon polygon;
+    for (int i = 0; i < 4; ++i)
+      polygon.push_back({corners_[corner(layer, column, i)], outline[static_cast<std::size_t>(i)]});
+    return clip(std::move(polygon), options_.width(), options_.height(),
+                geometric_tolerance(options_));
+  }
+
+  // Shifts the edge by which a sliver meets its neighbours through the sliver, so that they fill
+  // its place: whatever is dropped, no stress is lost (M1). Whether it was worth a shift.
+  bool close(int layer, int column, const Polygon& sliver) {
+    int longest = -1;
+    double length = 0.0;
+    for (std::size_t i = 0; i < sliver.size(); ++i) {
+      const double size = (sliver[(i + 1) % sliver.size()].position - sliver[i].position).norm();
+      if (sliver[i].edge == EdgeOrigin::boundary || size <= length) continue;
+      length = size;
+      longest = static_cast<int>(std::find(outline.begin(), outline.end(), sliver[i].edge) -
+                                 outline.begin());
+    }
+    if (longest < 0) return false;
+    Vector2d &from = corners_[corner(layer, column, longest)],
+             &to = corners_[corner(layer, column, (longest + 1) % 4)];
+    const Vector2d inward = Vector2d(from.y() - to.y(), to.x() - from.x()).normalized();
+    double depth = 0.0;
+    for (const Vertex& vertex : sliver) depth = std::max(depth, inward.dot(vertex.position - from));
+    from += depth * inward;
+    to += depth * inward;
+    return depth > geometric_tolerance(options_);
+  }
+
+  const GridRange range;
+
+ private:
+  static constexpr std::array outline{EdgeOrigin::lower, EdgeOrigin::head, EdgeOrigin::upper,
+                                      EdgeOrigin::tail};
+
+  // The corner where edge i of a half fibre's outline starts.
+  [[nodiscard]] std::size_t corner(int layer, int column, int i) const {
+    const int row = range.last_column - range.first_column + 2;
+    const int k = layer + (i >= 2 ? 1 : 0), m = column + (i == 1 || i == 2 ? 1 : 0);
+    return static_cast<std::size_t>((k - range.first_layer) * row + m - range.first_column);
+  }
+
+  const AssemblyOptions& options_;
+  std::vector<Vector2d> corners_;  // [m]
+};
 
 HalfFibres clipped_half_fibres(const AssemblyOptions& options, Assembly& assembly) {
-  const FibreFrame frame(options.orientation);
-  const GridRange range = grid_range(options, frame);
+  constexpr int most_passes = 5;
+  Grid grid(options);
   const double whole = 0.5 * options.fibre_length * options.fibre_height;
   HalfFibres halves;
-  for (int layer = range.first_layer; layer <= range.last_layer; ++layer) {
-    for (int column = range.first_column; column <= range.last_column; ++column) {
-      Polygon polygon = half_fibre_polygon(options, frame, layer, column);
-      if (polygon.empty()) continue;
-      if (area(polygon) >= smallest_area * whole)
-        halves[{layer, column}].polygon = std::move(polygon);
-      else if (area(polygon) > 1e-12 * whole)
-        ++assembly.dropped;
+  bool closed = true;
+  for (int pass = 0; pass < most_passes && closed; ++pass) {
+    halves.clear();
+    closed = false;
+    const double smallest = (pass == 0 ? smallest_area : smallest_closed) * whole;
+    for (int layer = grid.range.first_layer; layer <= grid.range.last_layer; ++layer) {
+      for (int column = grid.range.first_column; column <= grid.range.last_column; ++column) {
+        Polygon polygon = grid.half_fibre(layer, column);
+        if (polygon.empty()) continue;
+        if (area(polygon) >= smallest) {
+          halves[{layer, column}].polygon = std::move(polygon);
+          continue;
+        }
+        if (pass == 0) ++assembly.dropped;
+        closed = grid.close(layer, column, polygon) || closed;
+      }
     }
   }
   return halves;
@@ -160,6 +218,7 @@ void add_bodies(HalfFibres& halves, int refinement, Assembly& assembly) {
 }
 
 // The nodes of edges that lie on a side: a body that only touches it with a corner is not held.
+// What is as near as this cannot have anything between itself and the side.
 void find_sides(const HalfFibres& halves, double tolerance, Assembly& assembly) {
   const auto x = [&](int node) { return assembly.nodes[static_cast<std::size_t>(node)].x(); };
   for (const auto& [place, half] : halves)
@@ -221,7 +280,7 @@ Assembly build_assembly(const AssemblyOptions& options, Lateral lateral) {
   HalfFibres halves = clipped_half_fibres(options, assembly);
   add_bodies(halves, options.refinement, assembly);
   add_joints(options, halves, assembly);
-  find_sides(halves, geometric_tolerance(options), assembly);
+  find_sides(halves, 100.0 * geometric_tolerance(options), assembly);
   if (lateral == Lateral::periodic) add_ties(halves, assembly);
   return assembly;
 }

@@ -9,6 +9,8 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double turned = 1e-12;  // [rad]; less is rounding
+
 const Vector2d& at(const Assembly& assembly, int node) {
   return assembly.nodes[static_cast<std::size_t>(node)];
 }
@@ -25,6 +27,9 @@ void add_joint(const HalfFibre& a, const HalfFibre& b, Joint joint, Assembly& as
   joint.body_b = b.body;
   joint.position = 0.5 * (p + q);
   joint.length = (q - p).norm();
+  // Where a corner was moved to a side, the edges that end there have turned.
+  const Vector2d normal = Vector2d(q.y() - p.y(), p.x() - q.x()) / joint.length;
+  if ((normal - joint.normal).norm() > turned) joint.normal = normal;
   assembly.joints.push_back(joint);
 }
 

@@ -278,6 +278,7 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
   simulation.energy_defect = run.energy().relative_defect;
   simulation.worst_residual = run.worst_residual;
   simulation.worst_penetration = run.worst_penetration;
+  simulation.dropped = assembly.dropped;
   return simulation;
 }
 

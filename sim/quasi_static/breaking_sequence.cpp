@@ -28,6 +28,7 @@ Simulation break_event_by_event(const Scene& scene,
                                 const Observer& observer) {
   Simulation simulation;
   simulation.regime = Regime::quasi_static;
+  simulation.dropped = intact->assembly().dropped;
   if (!intact->structure().ok()) return simulation;
   BreakingRun run(scene, intact, careful);
   if (run.take_missing() && !run.settle()) return simulation;

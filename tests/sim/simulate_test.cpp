@@ -148,6 +148,18 @@ TEST(Simulate, SaysWhatItLeftOut) {
   EXPECT_THAT(words(simulate(scene)), HasSubstr("contact of joints that opened"));
   scene.solver.leave_out = false;
   EXPECT_THAT(words(simulate(scene)), testing::Not(HasSubstr("contact")));
+  EXPECT_THAT(words(simulate(scene)), testing::Not(HasSubstr("half fibres")));
+  for (const double degrees : {35.0, 58.0}) {
+    scene = test::small_scene(degrees, 1, 5);
+    EXPECT_THAT(words(simulate(scene)),
+                HasSubstr(degrees == 35.0 ? "1 half fibre " : "2 half fibres "));
+  }
+}
+
+TEST(Simulate, KnowsNoDifferenceBetweenNoAngleAndNextToNone) {
+  const Simulation straight = simulate(test::small_scene(0.0, 4, 3)),
+                   turned = simulate(test::small_scene(1e-6, 4, 3));
+  EXPECT_NEAR(turned.modulus / straight.modulus, 1.0, 1e-9);
 }
 
 TEST(SimulationStatus, HasAWordAndASentenceEach) {

@@ -12,6 +12,23 @@ inline constexpr double degree = std::numbers::pi / 180.0;
 /// Orientations at which the clipping differs in kind. [°]
 inline constexpr double orientations[] = {0.0, 17.0, 45.0, 63.4, 90.0};
 
+/// Walls of which the clipping leaves less than 1e-6 of some half fibres.
+struct SliverWall {
+  int layers, fibres;
+  double slenderness, orientation_deg;
+};
+inline constexpr SliverWall walls_with_slivers[] = {
+    {1, 5, 10.0, 35.0}, {6, 5, 10.0, 53.5}, {1, 5, 10.0, 58.0},          {4, 3, 10.0, 0.01},
+    {4, 3, 10.0, 1e-4}, {4, 3, 10.0, 1e-6}, {5, 4, 10.0, 89.9999348911}, {1, 4, 600.0, 89.99999}};
+
+inline sim::AssemblyOptions assembly_of(const SliverWall& wall) {
+  return {.layers = wall.layers,
+          .fibres = wall.fibres,
+          .fibre_length = wall.slenderness * 1e-5,
+          .fibre_height = 1e-5,
+          .orientation = wall.orientation_deg * degree};
+}
+
 /// A scene of a few fibres in the quasi-static limit.
 inline sim::Scene small_scene(double orientation_deg = 0.0, int layers = 6, int fibres = 5) {
   sim::Scene scene;

@@ -223,13 +223,22 @@ TEST(MeanWeights, GiveTheMeanOfALinearPiecewiseFunction) {
   EXPECT_EQ(mean_weights(5), (std::vector<double>{0.125, 0.25, 0.25, 0.25, 0.125}));
 }
 
-TEST(Assembly, SaysWhatItDropped) {
-  const AssemblyOptions options{.layers = 4, .fibres = 3, .orientation = 1e-9};
+class Slivers : public testing::TestWithParam<test::SliverWall> {};
+INSTANTIATE_TEST_SUITE_P(Wall, Slivers, testing::ValuesIn(test::walls_with_slivers));
+
+TEST_P(Slivers, AreDroppedAndTheirPlacesFilled) {
+  const AssemblyOptions options = test::assembly_of(GetParam());
   const Assembly assembly = build_assembly(options, Lateral::periodic);
   EXPECT_GT(assembly.dropped, 0);
   double sum = 0.0;
-  for (const auto& triangle : assembly.triangles) sum += area_of(assembly, triangle);
-  EXPECT_NEAR(sum / (options.width() * options.height()), 1.0, 1e-6);
+  for (const auto& triangle : assembly.triangles) {
+    EXPECT_GT(area_of(assembly, triangle), 0.0);
+    sum += area_of(assembly, triangle);
+  }
+  EXPECT_NEAR(sum / (options.width() * options.height()), 1.0, 1e-9);
+  const double outside = 2.0 * (options.width() + options.height());
+  EXPECT_NEAR(total_perimeter_of_bodies(assembly) / (2.0 * total_length(assembly) + outside), 1.0,
+              1e-9);
 }
 
 TEST(Assembly, CanBeOneFibre) {

@@ -19,8 +19,7 @@ TEST(Stability, HasFortyScenesOfDistinctNames) {
 }
 
 // Scenes for which the simulator has no answer yet, and says so.
-const std::set<std::string> known_failures{"fibres at 0.01°, quasi-static",
-                                           "fibres at 0.01°, stepped"};
+const std::set<std::string> known_failures{"fibres at 0.01°, stepped"};
 
 TEST(Stability, EverySceneIsSolvedOrRefusedAsItMust) {
   std::vector<StabilityResult> results;
