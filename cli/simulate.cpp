@@ -59,19 +59,11 @@ void write_results(const OutputFolder& output, const sim::Scene& scene,
                  io::simulation_json(scene, simulation, provenance).dump(2) + "\n");
 }
 
-// A run may end as it should and still fail the energy balance, its check of itself.
-std::string verdict(const sim::Simulation& run) {
-  if (run.trusted()) return "to be trusted: " + sim::explain(run.status);
-  const bool ended = run.status == sim::SimulationStatus::broken ||
-                     run.status == sim::SimulationStatus::strain_limit;
-  return "NOT to be trusted: " +
-         (ended
-              ? fmt::format("the energy balance does not close (defect {:.1e})", run.energy_defect)
-              : sim::explain(run.status));
-}
-
 void print_summary(const sim::Simulation& run, double wall_seconds, bool verbose) {
-  fmt::print("{}\n", verdict(run));
+  if (run.trusted())
+    fmt::print("to be trusted: {}\n", sim::explain(run.status));
+  else
+    fmt::print("NOT to be trusted: {}\n", run.why_not_trusted());
   fmt::print("strength       {:.4g} MPa at a strain of {:.4g} %\n", 1e-6 * run.strength,
              100.0 * run.failure_strain);
   fmt::print("modulus        {:.4g} GPa\n", 1e-9 * run.modulus);

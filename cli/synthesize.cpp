@@ -174,8 +174,7 @@ bool all_trusted(const std::vector<Made>& made) {
   bool all = true;
   for (const Made& one : made) {
     if (one.simulation.trusted()) continue;
-    fmt::print(stderr, "specimen {}: {} (energy defect {:.1e})\n", one.specimen.id,
-               sim::explain(one.simulation.status), one.simulation.energy_defect);
+    fmt::print(stderr, "specimen {}: {}\n", one.specimen.id, one.simulation.why_not_trusted());
     all = false;
   }
   return all;

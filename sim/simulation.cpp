@@ -44,11 +44,14 @@ constexpr double largest_step_error = 1e-2;
 constexpr double largest_energy_defect = 1e-10;  // [-]
 }  // namespace
 
-bool Simulation::trusted() const {
-  const bool ended = status == SimulationStatus::broken || status == SimulationStatus::strain_limit;
-  const bool step_fits = !(step_error > largest_step_error);
-  return ended && step_fits && energy_defect <= largest_energy_defect &&
-         worst_residual <= tolerance && std::isfinite(strength);
+std::string Simulation::why_not_trusted() const {
+  if (status != SimulationStatus::broken && status != SimulationStatus::strain_limit)
+    return explain(status);
+  if (step_error > largest_step_error)
+    return "halving the time step still changes the failure strain";
+  if (!(worst_residual <= tolerance)) return "the joints' law is not met to the tolerance";
+  if (!(energy_defect <= largest_energy_defect)) return "the energy balance does not close";
+  return std::isfinite(strength) ? "" : explain(SimulationStatus::not_finite);
 }
 
 }  // namespace havers::sim

@@ -83,7 +83,9 @@ struct Simulation {
   std::vector<LeftOut> left_out;
 
   /// Whether the numbers may be used: the run ended as it should and the checks hold.
-  [[nodiscard]] bool trusted() const;
+  [[nodiscard]] bool trusted() const { return why_not_trusted().empty(); }
+  /// The check that does not hold, as a sentence; empty when all do.
+  [[nodiscard]] std::string why_not_trusted() const;
 };
 
 /// What a caller may watch while a simulation runs.

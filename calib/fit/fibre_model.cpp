@@ -18,7 +18,7 @@ Response response_of(const sim::Simulation& run) {
   Response response;
   response.failed = !run.trusted();
   response.broke = run.status == sim::SimulationStatus::broken;
-  if (response.failed) response.why = explain(run.status);
+  response.why = run.why_not_trusted();
   response.modulus = run.modulus;
   response.strength = run.strength;
   response.failure_strain = run.failure_strain;

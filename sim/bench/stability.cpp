@@ -63,13 +63,6 @@ bool all_finite(const Simulation& run) {
          std::isfinite(run.worst_penetration);
 }
 
-// A run may end as it should and still fail its own checks.
-std::string why_not_trusted(const Simulation& run) {
-  const bool ended =
-      run.status == SimulationStatus::broken || run.status == SimulationStatus::strain_limit;
-  return ended ? "its residual or energy defect is too large" : explain(run.status);
-}
-
 std::string what_is_wrong(const StabilityResult& result, bool finite) {
   if (!finite) return "a number that is not finite left the run";
   if (result.error > largest_error)
@@ -122,7 +115,7 @@ StabilityResult run_stability_scene(const StabilityScene& scene,
   result.reason = what_is_wrong(result, finite);
   if (!run.trusted()) {
     result.outcome = finite ? StabilityOutcome::failed : StabilityOutcome::wrong;
-    result.reason = watched.out_of_time ? "took longer than a minute" : why_not_trusted(run);
+    result.reason = watched.out_of_time ? "took longer than a minute" : run.why_not_trusted();
   } else {
     result.outcome = result.reason.empty() ? StabilityOutcome::solved : StabilityOutcome::wrong;
   }

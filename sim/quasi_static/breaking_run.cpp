@@ -25,6 +25,8 @@ constexpr double together = 1e-9;
 constexpr double refined = 1e-11;
 constexpr int most_refinements = 5;
 
+constexpr double rounding = 1e-9;  // of the intact specimen's force, where nothing bears any
+
 }  // namespace
 
 BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact,
@@ -154,6 +156,7 @@ bool BreakingRun::settle() {
     reactions_ = reference_.reactions;
     force_ = reference_.force;
   }
+  if (std::abs(force_) <= rounding * intact_->answer().force) force_ = 0.0;
   return result.converged;
 }
 

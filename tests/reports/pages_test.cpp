@@ -177,9 +177,8 @@ TEST(SimulationPage, DoesNotTrustARunWhoseEnergyDoesNotClose) {
   const auto assembly = small_assembly();
   auto simulation = test::simulation_sample(assembly);
   simulation.energy_defect = 1e-3;
-  EXPECT_TRUE(
-      contains(simulation_page({sim::Scene{}, assembly, simulation, {}}),
-               "Not to be trusted: the specimen broke, but the energy balance does not close."));
+  EXPECT_TRUE(contains(simulation_page({sim::Scene{}, assembly, simulation, {}}),
+                       "Not to be trusted: the energy balance does not close."));
 }
 
 TEST(SimulationPage, SurvivesARunWithoutRows) {

@@ -141,6 +141,23 @@ TEST(MissingJoints, MayLeaveNothingThatBears) {
   EXPECT_NEAR(simulation.strength, 0.0, 1e-3);
 }
 
+// Nor is rounding a strength, or its energy a reason not to trust the run.
+TEST(MissingJoints, MaySeverTheSpecimenWithoutDoubt) {
+  for (const Lateral lateral : {Lateral::periodic, Lateral::free}) {
+    Scene scene = test::small_scene(90.0);
+    scene.loading.lateral = lateral;
+    const Assembly assembly = build_assembly(scene.assembly, lateral);
+    const double cut = 25.0 * scene.assembly.fibre_height;  // between two rows of fibres
+    for (const Joint& joint : assembly.joints) {
+      const bool missing = std::abs(joint.position.x() - cut) < 0.1 * scene.assembly.fibre_height;
+      scene.joints.thresholds.push_back(missing ? Threshold{} : Threshold{500.0, 500.0});
+    }
+    const Simulation simulation = simulate(scene);
+    EXPECT_EQ(simulation.strength, 0.0);
+    EXPECT_TRUE(simulation.trusted()) << simulation.why_not_trusted();
+  }
+}
+
 TEST(MissingJoints, CannotBeAllOrLessThanNone) {
   for (const double fraction : {-0.1, 1.0}) {
     Scene scene = test::small_scene();
