@@ -125,7 +125,7 @@ std::vector<int> order_of_little_fill(const Eigen::SparseMatrix<double>& lower) 
   cholmod_factor* best = cholmod_analyze(&view, common);
   const double operations = common->fl;
   if (operations > much * common->lnz) {
-    common->method[0].ordering = CHOLMOD_METIS;
+    common->method[0].ordering = CHOLMOD_NESDIS;
     cholmod_factor* other = cholmod_analyze(&view, common);
     if (other != nullptr && common->fl < operations) std::swap(best, other);
     cholmod_free_factor(&other, common);
