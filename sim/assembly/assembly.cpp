@@ -1,7 +1,6 @@
 #include "sim/assembly/assembly.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "sim/assembly/half_fibres.hpp"
@@ -10,127 +9,6 @@ namespace havers::sim {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double smallest_area = 1e-6;    // of a half fibre
-constexpr double smallest_closed = 1e-8;  // of one whose neighbours fill a sliver's place
-
-// Fibre frame (ξ along the fibre, η across) turned by θ about the corner.
-struct FibreFrame {
-  explicit FibreFrame(double angle) : axis(std::cos(angle), std::sin(angle)) {}
-  [[nodiscard]] Vector2d to_specimen(double xi, double eta) const {
-    return {xi * axis.x() - eta * axis.y(), xi * axis.y() + eta * axis.x()};
-  }
-  [[nodiscard]] Vector2d to_fibres(const Vector2d& p) const {
-    return {p.x() * axis.x() + p.y() * axis.y(), p.y() * axis.x() - p.x() * axis.y()};
-  }
-  Vector2d axis;
-};
-
-// Columns and layers of half fibres that can meet the rectangle.
-struct GridRange {
-  int first_column, last_column, first_layer, last_layer;
-};
-
-GridRange grid_range(const AssemblyOptions& options, const FibreFrame& frame) {
-  Vector2d low(INFINITY, INFINITY), high(-INFINITY, -INFINITY);
-  for (const double x : {0.0, options.width()}) {
-    for (const double y : {0.0, options.height()}) {
-      const Vector2d p = frame.to_fibres({x, y});
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-  }
-  const double half = 0.5 * options.fibre_length, height = options.fibre_height;
-  const auto floor = [](double v) { return static_cast<int>(std::floor(v)); };
-  return {floor(low.x() / half) - 1, floor(high.x() / half) + 1, floor(low.y() / height) - 1,
-          floor(high.y() / height) + 1};
-}
-
-// The corners of the half fibres, and what of these lies in the specimen.
-class Grid {
- public:
-  explicit Grid(const AssemblyOptions& options)
-      : range(grid_range(options, FibreFrame(options.orientation))), options_(options) {
-    const FibreFrame frame(options.orientation);
-    for (int layer = range.first_layer; layer <= range.last_layer + 1; ++layer)
-      for (int column = range.first_column; column <= range.last_column + 1; ++column)
-        corners_.push_back(
-            frame.to_specimen(0.5 * column * options.fibre_length, layer * options.fibre_height));
-  }
-
-  [[nodiscard]] Polygon half_fibre(int layer, int column) const {
-    Polygon polygon;
-    for (int i = 0; i < 4; ++i)
-      polygon.push_back({corners_[corner(layer, column, i)], outline[static_cast<std::size_t>(i)]});
-    return clip(std::move(polygon), options_.width(), options_.height(),
-                geometric_tolerance(options_));
-  }
-
-  // Shifts the edge by which a sliver meets its neighbours through the sliver, so that they fill
-  // its place: whatever is dropped, no stress is lost (M1). Whether it was worth a shift.
-  bool close(int layer, int column, const Polygon& sliver) {
-    int longest = -1;
-    double length = 0.0;
-    for (std::size_t i = 0; i < sliver.size(); ++i) {
-      const double size = (sliver[(i + 1) % sliver.size()].position - sliver[i].position).norm();
-      if (sliver[i].edge == EdgeOrigin::boundary || size <= length) continue;
-      length = size;
-      longest = static_cast<int>(std::find(outline.begin(), outline.end(), sliver[i].edge) -
-                                 outline.begin());
-    }
-    if (longest < 0) return false;
-    Vector2d &from = corners_[corner(layer, column, longest)],
-             &to = corners_[corner(layer, column, (longest + 1) % 4)];
-    const Vector2d inward = Vector2d(from.y() - to.y(), to.x() - from.x()).normalized();
-    double depth = 0.0;
-    for (const Vertex& vertex : sliver) depth = std::max(depth, inward.dot(vertex.position - from));
-    from += depth * inward;
-    to += depth * inward;
-    return depth > geometric_tolerance(options_);
-  }
-
-  const GridRange range;
-
- private:
-  static constexpr std::array outline{EdgeOrigin::lower, EdgeOrigin::head, EdgeOrigin::upper,
-                                      EdgeOrigin::tail};
-
-  // The corner where edge i of a half fibre's outline starts.
-  [[nodiscard]] std::size_t corner(int layer, int column, int i) const {
-    const int row = range.last_column - range.first_column + 2;
-    const int k = layer + (i >= 2 ? 1 : 0), m = column + (i == 1 || i == 2 ? 1 : 0);
-    return static_cast<std::size_t>((k - range.first_layer) * row + m - range.first_column);
-  }
-
-  const AssemblyOptions& options_;
-  std::vector<Vector2d> corners_;  // [m]
-};
-
-HalfFibres clipped_half_fibres(const AssemblyOptions& options, Assembly& assembly) {
-  constexpr int most_passes = 5;
-  Grid grid(options);
-  const double whole = 0.5 * options.fibre_length * options.fibre_height;
-  HalfFibres halves;
-  bool closed = true;
-  for (int pass = 0; pass < most_passes && closed; ++pass) {
-    halves.clear();
-    closed = false;
-    const double smallest = (pass == 0 ? smallest_area : smallest_closed) * whole;
-    for (int layer = grid.range.first_layer; layer <= grid.range.last_layer; ++layer) {
-      for (int column = grid.range.first_column; column <= grid.range.last_column; ++column) {
-        Polygon polygon = grid.half_fibre(layer, column);
-        if (polygon.empty()) continue;
-        if (area(polygon) >= smallest) {
-          halves[{layer, column}].polygon = std::move(polygon);
-          continue;
-        }
-        if (pass == 0) ++assembly.dropped;
-        closed = grid.close(layer, column, polygon) || closed;
-      }
-    }
-  }
-  return halves;
-}
 
 // The vertex where the edge of that origin starts; −1 when the clipping left none.
 int find_edge(const Polygon& polygon, EdgeOrigin origin) {
@@ -277,7 +155,7 @@ Assembly build_assembly(const AssemblyOptions& options, Lateral lateral) {
   Assembly assembly;
   assembly.width = options.width();
   assembly.height = options.height();
-  HalfFibres halves = clipped_half_fibres(options, assembly);
+  HalfFibres halves = clipped_half_fibres(options, assembly.dropped);
   add_bodies(halves, options.refinement, assembly);
   add_joints(options, halves, assembly);
   find_sides(halves, 100.0 * geometric_tolerance(options), assembly);

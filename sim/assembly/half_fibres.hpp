@@ -29,6 +29,10 @@ using HalfFibres = std::map<std::pair<int, int>, HalfFibre>;
 /// shifted by L/2.
 bool is_first_half(int layer, int column);
 
+/// What the specimen's sides leave of them.
+/// @param dropped  counts those of which less than 1e-6 is left; their neighbours fill the place
+HalfFibres clipped_half_fibres(const AssemblyOptions& options, int& dropped);
+
 /// Joints between the half fibres of different bodies. Section 1.
 void add_joints(const AssemblyOptions& options, const HalfFibres& halves, Assembly& assembly);
 
