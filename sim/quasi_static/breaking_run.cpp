@@ -25,7 +25,7 @@ constexpr double together = 1e-9;
 constexpr double refined = 1e-11;
 constexpr int most_refinements = 5;
 
-constexpr double no_force = 1e-9;  // of the intact specimen's force, where nothing bears any
+constexpr double nothing_borne = 1e-9;  // of the intact specimen's force, where nothing bears any
 
 }  // namespace
 
@@ -156,7 +156,7 @@ bool BreakingRun::settle() {
     reactions_ = reference_.reactions;
     force_ = reference_.force;
   }
-  if (std::abs(force_) <= no_force * intact_->answer().force) force_ = 0.0;
+  if (std::abs(force_) <= nothing_borne * intact_->answer().force) force_ = 0.0;
   return result.converged;
 }
 
