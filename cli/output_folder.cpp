@@ -1,27 +1,44 @@
 #include "cli/output_folder.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
+#include <fstream>
+#include <set>
+#include <string>
 #include <system_error>
-#include <vector>
 
 #include "io/input_error.hpp"
+#include "io/results/result_files.hpp"
 
 namespace havers::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-// What a run of havers may have left: an earlier run's must not stand beside a later one's.
-constexpr std::array results{"result.json",    "scene.toml",   "report.html",   "curve.csv",
-                             "joints.csv",     "fracture.svg", "avalanche.svg", "terms.csv",
-                             "replicates.csv", "curves",       "overlays",      "snapshots"};
+// The names that runs of havers have put into a folder, a line each: these may be replaced.
+constexpr const char* own_names = ".havers";
+constexpr const char* last_name = "result.json";
+
+std::set<std::string> names_of_runs(const fs::path& folder) {
+  std::set<std::string> names;
+  std::ifstream file(folder / own_names);
+  for (std::string name; std::getline(file, name);)
+    if (fs::path(name).filename() == name) names.insert(name);
+  return names;
+}
 
 fs::path without_trailing_slash(const fs::path& path) {
   const fs::path full = fs::absolute(path).lexically_normal();
   return full.has_filename() ? full : full.parent_path();
+}
+
+void refuse_to_replace(const fs::path& folder, const std::string& name,
+                       const std::set<std::string>& own) {
+  if (fs::exists(folder / name) && !own.contains(name))
+    throw io::InputError((folder / name).string(), "was not written by a run of havers and stays",
+                         "give another folder after -o");
 }
 
 void refuse_to_overwrite(const fs::path& folder, bool force) {
@@ -32,6 +49,7 @@ void refuse_to_overwrite(const fs::path& folder, bool force) {
   if (!force && !fs::is_empty(folder))
     throw io::InputError(folder.string(), "is not empty",
                          "give another folder, or --force to replace the run in it");
+  refuse_to_replace(folder, last_name, names_of_runs(folder));
 }
 
 }  // namespace
@@ -61,20 +79,25 @@ fs::path OutputFolder::keep(const fs::path& name) const {
   return folder_ / name;
 }
 
-void OutputFolder::publish() {
+void OutputFolder::publish(Earlier earlier) {
   fs::create_directories(folder_);
-  for (const char* name : results) fs::remove_all(folder_ / name);
-  const auto move = [&](const fs::path& staged) {
-    const fs::path target = folder_ / staged.filename();
-    fs::remove_all(target);
-    fs::rename(staged, target);
+  std::set<std::string> staged, own = names_of_runs(folder_);
+  for (const auto& entry : fs::directory_iterator(staging_))
+    staged.insert(entry.path().filename().string());
+  for (const std::string& name : staged) refuse_to_replace(folder_, name, own);
+  const std::set<std::string> old = own;
+  own.insert(staged.begin(), staged.end());
+  io::write_file(folder_ / own_names, fmt::format("{}\n", fmt::join(own, "\n")));
+  if (earlier == Earlier::goes)
+    for (const std::string& name : old) fs::remove_all(folder_ / name);
+  const auto move = [&](const std::string& name) {
+    fs::remove_all(folder_ / name);
+    fs::rename(staging_ / name, folder_ / name);
   };
   // The result last: where it stands, the run is complete, whenever a kill came.
-  std::vector<fs::path> others;
-  for (const auto& entry : fs::directory_iterator(staging_))
-    if (entry.path().filename() != results.front()) others.push_back(entry.path());
-  std::ranges::for_each(others, move);
-  if (fs::exists(staging_ / results.front())) move(staging_ / results.front());
+  const bool has_result = staged.erase(last_name) > 0;
+  std::ranges::for_each(staged, move);
+  if (has_result) move(last_name);
 }
 
 }  // namespace havers::cli

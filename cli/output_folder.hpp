@@ -26,8 +26,10 @@ class OutputFolder {
   /// A file's place in the target itself, for what must survive a kill.
   [[nodiscard]] std::filesystem::path keep(const std::filesystem::path& name) const;
 
-  /// Moves all staged files to the target, in place of those of an earlier run.
-  void publish();
+  /// Moves all staged files to the target; what earlier runs put there goes or stays.
+  /// @throws InputError when a file of that name is there that no run has written
+  enum class Earlier { goes, stays };
+  void publish(Earlier earlier = Earlier::goes);
 
  private:
   std::filesystem::path folder_, staging_;

@@ -26,6 +26,16 @@ constexpr const char* porosity_examples =
     "  havers porosity ct.tif --density 30=0 --density 140=1200      # grey level = kg/m³\n"
     "  havers porosity ct.tif --density 10,10,40,40=0 --density 10,80,40,40=800   # phantom\n";
 
+// CLI11's own takes what is no number for one.
+const CLI::Validator not_negative(
+    [](const std::string& text) -> std::string {
+      double value = 0.0;
+      const bool good =
+          CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= 0.0;
+      return good ? "" : fmt::format("is {}, must be a number, 0 or more", text);
+    },
+    "NUMBER");
+
 struct PorosityArguments {
   std::vector<std::filesystem::path> images;
   std::filesystem::path folder, mask;
@@ -216,11 +226,11 @@ Command porosity_command(CLI::App& app, CommonOptions& common) {
   add_words(*parser, "--pores", options.pores, "whether pores are dark or bright");
   add_words(*parser, "--threshold", options.threshold, "where pores end");
   parser->add_option("--rim-um", arguments->rim_um, "depth of bone left out below its surfaces")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative);
   parser
       ->add_option("--crack-slenderness", options.crack_slenderness,
                    "length over width from which on it is a crack; 0: none is")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative)
       ->capture_default_str();
   parser->add_option("--density", arguments->density, "a known material: grey level or rectangle")
       ->type_name("GREY=KG_M3");

@@ -59,7 +59,7 @@ fs::path write_page(const ReportArguments& arguments, const std::vector<Finished
   }
   OutputFolder output(arguments.folder, force);
   io::write_file(output.stage("report.html"), page_of(fits));
-  output.publish();
+  output.publish(OutputFolder::Earlier::stays);
   return output.folder() / "report.html";
 }
 

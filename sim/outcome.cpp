@@ -27,7 +27,8 @@ std::vector<JointOutcome> initial_outcomes(const std::vector<Threshold>& thresho
 bool has_failed(Simulation& simulation, double end_fraction) {
   const CurvePoint& last = simulation.curve.back();
   simulation.strength = std::max(simulation.strength, last.stress_right);
-  const double limit = end_fraction * simulation.strength;
+  constexpr double nothing = 1e-9;  // of the strength
+  const double limit = std::max(end_fraction, nothing) * simulation.strength;
   return last.broken_joints > 0 && last.stress_right < limit && last.stress_left < limit;
 }
 

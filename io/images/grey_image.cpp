@@ -96,6 +96,9 @@ std::vector<cv::Mat> read_pages(const std::filesystem::path& file) {
   for (cv::Mat& page : pages) {
     if (page.depth() == CV_8U || page.depth() == CV_16U) continue;
     page.convertTo(page, CV_32F);
+    if (!cv::checkRange(page))
+      throw io::InputError(file.string(), "holds pixels that are no finite numbers",
+                           "replace them by the background's value");
     if (page.channels() > 1) cv::normalize(page, page, 0.0, 65535.0, cv::NORM_MINMAX, CV_16U);
   }
   return pages;

@@ -68,9 +68,9 @@ class SetToTheLeft {
 
 // Adds the windows of one orientation to the sums of the blocks they start in.
 void add_windows(const cv::Mat& bone, const cv::Mat& pores, cv::Size2d window, Blocks& blocks) {
+  if (window.width > bone.cols || window.height > bone.rows) return;
   const cv::Size covered(static_cast<int>(std::ceil(window.width)),
                          static_cast<int>(std::ceil(window.height)));
-  if (covered.width > bone.cols || covered.height > bone.rows) return;
   // Half a window apart: what lies between says nothing new.
   const int across = std::max(1, static_cast<int>(window.width / 2.0));
   const int down = std::max(1, static_cast<int>(window.height / 2.0));

@@ -11,6 +11,8 @@ namespace havers::io {
 // Rows may come in any order; the joints must be 0 to n - 1, each once.
 std::vector<sim::Threshold> read_thresholds(const std::filesystem::path& file) {
   const std::vector<CsvNumbers> rows = read_csv_numbers(file, {"joint", "f_N", "f_T"});
+  if (rows.empty())
+    throw InputError(file.string(), "holds no joint", "give a row for each, as in joints.csv");
   std::vector<sim::Threshold> thresholds(rows.size());
   std::vector<std::size_t> line_of(rows.size(), 0);
   std::vector<Problem> problems;

@@ -28,6 +28,11 @@ void read_plan(TableReader& top, calib::Sweep& sweep) {
   for (auto& [name, values] : table.lists("keys"))
     sweep.plan.keys.push_back({name, std::move(values)});
   for (const std::string& problem : sweep.plan.problems()) table.complain("keys", problem);
+  for (const calib::SweepKey& key : sweep.plan.keys)
+    if (key.name == "joints.seed" || key.name.starts_with("sweep."))
+      table.complain("keys", fmt::format("{} cannot vary", key.name),
+                     key.name == "joints.seed" ? "give sweep.seed and sweep.seeds instead"
+                                               : "only keys of the scene can");
 }
 
 // A key that a question is about must be one of those that vary.

@@ -23,7 +23,8 @@ std::size_t entries(const fs::path& folder) {
 
 TEST(OutputFolder, IsNotReplacedUnlessForceIsGiven) {
   const fs::path folder = folder_with_scene();
-  ASSERT_EQ(run_havers(folder, "simulate scene.toml -o out").exit_code, 0);
+  ASSERT_EQ(run_havers(folder, "simulate scene.toml -o out --set output.snapshots=2").exit_code, 0);
+  ASSERT_TRUE(fs::exists(folder / "out/snapshots"));
   const std::string first = test::read_text(folder / "out/curve.csv");
   test::write_text(folder / "out/notes.txt", "mine");
 
@@ -32,12 +33,33 @@ TEST(OutputFolder, IsNotReplacedUnlessForceIsGiven) {
   EXPECT_NE(refused.err.find("--force"), std::string::npos) << refused.err;
   EXPECT_EQ(test::read_text(folder / "out/curve.csv"), first);
 
-  fs::create_directories(folder / "out/snapshots");
   EXPECT_EQ(run_havers(folder, "simulate scene.toml -o out --seed 5 --force").exit_code, 0);
   EXPECT_NE(test::read_text(folder / "out/curve.csv"), first);
   EXPECT_FALSE(fs::exists(folder / "out/snapshots"))
       << "an earlier run's snapshots beside a later run";
   EXPECT_EQ(test::read_text(folder / "out/notes.txt"), "mine");
+}
+
+// Not even by --force: neither a scene and curves of the user's own, nor his result.
+TEST(OutputFolder, KeepsWhatNoRunHasWritten) {
+  const fs::path folder = folder_with_scene();
+  fs::create_directories(folder / "curves");
+  test::write_text(folder / "curves/mine.csv", "mine");
+  ASSERT_EQ(run_havers(folder, "simulate scene.toml -o . --force").exit_code, 0);
+  ASSERT_EQ(run_havers(folder, "simulate scene.toml -o . --force").exit_code, 0);
+  EXPECT_EQ(test::read_text(folder / "scene.toml"), test::small_scene());
+  EXPECT_EQ(test::read_text(folder / "curves/mine.csv"), "mine");
+
+  for (const std::string mine : {"result.json", "curve.csv"}) {
+    fs::create_directories(folder / "other");
+    test::write_text(folder / "other" / mine, "mine");
+    const auto refused = run_havers(folder, "simulate scene.toml -o other --force");
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find(mine), std::string::npos) << refused.err;
+    EXPECT_EQ(entries(folder / "other"), 1U);
+    EXPECT_EQ(test::read_text(folder / "other" / mine), "mine");
+    fs::remove_all(folder / "other");
+  }
 }
 
 TEST(OutputFolder, MayExistWhenEmptyAndMayBeDeep) {

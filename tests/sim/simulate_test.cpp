@@ -156,6 +156,15 @@ TEST(Simulate, SaysWhatItLeftOut) {
   }
 }
 
+TEST(Simulate, EndsWhereNothingIsLeftToBear) {
+  Scene scene = test::small_scene(45.0, 2, 2);
+  scene.joints.scatter = 0.0;
+  scene.loading.end_fraction = 0.0;
+  const Simulation simulation = simulate(scene);
+  EXPECT_EQ(simulation.status, SimulationStatus::broken);
+  EXPECT_TRUE(simulation.trusted()) << simulation.why_not_trusted();
+}
+
 TEST(Simulate, KnowsNoDifferenceBetweenNoAngleAndNextToNone) {
   const Simulation straight = simulate(test::small_scene(0.0, 4, 3)),
                    turned = simulate(test::small_scene(1e-6, 4, 3));

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
 
 #include "io/images/measure_section.hpp"
 #include "io/input_error.hpp"
@@ -48,6 +49,14 @@ TEST(ImageFile, OfSixteenBitsKeepsThem) {
     const auto measured = measure_sections(test::write(drawn.image, name), {}).front().porosity;
     EXPECT_NEAR(100.0 * measured.porosity, 100.0 * drawn.porosity, 0.3) << name;
   }
+}
+
+TEST(ImageFile, OfFloatsMustHoldNumbers) {
+  const auto drawn = test::draw({.blur = 1.0});
+  cv::Mat floats;
+  drawn.image.convertTo(floats, CV_32F);
+  floats.at<float>(0, 0) = std::numeric_limits<float>::quiet_NaN();
+  expect_contains(complaint(test::write(floats, "nan.tif")), "no finite numbers");
 }
 
 TEST(ImageFile, WithTransparentBackgroundHasNoBoneThere) {

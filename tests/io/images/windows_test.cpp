@@ -47,6 +47,12 @@ TEST(Windows, SmallerThanAPixelSeeTheCoin) {
   EXPECT_NEAR(spread.sd, 0.4, 0.004);
 }
 
+TEST(Windows, LargerThanAnyImageSeeNothing) {
+  const cv::Mat bone = full(100);
+  for (const double length : {101.0, 1e6, 1e12, 1e300})
+    EXPECT_TRUE(std::isnan(window_spread(bone, bone, length, length).sd)) << length;
+}
+
 // Left half pores: windows well away from the border are all or nothing, and those that lie across
 // it rise linearly. Written out for a window of 10 × 10 in 100 × 100: SD² = E[q²] − E[q]².
 TEST(Windows, SeeASharpBorderAsALinearRise) {

@@ -92,6 +92,15 @@ TEST(ReadSweep, NamesWhatIsWrongWithThePlan) {
               ElementsAre(HasSubstr("names no keys to vary"), HasSubstr("0 seeds")));
 }
 
+TEST(ReadSweep, NamesKeysThatCannotVary) {
+  const ScratchFolder folder;
+  const auto file =
+      folder.write("s.toml", "[sweep.keys]\n\"joints.seed\" = [1, 2]\n\"sweep.seeds\" = [2, 3]\n");
+  EXPECT_THAT(complaints_of(folder, [&] { read_sweep(file); }),
+              testing::IsSupersetOf(
+                  {HasSubstr("joints.seed cannot vary"), HasSubstr("sweep.seeds cannot vary")}));
+}
+
 TEST(SweepFiles, HaveARowForEveryRunAndForEveryPointAndMeasure) {
   const ScratchFolder folder;
   const calib::Sweep sweep = read_sweep(folder.write("s.toml", good));
