@@ -61,11 +61,9 @@ std::optional<double>& dimension_of(Fact fact, calib::RawTest& test) {
 }
 
 // A length or area in SI; nothing, with a warning, where the line gives none.
-std::optional<double> size_of(const HeaderLine& line, Fact fact, char decimal,
-                              std::string& warning) {
+std::optional<double> size_of(const HeaderLine& line, Fact fact, std::string& warning) {
   const Dimension wanted = fact == Fact::area ? Dimension::area : Dimension::length;
-  Number number = parse_number(line.value, decimal);
-  if (number.fault != NumberFault::none) number = parse_number(line.value);
+  const Number number = parse_lone_number(line.value);
   if (number.fault != NumberFault::none || number.value <= 0.0) {
     warning = fmt::format("\"{}\" is no size; the line is not used", excerpt(line.value));
     return std::nullopt;
@@ -83,7 +81,7 @@ std::optional<double> size_of(const HeaderLine& line, Fact fact, char decimal,
   return number.value * unit->to_si;
 }
 
-void take_fact(const HeaderLine& line, std::size_t number, char decimal, calib::RawTest& test) {
+void take_fact(const HeaderLine& line, std::size_t number, calib::RawTest& test) {
   const std::optional<Fact> fact = fact_of_key(line.key);
   if (!fact || line.value.empty()) return;
   if (*fact == Fact::specimen_id) {
@@ -92,16 +90,16 @@ void take_fact(const HeaderLine& line, std::size_t number, char decimal, calib::
   }
   std::string warning;
   std::optional<double>& size = dimension_of(*fact, test);
-  if (!size) size = size_of(line, *fact, decimal, warning);
+  if (!size) size = size_of(line, *fact, warning);
   if (!warning.empty())
     test.warnings.push_back(fmt::format("line {}, {}: {}", number, excerpt(line.key), warning));
 }
 
 }  // namespace
 
-void read_facts(std::span<const PreviewRow> header, char decimal, calib::RawTest& test) {
+void read_facts(std::span<const PreviewRow> header, calib::RawTest& test) {
   for (const PreviewRow& row : header)
-    for (const HeaderLine& line : header_lines(row)) take_fact(line, row.line, decimal, test);
+    for (const HeaderLine& line : header_lines(row)) take_fact(line, row.line, test);
 }
 
 }  // namespace havers::io

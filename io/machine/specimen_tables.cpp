@@ -74,7 +74,7 @@ void SpecimenTables::begin(const Table& table, std::span<const PreviewRow> heade
     SpecimenColumns& specimen = specimens_.emplace_back();
     specimen.file = common_;
     specimen.file.layout = table.layout;
-    read_facts(header, dialect_.decimal, specimen.file.test);
+    read_facts(header, specimen.file.test);
     if (!part.title.empty()) specimen.file.test.specimen_id = part.title;
     specimen.channels = find_channels(specimen.file, part, options_);
     specimen.values.resize(specimen.channels.size());

@@ -1,0 +1,39 @@
+// Sizes of a specimen from the lines above the table.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "io/machine/read_test.hpp"
+#include "tests/support/machine_files.hpp"
+
+namespace havers::io {
+namespace {
+
+calib::RawTest sized(const std::string& content) {
+  const test::TemporaryFile file(content);
+  return read_test(file.path()).test;
+}
+
+TEST(HeaderSizes, TellTheirDecimalMarkWhateverTheTableUses) {
+  const std::string commas = "Time (s);Load (N)\n0,1;6,5\n0,2;12,5\n";
+  const std::string points = "Time (s),Load (N)\n0.1,6.5\n0.2,12.5\n";
+  const std::string whole = "Time (s);Load (N)\n0;6\n1;12\n";
+  for (const std::string& content :
+       {"Width;4.020;mm\n" + commas, "Width;4,020;mm\n" + commas, "Width;4,02;mm\n" + commas,
+        "Width,\"4,020\",mm\n" + points, "Width,\"4,02\",mm\n" + points,
+        "Width,4.020,mm\n" + points, "Width;4,020;mm\n" + whole, "Width;4.020;mm\n" + whole}) {
+    SCOPED_TRACE(content);
+    const calib::RawTest test = sized(content);
+    EXPECT_NEAR(test.width.value_or(0.0), 4.02e-3, 1e-15);
+    EXPECT_TRUE(test.warnings.empty());
+    EXPECT_EQ(test.force.size(), 2U);
+  }
+}
+
+TEST(HeaderSizes, GroupThousandsByOneOfTwoMarks) {
+  const std::string table = "Time (s);Load (N)\n0,1;6,5\n0,2;12,5\n";
+  EXPECT_NEAR(sized("Length;1.004,5;mm\n" + table).gauge_length.value(), 1.0045, 1e-12);
+  EXPECT_NEAR(sized("Length;1,004.5;mm\n" + table).gauge_length.value(), 1.0045, 1e-12);
+}
+
+}  // namespace
+}  // namespace havers::io
