@@ -1,5 +1,4 @@
 // Sizes of a specimen from the lines above the table.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "io/machine/read_test.hpp"
@@ -8,9 +7,9 @@
 namespace havers::io {
 namespace {
 
-calib::RawTest sized(const std::string& content) {
+calib::RawTest sized(const std::string& content, const ReadOptions& options = {}) {
   const test::TemporaryFile file(content);
-  return read_test(file.path()).test;
+  return read_test(file.path(), options).test;
 }
 
 TEST(HeaderSizes, TellTheirDecimalMarkWhateverTheTableUses) {
@@ -33,6 +32,24 @@ TEST(HeaderSizes, GroupThousandsByOneOfTwoMarks) {
   const std::string table = "Time (s);Load (N)\n0,1;6,5\n0,2;12,5\n";
   EXPECT_NEAR(sized("Length;1.004,5;mm\n" + table).gauge_length.value(), 1.0045, 1e-12);
   EXPECT_NEAR(sized("Length;1,004.5;mm\n" + table).gauge_length.value(), 1.0045, 1e-12);
+}
+
+TEST(HeaderSizes, GiveWayToThoseOfTheUser) {
+  ReadOptions options;
+  options.width = 8e-3;
+  options.thickness = 3e-3;
+  options.gauge_length = 25e-3;
+  const std::string table = "Load (N),Strain (mm),Stress (MPa)\n10,0.05,1\n20,0.1,2\n";
+  for (const std::string header : {"", "Width,4,mm\nThickness,2,mm\nGauge length,50,mm\n"}) {
+    const calib::RawTest test = sized(header + table, options);
+    EXPECT_EQ(test.width, 8e-3);
+    EXPECT_EQ(test.thickness, 3e-3);
+    EXPECT_EQ(test.gauge_length, 25e-3);
+    ASSERT_EQ(test.strain.size(), 2U);  // an elongation, by the given length
+    EXPECT_NEAR(test.strain[0], 2e-3, 1e-15);
+    EXPECT_NEAR(test.strain[1], 4e-3, 1e-15);
+    EXPECT_TRUE(test.warnings.empty());
+  }
 }
 
 }  // namespace
