@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "io/machine/excerpt.hpp"
@@ -81,7 +83,41 @@ std::optional<double> size_of(const HeaderLine& line, Fact fact, std::string& wa
   return number.value * unit->to_si;
 }
 
-void take_fact(const HeaderLine& line, std::size_t number, calib::RawTest& test) {
+// A size that a line of the header gave.
+struct HeaderSize {
+  Fact fact;
+  std::string key;
+  double value;
+};
+
+// A gauge length beats the length of the specimen; else the first of two counts.
+void take_size(HeaderSize fresh, std::vector<HeaderSize>& sizes, calib::RawTest& test,
+               std::string& warning) {
+  std::optional<double>& size = dimension_of(fresh.fact, test);
+  const auto before = std::ranges::find_if(
+      sizes, [&](const HeaderSize& taken) { return &dimension_of(taken.fact, test) == &size; });
+  if (before == sizes.end()) {
+    if (size) return;  // given by the user
+    size = fresh.value;
+    sizes.push_back(std::move(fresh));
+    return;
+  }
+  if (before->fact != fresh.fact) {
+    if (fresh.fact == Fact::length) return;
+    size = fresh.value;
+    *before = std::move(fresh);
+    return;
+  }
+  constexpr double rounding = 1e-9;
+  if (std::abs(fresh.value - before->value) <= rounding * before->value) return;
+  const double to_shown = fresh.fact == Fact::area ? 1e6 : 1e3;
+  warning = fmt::format("{1:.6g} {0} differs from {3:.6g} {0} of \"{2}\" above: the first is used",
+                        fresh.fact == Fact::area ? "mm²" : "mm", to_shown * fresh.value,
+                        excerpt(before->key), to_shown * before->value);
+}
+
+void take_fact(const HeaderLine& line, std::size_t number, std::vector<HeaderSize>& sizes,
+               calib::RawTest& test) {
   const std::optional<Fact> fact = fact_of_key(line.key);
   if (!fact || line.value.empty()) return;
   if (*fact == Fact::specimen_id) {
@@ -89,8 +125,8 @@ void take_fact(const HeaderLine& line, std::size_t number, calib::RawTest& test)
     return;
   }
   std::string warning;
-  std::optional<double>& size = dimension_of(*fact, test);
-  if (!size) size = size_of(line, *fact, warning);
+  if (const std::optional<double> value = size_of(line, *fact, warning))
+    take_size({*fact, line.key, *value}, sizes, test, warning);
   if (!warning.empty())
     test.warnings.push_back(fmt::format("line {}, {}: {}", number, excerpt(line.key), warning));
 }
@@ -98,8 +134,9 @@ void take_fact(const HeaderLine& line, std::size_t number, calib::RawTest& test)
 }  // namespace
 
 void read_facts(std::span<const PreviewRow> header, calib::RawTest& test) {
+  std::vector<HeaderSize> sizes;
   for (const PreviewRow& row : header)
-    for (const HeaderLine& line : header_lines(row)) take_fact(line, row.line, test);
+    for (const HeaderLine& line : header_lines(row)) take_fact(line, row.line, sizes, test);
 }
 
 }  // namespace havers::io
