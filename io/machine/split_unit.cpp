@@ -52,7 +52,7 @@ bool can_have(std::string_view name, std::string_view text) {
   return fits(quantity, unit->dimension);
 }
 
-NameAndUnit trimmed(std::string_view name, std::string_view unit) {
+NameAndUnit named_unit(std::string_view name, std::string_view unit) {
   while (name.ends_with(' ')) name.remove_suffix(1);
   while (unit.starts_with(' ')) unit.remove_prefix(1);
   return {std::string(name), std::string(unit)};
@@ -91,13 +91,13 @@ NameAndUnit split_unit(std::string_view text) {
     if (open == std::string_view::npos || open == 0) return whole;
     const std::string_view unit = without_brackets(text.substr(open));
     if (!unit.empty() && !find_unit(unit) && !looks_like_a_unit(unit)) return whole;
-    return trimmed(text.substr(0, open), unit);
+    return named_unit(text.substr(0, open), unit);
   }
   for (const std::string_view mark : {"/", " in ", "_", ", ", " "}) {
     // Of "Stress/N/mm2" the first stroke, of "max_force_kN" the last underline.
     const std::size_t at = mark == "/" ? text.find(mark) : text.rfind(mark);
     if (at == std::string_view::npos || at == 0) continue;
-    const NameAndUnit split = trimmed(text.substr(0, at), text.substr(at + mark.size()));
+    const NameAndUnit split = named_unit(text.substr(0, at), text.substr(at + mark.size()));
     if (can_have(split.name, split.unit)) return split;
   }
   return whole;

@@ -52,7 +52,7 @@ TEST(HeaderSizes, GiveWayToThoseOfTheUser) {
   }
 }
 
-const std::string table = "Time (s),Load (N)\n0,6\n1,12\n";
+const std::string two_rows = "Time (s),Load (N)\n0,6\n1,12\n";
 
 TEST(HeaderSizes, TakeTheGaugeLengthBeforeABareLength) {
   for (const std::string gauge : {"Gauge length", "Gage length", "Messlänge", "Anfangsmesslänge",
@@ -61,34 +61,34 @@ TEST(HeaderSizes, TakeTheGaugeLengthBeforeABareLength) {
       SCOPED_TRACE(gauge + ", " + bare);
       const std::string first = bare + ",100,mm\n", second = "\"" + gauge + "\",25,mm\n";
       for (const std::string& header : {first + second, second + first}) {
-        const calib::RawTest test = sized(header + table);
+        const calib::RawTest test = sized(header + two_rows);
         EXPECT_EQ(test.gauge_length, 25e-3);
         EXPECT_TRUE(test.warnings.empty());
       }
-      EXPECT_EQ(sized(first + table).gauge_length, 0.1);
+      EXPECT_EQ(sized(first + two_rows).gauge_length, 0.1);
     }
 }
 
 TEST(HeaderSizes, WarnOfTwoValuesOfOneSize) {
-  const calib::RawTest widths = sized("Width,4,mm\nSpecimen width,5,mm\n" + table);
+  const calib::RawTest widths = sized("Width,4,mm\nSpecimen width,5,mm\n" + two_rows);
   EXPECT_EQ(widths.width, 4e-3);
   EXPECT_EQ(widths.warnings,
             std::vector<std::string>{"line 2, Specimen width: 5 mm differs from "
                                      "4 mm of \"Width\" above: the first is used"});
   const calib::RawTest lengths =
-      sized("Length,100,mm\nGauge length,25,mm\nGage length,50,mm\n" + table);
+      sized("Length,100,mm\nGauge length,25,mm\nGage length,50,mm\n" + two_rows);
   EXPECT_EQ(lengths.gauge_length, 25e-3);
   ASSERT_EQ(lengths.warnings.size(), 1U);
   EXPECT_NE(lengths.warnings[0].find("50 mm differs from 25 mm of \"Gauge length\""),
             std::string::npos);
-  EXPECT_TRUE(sized("Width,4,mm\nBreite,0.4,cm\n" + table).warnings.empty());
+  EXPECT_TRUE(sized("Width,4,mm\nBreite,0.4,cm\n" + two_rows).warnings.empty());
 }
 
 TEST(HeaderSizes, AreNotComparedWithThoseOfTheUser) {
   ReadOptions options;
   options.gauge_length = 30e-3;
   const calib::RawTest test =
-      sized("Length,100,mm\nGauge length,25,mm\nGage length,50,mm\n" + table, options);
+      sized("Length,100,mm\nGauge length,25,mm\nGage length,50,mm\n" + two_rows, options);
   EXPECT_EQ(test.gauge_length, 30e-3);
   EXPECT_TRUE(test.warnings.empty());
 }
