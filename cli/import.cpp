@@ -38,14 +38,14 @@ struct Imported {
   calib::Reduction reduction;
 };
 
-void override_size(std::optional<double>& size, const std::optional<double>& given_mm) {
+void give_size(std::optional<double>& size, const std::optional<double>& given_mm) {
   if (given_mm) size = 1e-3 * *given_mm;
 }
 
-void override_sizes(calib::RawTest& test, const ImportArguments& arguments) {
-  override_size(test.width, arguments.width_mm);
-  override_size(test.thickness, arguments.thickness_mm);
-  override_size(test.gauge_length, arguments.gauge_length_mm);
+void give_sizes(io::ReadOptions& options, const ImportArguments& arguments) {
+  give_size(options.width, arguments.width_mm);
+  give_size(options.thickness, arguments.thickness_mm);
+  give_size(options.gauge_length, arguments.gauge_length_mm);
 }
 
 Imported reduced(io::TestFile file, const calib::ReductionOptions& options) {
@@ -54,20 +54,16 @@ Imported reduced(io::TestFile file, const calib::ReductionOptions& options) {
 }
 
 std::vector<Imported> import_tests(const std::filesystem::path& path,
-                                   const io::ImportSettings& settings,
-                                   const ImportArguments& arguments) {
+                                   const io::ImportSettings& settings) {
   std::vector<Imported> tests;
-  for (io::TestFile& file : io::read_tests(path, settings.columns)) {
-    override_sizes(file.test, arguments);
+  for (io::TestFile& file : io::read_tests(path, settings.columns))
     tests.push_back(reduced(std::move(file), settings.reduction));
-  }
   return tests;
 }
 
 Imported import_joined(io::ImportSettings settings, const ImportArguments& arguments) {
   settings.columns.has_logger = true;
   io::TestFile file = io::read_test(arguments.files.front(), settings.columns);
-  override_sizes(file.test, arguments);
   const io::TestFile logger = io::read_test(*arguments.gauge, settings.gauge_columns);
   calib::JoinedTest joined = calib::join_logger(file.test, logger.test);
   file.test = std::move(joined.test);
@@ -104,7 +100,7 @@ std::vector<Imported> import_all(const ImportArguments& arguments,
       if (arguments.gauge)
         tests.push_back(import_joined(settings, arguments));
       else
-        tests = import_tests(path, settings, arguments);
+        tests = import_tests(path, settings);
       collect(tests, problems);
       std::ranges::move(tests, std::back_inserter(all));
     } catch (const io::InputError& error) {
@@ -213,7 +209,9 @@ void write_results(const ImportArguments& arguments, const std::vector<Imported>
 
 int run_import(const ImportArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
-  const io::ImportSettings settings = io::read_import_settings(common.set);
+  io::ImportSettings settings = io::read_import_settings(common.set);
+  give_sizes(settings.columns, arguments);
+  give_sizes(settings.gauge_columns, arguments);
   if (arguments.gauge && arguments.files.size() != 1)
     throw io::InputError("--gauge", "is the second file of one test", "import the others alone");
   std::vector<io::Problem> problems;

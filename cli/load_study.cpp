@@ -28,20 +28,20 @@ void collect(std::vector<io::Problem>& all, const std::vector<io::Problem>& more
   all.insert(all.end(), more.begin(), more.end());
 }
 
-void override_sizes(calib::RawTest& test, const io::SpecimenFiles& files) {
-  if (files.width) test.width = files.width;
-  if (files.thickness) test.thickness = files.thickness;
-  if (files.gauge_length) test.gauge_length = files.gauge_length;
+io::ReadOptions with_sizes(io::ReadOptions options, const io::SpecimenFiles& files) {
+  options.width = files.width;
+  options.thickness = files.thickness;
+  options.gauge_length = files.gauge_length;
+  return options;
 }
 
 void read_specimen(const io::SpecimenFiles& files, Outcome& outcome) {
-  io::ReadOptions options = files.columns;
+  io::ReadOptions options = with_sizes(files.columns, files);
   options.has_logger = files.gauge.has_value();
   calib::RawTest& raw = outcome.record.raw;
   raw = io::read_test(files.test, options).test;
-  override_sizes(raw, files);
   if (!files.gauge) return;
-  const io::TestFile logger = io::read_test(*files.gauge, files.gauge_columns);
+  const io::TestFile logger = io::read_test(*files.gauge, with_sizes(files.gauge_columns, files));
   calib::JoinedTest joined = calib::join_logger(raw, logger.test);
   raw = std::move(joined.test);
   outcome.record.clocks = std::move(joined.clocks);

@@ -10,33 +10,11 @@
 
 #include "io/input_error.hpp"
 #include "io/machine/excerpt.hpp"
-#include "io/machine/units.hpp"
+#include "io/machine/split_unit.hpp"
 #include "io/machine/vocabulary.hpp"
 
 namespace havers::io {
 namespace {
-
-// A unit that the quantity can have. A gauge may be recorded as an elongation.
-bool fits(Quantity quantity, Dimension dimension) {
-  switch (quantity) {
-    case Quantity::time:
-      return dimension == Dimension::time;
-    case Quantity::force:
-      return dimension == Dimension::force;
-    case Quantity::extension:
-      return dimension == Dimension::length;
-    case Quantity::strain:
-      return dimension == Dimension::strain || dimension == Dimension::length;
-    case Quantity::stress:
-      return dimension == Dimension::stress;
-    case Quantity::volts:
-    case Quantity::load_volts:
-      return dimension == Dimension::voltage;
-    case Quantity::other:
-      return false;
-  }
-  return false;
-}
 
 // What a force or a strain is called while its factor is not known.
 Quantity in_volts(Quantity quantity) {
@@ -75,6 +53,9 @@ std::optional<std::size_t> hinted_column(const std::string& hint,
                                          const std::vector<Column>& columns) {
   const auto found = std::ranges::find(columns, hint, &Column::name);
   if (found != columns.end()) return static_cast<std::size_t>(found - columns.begin());
+  const NameAndUnit written = split_unit(hint);  // "force_kN" was split as the file was read
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].name == written.name && columns[i].unit == written.unit) return i;
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(hint.data(), hint.data() + hint.size(), number);
   const bool whole = error == std::errc{} && end == hint.data() + hint.size();
@@ -116,9 +97,20 @@ std::pair<double, const char*> unwritten_unit(Quantity quantity) {
   return {1.0, "mm/mm"};
 }
 
+std::string unknown_unit(const Column& column) {
+  return fmt::format("unit \"{}\" of column \"{}\" is not known", excerpt(column.unit),
+                     excerpt(column.name));
+}
+
+std::string unit_hint_of(Quantity quantity) {
+  return fmt::format("say {}_unit = ... in [specimen.columns]", to_string(quantity));
+}
+
 // Factor to SI; the warnings say what was assumed.
-double factor(const Column& column, calib::RawTest& test) {
+double factor(const Column& column, const std::string& where, calib::RawTest& test) {
   const std::optional<Unit> unit = find_unit(column.unit);
+  if (!unit && !column.unit.empty())
+    throw InputError(where, unknown_unit(column), unit_hint_of(column.quantity));
   if (!unit || !fits(column.quantity, unit->dimension)) {
     const auto [to_si, name] = unwritten_unit(column.quantity);
     test.warnings.push_back(
@@ -182,6 +174,23 @@ void choose(TestFile& file, const std::vector<Candidate>& candidates, Chosen& ch
   }
 }
 
+// A column whose unit is not known is not used: an error where the load is lost by it.
+void name_unknown_units(TestFile& file, const std::string& where, bool logger,
+                        const Chosen& chosen) {
+  const bool loaded = logger || chosen.contains(Quantity::force) ||
+                      chosen.contains(Quantity::stress) || chosen.contains(Quantity::load_volts);
+  for (const Column& column : file.columns) {
+    const Quantity named = quantity_of_name(column.name);
+    if (named == Quantity::other || column.unit.empty() || find_unit(column.unit) ||
+        chosen.contains(named) || column.quantity != Quantity::other)
+      continue;
+    if (!loaded && (named == Quantity::force || named == Quantity::stress))
+      throw InputError(where, unknown_unit(column), unit_hint_of(named));
+    file.test.warnings.push_back(
+        fmt::format("{}: not used ({})", unknown_unit(column), unit_hint_of(named)));
+  }
+}
+
 constexpr const char* volt_hint =
     "say what a volt is in [specimen.columns], as in force_unit = \"500 N/V\"";
 
@@ -230,14 +239,15 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   }
   Chosen chosen = take_hints(file, where, options);
   choose(file, candidates, chosen);
+  name_unknown_units(file, where, options.logger, chosen);
   if (options.logger)
     need_gauge(file, where, chosen);
   else
     need_load(file, table, options.has_logger, chosen);
   std::vector<Channel> channels;
   for (const auto& [quantity, column] : chosen)
-    channels.push_back(
-        {quantity, table.first_column + column, column, factor(file.columns[column], file.test)});
+    channels.push_back({quantity, table.first_column + column, column,
+                        factor(file.columns[column], where, file.test)});
   return channels;
 }
 

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "io/machine/excerpt.hpp"
 #include "io/machine/number.hpp"
-#include "io/machine/units.hpp"
+#include "io/machine/split_unit.hpp"
 #include "io/machine/vocabulary.hpp"
 
 namespace havers::io {
@@ -61,11 +63,9 @@ std::optional<double>& dimension_of(Fact fact, calib::RawTest& test) {
 }
 
 // A length or area in SI; nothing, with a warning, where the line gives none.
-std::optional<double> size_of(const HeaderLine& line, Fact fact, char decimal,
-                              std::string& warning) {
+std::optional<double> size_of(const HeaderLine& line, Fact fact, std::string& warning) {
   const Dimension wanted = fact == Fact::area ? Dimension::area : Dimension::length;
-  Number number = parse_number(line.value, decimal);
-  if (number.fault != NumberFault::none) number = parse_number(line.value);
+  const Number number = parse_lone_number(line.value);
   if (number.fault != NumberFault::none || number.value <= 0.0) {
     warning = fmt::format("\"{}\" is no size; the line is not used", excerpt(line.value));
     return std::nullopt;
@@ -83,7 +83,41 @@ std::optional<double> size_of(const HeaderLine& line, Fact fact, char decimal,
   return number.value * unit->to_si;
 }
 
-void take_fact(const HeaderLine& line, std::size_t number, char decimal, calib::RawTest& test) {
+// A size that a line of the header gave.
+struct HeaderSize {
+  Fact fact;
+  std::string key;
+  double value;
+};
+
+// A gauge length beats the length of the specimen; else the first of two counts.
+void take_size(HeaderSize fresh, std::vector<HeaderSize>& sizes, calib::RawTest& test,
+               std::string& warning) {
+  std::optional<double>& size = dimension_of(fresh.fact, test);
+  const auto before = std::ranges::find_if(
+      sizes, [&](const HeaderSize& taken) { return &dimension_of(taken.fact, test) == &size; });
+  if (before == sizes.end()) {
+    if (size) return;  // given by the user
+    size = fresh.value;
+    sizes.push_back(std::move(fresh));
+    return;
+  }
+  if (before->fact != fresh.fact) {
+    if (fresh.fact == Fact::length) return;
+    size = fresh.value;
+    *before = std::move(fresh);
+    return;
+  }
+  constexpr double rounding = 1e-9;
+  if (std::abs(fresh.value - before->value) <= rounding * before->value) return;
+  const double to_shown = fresh.fact == Fact::area ? 1e6 : 1e3;
+  warning = fmt::format("{1:.6g} {0} differs from {3:.6g} {0} of \"{2}\" above: the first is used",
+                        fresh.fact == Fact::area ? "mm²" : "mm", to_shown * fresh.value,
+                        excerpt(before->key), to_shown * before->value);
+}
+
+void take_fact(const HeaderLine& line, std::size_t number, std::vector<HeaderSize>& sizes,
+               calib::RawTest& test) {
   const std::optional<Fact> fact = fact_of_key(line.key);
   if (!fact || line.value.empty()) return;
   if (*fact == Fact::specimen_id) {
@@ -91,17 +125,18 @@ void take_fact(const HeaderLine& line, std::size_t number, char decimal, calib::
     return;
   }
   std::string warning;
-  std::optional<double>& size = dimension_of(*fact, test);
-  if (!size) size = size_of(line, *fact, decimal, warning);
+  if (const std::optional<double> value = size_of(line, *fact, warning))
+    take_size({*fact, line.key, *value}, sizes, test, warning);
   if (!warning.empty())
     test.warnings.push_back(fmt::format("line {}, {}: {}", number, excerpt(line.key), warning));
 }
 
 }  // namespace
 
-void read_facts(std::span<const PreviewRow> header, char decimal, calib::RawTest& test) {
+void read_facts(std::span<const PreviewRow> header, calib::RawTest& test) {
+  std::vector<HeaderSize> sizes;
   for (const PreviewRow& row : header)
-    for (const HeaderLine& line : header_lines(row)) take_fact(line, row.line, decimal, test);
+    for (const HeaderLine& line : header_lines(row)) take_fact(line, row.line, sizes, test);
 }
 
 }  // namespace havers::io

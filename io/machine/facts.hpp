@@ -8,8 +8,9 @@
 
 namespace havers::io {
 
-/// Fills id, width, thickness, gauge length and area from key, value, unit lines. What cannot be
-/// used is left out with a warning that names the line.
-void read_facts(std::span<const PreviewRow> header, char decimal, calib::RawTest& test);
+/// Fills id, width, thickness, gauge length and area from key, value, unit lines. A size tells its
+/// decimal mark itself, whatever the table uses. A size that `test` has stays. What cannot be used
+/// is left out with a warning that names the line.
+void read_facts(std::span<const PreviewRow> header, calib::RawTest& test);
 
 }  // namespace havers::io

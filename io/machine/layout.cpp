@@ -4,7 +4,7 @@
 #include <array>
 
 #include "io/machine/number.hpp"
-#include "io/machine/units.hpp"
+#include "io/machine/split_unit.hpp"
 #include "io/machine/vocabulary.hpp"
 
 namespace havers::io {

@@ -144,6 +144,16 @@ Number parse_number(std::string_view cell, char decimal) {
   return convert(scrubbed.text());
 }
 
+Number parse_lone_number(std::string_view cell) {
+  const auto points = std::ranges::count(cell, '.'), commas = std::ranges::count(cell, ',');
+  bool comma = commas == 1;
+  if (points > 0 && commas > 0)
+    comma = cell.rfind(',') > cell.rfind('.');
+  else if (points > 1)
+    comma = true;
+  return parse_number(cell, comma ? ',' : '.');
+}
+
 bool is_number(std::string_view cell, char decimal) {
   return parse_number(cell, decimal).fault == NumberFault::none;
 }

@@ -20,6 +20,10 @@ struct Number {
 /// and apostrophes may group thousands, three digits a group: `1,004.80328`, `1 000,34`, `1'000.5`.
 Number parse_number(std::string_view cell, char decimal = '.');
 
+/// Reads a number that stands alone and tells its decimal mark itself: a single `.` or `,` is the
+/// decimal mark, and so is the last where there are both; several of one group thousands.
+Number parse_lone_number(std::string_view cell);
+
 /// Whether the cell is a finite number.
 bool is_number(std::string_view cell, char decimal = '.');
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,7 @@ struct ReadOptions {
   std::string specimen{};   ///< Its name in a file of several, or its number from 1.
   bool logger = false;      ///< The file of a second logger: time and a gauge, no force.
   bool has_logger = false;  ///< A second logger's file tells what a volt of the load is.
+  std::optional<double> width{}, thickness{}, gauge_length{};  ///< Instead of the file's. [m]
 };
 
 /// Reads one export, whatever its encoding, delimiter and decimal mark; io/machine/README.md says

@@ -57,6 +57,13 @@ void check_stress(calib::RawTest& test) {
                     largest_difference * 1e-6, largest_stress * 1e-6));
 }
 
+// Sizes that are there before the header is read stay.
+void take_given_sizes(const ReadOptions& options, calib::RawTest& test) {
+  test.width = options.width;
+  test.thickness = options.thickness;
+  test.gauge_length = options.gauge_length;
+}
+
 }  // namespace
 
 InputError open_quote(const std::string& file, std::size_t line) {
@@ -74,7 +81,8 @@ void SpecimenTables::begin(const Table& table, std::span<const PreviewRow> heade
     SpecimenColumns& specimen = specimens_.emplace_back();
     specimen.file = common_;
     specimen.file.layout = table.layout;
-    read_facts(header, dialect_.decimal, specimen.file.test);
+    take_given_sizes(options_, specimen.file.test);
+    read_facts(header, specimen.file.test);
     if (!part.title.empty()) specimen.file.test.specimen_id = part.title;
     specimen.channels = find_channels(specimen.file, part, options_);
     specimen.values.resize(specimen.channels.size());
@@ -171,7 +179,7 @@ std::vector<TestFile> SpecimenTables::take() {
     file.rows = file.test.rows();
     if (specimens_.size() > 1 && file.test.specimen_id.empty())
       file.test.specimen_id = std::to_string(files.size() + 1);
-    check_stress(file.test);
+    if (!options_.width && !options_.thickness) check_stress(file.test);
     files.push_back(std::move(file));
   }
   return files;

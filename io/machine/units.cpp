@@ -25,14 +25,31 @@ constexpr std::array units{
     NamedUnit{"ms", {time, 1e-3}},
     NamedUnit{"min", {time, 60.0}},
     NamedUnit{"h", {time, 3600.0}},
+    NamedUnit{"second", {time, 1.0}},
+    NamedUnit{"seconds", {time, 1.0}},
+    NamedUnit{"secs", {time, 1.0}},
+    NamedUnit{"msec", {time, 1e-3}},
+    NamedUnit{"minute", {time, 60.0}},
+    NamedUnit{"minutes", {time, 60.0}},
+    NamedUnit{"hour", {time, 3600.0}},
+    NamedUnit{"hours", {time, 3600.0}},
     NamedUnit{"N", {force, 1.0}},
     NamedUnit{"kN", {force, 1e3}},
     NamedUnit{"mN", {force, 1e-3}},
     NamedUnit{"MN", {force, 1e6}},
+    NamedUnit{"cN", {force, 1e-2}},
+    NamedUnit{"daN", {force, 10.0}},
+    NamedUnit{"newton", {force, 1.0}},
+    NamedUnit{"newtons", {force, 1.0}},
+    NamedUnit{"kilonewton", {force, 1e3}},
+    NamedUnit{"kilonewtons", {force, 1e3}},
     NamedUnit{"lbf", {force, pound}},
     NamedUnit{"lb", {force, pound}},
+    NamedUnit{"lbs", {force, pound}},
+    NamedUnit{"pounds", {force, pound}},
     NamedUnit{"kip", {force, 1e3 * pound}},
     NamedUnit{"kgf", {force, standard_gravity}},
+    NamedUnit{"kp", {force, standard_gravity}},
     NamedUnit{"gf", {force, 1e-3 * standard_gravity}},
     NamedUnit{"m", {length, 1.0}},
     NamedUnit{"cm", {length, 1e-2}},
@@ -41,6 +58,18 @@ constexpr std::array units{
     NamedUnit{"µm", {length, 1e-6}},  // micro sign
     NamedUnit{"μm", {length, 1e-6}},  // Greek mu
     NamedUnit{"in", {length, inch}},
+    NamedUnit{"inch", {length, inch}},
+    NamedUnit{"inches", {length, inch}},
+    NamedUnit{"micron", {length, 1e-6}},
+    NamedUnit{"microns", {length, 1e-6}},
+    NamedUnit{"millimeter", {length, 1e-3}},
+    NamedUnit{"millimeters", {length, 1e-3}},
+    NamedUnit{"millimetre", {length, 1e-3}},
+    NamedUnit{"millimetres", {length, 1e-3}},
+    NamedUnit{"meter", {length, 1.0}},
+    NamedUnit{"meters", {length, 1.0}},
+    NamedUnit{"metre", {length, 1.0}},
+    NamedUnit{"metres", {length, 1.0}},
     NamedUnit{"mm2", {area, 1e-6}},
     NamedUnit{"mm^2", {area, 1e-6}},
     NamedUnit{"mm²", {area, 1e-6}},
@@ -63,6 +92,10 @@ constexpr std::array units{
     NamedUnit{"kgf/mm^2", {stress, 1e6 * standard_gravity}},
     NamedUnit{"kgf/mm²", {stress, 1e6 * standard_gravity}},
     NamedUnit{"%", {strain, 1e-2}},
+    NamedUnit{"percent", {strain, 1e-2}},
+    NamedUnit{"pct", {strain, 1e-2}},
+    NamedUnit{"‰", {strain, 1e-3}},
+    NamedUnit{"mm/m", {strain, 1e-3}},
     NamedUnit{"mm/mm", {strain, 1.0}},
     NamedUnit{"m/m", {strain, 1.0}},
     NamedUnit{"in/in", {strain, 1.0}},
@@ -128,17 +161,6 @@ std::optional<Unit> find_unit(std::string_view text) {
   const std::string_view name = without_brackets(text);
   if (const std::optional<Unit> factor = calibration(name)) return factor;
   return listed_unit(name);
-}
-
-NameAndUnit split_unit(std::string_view text) {
-  text = without_blanks(text);
-  NameAndUnit whole{std::string(text), {}};
-  if (text.empty() || (text.back() != ')' && text.back() != ']')) return whole;
-  const std::size_t open = text.rfind(text.back() == ')' ? '(' : '[');
-  if (open == std::string_view::npos || open == 0) return whole;
-  const std::string_view unit = without_brackets(text.substr(open));
-  if (!unit.empty() && !find_unit(unit)) return whole;
-  return {std::string(without_blanks(text.substr(0, open))), std::string(unit)};
 }
 
 }  // namespace havers::io

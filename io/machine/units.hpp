@@ -21,11 +21,4 @@ std::optional<Unit> find_unit(std::string_view text);
 /// Text without the blanks and one pair of brackets around it.
 std::string_view without_brackets(std::string_view text);
 
-/// A name and the unit in brackets at its end: "Force [ kN ]" is "Force" and "kN". Brackets that
-/// hold no known unit belong to the name, empty ones are dropped.
-struct NameAndUnit {
-  std::string name, unit;
-};
-NameAndUnit split_unit(std::string_view text);
-
 }  // namespace havers::io

@@ -18,8 +18,9 @@ bool is_absolute(std::string_view name);
 /// Whether the name is that of a result of a whole test: "Maximum load", "Tensile strength", ...
 bool is_result(std::string_view name);
 
-/// What a header line may tell of the specimen.
-enum class Fact { specimen_id, width, thickness, gauge_length, area };
+/// What a header line may tell of the specimen. A bare length is the gauge length where no line
+/// speaks of a gauge.
+enum class Fact { specimen_id, width, thickness, length, gauge_length, area };
 
 /// The fact a header's key names: "Specimen ID", "Geometry : Width", "Largeur", ...
 std::optional<Fact> fact_of_key(std::string_view key);

@@ -171,5 +171,23 @@ TEST(Import, TakesSizesFromTheCommandLine) {
       << answer.err;
 }
 
+// 15 GPa on 25 mm; the header says 50 mm or nothing.
+TEST(Import, TakesTheGivenGaugeLengthForAnElongation) {
+  const fs::path folder = own_folder();
+  std::string table = "Time (s),Load (N),Strain (mm)\n";
+  for (int i = 0; i <= 100; ++i)
+    table += fmt::format("{:.1f},{},{:.5f}\n", 0.1 * i, 6 * i, 0.25 * 0.005 * i);
+  table += "10.2,0,0\n";
+  const std::string sizes = "Width,4,mm\nThickness,2,mm\n";
+  test::write_text(folder / "stated.csv", sizes + "Gauge length,50,mm\n\n" + table);
+  test::write_text(folder / "silent.csv", sizes + "\n" + table);
+  for (const std::string name : {"stated.csv", "silent.csv"}) {
+    const auto answer = run_havers(folder, "import " + name + " --gauge-length-mm 25 --json");
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    const auto json = nlohmann::json::parse(answer.out);
+    EXPECT_NEAR(json["modulus_Pa"].get<double>(), 15e9, 1e6) << answer.out;
+  }
+}
+
 }  // namespace
 }  // namespace havers

@@ -14,6 +14,17 @@ TEST(Number, ReadsWhatMachinesWrite) {
   EXPECT_EQ(parse_number("7,5E-05", ',').value, 7.5e-5);
 }
 
+TEST(Number, TellsItsDecimalMarkWhereItStandsAlone) {
+  for (const char* text : {"4.02", "4,02", "4.020", "4,020"})
+    EXPECT_EQ(parse_lone_number(text).value, 4.02) << text;
+  for (const char* text : {"1,004.5", "1.004,5", "1 004,5", "1'004.5"})
+    EXPECT_EQ(parse_lone_number(text).value, 1004.5) << text;
+  for (const char* text : {"1,004,000", "1.004.000", "1004000"})
+    EXPECT_EQ(parse_lone_number(text).value, 1004000.0) << text;
+  for (const char* text : {"4,02,1", "1.2,3.4", "4.02 mm", ","})
+    EXPECT_EQ(parse_lone_number(text).fault, NumberFault::text) << text;
+}
+
 TEST(Number, ReadsEveryThousandsMark) {
   EXPECT_EQ(parse_number("1,004.80328").value, 1004.80328);
   EXPECT_EQ(parse_number("1,234,567").value, 1234567.0);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/machine/units.hpp"
+#include "io/machine/split_unit.hpp"
 
 namespace havers::io {
 namespace {

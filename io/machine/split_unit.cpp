@@ -1,0 +1,106 @@
+#include "io/machine/split_unit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "io/machine/vocabulary.hpp"
+
+namespace havers::io {
+namespace {
+
+bool is_lower(char c) {
+  return c >= 'a' && c <= 'z';
+}
+
+bool is_upper(char c) {
+  return c >= 'A' && c <= 'Z';
+}
+
+// "daX", "hPa": a capital inside a short word. "raw", "DIC", "Ist" are none.
+bool has_inner_capital(std::string_view text) {
+  constexpr std::size_t longest = 4;
+  if (text.size() > longest) return false;
+  for (std::size_t i = 1; i < text.size(); ++i)
+    if (is_lower(text[i - 1]) && is_upper(text[i])) return true;
+  return false;
+}
+
+// What is no known unit and yet hardly anything else. A wrong guess would cost a column, so in
+// doubt it is none.
+bool looks_like_a_unit(std::string_view text) {
+  constexpr std::array<std::string_view, 5> not_of_a_test{"kg", "g", "t", "ft", "bar"};
+  if (quantity_of_name(text) != Quantity::other || text.find(' ') != std::string_view::npos)
+    return false;
+  if (std::ranges::find(not_of_a_test, text) != not_of_a_test.end()) return true;
+  for (const std::string_view mark : {"%", "‰", "²", "³", "°", "µ", "μ"})
+    if (text.find(mark) != std::string_view::npos) return true;
+  const std::size_t slash = text.find('/');
+  if (slash != std::string_view::npos) return find_unit(text.substr(0, slash)).has_value();
+  return has_inner_capital(text);
+}
+
+// Whether what is called so can have the unit; a strain by "m" or "in" is more likely a word.
+bool can_have(std::string_view name, std::string_view text) {
+  const std::optional<Unit> unit = find_unit(text);
+  if (!unit) return false;
+  if (const std::optional<Fact> fact = fact_of_key(name))
+    return *fact != Fact::specimen_id &&
+           unit->dimension == (*fact == Fact::area ? Dimension::area : Dimension::length);
+  const Quantity quantity = quantity_of_name(name);
+  if (quantity == Quantity::strain && (text == "m" || text == "in")) return false;
+  return fits(quantity, unit->dimension);
+}
+
+NameAndUnit named_unit(std::string_view name, std::string_view unit) {
+  while (name.ends_with(' ')) name.remove_suffix(1);
+  while (unit.starts_with(' ')) unit.remove_prefix(1);
+  return {std::string(name), std::string(unit)};
+}
+
+}  // namespace
+
+bool fits(Quantity quantity, Dimension dimension) {
+  switch (quantity) {
+    case Quantity::time:
+      return dimension == Dimension::time;
+    case Quantity::force:
+      return dimension == Dimension::force;
+    case Quantity::extension:
+      return dimension == Dimension::length;
+    case Quantity::strain:
+      return dimension == Dimension::strain || dimension == Dimension::length;
+    case Quantity::stress:
+      return dimension == Dimension::stress;
+    case Quantity::volts:
+    case Quantity::load_volts:
+      return dimension == Dimension::voltage;
+    case Quantity::other:
+      return false;
+  }
+  return false;
+}
+
+NameAndUnit split_unit(std::string_view text) {
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  const NameAndUnit whole{std::string(text), {}};
+  if (text.empty()) return whole;
+  if (text.back() == ')' || text.back() == ']') {
+    const std::size_t open = text.rfind(text.back() == ')' ? '(' : '[');
+    if (open == std::string_view::npos || open == 0) return whole;
+    const std::string_view unit = without_brackets(text.substr(open));
+    if (!unit.empty() && !find_unit(unit) && !looks_like_a_unit(unit)) return whole;
+    return named_unit(text.substr(0, open), unit);
+  }
+  for (const std::string_view mark : {"/", " in ", "_", ", ", " "}) {
+    // Of "Stress/N/mm2" the first stroke, of "max_force_kN" the last underline.
+    const std::size_t at = mark == "/" ? text.find(mark) : text.rfind(mark);
+    if (at == std::string_view::npos || at == 0) continue;
+    const NameAndUnit split = named_unit(text.substr(0, at), text.substr(at + mark.size()));
+    if (can_have(split.name, split.unit)) return split;
+  }
+  return whole;
+}
+
+}  // namespace havers::io

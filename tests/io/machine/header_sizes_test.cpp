@@ -1,0 +1,97 @@
+// Sizes of a specimen from the lines above the table.
+#include <gtest/gtest.h>
+
+#include "io/machine/read_test.hpp"
+#include "tests/support/machine_files.hpp"
+
+namespace havers::io {
+namespace {
+
+calib::RawTest sized(const std::string& content, const ReadOptions& options = {}) {
+  const test::TemporaryFile file(content);
+  return read_test(file.path(), options).test;
+}
+
+TEST(HeaderSizes, TellTheirDecimalMarkWhateverTheTableUses) {
+  const std::string commas = "Time (s);Load (N)\n0,1;6,5\n0,2;12,5\n";
+  const std::string points = "Time (s),Load (N)\n0.1,6.5\n0.2,12.5\n";
+  const std::string whole = "Time (s);Load (N)\n0;6\n1;12\n";
+  for (const std::string& content :
+       {"Width;4.020;mm\n" + commas, "Width;4,020;mm\n" + commas, "Width;4,02;mm\n" + commas,
+        "Width,\"4,020\",mm\n" + points, "Width,\"4,02\",mm\n" + points,
+        "Width,4.020,mm\n" + points, "Width;4,020;mm\n" + whole, "Width;4.020;mm\n" + whole}) {
+    SCOPED_TRACE(content);
+    const calib::RawTest test = sized(content);
+    EXPECT_NEAR(test.width.value_or(0.0), 4.02e-3, 1e-15);
+    EXPECT_TRUE(test.warnings.empty());
+    EXPECT_EQ(test.force.size(), 2U);
+  }
+}
+
+TEST(HeaderSizes, GroupThousandsByOneOfTwoMarks) {
+  const std::string table = "Time (s);Load (N)\n0,1;6,5\n0,2;12,5\n";
+  EXPECT_NEAR(sized("Length;1.004,5;mm\n" + table).gauge_length.value(), 1.0045, 1e-12);
+  EXPECT_NEAR(sized("Length;1,004.5;mm\n" + table).gauge_length.value(), 1.0045, 1e-12);
+}
+
+TEST(HeaderSizes, GiveWayToThoseOfTheUser) {
+  ReadOptions options;
+  options.width = 8e-3;
+  options.thickness = 3e-3;
+  options.gauge_length = 25e-3;
+  const std::string table = "Load (N),Strain (mm),Stress (MPa)\n10,0.05,1\n20,0.1,2\n";
+  for (const std::string header : {"", "Width,4,mm\nThickness,2,mm\nGauge length,50,mm\n"}) {
+    const calib::RawTest test = sized(header + table, options);
+    EXPECT_EQ(test.width, 8e-3);
+    EXPECT_EQ(test.thickness, 3e-3);
+    EXPECT_EQ(test.gauge_length, 25e-3);
+    ASSERT_EQ(test.strain.size(), 2U);  // an elongation, by the given length
+    EXPECT_NEAR(test.strain[0], 2e-3, 1e-15);
+    EXPECT_NEAR(test.strain[1], 4e-3, 1e-15);
+    EXPECT_TRUE(test.warnings.empty());
+  }
+}
+
+const std::string two_rows = "Time (s),Load (N)\n0,6\n1,12\n";
+
+TEST(HeaderSizes, TakeTheGaugeLengthBeforeABareLength) {
+  for (const std::string gauge : {"Gauge length", "Gage length", "Messlänge", "Anfangsmesslänge",
+                                  "Longueur initiale", "标距", "L0 - Course standard"})
+    for (const std::string bare : {"Length", "Longueur", "Longitud", "Lunghezza", "Długość"}) {
+      SCOPED_TRACE(gauge + ", " + bare);
+      const std::string first = bare + ",100,mm\n", second = "\"" + gauge + "\",25,mm\n";
+      for (const std::string& header : {first + second, second + first}) {
+        const calib::RawTest test = sized(header + two_rows);
+        EXPECT_EQ(test.gauge_length, 25e-3);
+        EXPECT_TRUE(test.warnings.empty());
+      }
+      EXPECT_EQ(sized(first + two_rows).gauge_length, 0.1);
+    }
+}
+
+TEST(HeaderSizes, WarnOfTwoValuesOfOneSize) {
+  const calib::RawTest widths = sized("Width,4,mm\nSpecimen width,5,mm\n" + two_rows);
+  EXPECT_EQ(widths.width, 4e-3);
+  EXPECT_EQ(widths.warnings,
+            std::vector<std::string>{"line 2, Specimen width: 5 mm differs from "
+                                     "4 mm of \"Width\" above: the first is used"});
+  const calib::RawTest lengths =
+      sized("Length,100,mm\nGauge length,25,mm\nGage length,50,mm\n" + two_rows);
+  EXPECT_EQ(lengths.gauge_length, 25e-3);
+  ASSERT_EQ(lengths.warnings.size(), 1U);
+  EXPECT_NE(lengths.warnings[0].find("50 mm differs from 25 mm of \"Gauge length\""),
+            std::string::npos);
+  EXPECT_TRUE(sized("Width,4,mm\nBreite,0.4,cm\n" + two_rows).warnings.empty());
+}
+
+TEST(HeaderSizes, AreNotComparedWithThoseOfTheUser) {
+  ReadOptions options;
+  options.gauge_length = 30e-3;
+  const calib::RawTest test =
+      sized("Length,100,mm\nGauge length,25,mm\nGage length,50,mm\n" + two_rows, options);
+  EXPECT_EQ(test.gauge_length, 30e-3);
+  EXPECT_TRUE(test.warnings.empty());
+}
+
+}  // namespace
+}  // namespace havers::io

@@ -1,0 +1,90 @@
+// Units in the names of columns, known and unknown, and brackets that hold none.
+#include <gtest/gtest.h>
+
+#include "io/input_error.hpp"
+#include "io/machine/read_test.hpp"
+#include "io/machine/split_unit.hpp"
+#include "tests/support/machine_files.hpp"
+
+namespace havers::io {
+namespace {
+
+calib::RawTest test_of(const std::string& names, const ReadOptions& options = {}) {
+  const test::TemporaryFile file(names + "\n0;1\n1;2\n");
+  return read_test(file.path(), options).test;
+}
+
+std::string refusal_of(const std::string& names, const ReadOptions& options = {}) {
+  try {
+    test_of(names, options);
+  } catch (const InputError& error) {
+    return error.problems()[0].what + " (" + error.problems()[0].hint + ")";
+  }
+  return "read without refusal";
+}
+
+TEST(WrittenUnits, OfAForceAreReadInEveryForm) {
+  for (const auto& [name, newton] : {std::pair{"Load (daN)", 10.0},
+                                     {"Load/kN", 1e3},
+                                     {"Load / kN", 1e3},
+                                     {"Kraft in kN", 1e3},
+                                     {"force_kN", 1e3},
+                                     {"max_force_kN", 1e3},
+                                     {"Load, kN", 1e3},
+                                     {"Load kN", 1e3},
+                                     {"Load (Newtons)", 1.0},
+                                     {"Load (kp)", 9.80665}}) {
+    SCOPED_TRACE(name);
+    const calib::RawTest test = test_of(std::string("Time (s);") + name);
+    EXPECT_DOUBLE_EQ(test.force.at(1), 2.0 * newton);
+    EXPECT_TRUE(test.warnings.empty());
+  }
+}
+
+TEST(WrittenUnits, OfStrainLengthStressAndTimeAreReadToo) {
+  EXPECT_DOUBLE_EQ(test_of("strain_pct;Load (N)").strain.at(1), 0.01);
+  EXPECT_DOUBLE_EQ(test_of("Strain (‰);Load (N)").strain.at(1), 0.001);
+  EXPECT_DOUBLE_EQ(test_of("Dehnung in %;Load (N)").strain.at(1), 0.01);
+  EXPECT_DOUBLE_EQ(test_of("Extension (microns);Load (N)").extension.at(1), 1e-6);
+  EXPECT_DOUBLE_EQ(test_of("Time (minutes);Load (N)").time.at(1), 60.0);
+  EXPECT_DOUBLE_EQ(test_of("Time (s);Stress/N/mm2").stress.at(1), 2e6);
+  EXPECT_DOUBLE_EQ(test_of("Width_mm;4,02\nTime (s);Load (N)").width.value(), 4.02e-3);
+}
+
+TEST(WrittenUnits, ThatAreNotKnownAreNamed) {
+  const std::string sentence =
+      "unit \"daX\" of column \"Load\" is not known (say force_unit = ... in [specimen.columns])";
+  EXPECT_EQ(refusal_of("Time (s);Load (daX)"), sentence);
+  EXPECT_EQ(refusal_of("Time;Load\n(s);(daX)"), sentence);
+  EXPECT_EQ(refusal_of("Time (s);Load (daX)", {{{Quantity::force, {"Load", ""}}}}), sentence);
+  EXPECT_NE(refusal_of("Time (s);Load (kg)").find("\"kg\""), std::string::npos);
+  const calib::RawTest test = test_of("Strain (kX);Load (N)");
+  EXPECT_TRUE(test.strain.empty());
+  EXPECT_EQ(test.warnings.at(0),
+            "unit \"kX\" of column \"Strain\" is not known: not used (say strain_unit = ... in "
+            "[specimen.columns])");
+}
+
+TEST(WrittenUnits, AreOverruledByTheUser) {
+  for (const char* column : {"Load", "Load (daX)", "2"}) {
+    const ReadOptions options{{{Quantity::force, {column, "kN"}}}};
+    EXPECT_DOUBLE_EQ(test_of("Time (s);Load (daX)", options).force.at(1), 2000.0) << column;
+  }
+  const ReadOptions options{{{Quantity::force, {"force_kN", "N"}}}};
+  EXPECT_DOUBLE_EQ(test_of("Time (s);force_kN", options).force.at(1), 2.0);
+}
+
+TEST(WrittenUnits, AreNotSeenWhereThereIsNone) {
+  for (const char* name :
+       {"Tensile strain (Strain 1)", "Load (channel 2)", "Extension (Crosshead)", "Load (raw)",
+        "Kraft (Ist)", "Strain (DIC)", "Load (LVDT)", "Force_min", "Load_in", "Strain_m",
+        "Sampling rate 1/s", "S/No", "Speed/mm/min", "Gage length, standard travel", "C_1_N"}) {
+    EXPECT_EQ(split_unit(name).name, name);
+    EXPECT_EQ(split_unit(name).unit, "") << name;
+  }
+  EXPECT_EQ(test_of("Time (s);Load (channel 2)").warnings.at(0),
+            "column \"Load (channel 2)\" has no unit, taken as N");
+}
+
+}  // namespace
+}  // namespace havers::io
