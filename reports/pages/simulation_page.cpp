@@ -8,8 +8,7 @@ namespace havers::reports {
 namespace {
 
 std::string sentence_of(const sim::Simulation& s) {
-  if (!s.trusted())
-    return fmt::format("Not to be trusted: {}.", s.why_not_trusted());
+  if (!s.trusted()) return fmt::format("Not to be trusted: {}.", s.why_not_trusted());
   const std::string at = fmt::format("{} at {} strain", quantity(s.strength / in::MPa, "MPa"),
                                      quantity(s.failure_strain / in::percent, "%", 3));
   return s.status == sim::SimulationStatus::broken
