@@ -78,7 +78,7 @@ struct Simulation {
   double tolerance = 0.0;       ///< Of the residual, as asked for. [-]
   double worst_penetration = 0.0;  ///< Largest −g. [m]
   int events_without_contact =
-      0;  ///< Quasi-static: events whose contact had no solution and was left out.
+      0;            ///< Quasi-static: events whose contact had no solution and was left out.
   int dropped = 0;  ///< Half fibres of which the clipping left but a sliver.
   std::vector<LeftOut> left_out;
 
