@@ -34,6 +34,10 @@ fs::path without_trailing_slash(const fs::path& path) {
   return full.has_filename() ? full : full.parent_path();
 }
 
+void write_names(const fs::path& folder, const std::set<std::string>& names) {
+  io::write_file(folder / own_names, fmt::format("{}\n", fmt::join(names, "\n")));
+}
+
 void refuse_to_replace(const fs::path& folder, const std::string& name,
                        const std::set<std::string>& own) {
   if (fs::exists(folder / name) && !own.contains(name))
@@ -53,6 +57,11 @@ void refuse_to_overwrite(const fs::path& folder, bool force) {
 }
 
 }  // namespace
+
+void take_note(const fs::path& folder, const std::string& name) {
+  std::set<std::string> names = names_of_runs(folder);
+  if (names.insert(name).second) write_names(folder, names);
+}
 
 OutputFolder::OutputFolder(const fs::path& folder, bool force)
     : folder_(without_trailing_slash(folder)),
@@ -87,7 +96,7 @@ void OutputFolder::publish(Earlier earlier) {
   for (const std::string& name : staged) refuse_to_replace(folder_, name, own);
   const std::set<std::string> old = own;
   own.insert(staged.begin(), staged.end());
-  io::write_file(folder_ / own_names, fmt::format("{}\n", fmt::join(own, "\n")));
+  write_names(folder_, own);
   if (earlier == Earlier::goes)
     for (const std::string& name : old) fs::remove_all(folder_ / name);
   const auto move = [&](const std::string& name) {

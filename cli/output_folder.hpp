@@ -2,8 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace havers::cli {
+
+/// That havers has put a file of that name into the folder: a later run may replace it.
+void take_note(const std::filesystem::path& folder, const std::string& name);
 
 /// Files are written into a staging folder beside the target and moved there by `publish`; whatever
 /// was not published is removed again, so that no run leaves half of its files.

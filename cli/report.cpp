@@ -55,6 +55,7 @@ fs::path write_page(const ReportArguments& arguments, const std::vector<Finished
         (first.filename() == "result.json" ? fs::absolute(first).parent_path() : first) /
         "report.html";
     io::write_file(page, page_of(fits));
+    take_note(page.parent_path(), page.filename().string());
     return fs::absolute(page).lexically_normal();
   }
   OutputFolder output(arguments.folder, force);

@@ -98,7 +98,7 @@ std::pair<double, const char*> unwritten_unit(Quantity quantity) {
 }
 
 std::string unknown_unit(const Column& column) {
-  return fmt::format("unit \"{}\" of column \"{}\" is not known", excerpt(column.unit),
+  return fmt::format(R"(unit "{}" of column "{}" is not known)", excerpt(column.unit),
                      excerpt(column.name));
 }
 

@@ -84,7 +84,7 @@ bool fits(Quantity quantity, Dimension dimension) {
 NameAndUnit split_unit(std::string_view text) {
   while (text.starts_with(' ')) text.remove_prefix(1);
   while (text.ends_with(' ')) text.remove_suffix(1);
-  const NameAndUnit whole{std::string(text), {}};
+  NameAndUnit whole{std::string(text), {}};
   if (text.empty()) return whole;
   if (text.back() == ')' || text.back() == ']') {
     const std::size_t open = text.rfind(text.back() == ')' ? '(' : '[');
@@ -97,7 +97,7 @@ NameAndUnit split_unit(std::string_view text) {
     // Of "Stress/N/mm2" the first stroke, of "max_force_kN" the last underline.
     const std::size_t at = mark == "/" ? text.find(mark) : text.rfind(mark);
     if (at == std::string_view::npos || at == 0) continue;
-    const NameAndUnit split = named_unit(text.substr(0, at), text.substr(at + mark.size()));
+    NameAndUnit split = named_unit(text.substr(0, at), text.substr(at + mark.size()));
     if (can_have(split.name, split.unit)) return split;
   }
   return whole;

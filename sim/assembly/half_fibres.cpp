@@ -49,20 +49,23 @@ GridRange grid_range(const AssemblyOptions& options, const FibreFrame& frame) {
 class Grid {
  public:
   explicit Grid(const AssemblyOptions& options)
-      : range(grid_range(options, FibreFrame(options.orientation))), options_(options) {
+      : options_(options), range_(grid_range(options, FibreFrame(options.orientation))) {
     const FibreFrame frame(options.orientation);
-    for (int layer = range.first_layer; layer <= range.last_layer + 1; ++layer)
-      for (int column = range.first_column; column <= range.last_column + 1; ++column)
+    for (int layer = range_.first_layer; layer <= range_.last_layer + 1; ++layer)
+      for (int column = range_.first_column; column <= range_.last_column + 1; ++column)
         corners_.push_back(
             frame.to_specimen(0.5 * column * options.fibre_length, layer * options.fibre_height));
   }
 
-  [[nodiscard]] Polygon half_fibre(int layer, int column) const {
-    Polygon polygon;
-    for (int i = 0; i < 4; ++i)
-      polygon.push_back({corners_[corner(layer, column, i)], outline[static_cast<std::size_t>(i)]});
-    return clip(std::move(polygon), options_.width(), options_.height(),
-                geometric_tolerance(options_));
+  // Those of which something is left.
+  [[nodiscard]] HalfFibres half_fibres() const {
+    HalfFibres halves;
+    for (int layer = range_.first_layer; layer <= range_.last_layer; ++layer)
+      for (int column = range_.first_column; column <= range_.last_column; ++column) {
+        Polygon polygon = half_fibre(layer, column);
+        if (!polygon.empty()) halves[{layer, column}].polygon = std::move(polygon);
+      }
+    return halves;
   }
 
   // Shifts the edge by which a sliver meets its neighbours through the sliver, so that they fill
@@ -88,20 +91,27 @@ class Grid {
     return depth > geometric_tolerance(options_);
   }
 
-  const GridRange range;
-
  private:
   static constexpr std::array outline{EdgeOrigin::lower, EdgeOrigin::head, EdgeOrigin::upper,
                                       EdgeOrigin::tail};
 
+  [[nodiscard]] Polygon half_fibre(int layer, int column) const {
+    Polygon polygon;
+    for (int i = 0; i < 4; ++i)
+      polygon.push_back({corners_[corner(layer, column, i)], outline[static_cast<std::size_t>(i)]});
+    return clip(std::move(polygon), options_.width(), options_.height(),
+                geometric_tolerance(options_));
+  }
+
   // The corner where edge i of a half fibre's outline starts.
   [[nodiscard]] std::size_t corner(int layer, int column, int i) const {
-    const int row = range.last_column - range.first_column + 2;
+    const int row = range_.last_column - range_.first_column + 2;
     const int k = layer + (i >= 2 ? 1 : 0), m = column + (i == 1 || i == 2 ? 1 : 0);
-    return static_cast<std::size_t>((k - range.first_layer) * row + m - range.first_column);
+    return static_cast<std::size_t>((k - range_.first_layer) * row + m - range_.first_column);
   }
 
   const AssemblyOptions& options_;
+  GridRange range_;
   std::vector<Vector2d> corners_;  // [m]
 };
 
@@ -110,26 +120,22 @@ class Grid {
 HalfFibres clipped_half_fibres(const AssemblyOptions& options, int& dropped) {
   Grid grid(options);
   const double whole = 0.5 * options.fibre_length * options.fibre_height;
-  HalfFibres halves;
-  bool closed = true;
-  for (int pass = 0; pass < most_passes && closed; ++pass) {
-    halves.clear();
-    closed = false;
-    const double smallest = (pass == 0 ? smallest_area : smallest_closed) * whole;
-    for (int layer = grid.range.first_layer; layer <= grid.range.last_layer; ++layer) {
-      for (int column = grid.range.first_column; column <= grid.range.last_column; ++column) {
-        Polygon polygon = grid.half_fibre(layer, column);
-        if (polygon.empty()) continue;
-        if (area(polygon) >= smallest) {
-          halves[{layer, column}].polygon = std::move(polygon);
-          continue;
-        }
-        if (pass == 0) ++dropped;
-        closed = grid.close(layer, column, polygon) || closed;
+  for (int pass = 1;; ++pass) {
+    HalfFibres halves = grid.half_fibres();
+    const double smallest = (pass == 1 ? smallest_area : smallest_closed) * whole;
+    bool closed = false;
+    for (auto half = halves.begin(); half != halves.end();) {
+      const auto& [place, found] = *half;
+      if (area(found.polygon) >= smallest) {
+        ++half;
+        continue;
       }
+      if (pass == 1) ++dropped;
+      closed = grid.close(place.first, place.second, found.polygon) || closed;
+      half = halves.erase(half);
     }
+    if (!closed || pass == most_passes) return halves;
   }
-  return halves;
 }
 
 }  // namespace havers::sim
