@@ -30,9 +30,10 @@ class OutputFolder {
   /// A file's place in the target itself, for what must survive a kill.
   [[nodiscard]] std::filesystem::path keep(const std::filesystem::path& name) const;
 
-  /// Moves all staged files to the target; what earlier runs put there goes or stays.
-  /// @throws InputError when a file of that name is there that no run has written
+  /// What earlier runs put into the target.
   enum class Earlier { goes, stays };
+  /// Moves all staged files to the target.
+  /// @throws InputError when a file of that name is there that no run has written
   void publish(Earlier earlier = Earlier::goes);
 
  private:
