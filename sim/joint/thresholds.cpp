@@ -52,22 +52,23 @@ bool in_outer_layer(const Scene& scene, const Joint& joint) {
 
 }  // namespace
 
-double threshold_factor(std::uint64_t seed, std::uint64_t joint, double scatter,
-                        Distribution distribution) {
-  if (scatter == 0.0) return 1.0;
-  const double u = uniform(seed, joint, Stream::factor);
+ThresholdFactors::ThresholdFactors(std::uint64_t seed, double scatter, Distribution distribution)
+    : seed_(seed), scatter_(scatter), distribution_(distribution) {
   const double cv = scatter / std::sqrt(12.0);
-  switch (distribution) {
+  if (distribution == Distribution::lognormal) shape_ = std::sqrt(std::log1p(cv * cv));
+  if (distribution == Distribution::weibull && scatter > 0.0) shape_ = weibull_shape(cv);
+}
+
+double ThresholdFactors::operator()(std::uint64_t joint) const {
+  if (scatter_ == 0.0) return 1.0;
+  const double u = uniform(seed_, joint, Stream::factor);
+  switch (distribution_) {
     case Distribution::uniform:
-      return 1.0 + scatter * (u - 0.5);
-    case Distribution::lognormal: {
-      const double s2 = std::log1p(cv * cv);
-      return std::exp(std::sqrt(s2) * normal_quantile(u) - 0.5 * s2);
-    }
-    case Distribution::weibull: {
-      const double k = weibull_shape(cv);
-      return std::exp(std::log(-std::log1p(-u)) / k - std::lgamma(1.0 + 1.0 / k));
-    }
+      return 1.0 + scatter_ * (u - 0.5);
+    case Distribution::lognormal:
+      return std::exp(shape_ * normal_quantile(u) - 0.5 * shape_ * shape_);
+    case Distribution::weibull:
+      return std::exp(std::log(-std::log1p(-u)) / shape_ - std::lgamma(1.0 + 1.0 / shape_));
   }
   return 1.0;
 }
@@ -97,11 +98,12 @@ std::vector<Threshold> draw_thresholds(const Scene& scene, const Assembly& assem
          scene.joints.thresholds.size() == assembly.joints.size());
   const JointOptions& joints = scene.joints;
   if (!joints.thresholds.empty()) return joints.thresholds;
+  const ThresholdFactors factor(joints.seed, joints.scatter, joints.distribution);
   std::vector<Threshold> thresholds(assembly.joints.size());
   for (std::size_t i = 0; i < thresholds.size(); ++i) {
     if (is_drawn_missing(joints.seed, i, joints.missing)) continue;
     const Threshold mean = mean_threshold(scene, assembly.joints[i]);
-    const double w = threshold_factor(joints.seed, i, joints.scatter, joints.distribution);
+    const double w = factor(i);
     thresholds[i] = {mean.normal * w, mean.tangent * w};
   }
   return thresholds;

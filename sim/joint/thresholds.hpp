@@ -9,10 +9,19 @@
 
 namespace havers::sim {
 
-/// Factor w of mean 1 and standard deviation d/√12 (M8), a function of (seed, joint) alone:
+/// Factors w of mean 1 and standard deviation d/√12 (M8), each a function of (seed, joint) alone:
 /// parameters stretch the draw but never reshuffle it. [-]
-double threshold_factor(std::uint64_t seed, std::uint64_t joint, double scatter,
-                        Distribution distribution);
+class ThresholdFactors {
+ public:
+  ThresholdFactors(std::uint64_t seed, double scatter, Distribution distribution);
+  [[nodiscard]] double operator()(std::uint64_t joint) const;
+
+ private:
+  std::uint64_t seed_;
+  double scatter_;
+  Distribution distribution_;
+  double shape_ = 0.0;  // k of the Weibull law, or the deviation of ln w
+};
 
 /// Whether pores have taken the joint away (M13), a function of (seed, joint) alone and drawn apart
 /// from its thresholds: what is missing at one fraction is missing at every larger one.

@@ -33,7 +33,7 @@ TEST(MissingJoints, AreDrawnApartFromTheThresholds) {
   double sum = 0.0, missing = 0.0;
   for (std::uint64_t joint = 0; joint < drawn_joints; ++joint) {
     if (!is_drawn_missing(5, joint, 0.2)) continue;
-    sum += threshold_factor(5, joint, 1.0, Distribution::uniform);
+    sum += ThresholdFactors(5, 1.0, Distribution::uniform)(joint);
     missing += 1.0;
   }
   EXPECT_NEAR(sum / missing, 1.0, 4.0 / std::sqrt(12.0 * missing));

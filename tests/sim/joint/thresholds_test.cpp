@@ -19,7 +19,7 @@ Moments moments(double scatter, Distribution distribution) {
   Moments m;
   double sum = 0.0, squares = 0.0;
   for (std::uint64_t joint = 0; joint < draws; ++joint) {
-    const double w = threshold_factor(7, joint, scatter, distribution);
+    const double w = ThresholdFactors(7, scatter, distribution)(joint);
     sum += w;
     squares += w * w;
     m.least = std::min(m.least, w);
@@ -56,11 +56,11 @@ TEST(ThresholdFactor, HasTheTailsOfItsDistribution) {
   int below_uniform = 0, below_weibull = 0, below_lognormal = 0;
   const double d = 0.9 * 2.0, cv = d / std::sqrt(12.0), s = std::sqrt(std::log1p(cv * cv));
   for (std::uint64_t joint = 0; joint < draws; ++joint) {
-    below_uniform += threshold_factor(3, joint, d, Distribution::uniform) < 1.0 - 0.25 * d ? 1 : 0;
-    below_weibull += threshold_factor(3, joint, d, Distribution::weibull) < 0.2 ? 1 : 0;
+    below_uniform += ThresholdFactors(3, d, Distribution::uniform)(joint) < 1.0 - 0.25 * d ? 1 : 0;
+    below_weibull += ThresholdFactors(3, d, Distribution::weibull)(joint) < 0.2 ? 1 : 0;
     const double one_deviation_below = std::exp(-0.5 * s * s - s);
     below_lognormal +=
-        threshold_factor(3, joint, d, Distribution::lognormal) < one_deviation_below ? 1 : 0;
+        ThresholdFactors(3, d, Distribution::lognormal)(joint) < one_deviation_below ? 1 : 0;
   }
   const double error = 4.0 * 0.5 / std::sqrt(draws);
   EXPECT_NEAR(below_uniform / double(draws), 0.25, error);
@@ -76,25 +76,25 @@ TEST(ThresholdFactor, HasTheTailsOfItsDistribution) {
 }
 
 TEST(ThresholdFactor, DependsOnSeedAndJointAlone) {
-  EXPECT_EQ(threshold_factor(5, 17, 0.4, Distribution::uniform),
-            threshold_factor(5, 17, 0.4, Distribution::uniform));
-  EXPECT_NE(threshold_factor(5, 17, 0.4, Distribution::uniform),
-            threshold_factor(6, 17, 0.4, Distribution::uniform));
-  EXPECT_NE(threshold_factor(5, 17, 0.4, Distribution::uniform),
-            threshold_factor(5, 18, 0.4, Distribution::uniform));
-  EXPECT_EQ(threshold_factor(5, 17, 0.0, Distribution::weibull), 1.0);
+  EXPECT_EQ(ThresholdFactors(5, 0.4, Distribution::uniform)(17),
+            ThresholdFactors(5, 0.4, Distribution::uniform)(17));
+  EXPECT_NE(ThresholdFactors(5, 0.4, Distribution::uniform)(17),
+            ThresholdFactors(6, 0.4, Distribution::uniform)(17));
+  EXPECT_NE(ThresholdFactors(5, 0.4, Distribution::uniform)(17),
+            ThresholdFactors(5, 0.4, Distribution::uniform)(18));
+  EXPECT_EQ(ThresholdFactors(5, 0.0, Distribution::weibull)(17), 1.0);
 }
 
 // A longer interval or another distribution stretches the draw, but does not reshuffle it.
 TEST(ThresholdFactor, KeepsTheOrderOfJointsWhenParametersChange) {
   for (std::uint64_t joint = 0; joint < 100; ++joint) {
-    const double w = threshold_factor(2, joint, 0.2, Distribution::uniform);
-    EXPECT_NEAR(threshold_factor(2, joint, 1.0, Distribution::uniform) - 1.0, 5.0 * (w - 1.0),
+    const double w = ThresholdFactors(2, 0.2, Distribution::uniform)(joint);
+    EXPECT_NEAR(ThresholdFactors(2, 1.0, Distribution::uniform)(joint) - 1.0, 5.0 * (w - 1.0),
                 1e-14);
-    const double next = threshold_factor(2, joint + 1, 0.2, Distribution::uniform);
+    const double next = ThresholdFactors(2, 0.2, Distribution::uniform)(joint + 1);
     for (const Distribution other : {Distribution::weibull, Distribution::lognormal})
-      EXPECT_EQ(w < next, threshold_factor(2, joint, 0.7, other) <
-                              threshold_factor(2, joint + 1, 0.7, other));
+      EXPECT_EQ(w < next, ThresholdFactors(2, 0.7, other)(joint) <
+                              ThresholdFactors(2, 0.7, other)(joint + 1));
   }
 }
 
@@ -147,7 +147,7 @@ TEST(DrawThresholds, ScalesBothThresholdsOfAJointByOneDraw) {
   ASSERT_EQ(thresholds.size(), assembly.joints.size());
   for (std::size_t i = 0; i < thresholds.size(); ++i) {
     const Threshold mean = mean_threshold(scene, assembly.joints[i]);
-    const double w = threshold_factor(scene.joints.seed, i, 0.2, Distribution::uniform);
+    const double w = ThresholdFactors(scene.joints.seed, 0.2, Distribution::uniform)(i);
     EXPECT_DOUBLE_EQ(thresholds[i].normal, w * mean.normal);
     EXPECT_DOUBLE_EQ(thresholds[i].tangent, w * mean.tangent);
   }
