@@ -30,9 +30,9 @@ ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, int max_iterations, bool 
       stiffness_(joint_stiffness(bodies)) {}
 
 LooseJoints ActiveSetSolver::make_loose() const {
-  return {structure_, [this](int joint) {
-            return std::make_shared<const JumpResponse>(structure_.respond_to_jump(joint));
-          }};
+  return LooseJoints([this](int joint) {
+    return std::make_shared<const Eigen::MatrixX2d>(structure_.reactions_to_jump(joint));
+  });
 }
 
 void ActiveSetSolver::rebuild(std::vector<Held> held) {
@@ -84,7 +84,7 @@ bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded
     for (Index i = 0; i < n; ++i)
       result.states[static_cast<std::size_t>(loose_.joints()[static_cast<std::size_t>(i)])] =
           local.states[static_cast<std::size_t>(i)];
-    if (!loosen_violated(step, bonded_reactions + loose_.reactions_to(y), result)) return true;
+    if (!loosen_violated(step, loose_.reactions_with(y, bonded_reactions), result)) return true;
   }
 }
 

@@ -19,9 +19,10 @@ void LooseJoints::add(int joint) {
     stiffness_.conservativeResize(size, size);
   }
   joints_.push_back(joint);
-  responses_.push_back(source_(joint));
-  stiffness_.block(first, 0, 2, first + 2) =
-      structure_->reactions_between(*responses_.back(), responses_);
+  reactions_.push_back(source_(joint));
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    stiffness_.block<2, 2>(first, static_cast<Index>(2 * i)) =
+        reactions_.back()->middleRows<2>(2 * static_cast<Index>(joints_[i])).transpose();
 }
 
 Eigen::MatrixXd LooseJoints::stiffness() const {
@@ -32,9 +33,11 @@ Eigen::MatrixXd LooseJoints::stiffness() const {
   return S;
 }
 
-Eigen::VectorXd LooseJoints::reactions_to(const Eigen::VectorXd& y) const {
-  if (y.isZero(0.0)) return Eigen::VectorXd::Zero(2 * structure_->joints());
-  return structure_->reactions_to_jumps(responses_, y);
+Eigen::VectorXd LooseJoints::reactions_with(const Eigen::VectorXd& y,
+                                            Eigen::VectorXd reactions) const {
+  for (std::size_t i = 0; i < reactions_.size(); ++i)
+    reactions.noalias() += *reactions_[i] * y.segment<2>(2 * static_cast<Index>(i));
+  return reactions;
 }
 
 }  // namespace havers::sim

@@ -4,9 +4,8 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
-
-#include "sim/structure/structure.hpp"
 
 namespace havers::sim {
 
@@ -14,11 +13,11 @@ namespace havers::sim {
 /// structure changes.
 class LooseJoints {
  public:
-  using Response = std::shared_ptr<const JumpResponse>;
-  /// Where they come from: Structure::respond_to_jump, or something that remembers its answers.
-  using Source = std::function<Response(int joint)>;
-  LooseJoints(const Structure& structure, Source source)
-      : structure_(&structure), source_(std::move(source)) {}
+  /// Reactions of all joints to unit jumps at one, normal and tangential. [N/m²]
+  using Reactions = std::shared_ptr<const Eigen::MatrixX2d>;
+  /// Where they come from: Structure::reactions_to_jump, or something that remembers its answers.
+  using Source = std::function<Reactions(int joint)>;
+  explicit LooseJoints(Source source) : source_(std::move(source)) {}
 
   [[nodiscard]] std::size_t size() const { return joints_.size(); }
   [[nodiscard]] const std::vector<int>& joints() const { return joints_; }
@@ -29,15 +28,15 @@ class LooseJoints {
   /// S over the loose joints. [N/m²]
   [[nodiscard]] Eigen::MatrixXd stiffness() const;
 
-  /// Change of all reactions by gaps y of the loose joints: S y. [N/m]
-  [[nodiscard]] Eigen::VectorXd reactions_to(const Eigen::VectorXd& y) const;
+  /// Reactions of all joints [N/m], when the loose ones get gaps y [m].
+  [[nodiscard]] Eigen::VectorXd reactions_with(const Eigen::VectorXd& y,
+                                               Eigen::VectorXd reactions) const;
 
  private:
-  const Structure* structure_;
   Source source_;
   std::vector<int> joints_;
-  std::vector<Response> responses_;  // of each
-  Eigen::MatrixXd stiffness_;        // lower triangle of 2 × 2 blocks; grows by doubling
+  std::vector<Reactions> reactions_;  // to jumps at each
+  Eigen::MatrixXd stiffness_;         // lower triangle of 2 × 2 blocks; grows by doubling
 };
 
 }  // namespace havers::sim

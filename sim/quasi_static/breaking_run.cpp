@@ -34,7 +34,7 @@ BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructu
     : scene_(scene),
       careful_(careful),
       intact_(std::move(intact)),
-      loose_(intact_->structure(), [this](int joint) { return intact_->respond_to_jump(joint); }),
+      loose_([this](int joint) { return intact_->reactions_to_jump(joint); }),
       reference_{{}, intact_->answer().reactions, intact_->answer().force, 0.0},
       reactions_(reference_.reactions),
       force_(reference_.force),
@@ -146,7 +146,7 @@ bool BreakingRun::settle() {
   system_.set(result.states);
   y_ = result.y;
   const VectorXd moved = y_ - y_at_reference_;
-  reactions_ = reference_.reactions + loose_.reactions_to(moved);
+  reactions_ = loose_.reactions_with(moved, reference_.reactions);
   // By reciprocity the force at the end changes by r⁰·y/W, r⁰ being those of the intact structure.
   force_ = reference_.force +
            of_loose(intact_->answer().reactions).dot(moved) / intact_->assembly().width;

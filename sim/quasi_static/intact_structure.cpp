@@ -1,9 +1,9 @@
 #include "sim/quasi_static/intact_structure.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <list>
-#include <mutex>
 #include <tuple>
 #include <utility>
 
@@ -16,8 +16,9 @@ constexpr std::size_t kept = 8;
 // Part of the forces by which the solved ones may miss those of the uniform stress, which then
 // stand in for them. Where they miss by more, self-stress is not determined (M10).
 constexpr double known = 1e-6;
-constexpr std::size_t remembered_bytes = std::size_t{128}
-                                         << 20U;  // of jump responses, for each structure
+// Of reactions to jumps, all structures together.
+constexpr std::size_t most_remembered = std::size_t{1} << 30U;
+std::atomic<std::size_t> remembered{0};
 
 // A trace of inertia, that of h c = 3e6 specimens, holds what hangs on a single joint or floats,
 // and nothing else feels it.
@@ -92,18 +93,26 @@ double IntactStructure::energy(const Eigen::VectorXd& q) const {
   return 0.5 * q.dot(bodies_.shifted_times(q));
 }
 
-std::shared_ptr<const JumpResponse> IntactStructure::respond_to_jump(int joint) const {
+std::shared_ptr<const Eigen::MatrixX2d> IntactStructure::reactions_to_jump(int joint) const {
   {
     const std::scoped_lock lock(mutex_);
-    const auto answered = responses_.find(joint);
-    if (answered != responses_.end()) return answered->second;
+    const auto found = reactions_.find(joint);
+    if (found != reactions_.end()) return found->second;
   }
-  auto response = std::make_shared<const JumpResponse>(structure_.respond_to_jump(joint));
+  auto reactions = std::make_shared<const Eigen::MatrixX2d>(structure_.reactions_to_jump(joint));
   const std::scoped_lock lock(mutex_);
-  const std::size_t bytes = response->half.rows.size() * (sizeof(int) + sizeof(Eigen::RowVector2d));
-  if (response_bytes_ + bytes <= remembered_bytes && responses_.emplace(joint, response).second)
-    response_bytes_ += bytes;
-  return response;
+  if (remembered + bytes_per_joint() <= most_remembered &&
+      reactions_.emplace(joint, reactions).second)
+    remembered += bytes_per_joint();
+  return reactions;
+}
+
+std::size_t IntactStructure::bytes_per_joint() const {
+  return sizeof(double) * 4 * assembly_.joints.size();
+}
+
+IntactStructure::~IntactStructure() {
+  remembered -= reactions_.size() * bytes_per_joint();
 }
 
 std::shared_ptr<const IntactStructure> intact_structure(const Scene& scene) {

@@ -27,6 +27,9 @@ class IntactStructure {
  public:
   IntactStructure(const AssemblyOptions& options, const Loading& loading, const Material& material,
                   bool share);
+  IntactStructure(const IntactStructure&) = delete;
+  IntactStructure& operator=(const IntactStructure&) = delete;
+  ~IntactStructure();
 
   [[nodiscard]] const Assembly& assembly() const { return assembly_; }
   [[nodiscard]] const Bodies& bodies() const { return bodies_; }
@@ -41,11 +44,13 @@ class IntactStructure {
   /// Bodies with a node at one of the ends.
   [[nodiscard]] const std::vector<int>& held_bodies() const { return held_bodies_; }
 
-  /// Structure::respond_to_jump, remembered for later runs as long as memory allows. May be called
-  /// by several threads.
-  [[nodiscard]] std::shared_ptr<const JumpResponse> respond_to_jump(int joint) const;
+  /// Structure::reactions_to_jump, remembered for later runs as long as memory allows. May be
+  /// called by several threads.
+  [[nodiscard]] std::shared_ptr<const Eigen::MatrixX2d> reactions_to_jump(int joint) const;
 
  private:
+  [[nodiscard]] std::size_t bytes_per_joint() const;
+
   Assembly assembly_;
   Shift shift_;
   Bodies bodies_;
@@ -54,8 +59,7 @@ class IntactStructure {
   Eigen::VectorXd lost_;  // forces of the uniform stress that a solve does not find [N/m]
   std::vector<int> held_bodies_;
   mutable std::mutex mutex_;
-  mutable std::map<int, std::shared_ptr<const JumpResponse>> responses_;
-  mutable std::size_t response_bytes_ = 0;
+  mutable std::map<int, std::shared_ptr<const Eigen::MatrixX2d>> reactions_;  // to jumps at each
 };
 
 /// The one for a scene, made once and shared between runs and threads; the last few are kept.

@@ -101,10 +101,12 @@ cholmod_sparse view_of(const Eigen::SparseMatrix<double>& lower) {
   return view;
 }
 
-cholmod_dense view_of(const VectorXd& b) {
+template <class Columns>
+cholmod_dense view_of(const Columns& b) {
   cholmod_dense view{};
-  view.nrow = view.nzmax = view.d = static_cast<std::size_t>(b.size());
-  view.ncol = 1;
+  view.nrow = view.d = static_cast<std::size_t>(b.rows());
+  view.ncol = static_cast<std::size_t>(b.cols());
+  view.nzmax = static_cast<std::size_t>(b.size());
   view.x = const_cast<double*>(b.data());  // NOLINT
   view.xtype = CHOLMOD_REAL;
   view.dtype = CHOLMOD_DOUBLE;
@@ -143,7 +145,7 @@ struct SparseFactor::Factor {
 
 SparseFactor::SparseFactor(const Eigen::SparseMatrix<double>& lower, Index multipliers,
                            std::vector<int> order)
-    : factor_(std::make_unique<Factor>()), pivots_(lower.rows()) {
+    : factor_(std::make_unique<Factor>()) {
   cholmod_common* common = factor_->common.get();
   common->nmethods = 1;
   common->method[0].ordering = CHOLMOD_GIVEN;
@@ -158,7 +160,6 @@ SparseFactor::SparseFactor(const Eigen::SparseMatrix<double>& lower, Index multi
     const int row = static_cast<const int*>(L->Perm)[j];
     place_[static_cast<std::size_t>(row)] = static_cast<int>(j);
     const double pivot = static_cast<const double*>(L->x)[static_cast<const int*>(L->p)[j]];
-    pivots_(static_cast<Index>(j)) = pivot;
     ok_ = ok_ && (row < lower.rows() - multipliers ? pivot > 0.0 : pivot < 0.0);
   }
 }
@@ -170,7 +171,6 @@ SparseFactor::SparseFactor(SparseFactor&&) noexcept = default;
 SparseFactor& SparseFactor::operator=(SparseFactor&& other) noexcept {
   std::swap(factor_, other.factor_);
   place_ = std::move(other.place_);
-  pivots_ = std::move(other.pivots_);
   ok_ = other.ok_;
   return *this;
 }
@@ -186,36 +186,22 @@ VectorXd SparseFactor::solve(const VectorXd& b) const {
   return Eigen::Map<const VectorXd>(x, b.size());
 }
 
-HalfSolution SparseFactor::solve_half(const std::vector<int>& rows,
-                                      const Eigen::MatrixX2d& values) const {
+Eigen::MatrixX2d SparseFactor::solve_sparse(std::vector<int> rows,
+                                            const Eigen::MatrixX2d& values) const {
   assert(ok());
-  std::vector<int> places(rows.size());
-  std::transform(rows.begin(), rows.end(), places.begin(),
-                 [&](int row) { return place_[static_cast<std::size_t>(row)]; });
+  for (int& row : rows) row = place_[static_cast<std::size_t>(row)];
   CholmodCommon& common = this_threads_common();
-  HalfSolution half;
+  Eigen::MatrixX2d half = Eigen::MatrixX2d::Zero(static_cast<Index>(place_.size()), 2);
   for (const Index c : {0, 1}) {
-    const cholmod_sparse* reached =
-        common.solve_sparse(factor_->L, places, VectorXd(values.col(c)));
-    if (c == 0) {
-      const auto* first = static_cast<const int*>(reached->i);
-      half.rows.assign(first, first + static_cast<const int*>(reached->p)[1]);
-      std::sort(half.rows.begin(), half.rows.end());
-      half.values.resize(static_cast<Index>(half.rows.size()), 2);
-    }
-    for (std::size_t i = 0; i < half.rows.size(); ++i)
-      half.values(static_cast<Index>(i), c) = common.solution()[half.rows[i]];
+    const cholmod_sparse* reached = common.solve_sparse(factor_->L, rows, values.col(c));
+    const auto* const reached_rows = static_cast<const int*>(reached->i);
+    for (int i = 0; i < static_cast<const int*>(reached->p)[1]; ++i)
+      half(reached_rows[i], c) = common.solution()[reached_rows[i]];
   }
-  return half;
-}
-
-VectorXd SparseFactor::finish(const VectorXd& w) const {
-  assert(ok());
-  cholmod_dense view = view_of(w);
-  const double* x = this_threads_common().solve(CHOLMOD_DLt, factor_->L, &view);
-  VectorXd solved(w.size());
-  for (Index row = 0; row < w.size(); ++row) solved(row) = x[place_[static_cast<std::size_t>(row)]];
-  return solved;
+  cholmod_dense view = view_of(half);
+  const Eigen::Map<const Eigen::MatrixX2d> x(common.solve(CHOLMOD_DLt, factor_->L, &view),
+                                             half.rows(), 2);
+  return x(place_, Eigen::all);
 }
 
 long SparseFactor::nonzeros() const {

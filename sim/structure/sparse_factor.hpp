@@ -8,12 +8,6 @@
 
 namespace havers::sim {
 
-/// L⁻¹ P b for two columns b, where it is not zero.
-struct HalfSolution {
-  std::vector<int> rows;    ///< Ascending.
-  Eigen::MatrixX2d values;  ///< One row for each of them.
-};
-
 /// An order of elimination that leaves little fill. [rows of a symmetric matrix]
 std::vector<int> order_of_little_fill(const Eigen::SparseMatrix<double>& lower);
 
@@ -36,21 +30,18 @@ class SparseFactor {
   // All of these may be called by several threads at once.
   /// A⁻¹ b.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
-  /// The first half of it, quick for a b of few entries.
+  /// The same for two columns of few entries, of which L⁻¹ reaches few rows.
   /// @param rows  those of b that are not zero, `values` has one row for each
-  [[nodiscard]] HalfSolution solve_half(const std::vector<int>& rows,
-                                        const Eigen::MatrixX2d& values) const;
-  /// The other half, Pᵀ L⁻ᵀ D⁻¹ w.
-  [[nodiscard]] Eigen::VectorXd finish(const Eigen::VectorXd& w) const;
+  [[nodiscard]] Eigen::MatrixX2d solve_sparse(std::vector<int> rows,
+                                              const Eigen::MatrixX2d& values) const;
 
-  [[nodiscard]] const Eigen::VectorXd& pivots() const { return pivots_; }  ///< D.
-  [[nodiscard]] long nonzeros() const;                                     ///< Of L.
+  [[nodiscard]] Eigen::Index rows() const { return static_cast<Eigen::Index>(place_.size()); }
+  [[nodiscard]] long nonzeros() const;  ///< Of L.
 
  private:
   struct Factor;
   std::unique_ptr<Factor> factor_;
   std::vector<int> place_;  // of each row in P
-  Eigen::VectorXd pivots_;
   bool ok_ = false;
 };
 

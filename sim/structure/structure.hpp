@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -42,14 +41,6 @@ struct StructureResponse {
   double residual = 0.0;          ///< Relative error of the port forces, as corrections shrink. [-]
 };
 
-/// Unit jumps at one joint, a column for the normal, one for the tangential jump, solved half way
-/// (S8): enough for the reactions of such joints to each other.
-struct JumpResponse {
-  int joint = 0;
-  HalfSolution half;     ///< Of the loads that the jumps are.
-  Eigen::MatrixX2d own;  ///< Forces on the ports of the joint's body b, all else held. [N/m²]
-};
-
 /// Factor of the structure in which the joints hold as given (S5)-(S8),
 /// sim/README.md. Unknowns are the joints' own displacements; what an even ring of ports
 /// cannot do is imposed by multipliers, so that no digits are lost at large steps (M10).
@@ -67,14 +58,9 @@ class Structure {
 
   [[nodiscard]] StructureResponse solve(const StructureLoads& loads) const;
 
-  [[nodiscard]] JumpResponse respond_to_jump(int joint) const;
-  /// Reactions at the joint of `a` to unit jumps at that of each `b`. [N/m²]
-  [[nodiscard]] Eigen::Matrix2Xd reactions_between(
-      const JumpResponse& a, const std::vector<std::shared_ptr<const JumpResponse>>& b) const;
-  /// Reactions of all joints to jumps `y` [m] at those of `responses`, normal and tangential. [N/m]
-  [[nodiscard]] Eigen::VectorXd reactions_to_jumps(
-      const std::vector<std::shared_ptr<const JumpResponse>>& responses,
-      const Eigen::VectorXd& y) const;
+  /// Reactions of all joints to unit jumps at one: a column for the normal, one for the tangential
+  /// jump (S8). [N/m²]
+  [[nodiscard]] Eigen::MatrixX2d reactions_to_jump(int joint) const;
 
  private:
   struct PortLoads;

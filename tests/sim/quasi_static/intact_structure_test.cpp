@@ -22,5 +22,11 @@ TEST(IntactStructure, IsSharedByScenesThatDifferInStrengthAndModulusOnly) {
   EXPECT_NE(intact_structure(scene), first);
 }
 
+TEST(IntactStructure, RemembersWhatItWasAsked) {
+  const auto intact = intact_structure(test::small_scene(30.0));
+  EXPECT_EQ(intact->reactions_to_jump(3), intact->reactions_to_jump(3));
+  EXPECT_NE(intact->reactions_to_jump(3), intact->reactions_to_jump(4));
+}
+
 }  // namespace
 }  // namespace havers::sim
