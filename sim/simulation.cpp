@@ -42,6 +42,16 @@ namespace {
 // A chosen step that could not be halved often enough is said; beyond this it is no answer. [-]
 constexpr double largest_step_error = 1e-2;
 constexpr double largest_energy_defect = 1e-10;  // [-]
+constexpr double largest_energy_gain = 1e-2;     // and of the stress as well [-]
+// A given step shows no error of its own; one of so much of the time to failure sees no more of
+// what happens on the way than the end. [-]
+constexpr double longest_step = 0.1;
+
+bool steps_over_failure(const Simulation& run) {
+  if (run.broken_joints == 0 || run.curve.empty()) return false;
+  const CurvePoint& last = run.curve.back();
+  return run.step * last.strain > longest_step * run.failure_strain * last.time;
+}
 }  // namespace
 
 std::string Simulation::why_not_trusted() const {
@@ -49,8 +59,12 @@ std::string Simulation::why_not_trusted() const {
     return explain(status);
   if (step_error > largest_step_error)
     return "halving the time step still changes the failure strain";
+  if (steps_over_failure(*this))
+    return "a time step is longer than a tenth of the time to failure; a shorter step_s shows more";
   if (!(worst_residual <= tolerance)) return "the joints' law is not met to the tolerance";
   if (!(energy_defect <= largest_energy_defect)) return "the energy balance does not close";
+  if (energy_gain > largest_energy_gain)
+    return "a break added to the energy stored: friction let the contacts take another answer";
   return std::isfinite(strength) ? "" : explain(SimulationStatus::not_finite);
 }
 

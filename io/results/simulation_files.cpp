@@ -33,6 +33,7 @@ nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& s
       {"steps", simulation.steps},
       {"iterations", simulation.iterations},
       {"energy_defect", number(simulation.energy_defect)},
+      {"energy_gain", number(simulation.energy_gain)},
       {"worst_residual", number(simulation.worst_residual)},
       {"worst_penetration_m", number(simulation.worst_penetration)},
       {"wall_s", number(provenance.wall_seconds)},

@@ -33,7 +33,7 @@ Simulation break_event_by_event(const Scene& scene,
   BreakingRun run(scene, intact, careful);
   if (run.take_missing() && !run.settle()) return simulation;
   simulation.curve.push_back(run.point(0.0));
-  double strain = 0.0, largest_energy = 0.0;
+  double strain = 0.0, largest_energy = 0.0, largest_gain = 0.0;
   const double end_fraction = end_fraction_used(scene);
 
   for (;;) {
@@ -52,7 +52,9 @@ Simulation break_event_by_event(const Scene& scene,
 
     run.break_joints(event, strain);
     const bool solved = run.settle();
-    run.dissipated += before.elastic - run.point(strain).elastic;
+    const double released = before.elastic - run.point(strain).elastic;
+    run.dissipated += released;
+    largest_gain = std::max(largest_gain, -released);
     simulation.curve.push_back(run.point(strain));
     ++simulation.steps;
     if (!solved) {
@@ -72,6 +74,7 @@ Simulation break_event_by_event(const Scene& scene,
   }
   largest_energy = std::max(largest_energy, simulation.curve.back().elastic);
   run.finish(strain, largest_energy, simulation);
+  if (largest_energy > 0.0) simulation.energy_gain = largest_gain / largest_energy;
   simulation.events_without_contact = run.without_contact;
   return simulation;
 }

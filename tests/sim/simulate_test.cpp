@@ -84,6 +84,18 @@ TEST(Simulate, EndsAtTheStrainLimit) {
   }
 }
 
+// In one step there is but one point of the curve, whatever the strength it shows.
+TEST(Simulate, IsNotTrustedWhereAStepLeadsToFailure) {
+  Scene scene = test::dynamic_scene(45.0);
+  const double time = simulate(scene).failure_strain / scene.loading.strain_rate;
+  scene.solver.step = 0.05 * time;
+  EXPECT_TRUE(simulate(scene).trusted());
+  scene.solver.step = 0.25 * time;
+  EXPECT_THAT(simulate(scene).why_not_trusted(), HasSubstr("time step"));
+  scene.loading.max_strain = 1e-5;  // nothing breaks, and a bonded specimen's step is exact
+  EXPECT_TRUE(simulate(scene).trusted());
+}
+
 TEST(Simulate, SaysWhenAStepDidNotConverge) {
   Scene scene = test::dynamic_scene(0.0, 1e-6);
   scene.solver.contact = ContactMethod::gauss_seidel;

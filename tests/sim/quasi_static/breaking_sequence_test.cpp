@@ -89,6 +89,24 @@ TEST(BreakingSequence, AccountsForTheEnergyOfEachBreak) {
   }
 }
 
+// Friction far beyond 1 wedges pieces against each other.
+TEST(BreakingSequence, IsNotTrustedWhereABreakAddsEnergy) {
+  Scene scene = test::small_scene(0.0, 4, 3);
+  scene.joints.scatter = 1.0;
+  scene.joints.seed = 17;
+  EXPECT_TRUE(simulate(scene).trusted());
+  scene.joints.friction = 3.0;
+  const Simulation wedged = simulate(scene);
+  double gain = 0.0, largest = 0.0;
+  for (std::size_t i = 1; i + 1 < wedged.curve.size(); i += 2)
+    gain = std::max(gain, wedged.curve[i + 1].elastic - wedged.curve[i].elastic);
+  for (const CurvePoint& row : wedged.curve) largest = std::max(largest, row.elastic);
+  EXPECT_NEAR(wedged.energy_gain, gain / largest, 1e-12);
+  EXPECT_GT(wedged.energy_gain, 0.02);
+  EXPECT_LE(wedged.energy_defect, 1e-10);
+  EXPECT_THAT(wedged.why_not_trusted(), testing::HasSubstr("energy stored"));
+}
+
 // Seeds that leave a long piece on its last joint: it swings far, with next to no strain of its
 // own.
 TEST(BreakingSequence, KeepsItsEnergyWhereAPieceSwings) {
