@@ -1,11 +1,11 @@
 #include "sim/joint/thresholds.hpp"
 
 #include <Random123/philox.h>
+#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 namespace havers::sim {
 namespace {
@@ -19,17 +19,6 @@ double uniform(std::uint64_t seed, std::uint64_t joint, Stream stream) {
   const r123::Philox2x64::key_type key{{seed}};
   const std::uint64_t bits = r123::Philox2x64()(counter, key)[0];
   return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
-}
-
-// Standard normal quantile by bisection on erfc: exact to rounding, and called once a joint.
-double normal_quantile(double u) {
-  double low = -9.0, high = 9.0;
-  while (high - low > 1e-15 * std::max(1.0, std::abs(low))) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) break;
-    (0.5 * std::erfc(-middle / std::numbers::sqrt2) < u ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
 }
 
 // Shape k of the Weibull law whose coefficient of variation is `cv`: Γ(1+2/k)/Γ(1+1/k)² = 1 + cv².
@@ -66,7 +55,7 @@ double ThresholdFactors::operator()(std::uint64_t joint) const {
     case Distribution::uniform:
       return 1.0 + scatter_ * (u - 0.5);
     case Distribution::lognormal:
-      return std::exp(shape_ * normal_quantile(u) - 0.5 * shape_ * shape_);
+      return std::exp(shape_ * gsl_cdf_ugaussian_Pinv(u) - 0.5 * shape_ * shape_);
     case Distribution::weibull:
       return std::exp(std::log(-std::log1p(-u)) / shape_ - std::lgamma(1.0 + 1.0 / shape_));
   }
