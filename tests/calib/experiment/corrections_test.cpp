@@ -166,6 +166,99 @@ TEST(Corrections, RejectsAGaugeThatFellOffWithoutACrosshead) {
             std::string::npos);
 }
 
+// Past its range the gauge shows its last value, or what a torn wire gives.
+RawTest saturated(double at_part, double jump) {
+  RawTest raw = record(fine);
+  for (std::size_t i = 0; i < raw.rows(); ++i)
+    if (raw.strain[i] > at_part * fine.failure_strain())
+      raw.strain[i] = at_part * fine.failure_strain() + jump;
+  return raw;
+}
+
+TEST(Corrections, GoesOnWithTheCrossheadWhereTheGaugeIsSaturated) {
+  for (const double part : {0.3, 0.6, 0.9}) {
+    RawTest raw = saturated(part, 0.0);
+    const MeasuredTest test = reduced(raw);
+    expect_the_truth(test, 0.001);
+    EXPECT_NE(detail_of(test, "gauge stood still").find("of the strength"), std::string::npos);
+    EXPECT_NE(test.warnings.at(0).find("rests on the crosshead"), std::string::npos);
+    raw.extension.clear();
+    EXPECT_NE(reduce_test(raw).problems.at(0).find("the gauge stood still"), std::string::npos);
+  }
+  const MeasuredTest torn = reduced(saturated(0.6, 0.05));
+  expect_the_truth(torn, 0.001);
+  EXPECT_NE(detail_of(torn, "gauge fell off"), "");
+}
+
+TEST(Corrections, TakesNoNoiseForAGaugeThatStandsStill) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    RawTest raw = record(
+        {.toe = 3e-4, .force_noise = 2.0, .strain_noise = 1e-5, .strain_rate = 2e-6, .seed = seed});
+    EXPECT_TRUE(reduced(raw).warnings.empty()) << seed << reduced(raw).warnings.front();
+    for (double& strain : raw.strain) strain = 5e-5 * std::round(strain / 5e-5);  // few digits
+    EXPECT_EQ(detail_of(reduced(raw), "gauge stood still"), "") << seed;
+  }
+}
+
+// A curve that is flat at its end: there the stress rises by its noise only.
+TEST(Corrections, TakesNoYieldingForAGaugeThatStandsStill) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    RawTest raw =
+        record({.force_noise = 2.0, .strain_noise = 2e-6, .strain_rate = 2e-5, .seed = seed});
+    for (std::size_t i = 0; i < raw.rows(); ++i) {
+      const double stress = fine.young * raw.extension[i] / fine.gauge_length;
+      raw.force[i] -= 0.99 * std::max(0.0, stress - 0.5 * fine.strength) * fine.area();
+    }
+    EXPECT_EQ(detail_of(reduced(raw), "gauge stood still"), "") << seed;
+    EXPECT_EQ(detail_of(reduced(raw), "gauge slip"), "") << seed;
+  }
+}
+
+TEST(Corrections, TakesBackAJumpAhead) {
+  for (const double part : {0.2, 0.6, 0.95}) {
+    const MeasuredTest test = reduced(slipping(part, -5e-4));
+    expect_the_truth(test, 0.001);
+    EXPECT_NE(detail_of(test, "gauge slip").find("the strain jumped ahead by 0.05000 %"),
+              std::string::npos)
+        << detail_of(test, "gauge slip");
+    EXPECT_EQ(test.warnings.size(), 1U);
+  }
+}
+
+// A gap in the record, and a crack that takes load with it, are the specimen's own.
+TEST(Corrections, TakesNoStepOfTheSpecimenForASlip) {
+  RawTest gap = record(fine);
+  for (auto* channel : {&gap.time, &gap.force, &gap.strain, &gap.extension, &gap.stress})
+    channel->erase(channel->begin() + 1000, channel->begin() + 1200);
+  EXPECT_EQ(detail_of(reduced(gap), "gauge slip"), "");
+  expect_the_truth(reduced(gap), 1e-6);
+
+  RawTest cracking = record(fine);
+  for (std::size_t i = 1500; i < cracking.rows(); ++i) {
+    cracking.strain[i] += 5e-4;
+    cracking.force[i] -= 0.01 * fine.strength * fine.area();
+  }
+  EXPECT_EQ(detail_of(reduced(cracking), "gauge slip"), "");
+}
+
+TEST(Corrections, KnowsAGaugeThatSawTheSpecimenPart) {
+  RawTest raw = record(fine);
+  for (std::size_t i = raw.rows() - 6; i < raw.rows(); ++i) raw.strain[i] = 0.1;
+  const MeasuredTest test = reduced(raw);
+  expect_the_truth(test, 1e-3);
+  EXPECT_NE(detail_of(test, "gauge at the break"), "");
+}
+
+// It slides so slowly that no row shows it.
+TEST(Corrections, DoubtsAStrainThatLagsBehindTheStress) {
+  RawTest raw = record(fine);
+  for (double& strain : raw.strain)
+    strain = std::min(strain, 0.25 * fine.failure_strain() + 0.5 * strain);
+  const MeasuredTest test = reduced(raw);
+  EXPECT_GT(test.linearity, 1.2);
+  EXPECT_NE(test.warnings.at(0).find("below what the modulus lets expect"), std::string::npos);
+}
+
 TEST(Corrections, SaysWhenNoBreakWasSeen) {
   const MeasuredTest test = reduced(record({.rows_after_break = 0}));
   EXPECT_NE(test.warnings.at(0).find("no break was seen"), std::string::npos);
