@@ -141,7 +141,7 @@ RecordEnd end_of_record(const MeasuredTest& test, std::span<const double> crossh
 }
 
 std::string jump_of_stress(const MeasuredTest& test) {
-  constexpr double smallest = 0.1, steps = 5.0;
+  constexpr double smallest = 0.05, steps = 5.0;
   const auto loading = std::span(test.stress).first(largest_row(test.stress) + 1);
   const std::size_t stride = 1 + loading.size() / enough_for_median;
   std::vector<double> some;
