@@ -163,15 +163,20 @@ std::string_view hint_table(const ReadOptions& options) {
   return options.logger ? "[specimen.gauge_columns]" : "[specimen.columns]";
 }
 
+// The key by which the user names a column of the quantity.
+Quantity key_of(Quantity quantity) {
+  if (quantity == Quantity::load_volts) return Quantity::force;
+  return quantity == Quantity::volts ? Quantity::strain : quantity;
+}
+
 // What else could have been taken, and how.
 std::string other_choice(const TestFile& file, std::size_t taken, std::size_t other,
                          const ReadOptions& options) {
   const Column& column = file.columns[other];
-  const std::string quantity = to_string(column.quantity);
   return fmt::format(
       R"(columns "{}" and "{}" both hold {}: "{}" is used ({} = {} in {} takes the other))",
-      file.columns[taken].name, column.name, quantity, file.columns[taken].name, quantity,
-      other + 1, hint_table(options));
+      file.columns[taken].name, column.name, to_string(column.quantity), file.columns[taken].name,
+      to_string(key_of(column.quantity)), other + 1, hint_table(options));
 }
 
 // The best columns first; a second column of a quantity is not used, and that is said unless the

@@ -55,6 +55,14 @@ TEST(ColumnChoice, SaysWhatIsUsedForWantOfBetter) {
                                      "is true and not engineering"});
 }
 
+TEST(ColumnChoice, NamesTheKeyOfASignalInVolts) {
+  const test::TemporaryFile file("Time (s),Strain gauge 1 (V),Strain gauge 2 (V)\n0,1,2\n1,2,3\n");
+  EXPECT_EQ(
+      read_test(file.path(), {.logger = true}).test.warnings.at(0),
+      "columns \"Strain gauge 1\" and \"Strain gauge 2\" both hold volts: \"Strain gauge 1\" is "
+      "used (strain = 3 in [specimen.gauge_columns] takes the other)");
+}
+
 // Neither what was asked of the machine nor what is across the load is a test.
 TEST(ColumnChoice, TakesNoColumnThatIsNoReading) {
   const TestFile file = choice_of("Load (N),Transverse strain (%)\n1,2\n2,3\n");
