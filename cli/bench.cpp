@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 
+#include "cli/number_check.hpp"
 #include "io/input_error.hpp"
 
 namespace havers::cli {
@@ -45,16 +46,16 @@ Command bench_command(CLI::App& app, CommonOptions& common) {
       ->type_name("DIR");
   parser->add_option("--seeds", arguments->seeds, "runs of each setting (default: 3)")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(count());
   parser->add_option("--studies", arguments->studies, "studies of known truth (default: 20, 100)")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(count());
   parser
       ->add_option("--costly", arguments->costly,
                    "with --calibration, unknowns that cost simulations: 1, the ratio (default), or "
                    "2, ratio and scatter")
       ->type_name("N")
-      ->check(CLI::Range(1, 2));
+      ->check(count(2));
   for (const Flag& flag : flags)
     parser->add_flag_callback(
         flag.name, [mode, run = flag.run] { *mode = run; }, flag.help);

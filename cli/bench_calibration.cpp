@@ -79,7 +79,7 @@ int bench_calibration(const BenchArguments& arguments, const CommonOptions& comm
       calib::benchmark_chains(costly, studies, common.threads, std::ref(counter));
   const io::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::chains_json(benchmark, provenance);
-  io::write_file(output.stage("result.json"), result.dump(2) + "\n");
+  io::write_file(output.stage("result.json"), io::json_text(result));
   io::write_file(output.stage("chains.csv"), io::chains_csv(benchmark));
   const bool page = reports::available() && !benchmark.summaries.empty();
   if (page)
@@ -87,7 +87,7 @@ int bench_calibration(const BenchArguments& arguments, const CommonOptions& comm
                    reports::chains_page({benchmark, page_facts(provenance)}));
   output.publish();
   if (common.json) {
-    fmt::print("{}\n", result.dump(2));
+    fmt::print("{}", io::json_text(result));
   } else {
     print_chains(benchmark);
     fmt::print("{}\n", (output.folder() / (page ? "report.html" : "result.json")).string());
@@ -107,14 +107,14 @@ int bench_coverage(const BenchArguments& arguments, const CommonOptions& common)
       calib::measure_coverage(designs, studies, common.threads, std::ref(counter));
   const io::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::coverage_json(coverage, provenance);
-  io::write_file(output.stage("result.json"), result.dump(2) + "\n");
+  io::write_file(output.stage("result.json"), io::json_text(result));
   io::write_file(output.stage("coverage.csv"), io::coverage_csv(coverage));
   if (reports::available())
     io::write_file(output.stage("report.html"),
                    reports::coverage_page({coverage, page_facts(provenance)}));
   output.publish();
   if (common.json) {
-    fmt::print("{}\n", result.dump(2));
+    fmt::print("{}", io::json_text(result));
   } else {
     print_coverage(coverage);
     fmt::print("{}\n",

@@ -52,14 +52,14 @@ int bench_porosity(const BenchArguments& arguments, const CommonOptions& common)
       try_all(arguments, common, output.stage("section.png"));
   const io::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::methods_json(comparison, provenance);
-  io::write_file(output.stage("result.json"), result.dump(2) + "\n");
+  io::write_file(output.stage("result.json"), io::json_text(result));
   io::write_file(output.stage("porosity.csv"), io::methods_csv(comparison));
   if (reports::available())
     io::write_file(output.stage("report.html"),
                    reports::methods_page({comparison, page_facts(provenance)}));
   output.publish();
   if (common.json) {
-    fmt::print("{}\n", result.dump(2));
+    fmt::print("{}", io::json_text(result));
   } else {
     print_methods(comparison);
     fmt::print("{}\n",

@@ -47,7 +47,7 @@ int bench_scene(const BenchArguments& arguments, const CommonOptions& common) {
   const sim::WorkPrecision study = watched(file.scene, arguments, common);
   const io::Provenance provenance = provenance_of(common, {arguments.scene}, watch);
   const nlohmann::json result = io::work_precision_json(file.scene, study, provenance);
-  io::write_file(output.stage("result.json"), result.dump(2) + "\n");
+  io::write_file(output.stage("result.json"), io::json_text(result));
   io::write_file(output.stage("bench.csv"), io::work_precision_csv(study));
   if (reports::available()) {
     io::write_file(output.stage("work_precision.svg"), reports::work_precision_svg(study));
@@ -56,7 +56,7 @@ int bench_scene(const BenchArguments& arguments, const CommonOptions& common) {
   }
   output.publish();
   if (common.json)
-    fmt::print("{}\n", result.dump(2));
+    fmt::print("{}", io::json_text(result));
   else {
     print_summary(study);
     fmt::print("{}\n",

@@ -41,14 +41,14 @@ int bench_stability(const BenchArguments& arguments, const CommonOptions& common
   const std::vector<sim::StabilityResult> results = run_all(common);
   const io::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::stability_json(results, provenance);
-  io::write_file(output.stage("result.json"), result.dump(2) + "\n");
+  io::write_file(output.stage("result.json"), io::json_text(result));
   io::write_file(output.stage("stability.csv"), io::stability_csv(results));
   if (reports::available())
     io::write_file(output.stage("report.html"),
                    reports::stability_page({results, page_facts(provenance)}));
   output.publish();
   if (common.json)
-    fmt::print("{}\n", result.dump(2));
+    fmt::print("{}", io::json_text(result));
   else {
     print_summary(results);
     fmt::print("{}\n",

@@ -10,6 +10,7 @@
 #include "cli/command.hpp"
 #include "cli/load_study.hpp"
 #include "io/input_error.hpp"
+#include "io/results/result_files.hpp"
 #include "io/sweep/read_sweep.hpp"
 
 namespace havers::cli {
@@ -57,7 +58,7 @@ void print_json(const std::filesystem::path& file, const Findings& findings) {
     problems.push_back({{"where", problem.where}, {"what", problem.what}, {"hint", problem.hint}});
   const nlohmann::json all{
       {"file", file.string()}, {"problems", problems}, {"warnings", findings.warnings}};
-  fmt::print("{}\n", all.dump(2));
+  fmt::print("{}", io::json_text(all));
 }
 
 int run_check(const std::filesystem::path& file, const CommonOptions& common) {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "cli/number_check.hpp"
 #include "cli/version.hpp"
 
 namespace havers::cli {
@@ -20,8 +21,10 @@ CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& n
   command->add_flag("-v,--verbose", common.verbose, "more notes");
   command->add_option("--threads", common.threads, "threads; never changes a number (default: all)")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--seed", common.seed, "instead of the input's seed")->type_name("N");
+      ->check(count());
+  command->add_option("--seed", common.seed, "instead of the input's seed")
+      ->type_name("N")
+      ->check(seed_number());
   command
       ->add_option("--set", common.set,
                    "instead of the input's value, e.g. joints.scatter=0.4; repeatable")

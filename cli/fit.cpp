@@ -75,7 +75,7 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
   write_fit(output, loaded, result, provenance);
   output.publish();
   if (common.json) {
-    fmt::print("{}\n", io::calibration_json(loaded.study, result, provenance).dump(2));
+    fmt::print("{}", io::json_text(io::calibration_json(loaded.study, result, provenance)));
   } else {
     print_fit_summary(result, provenance.wall_seconds);
     fmt::print("{}\n",

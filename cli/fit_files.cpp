@@ -68,7 +68,7 @@ void write_fit(const OutputFolder& output, const LoadedStudy& loaded,
   io::write_file(output.stage("scene.toml"), io::scene_toml(result.scene));
   if (reports::available()) write_page(output, loaded, result, provenance);
   io::write_file(output.stage("result.json"),
-                 io::calibration_json(loaded.study, result, provenance).dump(2) + "\n");
+                 io::json_text(io::calibration_json(loaded.study, result, provenance)));
 }
 
 reports::FitReport FinishedFit::report() const {

@@ -9,6 +9,7 @@
 
 #include "calib/experiment/join_logger.hpp"
 #include "cli/command.hpp"
+#include "cli/number_check.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/provenance.hpp"
 #include "io/config/read_import.hpp"
@@ -124,8 +125,8 @@ void print_test(const Imported& imported) {
   const calib::MeasuredTest& test = imported.reduction.test;
   if (!test.strain.empty()) {
     fmt::print(
-        "  strength {:.3f} MPa at a strain of {:.4f} %{}\n", 1e-6 * test.strength,
-        100.0 * test.failure_strain,
+        "  strength {}{:.3f} MPa at a strain of {:.4f} %{}\n", test.broke ? "" : "at least ",
+        1e-6 * test.strength, 100.0 * test.failure_strain,
         test.max_force > 0.0 && test.area > 0.0
             ? fmt::format(", largest force {:.2f} N on {:.4f} mm2", test.max_force, 1e6 * test.area)
             : "");
@@ -192,7 +193,7 @@ void write_figures(const OutputFolder& output, const std::vector<Imported>& test
 void write_results(const ImportArguments& arguments, const std::vector<Imported>& tests,
                    const CommonOptions& common, const Stopwatch& watch) {
   OutputFolder output(arguments.folder, common.force);
-  io::write_file(output.stage("import.json"), json_of(tests).dump(2) + "\n");
+  io::write_file(output.stage("import.json"), io::json_text(json_of(tests)));
   std::vector<std::filesystem::path> inputs = arguments.files;
   if (arguments.gauge) inputs.push_back(*arguments.gauge);
   std::erase_if(inputs, [](const auto& file) { return !std::filesystem::exists(file); });
@@ -217,7 +218,7 @@ int run_import(const ImportArguments& arguments, const CommonOptions& common) {
   std::vector<io::Problem> problems;
   const std::vector<Imported> tests = import_all(arguments, settings, problems);
   if (common.json) {
-    fmt::print("{}\n", json_of(tests).dump(2));
+    fmt::print("{}", io::json_text(json_of(tests)));
   } else {
     for (const Imported& test : tests) print_test(test);
   }
@@ -240,11 +241,11 @@ Command import_command(CLI::App& app, CommonOptions& common) {
   parser->add_option("-o,--output", arguments->folder, "folder for a page with a figure per file")
       ->type_name("DIR");
   parser->add_option("--width-mm", arguments->width_mm, "instead of the file's")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   parser->add_option("--thickness-mm", arguments->thickness_mm, "instead of the file's")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   parser->add_option("--gauge-length-mm", arguments->gauge_length_mm, "instead of the file's")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   return {parser, [arguments, &common] { return run_import(*arguments, common); }};
 }
 

@@ -35,32 +35,42 @@ io::ReadOptions with_sizes(io::ReadOptions options, const io::SpecimenFiles& fil
   return options;
 }
 
+// A file that is not there was complained of with the study.
+std::optional<calib::RawTest> read_file(const std::filesystem::path& file,
+                                        const io::ReadOptions& options, Outcome& outcome) {
+  if (!std::filesystem::is_regular_file(file)) return std::nullopt;
+  try {
+    return io::read_test(file, options).test;
+  } catch (const io::InputError& error) {
+    collect(outcome.problems, error.problems());
+    return std::nullopt;
+  }
+}
+
 void read_specimen(const io::SpecimenFiles& files, Outcome& outcome) {
   io::ReadOptions options = with_sizes(files.columns, files);
   options.has_logger = files.gauge.has_value();
-  calib::RawTest& raw = outcome.record.raw;
-  raw = io::read_test(files.test, options).test;
-  if (!files.gauge) return;
-  const io::TestFile logger = io::read_test(*files.gauge, with_sizes(files.gauge_columns, files));
-  calib::JoinedTest joined = calib::join_logger(raw, logger.test);
-  raw = std::move(joined.test);
+  std::optional<calib::RawTest> test = read_file(files.test, options, outcome), logger;
+  if (files.gauge)
+    logger = read_file(*files.gauge, with_sizes(files.gauge_columns, files), outcome);
+  if (!test || files.gauge.has_value() != logger.has_value()) return;
+  outcome.record.raw = std::move(*test);
+  if (!logger) return;
+  calib::JoinedTest joined = calib::join_logger(outcome.record.raw, *logger);
+  outcome.record.raw = std::move(joined.test);
   outcome.record.clocks = std::move(joined.clocks);
   outcome.rejections = std::move(joined.problems);
 }
 
-void read_and_reduce(const io::SpecimenFiles& files, const calib::ReductionOptions& options,
-                     Outcome& outcome) {
-  try {
-    read_specimen(files, outcome);
-    if (!outcome.rejections.empty()) return;
-    calib::Reduction reduction = calib::reduce_test(outcome.record.raw, options);
-    outcome.rejections = std::move(reduction.problems);
-    for (const std::string& warning : reduction.test.warnings)
-      outcome.warnings.push_back(files.test.string() + ": " + warning);
-    outcome.specimen.test = std::move(reduction.test);
-  } catch (const io::InputError& error) {
-    collect(outcome.problems, error.problems());
-  }
+void reduce(const io::SpecimenFiles& files, const calib::ReductionOptions& options,
+            Outcome& outcome) {
+  calib::Reduction reduction = calib::reduce_test(outcome.record.raw, options);
+  outcome.rejections = std::move(reduction.problems);
+  for (const std::string& warning : reduction.test.warnings)
+    outcome.warnings.push_back(files.test.string() + ": " + warning);
+  reduction.test.broke = files.broke.value_or(reduction.test.broke);
+  outcome.specimen.broke = reduction.test.broke;
+  outcome.specimen.test = std::move(reduction.test);
 }
 
 void measure(const std::filesystem::path& section, const io::SectionOptions& options,
@@ -81,7 +91,9 @@ Outcome load_specimen(const calib::Specimen& declared, const io::SpecimenFiles& 
                       const io::StudyFile& study) {
   Outcome outcome;
   outcome.specimen = declared;
-  read_and_reduce(files, study.reduction, outcome);
+  read_specimen(files, outcome);
+  if (outcome.problems.empty() && outcome.rejections.empty())
+    reduce(files, study.reduction, outcome);
   io::SectionOptions options = study.sections;
   options.pixel_size = files.pixel_size;
   options.mask = files.mask;
@@ -121,6 +133,21 @@ void take_specimen(const io::SpecimenFiles& files, Outcome outcome, LoadedStudy&
   loaded.study.specimens.push_back(std::move(outcome.specimen));
 }
 
+// What can be fitted, though it is hardly meant.
+void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStudy& loaded) {
+  std::map<std::pair<std::filesystem::path, std::string>, std::string> tests;
+  for (const io::SpecimenFiles& files : specimens) {
+    if (!files.orientation)
+      loaded.warnings.push_back(fmt::format(
+          "specimen {} has no orientation_deg: 0 is taken, fibres along the load", files.id));
+    const auto [earlier, fresh] = tests.try_emplace({files.test, files.columns.specimen}, files.id);
+    if (!fresh)
+      loaded.warnings.push_back(
+          fmt::format("specimens {} and {} have the same test, {}: it counts twice",
+                      earlier->second, files.id, files.test.string()));
+  }
+}
+
 // Rejections are problems where they leave nothing to fit.
 void require_specimens(const LoadedStudy& loaded, const std::filesystem::path& file) {
   const bool some = std::ranges::any_of(
@@ -136,13 +163,17 @@ void require_specimens(const LoadedStudy& loaded, const std::filesystem::path& f
 }  // namespace
 
 LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& overrides) {
-  io::StudyFile read = io::read_study(file, overrides);
+  std::vector<io::Problem> problems;
+  io::StudyFile read = io::read_study(file, overrides, problems);
+  const bool sound = problems.empty();
   std::vector<Outcome> outcomes(read.specimens.size());
   tbb::parallel_for(std::size_t{0}, outcomes.size(), [&](std::size_t i) {
-    outcomes[i] = load_specimen(read.study.specimens[i], read.specimens[i], read);
+    if (sound)
+      outcomes[i] = load_specimen(read.study.specimens[i], read.specimens[i], read);
+    else  // its tests may have problems too
+      read_specimen(read.specimens[i], outcomes[i]);
   });
 
-  std::vector<io::Problem> problems;
   for (const Outcome& outcome : outcomes) collect(problems, outcome.problems);
   if (!problems.empty()) throw io::InputError(std::move(problems));
 
@@ -150,6 +181,7 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   loaded.study = std::move(read.study);
   loaded.study.specimens.clear();
   loaded.inputs = {file};
+  doubt_specimens(read.specimens, loaded);
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     take_specimen(read.specimens[i], std::move(outcomes[i]), loaded);
   require_specimens(loaded, file);

@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <iostream>
 #include <optional>
 #include <string>
 
@@ -52,8 +54,10 @@ int run(const Command& command, const CommonOptions& common) {
   } catch (const io::InputError& error) {
     for (const io::Problem& problem : error.problems())
       fmt::print(stderr, "havers: {}\n", io::to_string(problem));
+  } catch (const std::filesystem::filesystem_error& error) {
+    fmt::print(stderr, "havers: {}: {}\n", error.path1().string(), error.code().message());
   } catch (const std::exception& error) {  // a full disk, no memory: no answer either way
-    fmt::print(stderr, "havers: {}\n", error.what());
+    if (std::ferror(stdout) == 0) fmt::print(stderr, "havers: {}\n", error.what());
   }
   return bad_input;
 }
@@ -81,12 +85,20 @@ int program(int argc, char** argv) {
   return bad_input;
 }
 
+// What was printed may wait in a buffer for a disk that is full.
+int when_printed(int exit_code) {
+  std::cout.flush();
+  if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
+  std::fputs("havers: stdout: cannot be written (is the disk full?)\n", stderr);
+  return answer_is_no;
+}
+
 }  // namespace
 }  // namespace havers::cli
 
 int main(int argc, char** argv) {
   try {
-    return havers::cli::program(argc, argv);
+    return havers::cli::when_printed(havers::cli::program(argc, argv));
   } catch (...) {  // not even the command line could be read: out of memory
     std::fputs("havers: cannot start\n", stderr);
     return havers::cli::bad_input;

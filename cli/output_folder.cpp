@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 // The names that runs of havers have put into a folder, a line each: these may be replaced.
 constexpr const char* own_names = ".havers";
 constexpr const char* last_name = "result.json";
+constexpr const char* staging_name = ".partial";  // in a target that is there
 
 std::set<std::string> names_of_runs(const fs::path& folder) {
   std::set<std::string> names;
@@ -45,12 +46,22 @@ void refuse_to_replace(const fs::path& folder, const std::string& name,
                          "give another folder after -o");
 }
 
+bool holds_something(const fs::path& folder) {
+  return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                     [](const auto& entry) { return entry.path().filename() != staging_name; });
+}
+
+// A target that is not there yet stays so until it is whole.
+fs::path staging_beside(const fs::path& folder) {
+  return folder.parent_path() / fmt::format(".{}.partial", folder.filename().string());
+}
+
 void refuse_to_overwrite(const fs::path& folder, bool force) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder))
     throw io::InputError(folder.string(), "is a file, not a folder",
                          "give another folder after -o");
-  if (!force && !fs::is_empty(folder))
+  if (!force && holds_something(folder))
     throw io::InputError(folder.string(), "is not empty",
                          "give another folder, or --force to replace the run in it");
   refuse_to_replace(folder, last_name, names_of_runs(folder));
@@ -65,9 +76,10 @@ void take_note(const fs::path& folder, const std::string& name) {
 
 OutputFolder::OutputFolder(const fs::path& folder, bool force)
     : folder_(without_trailing_slash(folder)),
-      staging_(folder_.parent_path() / fmt::format(".{}.partial", folder_.filename().string())) {
+      staging_(fs::exists(folder_) ? folder_ / staging_name : staging_beside(folder_)) {
   refuse_to_overwrite(folder_, force);
   std::error_code error;
+  fs::remove_all(staging_beside(folder_), error);  // a run that was killed may have left it
   fs::remove_all(staging_, error);
   fs::create_directories(staging_, error);
   if (error) throw io::InputError(folder.string(), "cannot be written: " + error.message());

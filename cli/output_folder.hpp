@@ -9,8 +9,9 @@ namespace havers::cli {
 /// That havers has put a file of that name into the folder: a later run may replace it.
 void take_note(const std::filesystem::path& folder, const std::string& name);
 
-/// Files are written into a staging folder beside the target and moved there by `publish`; whatever
-/// was not published is removed again, so that no run leaves half of its files.
+/// Files are written into a staging folder beside the target, or in it where it is there already
+/// and may be a disk of its own, and moved by `publish`; whatever was not published is removed
+/// again, so that no run leaves half of its files.
 class OutputFolder {
  public:
   /// @throws InputError when `folder` holds something and `force` is false, or cannot be made.

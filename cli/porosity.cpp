@@ -1,9 +1,8 @@
 // havers porosity: porosity of sections, measured on their images.
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,6 +10,7 @@
 
 #include "calib/porosity/scatter_map.hpp"
 #include "cli/command.hpp"
+#include "cli/number_check.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/provenance.hpp"
 #include "io/config/words.hpp"
@@ -25,16 +25,6 @@ constexpr const char* porosity_examples =
     "  havers porosity A1_*.png --pixel-size-um 5 -o runs/sections   # with overlays and a page\n"
     "  havers porosity ct.tif --density 30=0 --density 140=1200      # grey level = kg/m³\n"
     "  havers porosity ct.tif --density 10,10,40,40=0 --density 10,80,40,40=800   # phantom\n";
-
-// CLI11's own takes what is no number for one.
-const CLI::Validator not_negative(
-    [](const std::string& text) -> std::string {
-      double value = 0.0;
-      const bool good =
-          CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= 0.0;
-      return good ? "" : fmt::format("is {}, must be a number, 0 or more", text);
-    },
-    "NUMBER");
 
 struct PorosityArguments {
   std::vector<std::filesystem::path> images;
@@ -173,7 +163,7 @@ void write_page(const PorosityArguments& arguments, const std::vector<Section>& 
   }
   page.mean = mean_of(sections);
   page.provenance = page_facts(provenance_of(common, arguments.images, watch));
-  io::write_file(output.stage("porosity.json"), json_of(sections).dump(2) + "\n");
+  io::write_file(output.stage("porosity.json"), io::json_text(json_of(sections)));
   if (reports::available())
     io::write_file(output.stage("report.html"), reports::porosity_page(page));
   output.publish();
@@ -184,7 +174,7 @@ int run_porosity(const PorosityArguments& arguments, const CommonOptions& common
   const std::vector<Section> sections = measure_all(arguments);
   if (!arguments.folder.empty()) write_page(arguments, sections, common, watch);
   if (common.json) {
-    fmt::print("{}\n", json_of(sections).dump(2));
+    fmt::print("{}", io::json_text(json_of(sections)));
     return done;
   }
   print_table(sections);
@@ -201,7 +191,16 @@ void add_words(CLI::App& parser, const std::string& name, E& value, const std::s
   std::map<std::string, E> known;
   for (std::size_t i = 0; i < io::words<E>.size(); ++i)
     known.emplace(io::words<E>.at(i), static_cast<E>(i));
-  parser.add_option(name, value, meaning)->transform(CLI::Transformer(known))->type_name("WORD");
+  const auto number_of_word = [known](std::string& text) -> std::string {
+    const auto found = known.find(text);
+    if (found == known.end())
+      return fmt::format("is {}, must be one of: {}", text, fmt::join(io::words<E>, ", "));
+    text = std::to_string(static_cast<int>(found->second));
+    return {};
+  };
+  parser.add_option(name, value, meaning)
+      ->transform(CLI::Validator(number_of_word, "WORD"))
+      ->type_name("WORD");
 }
 
 }  // namespace
@@ -217,7 +216,7 @@ Command porosity_command(CLI::App& app, CommonOptions& common) {
   parser
       ->add_option("--pixel-size-um", arguments->pixel_size_um,
                    "size of a pixel; default: the file's own tag")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   parser->add_flag("--any-pixel-size", options.any_pixel_size, "sizes outside 0.1 to 200 um too");
   parser->add_option("--mask", arguments->mask, "image that is white where the bone is")
       ->type_name("FILE");
@@ -226,21 +225,21 @@ Command porosity_command(CLI::App& app, CommonOptions& common) {
   add_words(*parser, "--pores", options.pores, "whether pores are dark or bright");
   add_words(*parser, "--threshold", options.threshold, "where pores end");
   parser->add_option("--rim-um", arguments->rim_um, "depth of bone left out below its surfaces")
-      ->check(not_negative);
+      ->check(not_negative());
   parser
       ->add_option("--crack-slenderness", options.crack_slenderness,
                    "length over width from which on it is a crack; 0: none is")
-      ->check(not_negative)
+      ->check(not_negative())
       ->capture_default_str();
   parser->add_option("--density", arguments->density, "a known material: grey level or rectangle")
       ->type_name("GREY=KG_M3");
   parser
       ->add_option("--fibre-length-um", arguments->fibre_length_um,
                    "of the window whose porosity spreads")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   parser->add_option("--fibre-height-um", arguments->fibre_height_um, "of that window")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   return {parser, [arguments, &common] { return run_porosity(*arguments, common); }};
 }

@@ -74,7 +74,8 @@ int run_report(const ReportArguments& arguments, const CommonOptions& common) {
   const std::vector<FinishedFit> fits = read_all(arguments.results);
   const fs::path page = write_page(arguments, fits, common.force);
   if (common.json)
-    fmt::print("{}\n", nlohmann::json{{"report", page.string()}, {"results", fits.size()}}.dump(2));
+    fmt::print("{}",
+               io::json_text(nlohmann::json{{"report", page.string()}, {"results", fits.size()}}));
   else
     fmt::print("{}\n", page.string());
   return done;

@@ -56,7 +56,7 @@ void write_results(const OutputFolder& output, const sim::Scene& scene,
                                              provenance.wall_seconds}));
   }
   io::write_file(output.stage("result.json"),
-                 io::simulation_json(scene, simulation, provenance).dump(2) + "\n");
+                 io::json_text(io::simulation_json(scene, simulation, provenance)));
 }
 
 void print_summary(const sim::Simulation& run, double wall_seconds, bool verbose) {
@@ -103,7 +103,7 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
   output.publish();
 
   if (common.json)
-    fmt::print("{}\n", io::simulation_json(file.scene, simulation, provenance).dump(2));
+    fmt::print("{}", io::json_text(io::simulation_json(file.scene, simulation, provenance)));
   else
     print_summary(simulation, provenance.wall_seconds, common.verbose);
   if (simulation.status == sim::SimulationStatus::cancelled)

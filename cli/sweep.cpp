@@ -117,14 +117,14 @@ void write_all(const OutputFolder& output, const SweepArguments& arguments,
                    io::summary_csv(one.sweep, one.result));
     if (!one.result.laws.empty())
       io::write_file(output.stage(fs::path(one.stem) / "laws.json"),
-                     io::laws_json(one.result).dump(2) + "\n");
+                     io::json_text(io::laws_json(one.result)));
     parts.push_back({one.stem, one.sweep, one.result});
   }
   if (reports::available())
     io::write_file(output.stage("report.html"),
                    reports::sweep_page(arguments.title, parts, page_facts(provenance),
                                        provenance.wall_seconds));
-  io::write_file(output.stage("result.json"), json_of_all(all, provenance).dump(2) + "\n");
+  io::write_file(output.stage("result.json"), io::json_text(json_of_all(all, provenance)));
 }
 
 void print_summary(const std::vector<Done>& all, double wall_seconds) {
@@ -155,7 +155,7 @@ int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
   write_all(output, arguments, all, provenance);
   output.publish();
   if (common.json) {
-    fmt::print("{}\n", json_of_all(all, provenance).dump(2));
+    fmt::print("{}", io::json_text(json_of_all(all, provenance)));
   } else {
     print_summary(all, provenance.wall_seconds);
     fmt::print("{}\n",

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 
 #include "calib/fit/scenes.hpp"
 #include "calib/study/parameter.hpp"
@@ -67,13 +68,18 @@ fs::path place(const fs::path& study, const fs::path& file) {
 
 std::vector<io::Problem> problems_of(const fs::path& study, const io::StudyFile& file) {
   std::vector<io::Problem> problems;
+  std::set<fs::path> to_be_made;
   for (const io::SpecimenFiles& specimen : file.specimens) {
     std::vector<fs::path> files = specimen.sections;
     files.push_back(specimen.test);
-    for (const fs::path& path : files)
+    for (const fs::path& path : files) {
       if (*place(study, path).begin() == "..")
         problems.push_back({path.string(), "lies outside the study's folder",
                             "name files beside the study to have them made"});
+      if (!to_be_made.insert(place(study, path)).second)
+        problems.push_back({path.string(), "would be made twice",
+                            "give each specimen files of its own to have them made"});
+    }
     if (!specimen.sections.empty() && !specimen.porosity)
       problems.push_back({study.string() + ": specimen " + specimen.id,
                           "has sections to draw but no porosity", "add porosity = 0.05, say"});
@@ -202,12 +208,12 @@ int run_synthesize(const SynthesizeArguments& arguments, const CommonOptions& co
     return answer_is_no;
   }
   const nlohmann::json truth = truth_of(file, made);
-  io::write_file(output.stage("truth.json"), truth.dump(2) + "\n");
+  io::write_file(output.stage("truth.json"), io::json_text(truth));
   fs::copy_file(arguments.study, output.stage("study.toml"));
   output.publish();
 
   if (common.json) {
-    fmt::print("{}\n", truth.dump(2));
+    fmt::print("{}", io::json_text(truth));
   } else {
     print_summary(made);
     fmt::print("{}\n", (output.folder() / "study.toml").string());

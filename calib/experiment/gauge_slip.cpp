@@ -6,46 +6,72 @@
 #include <cmath>
 
 #include "calib/experiment/channel_noise.hpp"
+#include "calib/experiment/robust_line.hpp"
 
 namespace havers::calib {
 namespace {
 
-constexpr std::size_t rows_before = 20;  // that tell how the specimen was going on
-constexpr double falling = 0.02;         // of the strength: load that a row may lose by noise
-constexpr double following = 0.2;        // of the strain to be expected that a sound gauge shows
+constexpr std::size_t fewest_before = 20;  // rows that tell how the specimen was going on,
+constexpr std::size_t part_before = 5;     // or a fifth of all before
+constexpr double falling = 0.02;           // of the strength: load that a row may lose by noise
+constexpr double following = 0.2;          // of the strain to be expected that a sound gauge shows
 
 struct Record {
   std::vector<double>& strain;
   std::span<const double> stress;
   std::size_t peak;
+  double resolution;     // Below it, a difference is noise. [-]
   double smallest_jump;  // [-]
+  double noise;          // [Pa]
 
+  [[nodiscard]] static std::size_t some_before(std::size_t row) {
+    return row - std::min(row, std::max(fewest_before, row / part_before));
+  }
   // Compliance of the specimen just before a row. [1/Pa]
   [[nodiscard]] double compliance(std::size_t row) const {
-    const std::size_t first = row > rows_before ? row - rows_before : 0;
+    const std::size_t first = some_before(row);
     const double rise = stress[row] - stress[first];
-    return rise > 0.0 ? std::max(0.0, (strain[row] - strain[first]) / rise) : 0.0;
+    return rise != 0.0 ? std::max(0.0, (strain[row] - strain[first]) / rise) : 0.0;
+  }
+  // The strain by which the rise of the stress lets expect one row above another. [-]
+  [[nodiscard]] double expected(std::size_t from, std::size_t to) const {
+    return std::max(0.0, stress[to] - stress[from]) * compliance(std::min(from, to));
   }
   // (X13) The strain jumps back from this row to the next, the load does not.
-  [[nodiscard]] bool jumps(std::size_t row) const {
-    return strain[row] - strain[row + 1] > smallest_jump &&
-           stress[row + 1] > stress[row] - falling * stress[peak];
+  [[nodiscard]] bool jumps_back(std::size_t row) const {
+    return strain[row] - strain[row + 1] - expected(row + 1, row) > smallest_jump &&
+           stress[row + 1] > stress[row] - std::max(falling * stress[peak], 5.0 * noise);
   }
+  // (X13) It jumps ahead, alone among its steps, and the load does not give way.
+  [[nodiscard]] bool jumps_ahead(std::size_t row) const {
+    constexpr double alone = 3.0;
+    const auto step = [&](std::size_t i) { return std::abs(strain[i + 1] - strain[i]); };
+    const double jump = strain[row + 1] - strain[row] - expected(row, row + 1);
+    return row > 0 && jump > smallest_jump && jump > alone * step(row - 1) &&
+           (row + 1 == peak || jump > alone * step(row + 1)) &&
+           stress[row + 1] > stress[row] - 5.0 * noise;
+  }
+  [[nodiscard]] bool jumps(std::size_t row) const { return jumps_back(row) || jumps_ahead(row); }
 };
 
+// What a gauge that stands still shows is no noise of it: only the rows on the way count.
 Record record_of(std::vector<double>& strain, std::span<const double> stress) {
   const auto peak = static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin());
+  const auto loading = std::span<const double>(strain).first(peak + 1);
+  const auto [low, high] = std::ranges::minmax(loading);
+  const double resolution = 0.01 * (high - low);
+  const auto arrived =
+      std::ranges::find_if(loading, [&](double e) { return e >= high - resolution; });
+  const auto rising = loading.first(static_cast<std::size_t>(arrived - loading.begin()) + 1);
   std::vector<double> steps;
-  for (std::size_t i = 1; i <= peak; i += 1 + peak / enough_for_median)
-    steps.push_back(std::abs(strain[i] - strain[i - 1]));
-  const auto [low, high] =
-      std::minmax_element(strain.begin(), strain.begin() + static_cast<std::ptrdiff_t>(peak) + 1);
-  const double smallest =
-      std::max({10.0 * noise_of(strain), 5.0 * median(std::move(steps)), 0.01 * (*high - *low)});
-  return {strain, stress, peak, smallest};
+  for (std::size_t i = 1; i < rising.size(); i += 1 + rising.size() / enough_for_median)
+    if (rising[i] != rising[i - 1]) steps.push_back(std::abs(rising[i] - rising[i - 1]));
+  const double least = std::max(10.0 * noise_of(rising), resolution);
+  return {strain,          stress, peak, least, std::max(least, 3.0 * median(std::move(steps))),
+          noise_of(stress)};
 }
 
-// Whether the strain goes on after the jump as the load does.
+// Whether the strain does not go on after the jump as the load does.
 bool fell_off(const Record& record, std::size_t before, std::size_t after) {
   const double load = record.stress[record.peak] - record.stress[after];
   const double expected = load * record.compliance(before);
@@ -58,33 +84,33 @@ std::string place(const Record& record, std::size_t row) {
                      100.0 * record.stress[row] / record.stress[record.peak]);
 }
 
-// (X14)
+// (X14) `fault`: "fell off" or "stood still".
 void continue_with_crosshead(Record& record, std::span<const double> extension, std::size_t row,
-                             SlipRepair& repair) {
-  const std::size_t first = row > rows_before ? row - rows_before : 0;
-  const double travel = extension.empty() ? 0.0 : extension[row] - extension[first];
-  if (travel <= 0.0 || record.strain[row] <= record.strain[first]) {
+                             const std::string& fault, SlipRepair& repair) {
+  const std::size_t first = Record::some_before(row), rows = row + 1 - first;
+  Line line;
+  if (!extension.empty())
+    line = fit_robust_line(extension.subspan(first, rows),
+                           std::span(record.strain).subspan(first, rows));
+  if (line.slope <= 0.0) {
     repair.problem = fmt::format(
-        "the gauge fell off {}, and no crosshead tells the strain after it: the failure strain is "
+        "the gauge {} {}, and no crosshead tells the strain after it: the failure strain is "
         "unknown",
-        place(record, row));
+        fault, place(record, row));
     return;
   }
-  const double ratio = (record.strain[row] - record.strain[first]) / travel;
   for (std::size_t i = row + 1; i < record.strain.size(); ++i)
-    record.strain[i] = record.strain[row] + ratio * (extension[i] - extension[row]);
+    record.strain[i] = line.intercept + line.slope * extension[i];
   repair.corrections.push_back(
-      {"gauge fell off", fmt::format("{}; from there the strain is the crosshead's, {:.4g} per mm "
+      {"gauge " + fault, fmt::format("{}; from there the strain is the crosshead's, {:.4g} per mm "
                                      "as just before",
-                                     place(record, row), ratio * 1e-3)});
+                                     place(record, row), line.slope * 1e-3)});
   repair.warnings.push_back(fmt::format(
-      "the gauge fell off {}: the failure strain rests on the crosshead", place(record, row)));
+      "the gauge {} {}: the failure strain rests on the crosshead", fault, place(record, row)));
 }
 
 void take_back(Record& record, std::size_t before, std::size_t after, SlipRepair& repair) {
-  const double rise = record.stress[after] - record.stress[before];
-  const double jump = record.strain[before] - record.strain[after] +
-                      std::max(0.0, rise) * record.compliance(before);
+  const double jump = record.strain[before] - record.strain[after] + record.expected(before, after);
   for (std::size_t i = after; i < record.strain.size(); ++i) record.strain[i] += jump;
   if (after == record.peak) {  // a row later the load has gone too
     repair.corrections.push_back(
@@ -97,9 +123,24 @@ void take_back(Record& record, std::size_t before, std::size_t after, SlipRepair
   ++repair.slips;
   repair.corrections.push_back(
       {"gauge slip",
-       fmt::format("{}: the strain jumped back by {:.5f} % while the load went on; the rows after "
+       fmt::format("{}: the strain jumped {} by {:.5f} % while the load went on; the rows after "
                    "it are shifted",
-                   place(record, before), jump * 100.0)});
+                   place(record, before), jump > 0.0 ? "back" : "ahead", std::abs(jump) * 100.0)});
+}
+
+// (X14) The last row before the strain comes no further, though the stress does; the peak's where
+// there is none.
+std::size_t standstill(const Record& record) {
+  constexpr double least_rise = 0.05;  // of the strength: yielded, a specimen takes less for noise
+  const double reached = record.strain[record.peak] - record.resolution;
+  const auto row = std::ranges::find_if(record.strain, [&](double e) { return e >= reached; });
+  const auto first = static_cast<std::size_t>(row - record.strain.begin());
+  const double strength = record.stress[record.peak];
+  const bool rises = strength - record.stress[first] > least_rise * strength + 5.0 * record.noise;
+  const double growth = record.strain[record.peak] - record.strain[first];
+  const double expected = record.expected(first, record.peak);
+  const bool follows = growth >= following * expected || expected < record.resolution;
+  return rises && !follows && first > 0 ? first - 1 : record.peak;
 }
 
 }  // namespace
@@ -113,12 +154,14 @@ SlipRepair mend_slips(std::vector<double>& strain, std::span<const double> stres
     std::size_t after = row + 1;  // a jump may take several rows
     while (after < record.peak && record.jumps(after)) ++after;
     if (fell_off(record, row, after)) {
-      continue_with_crosshead(record, extension, row, repair);
-      break;
+      continue_with_crosshead(record, extension, row, "fell off", repair);
+      return repair;
     }
     take_back(record, row, after, repair);
     row = after;
   }
+  if (const std::size_t row = standstill(record); row < record.peak)
+    continue_with_crosshead(record, extension, row, "stood still", repair);
   if (repair.slips > 0)
     repair.warnings.push_back(
         fmt::format("the gauge slipped ({} {}): strains after that are uncertain by as much",

@@ -1,4 +1,4 @@
-// An extensometer that slips on the specimen, or falls off it.
+// An extensometer that slips on the specimen, falls off it, or reaches its end.
 #pragma once
 
 #include <span>
@@ -14,12 +14,12 @@ struct SlipRepair {
   std::vector<Correction> corrections;
   std::vector<std::string> warnings;
   int slips = 0;        ///< How many jumps were taken back.
-  std::string problem;  ///< Not empty: the gauge fell off and nothing tells the strain after it.
+  std::string problem;  ///< Not empty: the gauge was lost and nothing tells the strain after it.
 };
 
-/// Takes back the jumps of the strain (X13) up to the largest stress; after a gauge that fell off,
-/// the strain goes on with the crosshead (X14). `extension` is empty where it was not recorded.
-/// Strain [-], stress [Pa], extension [m].
+/// Takes back the jumps of the strain (X13) up to the largest stress; after a gauge that fell off
+/// or stands still, the strain goes on with the crosshead (X14). `extension` is empty where it was
+/// not recorded. Strain [-], stress [Pa], extension [m].
 SlipRepair mend_slips(std::vector<double>& strain, std::span<const double> stress,
                       std::span<const double> extension);
 

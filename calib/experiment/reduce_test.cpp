@@ -11,12 +11,18 @@
 #include "calib/experiment/measured_test.hpp"
 #include "calib/experiment/modulus.hpp"
 #include "calib/experiment/quality.hpp"
+#include "calib/experiment/record_end.hpp"
 
 namespace havers::calib {
 namespace {
 
 constexpr double MPa = 1e-6;       // per Pa
 constexpr double percent = 100.0;  // per unit strain
+
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
 
 void truncate(MeasuredTest& test, std::size_t rows) {
   test.strain.resize(rows);
@@ -44,23 +50,23 @@ std::size_t row_of_strength(const MeasuredTest& test) {
   return static_cast<std::size_t>(std::ranges::max_element(test.stress) - test.stress.begin());
 }
 
-void find_strength(const RawTest& raw, MeasuredTest& test) {
-  test.strength = test.stress[row_of_strength(test)];
-  test.strength_standard_error = noise_of(test.stress);
-  if (!raw.force.empty()) test.max_force = std::ranges::max(raw.force);
+// (X20) Whether the specimen broke, and the rows that tell of it.
+void find_end(const RawTest& raw, const ReductionOptions& options, MeasuredTest& test) {
+  const auto crosshead = raw.strain.empty() ? std::span<const double>{} : std::span(raw.extension);
+  const RecordEnd end = end_of_record(test, crosshead, options.break_part);
+  test.broke = end.broke;
+  append(test.warnings, end.warnings);
+  if (!options.cut_after_break || end.rows == test.stress.size()) return;
+  test.corrections.push_back(end.cut);
+  truncate(test, end.rows);
 }
 
-void cut_after_break(MeasuredTest& test, double part) {
-  const auto peak = test.stress.begin() + static_cast<std::ptrdiff_t>(row_of_strength(test));
-  const auto parted = std::find_if(peak, test.stress.end(),
-                                   [&](double stress) { return stress < part * test.strength; });
-  if (parted == test.stress.end()) return;
-  const auto kept = static_cast<std::size_t>(parted - test.stress.begin());
-  test.corrections.push_back(
-      {"cut after break",
-       fmt::format("{} of {} rows, from where the stress fell below {:.2g} of the strength",
-                   test.stress.size() - kept, test.stress.size(), part)});
-  truncate(test, kept);
+void find_strength(const RawTest& raw, MeasuredTest& test) {
+  test.strength = test.stress[row_of_strength(test)];
+  if (!raw.force.empty())
+    test.max_force = std::ranges::max(std::span(raw.force).first(test.stress.size()));
+  if (std::string jump = jump_of_stress(test); !jump.empty())
+    test.warnings.push_back(std::move(jump));
 }
 
 std::string take_modulus(MeasuredTest& test, const ReductionOptions& options, ModulusFit& fit) {
@@ -107,11 +113,6 @@ double energy_to(const MeasuredTest& test, std::size_t peak) {
   return energy;
 }
 
-template <class T>
-void append(std::vector<T>& all, const std::vector<T>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
 MeasuredTest uncorrected(RawTest& raw, EngineeringCurve curve) {
   MeasuredTest test;
   test.strain = std::move(curve.strain);
@@ -144,12 +145,15 @@ std::string mend_gauge(const RawTest& raw, const ReductionOptions& options, Meas
   return repair.problem;
 }
 
-// A machine that is stopped by hand leaves a record without a break.
-void note_missing_break(MeasuredTest& test) {
-  if (row_of_strength(test) + 1 < test.stress.size()) return;
-  test.warnings.emplace_back(
-      "the record ends at its largest stress: no break was seen, and the strength is a lower "
-      "bound if the test was stopped");
+// (X10) Bone does not stiffen on its way to the break.
+void doubt_strain(MeasuredTest& test) {
+  constexpr double tolerance = 0.1;
+  const double error = 3.0 * test.modulus_standard_error / test.modulus;
+  if (test.failure_strain <= 0.0 || test.linearity < 1.0 + tolerance + error) return;
+  test.warnings.push_back(
+      fmt::format("the strain at the strength is {:.0f} % below what the modulus lets expect: the "
+                  "gauge may have slipped or stood still",
+                  100.0 * (1.0 - 1.0 / test.linearity)));
 }
 
 void take_failure(MeasuredTest& test) {
@@ -160,6 +164,7 @@ void take_failure(MeasuredTest& test) {
     test.strain_rate =
         median_rate(std::span(test.strain).first(peak + 1), std::span(test.time).first(peak + 1));
   test.linearity = test.strength / (test.modulus * test.failure_strain);  // (X10)
+  doubt_strain(test);
 }
 
 }  // namespace
@@ -173,12 +178,12 @@ Reduction reduce_test(const RawTest& recorded, const ReductionOptions& options) 
 
   MeasuredTest test = uncorrected(raw, std::move(curve));
   if (!problems.empty()) return unreduced(test, problems);
-  find_strength(raw, test);
+  test.strength_standard_error = noise_of(test.stress);
   note_preload(test);
-  note_missing_break(test);
+  find_end(raw, options, test);
+  find_strength(raw, test);
   if (std::string problem = mend_gauge(raw, options, test); !problem.empty())
     return unreduced(test, {std::move(problem)});
-  if (options.cut_after_break) cut_after_break(test, options.break_part);
   ModulusFit fit;
   if (std::string problem = take_modulus(test, options, fit); !problem.empty())
     return unreduced(test, {std::move(problem)});

@@ -11,7 +11,7 @@ ImportSettings read_import_settings(const Overrides& overrides) {
   TableReader top = no_file.top();
   TableReader columns = top.table("columns"), gauge_columns = top.table("gauge_columns");
   ImportSettings settings;
-  top.key("specimen_in_file", settings.columns.specimen);
+  name_or_number(top, "specimen_in_file", settings.columns.specimen);
   keys(columns, settings.columns);
   keys(gauge_columns, settings.gauge_columns);
   read_reduction(top.table("reduction"), settings.reduction);

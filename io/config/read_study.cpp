@@ -47,8 +47,9 @@ void check_specimen(TableReader& table, const SpecimenFiles& specimen) {
   require_positive(table, "gauge_length_mm", specimen.gauge_length, millimetre);
   require_positive(table, "pixel_size_um", specimen.pixel_size, micrometre);
   constexpr double right_angle = std::numbers::pi / 2.0;
-  require(specimen.orientation > -right_angle && specimen.orientation <= right_angle, table,
-          "orientation_deg", from_si(specimen.orientation, degree), "above -90 and at most 90");
+  if (specimen.orientation)
+    require(*specimen.orientation > -right_angle && *specimen.orientation <= right_angle, table,
+            "orientation_deg", from_si(*specimen.orientation, degree), "above -90 and at most 90");
   if (specimen.porosity)
     require(*specimen.porosity >= 0.0 && *specimen.porosity < 1.0, table, "porosity",
             *specimen.porosity, "at least 0 and below 1");
@@ -174,16 +175,13 @@ calib::Specimen without_tests(const SpecimenFiles& files) {
   calib::Specimen specimen;
   specimen.id = files.id;
   specimen.use = files.use;
-  specimen.broke = files.broke;
-  specimen.orientation = files.orientation;
+  specimen.broke = files.broke.value_or(true);
+  specimen.orientation = files.orientation.value_or(0.0);
   specimen.porosity = files.porosity;
   return specimen;
 }
 
-}  // namespace
-
-StudyFile read_study(const std::filesystem::path& file, const Overrides& overrides, Files files) {
-  ConfigFile config(file, overrides);
+StudyFile read_tables(ConfigFile& config, Files files) {
   TableReader top = config.top();
   StudyFile read;
   top.table("study").key("name", read.study.name);
@@ -205,7 +203,23 @@ StudyFile read_study(const std::filesystem::path& file, const Overrides& overrid
   read_synthesize(top.table("synthesize"), read.synthesize);
   read_reduction(top.table("reduction"), read.reduction);
   read_sections(top.table("sections"), read.sections);
+  return read;
+}
+
+}  // namespace
+
+StudyFile read_study(const std::filesystem::path& file, const Overrides& overrides, Files files) {
+  ConfigFile config(file, overrides);
+  StudyFile read = read_tables(config, files);
   config.finish();
+  return read;
+}
+
+StudyFile read_study(const std::filesystem::path& file, const Overrides& overrides,
+                     std::vector<Problem>& problems) {
+  ConfigFile config(file, overrides);
+  StudyFile read = read_tables(config, Files::must_exist);
+  problems = config.problems();
   return read;
 }
 

@@ -10,6 +10,7 @@
 #include "calib/study/study.hpp"
 #include "io/config/read_scene.hpp"
 #include "io/images/measure_section.hpp"
+#include "io/input_error.hpp"
 #include "io/machine/read_test.hpp"
 
 namespace havers::io {
@@ -22,13 +23,13 @@ struct SpecimenFiles {
   ReadOptions columns{};                      ///< [specimen.columns], and which in `test`.
   ReadOptions gauge_columns{.logger = true};  ///< [specimen.gauge_columns].
   std::optional<double> width, thickness, gauge_length;  ///< Override what the test file says. [m]
-  double orientation = 0.0;                              ///< [rad]
+  std::optional<double> orientation;                     ///< Not given: 0, with a warning. [rad]
   std::vector<std::filesystem::path> sections;
   std::optional<double> pixel_size;           ///< [m]
   std::optional<std::filesystem::path> mask;  ///< Of all its sections: white where the bone is.
   std::optional<double> porosity;  ///< For specimens without sections; what `synthesize` draws. [-]
   calib::Use use = calib::Use::fit;
-  bool broke = true;  ///< false: the test was stopped; its strength is a lower bound.
+  std::optional<bool> broke;  ///< Where the test's record shows it wrong (X20).
 };
 
 /// [synthesize]: how `havers synthesize` dresses the model's answers as a laboratory's files. SI
@@ -60,5 +61,9 @@ enum class Files { must_exist, will_be_written };
 /// Reads a study. @throws InputError with every problem, as read_scene.
 StudyFile read_study(const std::filesystem::path& file, const Overrides& overrides = {},
                      Files files = Files::must_exist);
+
+/// The same, of files that must exist, as far as it can be read; what is wrong goes to `problems`.
+StudyFile read_study(const std::filesystem::path& file, const Overrides& overrides,
+                     std::vector<Problem>& problems);
 
 }  // namespace havers::io

@@ -75,6 +75,16 @@ void keys(Table& table, calib::ReductionOptions& options) {
   table.key("largest_noise", options.largest_noise);
 }
 
+/// A name, or a number that stands for one.
+template <class Table>
+bool name_or_number(Table& table, const std::string& key, std::string& name) {
+  if (!table.has(key) || table.is_text(key)) return table.key(key, name);
+  int number = 0;
+  const bool given = table.key(key, number);
+  if (given) name = std::to_string(number);
+  return given;
+}
+
 /// [specimen.columns]: a column's name or number, and its unit: force = "Channel 3", force_unit =
 /// "500 N/V".
 template <class Table>
@@ -82,11 +92,7 @@ void keys(Table& table, ReadOptions& options) {
   for (const Quantity quantity :
        {Quantity::time, Quantity::force, Quantity::extension, Quantity::strain, Quantity::stress}) {
     ColumnHint hint;
-    int number = 0;
-    const bool numbered = table.has(to_string(quantity)) && !table.is_text(to_string(quantity));
-    const bool given = numbered ? table.key(to_string(quantity), number)
-                                : table.key(to_string(quantity), hint.column);
-    if (numbered) hint.column = std::to_string(number);
+    const bool given = name_or_number(table, to_string(quantity), hint.column);
     table.key(to_string(quantity) + "_unit", hint.unit);
     if (given) options.columns[quantity] = hint;
   }
@@ -96,7 +102,7 @@ template <class Table>
 void keys(Table& table, SpecimenFiles& specimen) {
   table.key("id", specimen.id);
   table.key("test", specimen.test);
-  table.key("specimen_in_file", specimen.columns.specimen);
+  name_or_number(table, "specimen_in_file", specimen.columns.specimen);
   table.key("gauge", specimen.gauge);
   table.key("width_mm", specimen.width, millimetre);
   table.key("thickness_mm", specimen.thickness, millimetre);

@@ -289,9 +289,13 @@ void ConfigFile::find_unknown() {
   }
 }
 
-void ConfigFile::finish() {
+std::vector<Problem> ConfigFile::problems() {
   find_unknown();
-  if (!problems_.empty()) throw InputError(problems_);
+  return std::move(problems_);
+}
+
+void ConfigFile::finish() {
+  if (std::vector<Problem> all = problems(); !all.empty()) throw InputError(std::move(all));
 }
 
 }  // namespace havers::io

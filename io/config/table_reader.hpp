@@ -105,8 +105,9 @@ class ConfigFile {
 
   TableReader top();
   void complain(Problem problem) { problems_.push_back(std::move(problem)); }
-  /// To be called when all keys were asked for. @throws InputError with all problems, unknown keys
-  /// among them.
+  /// To be called when all keys were asked for: all problems, unknown keys among them.
+  std::vector<Problem> problems();
+  /// @throws InputError with these.
   void finish();
 
  private:

@@ -36,12 +36,20 @@ struct Candidate {
   Quantity quantity = Quantity::other;
   int rank = 0;
 };
-enum Rank { by_name, by_name_but_absolute, by_unit, ranks };
+enum Rank { of_sensor, by_name, in_doubt, by_unit, ranks };
+
+std::string_view doubt_of_column(const Column& column) {
+  const std::optional<Unit> unit = find_unit(column.unit);
+  return doubt_of(column.name, unit && unit->dimension == Dimension::length);
+}
 
 Candidate classify(const Column& column) {
+  if (is_no_reading(column.name)) return {};
   const Quantity named = quantity_of_name(column.name);
   const std::optional<Unit> unit = find_unit(column.unit);
-  const Rank rank = is_absolute(column.name) ? by_name_but_absolute : by_name;
+  const Rank rank = !doubt_of_column(column).empty() ? in_doubt
+                    : is_of_sensor(column.name)      ? of_sensor
+                                                     : by_name;
   if (named != Quantity::other && column.unit.empty()) return {named, rank};
   if (named != Quantity::other && unit && fits(named, unit->dimension)) return {named, rank};
   if (unit && unit->dimension == Dimension::voltage) return {in_volts(named), by_unit};
@@ -151,26 +159,58 @@ Chosen take_hints(TestFile& file, const std::string& where, const ReadOptions& o
   return chosen;
 }
 
-// Named columns first; a second column of a quantity is not used, and that is said.
-void choose(TestFile& file, const std::vector<Candidate>& candidates, Chosen& chosen) {
-  for (int rank = by_name; rank < ranks; ++rank) {
+std::string_view hint_table(const ReadOptions& options) {
+  return options.logger ? "[specimen.gauge_columns]" : "[specimen.columns]";
+}
+
+// The key by which the user names a column of the quantity.
+Quantity key_of(Quantity quantity) {
+  if (quantity == Quantity::load_volts) return Quantity::force;
+  return quantity == Quantity::volts ? Quantity::strain : quantity;
+}
+
+// What else could have been taken, and how.
+std::string other_choice(const TestFile& file, std::size_t taken, std::size_t other,
+                         const ReadOptions& options) {
+  const Column& column = file.columns[other];
+  return fmt::format(
+      R"(columns "{}" and "{}" both hold {}: "{}" is used ({} = {} in {} takes the other))",
+      file.columns[taken].name, column.name, to_string(column.quantity), file.columns[taken].name,
+      to_string(key_of(column.quantity)), other + 1, hint_table(options));
+}
+
+// The best columns first; a second column of a quantity is not used, and that is said unless the
+// user has chosen.
+void choose(TestFile& file, const std::vector<Candidate>& candidates, const ReadOptions& options,
+            Chosen& chosen) {
+  const Chosen hinted = chosen;
+  for (int rank = of_sensor; rank < ranks; ++rank) {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       Column& column = file.columns[i];
-      const bool hinted =
-          std::ranges::any_of(chosen, [&](const auto& entry) { return entry.second == i; });
-      if (hinted || candidates[i].rank != rank) continue;
+      const bool taken =
+          std::ranges::any_of(hinted, [&](const auto& entry) { return entry.second == i; });
+      if (taken || candidates[i].rank != rank) continue;
       column.quantity = candidates[i].quantity;
       if (column.quantity == Quantity::other) continue;
-      if (!is_usable(column, file.test)) {
+      if (!is_usable(column, file.test))
         file.test.warnings.push_back(
             fmt::format("column \"{}\" is an elongation, and the gauge length is unknown: not used",
                         column.name));
-      } else if (const auto [taken, fresh] = chosen.try_emplace(column.quantity, i); !fresh) {
-        file.test.warnings.push_back(
-            fmt::format(R"(columns "{}" and "{}" both hold {}: the first is used)",
-                        file.columns[taken->second].name, column.name, to_string(column.quantity)));
-      }
+      else if (const auto [first, fresh] = chosen.try_emplace(column.quantity, i);
+               !fresh && !hinted.contains(column.quantity))
+        file.test.warnings.push_back(other_choice(file, first->second, i, options));
     }
+  }
+}
+
+// What is only taken for want of better is said; a stress counts for nothing beside a force.
+void name_doubts(TestFile& file, const ReadOptions& options, const Chosen& chosen) {
+  for (const auto& [quantity, i] : chosen) {
+    const std::string_view doubt = doubt_of_column(file.columns[i]);
+    const bool spare = quantity == Quantity::stress && chosen.contains(Quantity::force);
+    if (doubt.empty() || spare || options.columns.contains(quantity)) continue;
+    file.test.warnings.push_back(fmt::format(
+        "column \"{}\" is used for want of a better one: it is {}", file.columns[i].name, doubt));
   }
 }
 
@@ -238,7 +278,8 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
     candidates.push_back(classify(file.columns.back()));
   }
   Chosen chosen = take_hints(file, where, options);
-  choose(file, candidates, chosen);
+  choose(file, candidates, options, chosen);
+  name_doubts(file, options, chosen);
   name_unknown_units(file, where, options.logger, chosen);
   if (options.logger)
     need_gauge(file, where, chosen);

@@ -122,8 +122,9 @@ std::vector<TestFile> read_tests(const std::filesystem::path& file, const ReadOp
 TestFile read_test(const std::filesystem::path& file, const ReadOptions& options) {
   std::vector<TestFile> tests = read_tests(file, options);
   if (tests.size() > 1)
-    throw InputError(file.string(), fmt::format("holds {} specimens", tests.size()),
-                     fmt::format("say which, by name or number: {}", list_of(tests)));
+    throw InputError(
+        file.string(), fmt::format("holds {} specimens", tests.size()),
+        fmt::format("say which by specimen_in_file, its name or number: {}", list_of(tests)));
   return std::move(tests.front());
 }
 

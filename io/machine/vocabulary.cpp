@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace havers::io {
 namespace {
@@ -32,6 +33,12 @@ bool contains(std::string_view text, std::string_view word, Match match) {
     if (match == Match::anywhere || alone) return true;
   }
   return false;
+}
+
+bool contains_any(std::string_view text, std::span<const std::string_view> words,
+                  Match match = Match::anywhere) {
+  return std::ranges::any_of(words,
+                             [&](std::string_view word) { return contains(text, word, match); });
 }
 
 struct QuantityWord {
@@ -115,6 +122,16 @@ constexpr std::array quantity_words{
     QuantityWord{"位移", extension},
 };
 
+constexpr std::array<std::string_view, 16> no_reading_words{
+    "transvers", "trasvers", "querdehn", "lateral",   "poprzeczn", "横向",   "command", "comando",
+    "consign",   "soll",     "setpoint", "set point", "set-point", "target", "zadan",   "指令"};
+constexpr std::array<std::string_view, 2> no_reading_alone{"peak", "demand"};
+constexpr std::array<std::string_view, 10> sensor_words{
+    "gauge",    "gage",     "extenso",   "jauge",  "galga",
+    "feindehn", "estensim", "ekstensom", "引伸计", "load cell"};
+constexpr std::array<std::string_view, 8> true_words{
+    "true", "wahre", "vraie", "logarithm", "hencky", "verdader", "rzeczywist", "真"};
+
 // One number a test, in any of the languages.
 constexpr std::array<std::string_view, 26> result_words{
     "maximum",      "maximal",    "max.",        "modulus",  "module",      "modul",      "módulo",
@@ -189,14 +206,29 @@ Quantity quantity_of_name(std::string_view name) {
   return other;
 }
 
-bool is_absolute(std::string_view name) {
-  return contains(lower(name), "absol", Match::anywhere);
+bool is_no_reading(std::string_view name) {
+  const std::string text = lower(name);
+  return contains_any(text, no_reading_words) || contains_any(text, no_reading_alone, Match::alone);
+}
+
+bool is_of_sensor(std::string_view name) {
+  return contains_any(lower(name), sensor_words);
+}
+
+std::string_view doubt_of(std::string_view name, bool elongation) {
+  const std::string text = lower(name);
+  if (contains(text, "absol", Match::anywhere)) return "an absolute position";
+  if (contains_any(text, true_words)) return "true and not engineering";
+  const bool travels = std::ranges::any_of(quantity_words, [&](const QuantityWord& known) {
+    return known.quantity == extension && contains(text, known.word, known.match);
+  });
+  if (travels && !elongation && quantity_of_name(name) == strain)
+    return "the crosshead's, with the compliance of the machine in it";
+  return {};
 }
 
 bool is_result(std::string_view name) {
-  const std::string text = lower(name);
-  return std::ranges::any_of(
-      result_words, [&](std::string_view word) { return contains(text, word, Match::anywhere); });
+  return contains_any(lower(name), result_words);
 }
 
 std::optional<Fact> fact_of_key(std::string_view key) {

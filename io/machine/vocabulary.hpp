@@ -12,8 +12,16 @@ namespace havers::io {
 /// The quantity a column's name speaks of; `other` where it names none that is known.
 Quantity quantity_of_name(std::string_view name);
 
-/// Whether the name is that of an absolute position, which is no extension where there is another.
-bool is_absolute(std::string_view name);
+/// Whether the name is that of what a test does not measure: a command, a peak so far, a strain
+/// across the load.
+bool is_no_reading(std::string_view name);
+
+/// Whether the name speaks of a sensor of its own: a gauge, an extensometer, a load cell.
+bool is_of_sensor(std::string_view name);
+
+/// Why a column is taken only where no other holds its quantity: an absolute position, a strain of
+/// the crosshead, a true strain. Empty for most. `elongation`: its unit is a length.
+std::string_view doubt_of(std::string_view name, bool elongation);
 
 /// Whether the name is that of a result of a whole test: "Maximum load", "Tensile strength", ...
 bool is_result(std::string_view name);

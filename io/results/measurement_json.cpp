@@ -23,7 +23,7 @@ nlohmann::json import_json(const TestFile& file, const calib::Reduction& reducti
   calib::MeasuredTest test = reduction.test;
   nlohmann::json json = json_of(test);  // modulus_Pa, strength_Pa, ... , corrections and warnings
   for (const auto& [key, value] : json.items())  // what is not known is null
-    if (value == 0.0 || (value.is_number() && test.strain.empty() && key != "area_m2"))
+    if (value == 0.0 || (!value.is_array() && test.strain.empty() && key != "area_m2"))
       value = nullptr;
   json["file"] = file.file;
   json["layout"] = file.layout;

@@ -70,6 +70,9 @@ std::string measured_file(const std::string& id);  ///< "curves/ID_measured.csv"
 /// Writes whole or not at all: a temporary beside the file, then a rename. @throws InputError.
 void write_file(const std::filesystem::path& file, const std::string& content);
 
+/// JSON as text, with a line end. What is not UTF-8, as names of files may be, is replaced.
+std::string json_text(const nlohmann::json& json);
+
 /// What the report of a finished fit needs, read back from its folder. @throws InputError.
 struct FitFolder {
   calib::Study study;  ///< Name, options and porosity; specimens as far as the report shows them.

@@ -54,6 +54,7 @@ void keys(Table& table, calib::MeasuredTest& test) {
   table.key("strength_Pa", test.strength);
   table.key("strength_standard_error_Pa", test.strength_standard_error);
   table.key("failure_strain", test.failure_strain);
+  table.key("broke", test.broke);
   table.key("strain_rate_per_s", test.strain_rate);
   table.key("energy_to_failure_J_per_m3", test.energy_to_failure);
   table.key("linearity", test.linearity);

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "io/input_error.hpp"
 #include "io/results/result_files.hpp"
@@ -23,6 +24,10 @@ void write_file(const std::filesystem::path& file, const std::string& content) {
   const std::string reason = failure ? failure.message() : std::strerror(errno);
   std::filesystem::remove(temporary, failure);
   throw InputError(file.string(), "cannot be written: " + reason);
+}
+
+std::string json_text(const nlohmann::json& json) {
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace havers::io

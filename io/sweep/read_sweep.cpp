@@ -58,6 +58,8 @@ void read_questions(TableReader& top, calib::Sweep& sweep) {
     const bool of_keys = finding.test <= calib::FindingTest::linear;
     if (of_keys && finding.keys.empty())
       table.complain("keys", "is missing", "name the key whose effect is judged");
+    if (finding.test < calib::FindingTest::above && finding.margin < 0.0)
+      table.complain("margin", fmt::format("is {:g}, must be 0 or more", finding.margin));
   }
   for (TableReader& table : top.tables("figure")) {
     calib::SweepFigure& figure = sweep.figures.emplace_back();

@@ -21,15 +21,19 @@ Facts facts_of(const ImportReport& report) {
               {"Area", test.area > 0.0 ? setting(test.area / in::mm2, "mm²") : "not known"},
               {"Gauge length", length(raw.gauge_length)}};
   if (test.strain.empty()) return sizes;
+  const auto bounded = [&](const std::string& name) {
+    return test.broke ? name : name + ", at least";
+  };
   Facts facts{
       {"Modulus",
        fmt::format("{} GPa, in the window {} %",
                    plus_minus(test.modulus / in::GPa, test.modulus_standard_error / in::GPa),
                    interval(test.window_low / in::percent, test.window_high / in::percent))},
-      {"Strength", fmt::format("{} MPa", plus_minus(test.strength / in::MPa,
-                                                    test.strength_standard_error / in::MPa))},
+      {bounded("Strength"),
+       fmt::format("{} MPa",
+                   plus_minus(test.strength / in::MPa, test.strength_standard_error / in::MPa))},
       {"Largest force", quantity(test.max_force, "N")},
-      {"Failure strain", quantity(test.failure_strain / in::percent, "%")},
+      {bounded("Failure strain"), quantity(test.failure_strain / in::percent, "%")},
       {"Energy to failure", quantity(test.energy_to_failure / in::MPa, "MJ/m³")},
       {"Strain rate",
        test.strain_rate > 0.0 ? quantity(test.strain_rate, "1/s", 3) : "time not recorded"},

@@ -63,6 +63,22 @@ TEST(OutputFolder, KeepsWhatNoRunHasWritten) {
   }
 }
 
+// A folder may be a disk of its own: what is staged is staged in it.
+TEST(OutputFolder, ThatIsThereHoldsWhatIsStaged) {
+  const fs::path folder = folder_with_scene();
+  fs::create_directories(folder / "out/.partial/killed");
+  EXPECT_EQ(run_havers(folder, "simulate scene.toml -o out").exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "out/result.json"));
+  EXPECT_FALSE(fs::exists(folder / "out/.partial"));
+}
+
+TEST(OutputFolder, ThatCannotBeMadeIsNamed) {
+  const fs::path folder = folder_with_scene();
+  const auto answer = run_havers(folder, "simulate scene.toml -o /proc/none/out");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_TRUE(answer.err.starts_with("havers: /proc/none/out: cannot be written: ")) << answer.err;
+}
+
 // A build without pages leaves none; one that another build adds is not the user's.
 TEST(OutputFolder, KnowsAPageThatWasAdded) {
   const fs::path folder = own_folder();

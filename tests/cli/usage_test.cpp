@@ -57,6 +57,51 @@ TEST(Usage, MistakesInTheCommandLineAreOneLineAndExitTwo) {
   }
 }
 
+TEST(Usage, NumbersThatCannotBeAreNamedWithTheRule) {
+  const auto folder = own_folder();
+  const std::string usage = " (havers -h and havers COMMAND -h show how it is used)\n";
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"import a.csv --width-mm nan", "--width-mm: is nan, must be a number above 0"},
+      {"import a.csv --thickness-mm four", "--thickness-mm: is four, must be a number above 0"},
+      {"import a.csv --gauge-length-mm=-1", "--gauge-length-mm: is -1, must be a number above 0"},
+      {"check a.toml --threads 0", "--threads: is 0, must be a whole number, 1 or more"},
+      {"check a.toml --threads 1.5", "--threads: is 1.5, must be a whole number, 1 or more"},
+      {"check a.toml --seed x", "--seed: is x, must be a whole number, 0 or more"},
+      {"bench -o b --calibration --costly 3", "--costly: is 3, must be a whole number from 1 to 2"},
+      {"porosity a.png --rim-um inf", "--rim-um: is inf, must be a number, 0 or more"},
+      {"porosity a.png --pores grey", "--pores: is grey, must be one of: found, dark, bright"}};
+  for (const auto& [arguments, sentence] : wrong) {
+    const auto answer = run_havers(folder, arguments);
+    EXPECT_EQ(answer.exit_code, 2);
+    EXPECT_EQ(answer.err, "havers: " + sentence + usage);
+  }
+}
+
+// The answer that was lost is no answer, whether it filled the buffer or waited in it.
+TEST(Usage, AnAnswerThatCannotBePrintedIsSaid) {
+  const auto folder = own_folder();
+  test::write_text(folder / "good.toml", test::small_scene());
+  for (const char* arguments :
+       {"check good.toml", "check good.toml --json", "simulate good.toml -o out --force --json",
+        "--version", "fit -h"}) {
+    const auto answer = run_havers(folder, std::string(arguments) + " >/dev/full 2>said #");
+    EXPECT_EQ(answer.exit_code, 1) << arguments;
+    EXPECT_EQ(test::read_text(folder / "said"),
+              "havers: stdout: cannot be written (is the disk full?)\n")
+        << arguments;
+  }
+}
+
+TEST(Usage, NamesOfFilesNeedNotBeUtf8) {
+  const auto folder = own_folder();
+  const std::string name = "\xE9prouvette.csv";
+  test::write_text(folder / name, "Time (s),Load (N)\n0,1\n1,2\n2,3\n");
+  const auto answer = run_havers(folder, "import " + name + " --json -o out");
+  const auto json = nlohmann::json::parse(answer.out);
+  EXPECT_EQ(json["file"], "\uFFFDprouvette.csv");
+  EXPECT_EQ(nlohmann::json::parse(test::read_text(folder / "out/import.json")), json);
+}
+
 TEST(Usage, MissingFilesAreNamed) {
   const auto folder = own_folder();
   for (const char* arguments :

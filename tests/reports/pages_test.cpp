@@ -200,6 +200,12 @@ TEST(ImportPage, ShowsNumbersCorrectionsAndWarningsOfEveryTest) {
   EXPECT_TRUE(contains(page, "13.000 ± 0.078 GPa, in the window 0.033 to 0.132 %"));
   EXPECT_TRUE(contains(page, "strain shifted by 2.0e-4"));
   EXPECT_TRUE(contains(page, "The curve is not linear to failure."));
+  EXPECT_FALSE(contains(page, "at least"));
+
+  measured.broke = false;
+  const std::string stopped = import_page({{"a/A1.csv", raw, measured}}, {});
+  EXPECT_TRUE(contains(stopped, "Strength, at least"));
+  EXPECT_TRUE(contains(stopped, "Failure strain, at least"));
 }
 
 TEST(ImportPage, SurvivesAnEmptyTest) {

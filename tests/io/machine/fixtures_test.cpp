@@ -117,7 +117,8 @@ TEST(Fixtures, OneOfSeveralSpecimensIsChosenByNameOrNumber) {
     return "none";
   };
   EXPECT_EQ(complaint({}),
-            "holds 2 specimens; say which, by name or number: 1 \"North\", 2 \"South\"");
+            "holds 2 specimens; say which by specimen_in_file, its name or number: 1 \"North\", 2 "
+            "\"South\"");
   options.specimen = "West";
   EXPECT_EQ(complaint(options), "holds no specimen \"West\"; it holds 1 \"North\", 2 \"South\"");
 }

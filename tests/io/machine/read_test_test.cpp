@@ -204,11 +204,16 @@ TEST(ReadTest, TurnsTheElongationOfAGaugeIntoStrain) {
   EXPECT_NE(unknown.test.warnings.at(0).find("the gauge length is unknown"), std::string::npos);
 }
 
-TEST(ReadTest, UsesTheFirstOfTwoColumnsAndSaysSo) {
-  const TestFile file = read("Load (N),Load 2 (N)\n1,5\n2,6\n");
+TEST(ReadTest, UsesTheFirstOfTwoColumnsAndSaysHowToChoose) {
+  const std::string table = "Load (N),Load 2 (N)\n1,5\n2,6\n";
+  const TestFile file = read(table);
   EXPECT_EQ(file.test.force, (std::vector{1.0, 2.0}));
   EXPECT_EQ(file.test.warnings.at(0),
-            "columns \"Load\" and \"Load 2\" both hold force: the first is used");
+            "columns \"Load\" and \"Load 2\" both hold force: \"Load\" is used (force = 2 in "
+            "[specimen.columns] takes the other)");
+  const TestFile chosen = read(table, {{{Quantity::force, {"2", ""}}}});
+  EXPECT_EQ(chosen.test.force, (std::vector{5.0, 6.0}));
+  EXPECT_TRUE(chosen.test.warnings.empty());
 }
 
 TEST(ReadTest, WarnsOfAStressThatIsNotForceOverArea) {

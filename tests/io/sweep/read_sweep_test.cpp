@@ -85,6 +85,17 @@ TEST(ReadSweep, NamesUnknownKeysAndQuestionsAboutWhatDoesNotVary) {
                                             HasSubstr("finding.keys: is missing")));
 }
 
+TEST(ReadSweep, NamesAMarginThatCannotBe) {
+  const ScratchFolder folder;
+  const std::string text =
+      "[sweep.keys]\n\"joints.scatter\" = [0.2, 0.5]\n[[finding]]\n"
+      "keys = [\"joints.scatter\"]\nmargin = -1\ntest = ";
+  const auto file = folder.write("s.toml", text + "\"same\"\n");
+  EXPECT_THAT(complaints_of(folder, [&] { read_sweep(file); }),
+              ElementsAre(HasSubstr("finding.margin: is -1, must be 0 or more")));
+  EXPECT_NO_THROW(read_sweep(folder.write("s.toml", text + "\"above\"\n")));
+}
+
 TEST(ReadSweep, NamesWhatIsWrongWithThePlan) {
   const ScratchFolder folder;
   const auto file = folder.write("s.toml", "[sweep]\nseeds = 0\n");

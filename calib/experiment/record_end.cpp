@@ -1,0 +1,164 @@
+#include "calib/experiment/record_end.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "calib/experiment/channel_noise.hpp"
+
+namespace havers::calib {
+namespace {
+
+constexpr std::size_t held_rows = 3;        // a stress that fewer rows reach is a glitch
+constexpr double least_held = 0.05;         // of the largest: below it, noise falls to half as well
+constexpr double moment = 0.02;             // of the time in which the stress rose as far
+constexpr double sudden = 0.25;             // of the stress: lost within a moment, a break
+constexpr std::size_t fewest_again = 5;     // rows of glitches that a break may be followed by,
+constexpr std::size_t rows_per_again = 20;  // and one more for so many rows before it
+constexpr const char* lower_bounds =
+    "strength and failure strain are lower bounds, unless the study says broke = true";
+
+std::size_t largest_row(std::span<const double> values) {
+  return static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
+}
+
+// Whether a channel goes back between two rows, by more than its noise.
+bool goes_back(std::span<const double> values, std::size_t from, std::size_t to) {
+  constexpr double part = 0.02;
+  if (values.empty()) return false;
+  const double least = std::max(10.0 * noise_of(values), part * (values[from] - values.front()));
+  return values[from] - values[to] > least;
+}
+
+struct Fall {
+  std::span<const double> stress, time;
+  double part;
+
+  [[nodiscard]] double at(std::size_t row) const {
+    return time.empty() ? static_cast<double>(row) : time[row];
+  }
+
+  // Time from `part` of a stress to nine tenths of it, when it was first reached.
+  [[nodiscard]] double rise_to(double held) const {
+    constexpr double nearly = 0.9;
+    const auto top = std::ranges::find_if(stress, [&](double s) { return s >= nearly * held; });
+    const auto last = static_cast<std::size_t>(top - stress.begin());
+    std::size_t first = last;
+    while (first > 0 && stress[first] >= part * held) --first;
+    return at(last) - at(first);
+  }
+
+  [[nodiscard]] bool is_sudden(std::size_t row, double held) const {
+    const double window = moment * rise_to(held);
+    std::size_t before = row - 1, after = row + 1;
+    while (before > 0 && at(row) - at(before - 1) <= window) --before;
+    while (after < stress.size() && at(after) - at(row) <= window) ++after;
+    const double lowest = std::ranges::min(stress.subspan(row, after - row));
+    return stress[before] - lowest > sudden * held;
+  }
+
+  [[nodiscard]] std::size_t rows_again(std::size_t row, double held) const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(stress.subspan(row), [&](double s) { return s >= part * held; }));
+  }
+
+  // The first row of a sudden fall for good, or the end of a record that ends in one. What is
+  // compared is the largest stress that a few rows before it hold.
+  [[nodiscard]] std::optional<std::size_t> parting() const {
+    const auto held_before = [&](std::size_t row) {
+      return std::ranges::min(stress.subspan(row - held_rows, held_rows));
+    };
+    double largest = 0.0, held = 0.0;
+    for (std::size_t row = held_rows; row <= stress.size(); ++row)
+      largest = std::max(largest, held_before(row));
+    for (std::size_t row = held_rows; row < stress.size(); ++row) {
+      held = std::max(held, held_before(row));
+      if (held < least_held * largest || stress[row] >= part * held) continue;
+      if (stress[row - 1] < part * held || !is_sudden(row, held)) continue;
+      if (rows_again(row, held) <= std::max(fewest_again, row / rows_per_again)) return row;
+    }
+    if (is_sudden(stress.size() - 1, held)) return stress.size();
+    return std::nullopt;
+  }
+};
+
+RecordEnd parted_at(const Fall& fall, std::size_t row) {
+  RecordEnd end{.broke = true, .rows = row, .cut = {}, .warnings = {}};
+  end.cut = {"cut after break",
+             fmt::format("{} of {} rows, from where the stress fell below {:.2g} of the strength",
+                         fall.stress.size() - row, fall.stress.size(), fall.part)};
+  const double strength = std::ranges::max(fall.stress.first(row));
+  if (const std::size_t again = fall.rows_again(row, strength); again > 0)
+    end.warnings.push_back(
+        fmt::format("after the break the stress is above {:.2g} of the strength again in {} {}: "
+                    "not used",
+                    fall.part, again, again == 1 ? "row" : "rows"));
+  return end;
+}
+
+RecordEnd unloaded_at(const Fall& fall, std::size_t peak) {
+  RecordEnd end{.broke = false, .rows = peak + 1, .cut = {}, .warnings = {}};
+  end.cut = {"cut unloading", fmt::format("{} of {} rows, all after the largest stress",
+                                          fall.stress.size() - end.rows, fall.stress.size())};
+  end.warnings.push_back(
+      fmt::format("no break was seen: the strain went back as the stress fell, so the specimen was "
+                  "unloaded or slid in its grips; {}",
+                  lower_bounds));
+  return end;
+}
+
+RecordEnd stopped(const Fall& fall) {
+  const double left = fall.stress.back() / std::ranges::max(fall.stress);
+  return {
+      .broke = false,
+      .rows = fall.stress.size(),
+      .cut = {},
+      .warnings = {fmt::format(
+          "no break was seen: the record ends at {:.0f} % of its largest stress; {} (a machine may "
+          "end its record at the break)",
+          100.0 * left, lower_bounds)}};
+}
+
+}  // namespace
+
+RecordEnd end_of_record(const MeasuredTest& test, std::span<const double> crosshead,
+                        double break_part) {
+  const Fall fall{test.stress, test.time, break_part};
+  if (const std::optional<std::size_t> row = fall.parting()) {
+    const std::size_t peak = largest_row(fall.stress.first(*row));
+    const std::size_t fallen = std::min(*row, fall.stress.size() - 1);
+    const bool returned = fallen - peak > held_rows && goes_back(crosshead, peak, fallen);
+    return returned ? unloaded_at(fall, peak) : parted_at(fall, *row);
+  }
+  const std::size_t peak = largest_row(fall.stress);
+  std::size_t row = peak;
+  while (row < fall.stress.size() && fall.stress[row] >= break_part * fall.stress[peak]) ++row;
+  if (row == fall.stress.size()) return stopped(fall);
+  const bool returned = goes_back(test.strain, peak, row) || goes_back(crosshead, peak, row);
+  return returned ? unloaded_at(fall, peak) : parted_at(fall, row);
+}
+
+std::string jump_of_stress(const MeasuredTest& test) {
+  constexpr double smallest = 0.05, steps = 5.0;
+  const auto loading = std::span(test.stress).first(largest_row(test.stress) + 1);
+  const std::size_t stride = 1 + loading.size() / enough_for_median;
+  std::vector<double> some;
+  std::size_t steepest = 1;
+  for (std::size_t i = 1; i < loading.size(); ++i) {
+    if (i % stride == 0) some.push_back(std::abs(loading[i] - loading[i - 1]));
+    if (loading[i] - loading[i - 1] > loading[steepest] - loading[steepest - 1]) steepest = i;
+  }
+  if (some.empty()) return {};
+  const double jump = loading[steepest] - loading[steepest - 1];
+  const double least = std::max({smallest * loading.back(), steps * median(std::move(some)),
+                                 10.0 * test.strength_standard_error});
+  if (jump <= least) return {};
+  return fmt::format(
+      "the stress jumps from {:.4g} to {:.4g} MPa between two rows: if that is a fault of the "
+      "record, the strength may be wrong",
+      loading[steepest - 1] * 1e-6, loading[steepest] * 1e-6);
+}
+
+}  // namespace havers::calib

@@ -1,0 +1,47 @@
+#include "cli/number_check.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace havers::cli {
+namespace {
+
+// CLI11's own checks take NaN, and what is no number for one.
+template <class Number, class Rule>
+CLI::Validator number_check(const std::string& words, Rule holds) {
+  const auto complaint = [words, holds](const std::string& text) -> std::string {
+    Number value{};
+    const bool good = CLI::detail::lexical_cast(text, value) && holds(value);
+    return good ? "" : fmt::format("is {}, must be {}", text, words);
+  };
+  return {complaint, "NUMBER"};
+}
+
+}  // namespace
+
+CLI::Validator above_zero() {
+  return number_check<double>("a number above 0",
+                              [](double value) { return std::isfinite(value) && value > 0.0; });
+}
+
+CLI::Validator not_negative() {
+  return number_check<double>("a number, 0 or more",
+                              [](double value) { return std::isfinite(value) && value >= 0.0; });
+}
+
+CLI::Validator count(int most) {
+  const bool open = most == std::numeric_limits<int>::max();
+  return number_check<int>(
+      open ? "a whole number, 1 or more" : fmt::format("a whole number from 1 to {}", most),
+      [most](int value) { return value >= 1 && value <= most; });
+}
+
+CLI::Validator seed_number() {
+  return number_check<std::uint64_t>("a whole number, 0 or more",
+                                     [](std::uint64_t) { return true; });
+}
+
+}  // namespace havers::cli

@@ -1,0 +1,151 @@
+// A known specimen whose gauge is lost, or jumps ahead: it must be brought back, or be doubted.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/experiment/measured_test.hpp"
+#include "tests/support/machine_files.hpp"
+#include "tests/support/reduction.hpp"
+
+namespace havers::calib {
+namespace {
+
+using test::detail_of;
+using test::record;
+using test::reduced;
+using test::TensileTruth;
+
+const TensileTruth gauged{.strain_rate = 2e-5};
+
+void expect_the_bar(const MeasuredTest& test, double tolerance) {
+  EXPECT_NEAR(test.modulus, gauged.young, tolerance * gauged.young);
+  EXPECT_NEAR(test.strength, gauged.strength, tolerance * gauged.strength);
+  EXPECT_NEAR(test.failure_strain, gauged.failure_strain(), tolerance * gauged.failure_strain());
+}
+
+// Past its range the gauge shows its last value, or what a torn wire gives.
+RawTest saturated(double at_part, double jump) {
+  RawTest raw = record(gauged);
+  for (std::size_t i = 0; i < raw.rows(); ++i)
+    if (raw.strain[i] > at_part * gauged.failure_strain())
+      raw.strain[i] = at_part * gauged.failure_strain() + jump;
+  return raw;
+}
+
+TEST(GaugeLoss, GoesOnWithTheCrossheadWhereTheGaugeIsSaturated) {
+  for (const double part : {0.3, 0.6, 0.9}) {
+    RawTest raw = saturated(part, 0.0);
+    const MeasuredTest test = reduced(raw);
+    expect_the_bar(test, 0.001);
+    EXPECT_NE(detail_of(test, "gauge stood still").find("of the strength"), std::string::npos);
+    EXPECT_NE(test.warnings.at(0).find("rests on the crosshead"), std::string::npos);
+    raw.extension.clear();
+    EXPECT_NE(reduce_test(raw).problems.at(0).find("the gauge stood still"), std::string::npos);
+  }
+  const MeasuredTest torn = reduced(saturated(0.6, 0.05));
+  expect_the_bar(torn, 0.001);
+  EXPECT_NE(detail_of(torn, "gauge fell off"), "");
+}
+
+TEST(GaugeLoss, TakesNoNoiseForAGaugeThatStandsStill) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    RawTest raw = record(
+        {.toe = 3e-4, .force_noise = 2.0, .strain_noise = 1e-5, .strain_rate = 2e-6, .seed = seed});
+    EXPECT_TRUE(reduced(raw).warnings.empty()) << seed << reduced(raw).warnings.front();
+    for (double& strain : raw.strain) strain = 5e-5 * std::round(strain / 5e-5);  // few digits
+    EXPECT_EQ(detail_of(reduced(raw), "gauge stood still"), "") << seed;
+  }
+}
+
+// A curve that is flat at its end: there the stress rises by its noise only.
+TEST(GaugeLoss, TakesNoYieldingForAGaugeThatStandsStill) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    RawTest raw =
+        record({.force_noise = 2.0, .strain_noise = 2e-6, .strain_rate = 2e-5, .seed = seed});
+    for (std::size_t i = 0; i < raw.rows(); ++i) {
+      const double stress = gauged.young * raw.extension[i] / gauged.gauge_length;
+      raw.force[i] -= 0.99 * std::max(0.0, stress - 0.5 * gauged.strength) * gauged.area();
+    }
+    EXPECT_EQ(detail_of(reduced(raw), "gauge stood still"), "") << seed;
+    EXPECT_EQ(detail_of(reduced(raw), "gauge slip"), "") << seed;
+  }
+}
+
+RawTest jumping(double at_part, double jump) {
+  RawTest raw = record(gauged);
+  for (std::size_t i = 0; i < raw.rows(); ++i)
+    if (raw.force[i] > at_part * gauged.strength * gauged.area() || i + 5 >= raw.rows())
+      raw.strain[i] += jump;
+  return raw;
+}
+
+TEST(GaugeLoss, TakesBackAJumpAhead) {
+  for (const double part : {0.2, 0.6, 0.95}) {
+    const MeasuredTest test = reduced(jumping(part, 5e-4));
+    expect_the_bar(test, 0.001);
+    EXPECT_NE(detail_of(test, "gauge slip").find("the strain jumped ahead by 0.05000 %"),
+              std::string::npos)
+        << detail_of(test, "gauge slip");
+    EXPECT_EQ(test.warnings.size(), 1U);
+  }
+}
+
+// A gap in the record, and a crack that takes load with it, are the specimen's own.
+TEST(GaugeLoss, TakesNoStepOfTheSpecimenForASlip) {
+  RawTest gap = record(gauged);
+  for (auto* channel : {&gap.time, &gap.force, &gap.strain, &gap.extension, &gap.stress})
+    channel->erase(channel->begin() + 1000, channel->begin() + 1200);
+  EXPECT_EQ(detail_of(reduced(gap), "gauge slip"), "");
+  expect_the_bar(reduced(gap), 1e-6);
+
+  RawTest cracking = record(gauged);
+  for (std::size_t i = 1500; i < cracking.rows(); ++i) {
+    cracking.strain[i] += 5e-4;
+    cracking.force[i] -= 0.01 * gauged.strength * gauged.area();
+  }
+  EXPECT_EQ(detail_of(reduced(cracking), "gauge slip"), "");
+}
+
+TEST(GaugeLoss, KnowsAGaugeThatSawTheSpecimenPart) {
+  RawTest raw = record(gauged);
+  for (std::size_t i = raw.rows() - 6; i < raw.rows(); ++i) raw.strain[i] = 0.1;
+  const MeasuredTest test = reduced(raw);
+  expect_the_bar(test, 1e-3);
+  EXPECT_NE(detail_of(test, "gauge at the break"), "");
+}
+
+// It slides so slowly that no row shows it.
+TEST(GaugeLoss, DoubtsAStrainThatLagsBehindTheStress) {
+  RawTest raw = record(gauged);
+  for (double& strain : raw.strain)
+    strain = std::min(strain, 0.25 * gauged.failure_strain() + 0.5 * strain);
+  const MeasuredTest test = reduced(raw);
+  EXPECT_GT(test.linearity, 1.2);
+  EXPECT_NE(test.warnings.at(0).find("below what the modulus lets expect"), std::string::npos);
+}
+
+// With few rows a step is a tenth of the strain.
+TEST(GaugeLoss, IsSeenInFewRowsToo) {
+  const TensileTruth few{.strain_rate = 2e-3};
+  for (const double part : {0.5, 0.85}) {
+    RawTest raw = record(few);
+    for (double& strain : raw.strain) strain = std::min(strain, part * few.failure_strain());
+    expect_the_bar(reduced(raw), 0.01);
+    EXPECT_NE(detail_of(reduced(raw), "gauge stood still"), "") << part;
+  }
+}
+
+// What stands still has no noise, which is not that of the gauge.
+TEST(GaugeLoss, IsNotMistakenForSlips) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    RawTest raw = record({.strain_noise = 1e-5, .strain_rate = 2e-5, .seed = seed});
+    for (double& strain : raw.strain) strain = std::min(strain, 0.3 * gauged.failure_strain());
+    EXPECT_EQ(detail_of(reduced(raw), "gauge slip"), "") << seed;
+    EXPECT_NEAR(reduced(raw).failure_strain, gauged.failure_strain(),
+                0.05 * gauged.failure_strain());
+  }
+}
+
+}  // namespace
+}  // namespace havers::calib

@@ -1,0 +1,129 @@
+// Studies that can be read and are hardly meant so, and tests that did not end in a break.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "io/machine/read_test.hpp"
+#include "tests/cli/run_havers.hpp"
+
+namespace havers {
+namespace {
+
+namespace fs = std::filesystem;
+using test::own_folder;
+using test::run_havers;
+using testing::HasSubstr;
+
+fs::path folder_with_made_study() {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "study.toml", test::small_study());
+  EXPECT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
+  return folder;
+}
+
+// As if the machine had been stopped at a part of the strength.
+void stop(const fs::path& file, double part) {
+  calib::RawTest raw = io::read_test(file).test;
+  const double most = part * std::ranges::max(raw.force);
+  const auto rows = static_cast<std::size_t>(
+      std::ranges::find_if(raw.force, [&](double f) { return f >= most; }) - raw.force.begin());
+  for (auto* channel : {&raw.time, &raw.force, &raw.extension, &raw.strain, &raw.stress})
+    channel->resize(std::min(channel->size(), rows));
+  io::write_bluehill(file, raw);
+}
+
+std::string replaced_once(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
+
+TEST(StoppedTest, IsSaidToBeNoneThatBroke) {
+  const fs::path folder = folder_with_made_study();
+  stop(folder / "made/B0.csv", 0.6);
+  EXPECT_THAT(run_havers(folder, "import made/B0.csv").out,
+              testing::AllOf(HasSubstr("strength at least "), HasSubstr("no break was seen")));
+  const auto json = nlohmann::json::parse(run_havers(folder, "import made/B0.csv --json").out);
+  EXPECT_EQ(json["broke"], false);
+  const auto checked = run_havers(folder, "check made/study.toml");
+  EXPECT_EQ(checked.exit_code, 0);
+  EXPECT_THAT(checked.out, HasSubstr("B0.csv: no break was seen"));
+}
+
+// At 0.6 of its strength nothing had failed: the other specimen tells the strength of the joints.
+TEST(StoppedTest, IsALowerBoundOfTheFit) {
+  const fs::path folder = folder_with_made_study();
+  stop(folder / "made/B0.csv", 0.6);
+  const auto fitted = [&](const std::string& study, const std::string& output) {
+    const auto answer = run_havers(folder, "fit made/" + study + " -o " + output + " --json");
+    EXPECT_NE(answer.exit_code, 2) << answer.err;
+    return nlohmann::json::parse(answer.out);
+  };
+  const auto result = fitted("study.toml", "out");
+  EXPECT_EQ(result["specimens"][0]["measured"]["broke"], false);
+  EXPECT_EQ(result["specimens"][1]["measured"]["broke"], true);
+  EXPECT_NEAR(result["parameters"][1]["value"].get<double>(), 80.0, 8.0);
+
+  test::write_text(folder / "made/broke.toml", replaced_once(test::small_study(), "id = \"B0\"\n",
+                                                             "id = \"B0\"\nbroke = true\n"));
+  const auto pulled = fitted("broke.toml", "pulled");
+  EXPECT_EQ(pulled["specimens"][0]["measured"]["broke"], true);
+  EXPECT_LT(pulled["parameters"][1]["value"].get<double>(), 72.0);
+}
+
+TEST(Check, SaysWhatAStudyLeavesOutAndTakesTwice) {
+  const fs::path folder = folder_with_made_study();
+  std::string study = replaced_once(test::small_study(), "orientation_deg = 0\n", "");
+  study = replaced_once(study, "\"B90.csv\"", "\"B0.csv\"");
+  test::write_text(folder / "made/doubtful.toml", study);
+  const auto answer = run_havers(folder, "check made/doubtful.toml");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("specimen B0 has no orientation_deg"));
+  EXPECT_THAT(answer.out, HasSubstr("specimens B0 and B90 have the same test"));
+  EXPECT_EQ(run_havers(folder, "check made/study.toml").out, "no problems\n");
+
+  const auto made = run_havers(folder, "synthesize made/doubtful.toml -o again");
+  EXPECT_EQ(made.exit_code, 2);
+  EXPECT_THAT(made.err, HasSubstr("B0.csv: would be made twice"));
+  EXPECT_FALSE(fs::exists(folder / "again"));
+}
+
+// Of the study, of a test, and of a logger, though the study's own would end the reading.
+TEST(Check, TellsTheProblemsOfAllStagesAtOnce) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "B0.csv", "");
+  test::write_text(folder / "gauge.csv", "not a test\n");
+  test::write_text(folder / "study.toml",
+                   replaced_once(test::small_study(), "test = \"B0.csv\"\n",
+                                 "test = \"B0.csv\"\ngauge = \"gauge.csv\"\nwidht_mm = 4\n"));
+  const auto answer = run_havers(folder, "check study.toml");
+  EXPECT_EQ(answer.exit_code, 2);
+  for (const char* words : {"specimen.widht_mm: is not a known key", "B90.csv, which is not there",
+                            "B0.csv: ", "gauge.csv: "})
+    EXPECT_THAT(answer.err, HasSubstr(words));
+  EXPECT_EQ(std::ranges::count(answer.err, '\n'), 4) << answer.err;
+}
+
+TEST(Import, TakesOneOfSeveralSpecimensByNameOrNumber) {
+  const fs::path folder = own_folder();
+  std::string text;
+  for (const char* id : {"North", "South"}) {
+    text += fmt::format(
+        "Specimen ID,{}\nWidth,4,mm\nThickness,2,mm\n\nTime (s),Load (N),Strain (%)\n", id);
+    for (int i = 0; i <= 100; ++i) text += fmt::format("{},{},{:.4f}\n", i, 5 * i, 0.004 * i);
+    text += "101,0,0\n";
+  }
+  test::write_text(folder / "two.csv", text);
+  for (const char* second : {"South", "2"}) {
+    const auto answer =
+        run_havers(folder, std::string("import two.csv --json --set specimen_in_file=") + second);
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_EQ(nlohmann::json::parse(answer.out)["specimen_id"], "South");
+  }
+  test::write_text(folder / "study.toml", "[[specimen]]\nid = \"A\"\ntest = \"two.csv\"\n");
+  EXPECT_THAT(run_havers(folder, "check study.toml").err,
+              HasSubstr("say which by specimen_in_file"));
+}
+
+}  // namespace
+}  // namespace havers

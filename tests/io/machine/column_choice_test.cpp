@@ -1,0 +1,75 @@
+// Of several columns that may hold a channel, the one that measured it.
+#include <gtest/gtest.h>
+
+#include "io/input_error.hpp"
+#include "io/machine/read_test.hpp"
+#include "tests/support/machine_files.hpp"
+
+namespace havers::io {
+namespace {
+
+TestFile choice_of(const std::string& content) {
+  const test::TemporaryFile file(content);
+  return read_test(file.path());
+}
+
+// The better column stands last; the number is in its row.
+TEST(ColumnChoice, TakesTheBetterColumnWhereverItStands) {
+  const std::vector<std::string> strains{"Strain 1 (Displacement) (%),Strain 2 (%)",
+                                         "Crosshead strain (%),Strain (%)",
+                                         "True strain (%),Engineering strain (%)",
+                                         "Transverse strain (%),Axial strain (%)",
+                                         "Strain (%),Extensometer strain (%)",
+                                         "Querdehnung (%),Dehnung (%)",
+                                         "Traversendehnung (%),Dehnung (%)",
+                                         "Strain command (%),Strain (%)",
+                                         "Tensile strain (Extension) (%),Strain 1 (%)",
+                                         "Dehnung (%),Feindehnung (%)"};
+  for (const std::string& names : strains) {
+    const TestFile file = choice_of("Load (N)," + names + "\n1,7,2\n2,8,3\n3,9,4\n");
+    EXPECT_EQ(file.test.strain, (std::vector{0.02, 0.03, 0.04})) << names;
+  }
+  for (const std::string names : {"Peak load (N),Load (N)", "Command force (N),Force (N)",
+                                  "Kraft Sollwert (N),Kraft (N)", "Force consigne (N),Force (N)",
+                                  "Force setpoint (N),Force (N)", "Force (N),Load cell (N)"}) {
+    const TestFile file = choice_of(names + "\n7,2\n8,3\n");
+    EXPECT_EQ(file.test.force, (std::vector{2.0, 3.0})) << names;
+  }
+}
+
+TEST(ColumnChoice, TakesAnExtensometersDisplacementForAGauge) {
+  const TestFile file = choice_of(
+      "Gauge length,50,mm\nLoad (N),Strain 2 (Displacement) (%),Displacement (Strain 1) (mm)\n"
+      "1,7,0.05\n2,8,0.1\n");
+  EXPECT_EQ(file.test.strain, (std::vector{1e-3, 2e-3}));
+}
+
+TEST(ColumnChoice, SaysWhatIsUsedForWantOfBetter) {
+  const TestFile file = choice_of("Load (N),Strain 1 (Displacement) (%)\n1,2\n2,3\n");
+  EXPECT_EQ(file.test.strain, (std::vector{0.02, 0.03}));
+  EXPECT_EQ(file.test.warnings.at(0),
+            "column \"Strain 1 (Displacement)\" is used for want of a better one: it is the "
+            "crosshead's, with the compliance of the machine in it");
+  EXPECT_EQ(choice_of("Load (N),True strain (%),True stress (MPa)\n1,2,1\n2,3,2\n").test.warnings,
+            std::vector<std::string>{"column \"True strain\" is used for want of a better one: it "
+                                     "is true and not engineering"});
+}
+
+TEST(ColumnChoice, NamesTheKeyOfASignalInVolts) {
+  const test::TemporaryFile file("Time (s),Strain gauge 1 (V),Strain gauge 2 (V)\n0,1,2\n1,2,3\n");
+  EXPECT_EQ(
+      read_test(file.path(), {.logger = true}).test.warnings.at(0),
+      "columns \"Strain gauge 1\" and \"Strain gauge 2\" both hold volts: \"Strain gauge 1\" is "
+      "used (strain = 3 in [specimen.gauge_columns] takes the other)");
+}
+
+// Neither what was asked of the machine nor what is across the load is a test.
+TEST(ColumnChoice, TakesNoColumnThatIsNoReading) {
+  const TestFile file = choice_of("Load (N),Transverse strain (%)\n1,2\n2,3\n");
+  EXPECT_TRUE(file.test.strain.empty());
+  EXPECT_EQ(file.columns[1].quantity, Quantity::other);
+  EXPECT_THROW(choice_of("Time (s),Peak load (N),Command force (kN)\n0,1,1\n1,2,2\n"), InputError);
+}
+
+}  // namespace
+}  // namespace havers::io
