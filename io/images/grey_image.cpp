@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "io/images/cut_off.hpp"
 #include "io/images/png.hpp"
 #include "io/input_error.hpp"
 
@@ -90,6 +91,7 @@ std::vector<cv::Mat> read_pages(const std::filesystem::path& file) {
   } catch (const cv::Exception& error) {
     throw io::InputError(file.string(), fmt::format("cannot be decoded: {}", error.err));
   }
+  check_all_was_read(file, pages.size());
   if (pages.empty() || pages.front().empty())
     throw io::InputError(file.string(), "is not a readable image",
                          "use PNG, TIFF, JPEG, BMP or DICOM");
