@@ -35,10 +35,9 @@ struct BoneDepth {
 };
 BoneDepth bone_depth(const Depth& depth, const cv::Mat& bone) {
   std::vector<float> values = sample_depths(depth, bone, 20000), away;
-  const double median = quantile(values, 0.5);
-  for (const float value : values) away.push_back(std::abs(value - static_cast<float>(median)));
-  const double least = median - 5.0 * 1.4826 * quantile(away, 0.5);
-  std::erase_if(values, [&](float value) { return value < least; });
+  for (const float value : values) away.push_back(std::abs(value));
+  const double reach = 5.0 * 1.4826 * quantile(away, 0.5);
+  std::erase_if(values, [&](float value) { return value < -reach; });
   const double upper = quantile(values, 0.30), lower = quantile(values, 0.05);
   const double spread =
       (upper - lower) / (1.645 - 0.524);  // Their places in a normal distribution.

@@ -40,14 +40,24 @@ bool is_a_region(const cv::Mat& level) {
   return false;
 }
 
-// Whether a level is little else than one part, as a small bone is in a large image.
-bool is_of_one_part(const cv::Mat& level) {
-  double largest = 0.0, all = 0.0;
+bool is_a_machined_bar(const Contour& border) {
+  Contour hull;
+  cv::convexHull(border, hull);
+  return cv::contourArea(hull) > 0.95 * static_cast<double>(cv::minAreaRect(hull).size.area());
+}
+
+// Whether a level is little else than one part, as a small bone is in a large image. What is dark
+// in bright surroundings may be a pore: it must be a bar.
+bool is_a_small_bone(const cv::Mat& level, bool dark) {
+  double all = 0.0, largest = 0.0;
+  Contour part;
   for (const Contour& contour : outer_contours(level)) {
-    largest = std::max(largest, enclosed_area(contour));
-    all += enclosed_area(contour);
+    const double area = enclosed_area(contour);
+    all += area;
+    if (area > largest) largest = area, part = contour;
   }
-  return largest > std::max(0.8 * all, 0.01 * static_cast<double>(level.total()));
+  const double share = largest / static_cast<double>(level.total());
+  return largest > 0.8 * all && (dark ? share > 0.03 && is_a_machined_bar(part) : share > 0.01);
 }
 
 // Parts of at least a tenth of the largest: text and scale bars are not.
@@ -133,12 +143,6 @@ Regions all_of(const cv::Mat& grey, const cv::Mat& mask, io::Pores pores) {
   return regions;
 }
 
-bool is_a_machined_bar(const Contour& border) {
-  Contour hull;
-  cv::convexHull(border, hull);
-  return cv::contourArea(hull) > 0.95 * static_cast<double>(cv::minAreaRect(hull).size.area());
-}
-
 // (I5) Pores that the surface cuts are notches: what the convex hull adds to the outline, in pieces
 // with a mouth much narrower than they are wide. On a machined bar, straight by itself, every notch
 // that is not shallow is one.
@@ -172,10 +176,11 @@ cv::Mat brighter_region(const cv::Mat& copy) {
     if (!is_a_step(levels, copy, mask)) break;
     const cv::Mat dark = ~levels.bright;
     const bool bright_region =
-        is_a_region(levels.bright) || (look == 0 && is_of_one_part(levels.bright));
-    if (look == 1 && cv::mean(copy, levels.bright & mask)[0] - cv::mean(copy, dark & mask)[0] < 0.1)
-      break;
-    if (bright_region && is_a_region(dark)) return levels.bright;
+        is_a_region(levels.bright) || (look == 0 && is_a_small_bone(levels.bright, false));
+    const bool dark_region = is_a_region(dark) || (look == 0 && is_a_small_bone(dark, true));
+    const double step = cv::mean(copy, levels.bright & mask)[0] - cv::mean(copy, dark & mask)[0];
+    if (look == 1 && step < 0.1) break;  // What is left of pores about them.
+    if (bright_region && dark_region) return levels.bright;
     mask &= ~dilated(bright_region ? dark : levels.bright, 5);
   }
   return {};
