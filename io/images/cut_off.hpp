@@ -6,8 +6,7 @@
 
 namespace havers::images {
 
-/// @throws io::InputError when a TIFF ends before its directories or pixels do or leads to more
-/// pages than were read, or when a JPEG ends before its end marker.
+/// @throws io::InputError when a TIFF has more pages than were read, or a JPEG no end marker.
 void check_all_was_read(const std::filesystem::path& file, std::size_t pages_read);
 
 }  // namespace havers::images

@@ -91,10 +91,10 @@ std::vector<cv::Mat> read_pages(const std::filesystem::path& file) {
   } catch (const cv::Exception& error) {
     throw io::InputError(file.string(), fmt::format("cannot be decoded: {}", error.err));
   }
-  check_all_was_read(file, pages.size());
   if (pages.empty() || pages.front().empty())
     throw io::InputError(file.string(), "is not a readable image",
                          "use PNG, TIFF, JPEG, BMP or DICOM");
+  check_all_was_read(file, pages.size());
   for (cv::Mat& page : pages) {
     if (page.depth() == CV_8U || page.depth() == CV_16U) continue;
     page.convertTo(page, CV_32F);

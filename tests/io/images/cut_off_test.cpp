@@ -79,14 +79,13 @@ TEST(CutOffTiff, OfSeveralPagesIsRefused) {
                   {cv::IMWRITE_TIFF_COMPRESSION, compression});
       EXPECT_EQ(said_of_the_first(1.0, file), "");
       for (const double share : {0.1, 0.3, 0.34, 0.5, 0.67, 0.8, 0.95, 0.999})
-        EXPECT_NE(said_of_the_first(share, file).find("is cut off: its end is missing"),
-                  std::string::npos)
-            << share;
+        EXPECT_NE(said_of_the_first(share, file), "") << share;
+      EXPECT_NE(said_of_the_first(0.8, file).find("only 2 of at least 3 pages can be read"),
+                std::string::npos);
     }
   }
 }
 
-// The decoder would fill what is missing with black.
 TEST(CutOffTiff, WhosePixelsAreBehindItsDirectoryIsRefused) {
   const auto drawn = test::draw({.width = 300, .height = 260, .noise = 0.05, .blur = 0.7});
   for (const bool large : {false, true}) {

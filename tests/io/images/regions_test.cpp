@@ -145,6 +145,31 @@ TEST(NarrowBar, IsMeasuredAsItIs) {
       }
 }
 
+// Pores as small as this are gone on the small copy, where whole grey levels of quiet bone would be
+// two levels.
+TEST(Bone, OfLittleNoiseIsNotDivided) {
+  for (const double pore : {0.1, 0.5}) {
+    const auto drawn = test::draw({.outline = test::Outline::filled,
+                                   .porosity = 0.01,
+                                   .bone = 0.8,
+                                   .pore = pore,
+                                   .noise = 0.03,
+                                   .blur = 0.8});
+    const auto measured = found_in(drawn.image);
+    EXPECT_NEAR(100.0 * measured.porosity, 100.0 * drawn.porosity, 0.1) << pore;
+    EXPECT_NEAR(area_in_pixels(measured), 700.0 * 600.0, 1.0);
+  }
+}
+
+// A ring has a marrow cavity, a sawn bar has not.
+TEST(Bone, OfABarHasItsLargestPoreCounted) {
+  auto drawn = test::draw({.porosity = 0.0});
+  cv::circle(drawn.image, {350, 300}, 100, 51, cv::FILLED);
+  const auto measured = found_in(drawn.image);
+  EXPECT_NEAR(measured.porosity, std::numbers::pi * 1e4 / cv::sum(drawn.bone)[0], 3e-3);
+  EXPECT_THAT(measured.warnings, Contains(HasSubstr("marrow cavity")));
+}
+
 TEST(Bone, WithoutABackgroundIsSaidToFillTheImage) {
   const auto drawn = test::draw({.outline = test::Outline::filled, .blur = 1.0});
   const auto found = found_in(drawn.image), told = found_in(drawn.image, {.fills_image = true});
