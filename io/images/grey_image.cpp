@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "io/images/cut_off.hpp"
 #include "io/images/png.hpp"
 #include "io/input_error.hpp"
 
@@ -93,6 +94,7 @@ std::vector<cv::Mat> read_pages(const std::filesystem::path& file) {
   if (pages.empty() || pages.front().empty())
     throw io::InputError(file.string(), "is not a readable image",
                          "use PNG, TIFF, JPEG, BMP or DICOM");
+  check_all_was_read(file, pages.size());
   for (cv::Mat& page : pages) {
     if (page.depth() == CV_8U || page.depth() == CV_16U) continue;
     page.convertTo(page, CV_32F);

@@ -26,15 +26,21 @@ double noise_at(const cv::Mat& grey, const cv::Mat& mask) {
   return found.empty() ? 0.0 : quantile(found, 0.5) / 0.6745 / 6.0;
 }
 
-// What a program has segmented before is told by its two values, however much of it is pore.
-std::optional<double> bone_of_two_values(const std::vector<Sample>& samples, bool dark_pores) {
+// What a program has segmented before is told by its two values, however much of it is pore; where
+// there is a background, if pores have its value.
+std::optional<double> bone_of_two_values(const cv::Mat& grey, const std::vector<Sample>& samples,
+                                         const Regions& regions) {
   if (samples.empty()) return std::nullopt;
   const auto ends = std::ranges::minmax(samples, {}, &Sample::value);
   const double low = ends.min.value, high = ends.max.value;
   const bool only_these = std::ranges::all_of(
       samples, [&](const Sample& s) { return s.value == low || s.value == high; });
   if (!only_these) return std::nullopt;
-  return dark_pores ? high : low;
+  const double pores = regions.dark_pores ? low : high;
+  if (regions.outlined &&
+      std::abs(cv::mean(grey, regions.background)[0] - pores) > 0.25 * (high - low))
+    return std::nullopt;
+  return regions.dark_pores ? high : low;
 }
 
 }  // namespace
@@ -43,7 +49,7 @@ Levels bone_levels(const cv::Mat& grey, const Regions& regions) {
   Levels levels;
   levels.sign = regions.dark_pores ? 1.0 : -1.0;
   const std::vector<Sample> samples = sample(grey, regions.bone, 20000);
-  if (const auto bone = bone_of_two_values(samples, regions.dark_pores))
+  if (const auto bone = bone_of_two_values(grey, samples, regions))
     levels.bone = {.size = grey.size(), .coefficients = {*bone}};
   else
     levels.bone = fit_majority(samples, grey.size());

@@ -50,17 +50,21 @@ std::vector<Contour> outer_contours(const cv::Mat& mask) {
 }
 
 int reduction(cv::Size size) {
-  constexpr int longest = 128;
-  return (std::max(size.width, size.height) + longest - 1) / longest;
+  constexpr double side = 128.0;
+  return static_cast<int>(std::ceil(std::sqrt(1.0 * size.width * size.height) / side));
 }
 
 cv::Mat averaged(const cv::Mat& image, int factor, cv::BorderTypes beyond) {
   const int right = (factor - image.cols % factor) % factor;
   const int below = (factor - image.rows % factor) % factor;
-  cv::Mat whole = image, cells;
+  cv::Mat whole = image, strip;
   if (right + below > 0) cv::copyMakeBorder(image, whole, 0, below, 0, right, beyond);
-  cv::resize(whole, cells, whole.size() / factor, 0.0, 0.0, cv::INTER_AREA);
-  cells.convertTo(cells, CV_32F);
+  cv::Mat cells(whole.size() / factor, CV_32F);
+  for (int y = 0; y < cells.rows; ++y) {  // A whole number is no mean: noise would be a step.
+    whole.rowRange(y * factor, (y + 1) * factor).convertTo(strip, CV_32F);
+    cv::Mat row = cells.row(y);
+    cv::resize(strip, row, row.size(), 0.0, 0.0, cv::INTER_AREA);
+  }
   return cells;
 }
 

@@ -36,8 +36,8 @@ cv::Mat eroded_by(const cv::Mat& mask, int reach);
 /// Outer borders of the connected parts.
 std::vector<Contour> outer_contours(const cv::Mat& mask);
 
-/// Copies on which bone and zones are found are at most 128 pixels long: how many pixels a side
-/// become one of them.
+/// Copies on which bone and zones are found have at most about 128 × 128 pixels, as long and narrow
+/// as the image is: how many pixels a side become one of them.
 int reduction(cv::Size size);
 
 /// Means over cells of `factor` × `factor` pixels, float. What lies beyond the edge is nothing

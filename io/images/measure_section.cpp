@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "io/images/density.hpp"
@@ -53,6 +54,37 @@ void warn_of_scale(const io::SectionOptions& options, Warnings& warnings) {
         fmt::format("a pixel ({:g} µm) is larger than the fibre's height ({:g} µm): "
                     "the spread between windows is that of the pixels",
                     *options.pixel_size * 1e6, options.window_height * 1e6));
+}
+
+void warn_of_bone(const PoreMap& map, bool outlined, cv::Size image,
+                  const io::SectionOptions& options, Warnings& warnings) {
+  if (options.mask || options.fills_image) return;
+  const double share = cv::countNonZero(map.bone) / static_cast<double>(image.area());
+  if (!outlined)
+    warnings.emplace_back(
+        "no background was found, so bone is taken to fill the image: if it does, say so with "
+        "--fills-image (in a study fills_image = true), if not, give a mask");
+  else if (share < 0.1)
+    warnings.push_back(
+        fmt::format("the bone is {:.1f} % of the image: if that is a pore in bone that fills the "
+                    "image, say --fills-image (in a study fills_image = true)",
+                    100.0 * share));
+}
+
+void warn_of_side(const PoreMap& map, bool like_background, io::Pores known, Warnings& warnings) {
+  const std::string_view side = map.dark ? "dark" : "bright", other = map.dark ? "bright" : "dark";
+  if (map.areas.empty())
+    warnings.emplace_back("no pores were found: no patch lies five deviations apart from bone");
+  else if (!like_background && known == io::Pores::found)
+    warnings.push_back(fmt::format(
+        "pores are taken to be {}er than bone, which the background is not: if that is wrong, say "
+        "--pores {} (in a study pores = \"{}\")",
+        side, other, other));
+  if (map.other_side > 0.005)
+    warnings.push_back(
+        fmt::format("{:.1f} % of the bone is as much {}er than bone as pores are "
+                    "{}er, and does not count as pores",
+                    100.0 * map.other_side, other, side));
 }
 
 void warn_of_objects(const PoreMap& map, const calib::SectionPorosity& section,
@@ -124,6 +156,7 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
   const PoreMap map = find_pores(grey, bone,
                                  {.threshold = options.threshold,
                                   .crack_slenderness = options.crack_slenderness,
+                                  .pores = options.pores,
                                   .rim = regions.outlined},
                                  depth);
 
@@ -131,7 +164,10 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
   measured.porosity.file = name;
   measured.porosity.method = method_of(options.threshold);
   add_density(whole, grey, map, options.density, measured.porosity);
-  warn_of_objects(map, measured.porosity, measured.porosity.warnings);
+  Warnings& warnings = measured.porosity.warnings;
+  warn_of_bone(map, regions.outlined, whole.size(), options, warnings);
+  warn_of_side(map, !regions.outlined || map.dark == regions.dark_pores, options.pores, warnings);
+  warn_of_objects(map, measured.porosity, warnings);
   if (!options.pictures) return measured;
   measured.overlay_png = draw_overlay(whole, map, regions.box);
   measured.histogram = histogram_of(depth, map);

@@ -2,45 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
-#include <fstream>
 #include <string>
+
+#include "io/images/file_bytes.hpp"
 
 namespace havers::images {
 namespace {
 
-using Offset = std::uint64_t;
-
-// Numbers and text at places of a file; zero and nothing beyond its end.
-class Bytes {
- public:
-  explicit Bytes(const std::filesystem::path& file) : in_(file, std::ios::binary) {}
-  void set_big_endian(bool big) { big_endian_ = big; }
-
-  std::string text(Offset at, std::size_t length) {
-    std::string found(std::min<std::size_t>(length, 4096), '\0');
-    in_.clear();
-    in_.seekg(static_cast<std::streamoff>(at));
-    in_.read(found.data(), static_cast<std::streamsize>(found.size()));
-    found.resize(static_cast<std::size_t>(in_.gcount()));
-    return found;
-  }
-
-  std::uint32_t number(Offset at, std::size_t size) {
-    std::string bytes = text(at, size);
-    if (!big_endian_) std::reverse(bytes.begin(), bytes.end());
-    std::uint32_t value = 0;
-    for (const char byte : bytes) value = value << 8U | static_cast<unsigned char>(byte);
-    return value;
-  }
-
- private:
-  std::ifstream in_;
-  bool big_endian_ = true;
-};
-
 constexpr double inch = 25.4e-3;
+
+double real(FileBytes& bytes, Offset at) {
+  return static_cast<double>(bytes.number(at, 4));
+}
 
 // A whole number of dots an inch in steps of a dozen or of fifty is a printer's or screen's.
 bool is_for_paper(double pixel) {
@@ -50,11 +24,11 @@ bool is_for_paper(double pixel) {
 }
 
 // Chunks of a PNG: length, name, data, checksum. pHYs: pixels a unit in x and y, unit 1 is a metre.
-double png_pixel(Bytes& bytes) {
+double png_pixel(FileBytes& bytes) {
   for (Offset at = 8; bytes.text(at + 4, 4).size() == 4;) {
     const std::string name = bytes.text(at + 4, 4);
     if (name == "IDAT") break;
-    if (name == "pHYs") return bytes.number(at + 16, 1) == 1 ? 1.0 / bytes.number(at + 8, 4) : 0.0;
+    if (name == "pHYs") return bytes.number(at + 16, 1) == 1 ? 1.0 / real(bytes, at + 8) : 0.0;
     at += 12 + bytes.number(at, 4);
   }
   return 0.0;
@@ -78,7 +52,7 @@ double unit_of(const std::string& description) {
 }
 
 // The first directory of a TIFF: entries of tag, type, count, value or its place.
-double tiff_pixel(Bytes& bytes) {
+double tiff_pixel(FileBytes& bytes) {
   bytes.set_big_endian(bytes.text(0, 2) == "MM");
   const Offset directory = bytes.number(4, 4);
   double resolution = 0.0, unit = inch, described = 0.0;
@@ -89,7 +63,7 @@ double tiff_pixel(Bytes& bytes) {
         described = unit_of(bytes.text(place, bytes.number(entry + 4, 4)));
         break;
       case 282:  // XResolution, a fraction
-        resolution = bytes.number(place, 4) / std::max(1.0, 1.0 * bytes.number(place + 4, 4));
+        resolution = real(bytes, place) / std::max(1.0, real(bytes, place + 4));
         break;
       case 296: {  // ResolutionUnit: none, inch, centimetre
         const auto code = bytes.number(entry + 8, 2);
@@ -105,23 +79,24 @@ double tiff_pixel(Bytes& bytes) {
 
 // Elements of a DICOM file: group, element, [type,] length, data. Sequences of unknown length are
 // walked through, as spacing may lie inside.
-double dicom_pixel(Bytes& bytes) {
+double dicom_pixel(FileBytes& bytes) {
   bytes.set_big_endian(false);
   bool typed = true;
   for (Offset at = 132; bytes.text(at, 8).size() == 8;) {
-    const std::uint32_t group = bytes.number(at, 2), element = bytes.number(at + 2, 2);
+    const Offset group = bytes.number(at, 2), element = bytes.number(at + 2, 2);
     if (group == 0x7FE0) break;  // the pixels
     const std::string type = bytes.text(at + 4, 2);
     Offset data = at + 8;
-    std::uint32_t length = bytes.number(at + 4, 4);
+    Offset length = bytes.number(at + 4, 4);
     if ((typed || group == 2) && group != 0xFFFE) {
       constexpr std::string_view long_types = "OB OW OF OD OL OV SQ UC UR UT UN";
       const bool is_long = long_types.find(type) != std::string_view::npos;
       length = is_long ? bytes.number(at + 8, 4) : bytes.number(at + 6, 2);
       data += is_long ? 4 : 0;
     }
-    const std::string text =
-        group == 2 || group == 0x28 || group == 0x18 ? bytes.text(data, std::min(length, 64U)) : "";
+    const std::string text = group == 2 || group == 0x28 || group == 0x18
+                                 ? bytes.text(data, std::min<Offset>(length, 64))
+                                 : "";
     if (group == 2 && element == 0x10)  // transfer syntax
       typed = text.substr(0, text.find('\0')) != "1.2.840.10008.1.2";
     if ((group == 0x28 && element == 0x30) || (group == 0x18 && element == 0x1164))
@@ -135,7 +110,7 @@ double dicom_pixel(Bytes& bytes) {
 }  // namespace
 
 std::optional<double> tagged_pixel_size(const std::filesystem::path& file) {
-  Bytes bytes(file);
+  FileBytes bytes(file);
   const std::string head = bytes.text(0, 132);
   double size = 0.0;
   if (head.starts_with("\x89PNG")) size = png_pixel(bytes);

@@ -27,13 +27,17 @@ double enough_smoothing(const Levels& levels) {
   return noise < 0.07 ? 0.0 : std::clamp(10.0 / noise_divisor * noise, 0.5, 3.0);
 }
 
-// Where bone lies in a depth image, and how far about. From the shallow side, where no pore is: up
-// to a third of pores moves neither by more than a tenth of the spread.
+// Where bone lies in a depth image, and how far about. From the shallow side, where no pore is once
+// the other side's are left out: up to a third of pores moves neither by more than a tenth of the
+// spread.
 struct BoneDepth {
   double middle = 0.0, spread = 0.0;
 };
 BoneDepth bone_depth(const Depth& depth, const cv::Mat& bone) {
-  std::vector<float> values = sample_depths(depth, bone, 20000);
+  std::vector<float> values = sample_depths(depth, bone, 20000), away;
+  for (const float value : values) away.push_back(std::abs(value));
+  const double reach = 5.0 * 1.4826 * quantile(away, 0.5);
+  std::erase_if(values, [&](float value) { return value < -reach; });
   const double upper = quantile(values, 0.30), lower = quantile(values, 0.05);
   const double spread =
       (upper - lower) / (1.645 - 0.524);  // Their places in a normal distribution.
@@ -134,6 +138,16 @@ double threshold_without_blur(const Depth& depth, const cv::Mat& cores, PoreMap&
   return std::max(0.3, 0.5 - lowering) * full_depth;
 }
 
+// Pores are the minority: the grey levels have a tail to their side of the bone's.
+bool tail_is_dark(const cv::Mat& grey, const cv::Mat& bone, const Levels& levels) {
+  const std::vector<Sample> samples = sample(grey, bone, 20000);
+  const std::vector<float> level = values_at(levels.bone, samples);
+  double third = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    third += std::pow(samples[i].value - level[i], 3);
+  return third < 0.0;
+}
+
 // In the rim, where bone fades into background, only what continues a pore from further inside is
 // pore.
 void cut(const cv::Mat& inner, const PoreOptions& options, PoreMap& map) {
@@ -141,22 +155,9 @@ void cut(const cv::Mat& inner, const PoreOptions& options, PoreMap& map) {
   sort_objects(options.crack_slenderness, map);
 }
 
-}  // namespace
-
-cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Depth& depth) {
-  cv::Mat bone = std::move(regions.bone);
-  const cv::Mat background = std::move(regions.background), search = std::move(regions.search);
-  if (!regions.outlined) return bone;
-  fit_contrast(grey, background, depth.levels);
-  if (!(depth.levels.contrast(depth.levels.bone.coefficients[0]) > 0.0)) return {};
-  smooth(grey, enough_smoothing(depth.levels), depth);
-  return outline(shallower(depth, 0.5, search));
-}
-
-PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const PoreOptions& options,
-                   Depth& depth) {
-  PoreMap map;
-  map.bone = bone;
+PoreMap pores_of_one_side(const cv::Mat& grey, const cv::Mat& bone, const PoreOptions& options,
+                          Depth& depth) {
+  PoreMap map{.bone = bone, .dark = depth.levels.sign > 0.0};
   // Blur reaches further in than noise does: a sharp eye would take it for a second level.
   const cv::Mat inner = options.rim ? eroded(bone, 5) : bone;
   if (depth.grey.depth() == CV_32F) depth.grey.release();  // Four bytes a pixel are made anew.
@@ -180,7 +181,37 @@ PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const PoreOptions& 
     if (!half_maximum || change < 0.003) break;
     settled = change < 0.02;  // The next change would be less than a sixth of this one.
   }
+  map.other_side =
+      static_cast<double>(cv::countNonZero(shallower(depth, -0.5, inner))) / cv::countNonZero(bone);
   return map;
+}
+
+}  // namespace
+
+cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Depth& depth) {
+  cv::Mat bone = std::move(regions.bone);
+  const cv::Mat background = std::move(regions.background), search = std::move(regions.search);
+  if (!regions.outlined) return bone;
+  fit_contrast(grey, background, depth.levels);
+  if (!(depth.levels.contrast(depth.levels.bone.coefficients[0]) > 0.0)) return {};
+  smooth(grey, enough_smoothing(depth.levels), depth);
+  return outline(shallower(depth, 0.5, search));
+}
+
+PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const PoreOptions& options,
+                   Depth& depth) {
+  const bool known = options.pores != io::Pores::found;
+  const bool dark = known ? options.pores == io::Pores::dark
+                          : tail_is_dark(grey, options.rim ? eroded(bone, 5) : bone, depth.levels);
+  depth.levels.sign = dark ? 1.0 : -1.0;
+  Depth turned{.levels = depth.levels};
+  PoreMap map = pores_of_one_side(grey, bone, options, depth);
+  if (known || !map.areas.empty()) return map;
+  turned.levels.sign = -depth.levels.sign;
+  PoreMap other = pores_of_one_side(grey, bone, options, turned);
+  if (other.areas.empty()) return map;
+  depth = std::move(turned);
+  return other;
 }
 
 void sort_objects(double crack_slenderness, PoreMap& map) {

@@ -20,7 +20,9 @@ struct PoreMap {
   double area_by_grey = 0.0;  ///< Without a threshold: the integral of depth about the pores (I8).
   int crack_count = 0;
   double crack_area = 0.0;
-  int specks = 0;  ///< Objects below `smallest_pore`, left out.
+  int specks = 0;           ///< Objects below `smallest_pore`, left out.
+  bool dark = true;         ///< Whether pores are darker than bone.
+  double other_side = 0.0;  ///< Share of bone as far to the other side of its level as pores are.
 };
 constexpr int smallest_pore = 4;  // [px]
 
@@ -28,7 +30,8 @@ constexpr int smallest_pore = 4;  // [px]
 struct PoreOptions {
   io::Threshold threshold = io::Threshold::half_maximum;
   double crack_slenderness = 10.0;  ///< Length over width from which on it is a crack; 0: none is.
-  bool rim = false;                 ///< Bone fades into background at its surface.
+  io::Pores pores = io::Pores::found;
+  bool rim = false;  ///< Bone fades into background at its surface.
 };
 
 /// Levels of bone and noise, from the coarse division.
@@ -38,8 +41,9 @@ Levels bone_levels(const cv::Mat& grey, const Regions& regions);
 /// needs after this. `depth`, whose levels of bone are known, becomes that against the background.
 cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Depth& depth);
 
-/// The pores in `bone`; `depth` becomes the one they were cut at. An image without a second level
-/// has none.
+/// The pores in `bone`; `depth` becomes the one they were cut at. Where it is not known on which
+/// side of the bone's level they are, its present side is tried, and the other if that holds more.
+/// An image without a second level has none.
 PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const PoreOptions& options,
                    Depth& depth);
 

@@ -40,6 +40,26 @@ bool is_a_region(const cv::Mat& level) {
   return false;
 }
 
+bool is_a_machined_bar(const Contour& border) {
+  Contour hull;
+  cv::convexHull(border, hull);
+  return cv::contourArea(hull) > 0.95 * static_cast<double>(cv::minAreaRect(hull).size.area());
+}
+
+// Whether a level is little else than one part, as a small bone is in a large image. What is dark
+// in bright surroundings may be a pore: it must be a bar.
+bool is_a_small_bone(const cv::Mat& level, bool dark) {
+  double all = 0.0, largest = 0.0;
+  Contour part;
+  for (const Contour& contour : outer_contours(level)) {
+    const double area = enclosed_area(contour);
+    all += area;
+    if (area > largest) largest = area, part = contour;
+  }
+  const double share = largest / static_cast<double>(level.total());
+  return largest > 0.8 * all && (dark ? share > 0.03 && is_a_machined_bar(part) : share > 0.01);
+}
+
 // Parts of at least a tenth of the largest: text and scale bars are not.
 std::vector<Blob> large_parts(const cv::Mat& mask) {
   std::vector<Blob> parts = blobs_of(mask);
@@ -82,15 +102,18 @@ cv::Mat search_area(const cv::Mat& parts) {
   return dilated(area, 5);
 }
 
-// Pores are the minority: the side of the smooth surface to which the grey levels have their tail.
-bool tail_is_dark(const cv::Mat& grey, const cv::Mat& mask) {
+// Pores are the minority: the grey levels have a tail to their side of the smooth surface.
+// Skewness, negative where the tail is dark.
+double tail(const cv::Mat& grey, const cv::Mat& mask) {
   const std::vector<Sample> samples = sample(grey, mask, 20000);
-  const Surface surface = fit_surface(samples, grey.size(), 2);
-  double third = 0.0;
-  const std::vector<float> level = values_at(surface, samples);
-  for (std::size_t i = 0; i < samples.size(); ++i)
+  const std::vector<float> level = values_at(fit_surface(samples, grey.size(), 2), samples);
+  double second = 0.0, third = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    second += std::pow(samples[i].value - level[i], 2);
     third += std::pow(samples[i].value - level[i], 3);
-  return third <= 0.0;
+  }
+  const auto n = static_cast<double>(samples.size());
+  return second > 0.0 ? third / n / std::pow(second / n, 1.5) : 0.0;
 }
 
 // Each cell as `factor` × `factor` pixels; what is beyond `size` is cut off.
@@ -116,14 +139,8 @@ Regions all_of(const cv::Mat& grey, const cv::Mat& mask, io::Pores pores) {
   Regions regions;
   regions.box = cv::boundingRect(mask);
   regions.bone = mask(regions.box);
-  regions.dark_pores = are_dark(pores, pores == io::Pores::found && tail_is_dark(grey, mask));
+  regions.dark_pores = are_dark(pores, pores == io::Pores::found && tail(grey, mask) <= 0.0);
   return regions;
-}
-
-bool is_a_machined_bar(const Contour& border) {
-  Contour hull;
-  cv::convexHull(border, hull);
-  return cv::contourArea(hull) > 0.95 * static_cast<double>(cv::minAreaRect(hull).size.area());
 }
 
 // (I5) Pores that the surface cuts are notches: what the convex hull adds to the outline, in pieces
@@ -139,9 +156,8 @@ bool is_a_cut_pore(const Blob& notch, const cv::Mat& hull, bool machined) {
   return notch.area > (machined ? 0.15 : 2.0) * mouth * mouth;
 }
 
-void fill_notches(const std::vector<Contour>& outlines, cv::Mat& bone) {
+void fill_notches(const std::vector<Contour>& outlines, bool machined, cv::Mat& bone) {
   const cv::Mat hull = hulls_of(outlines, bone.size());
-  const bool machined = std::all_of(outlines.begin(), outlines.end(), is_a_machined_bar);
   cv::Mat notches = hull.clone();
   cv::drawContours(notches, outlines, -1, 0, cv::FILLED);
   cv::morphologyEx(notches, notches, cv::MORPH_OPEN, cv::Mat::ones(5, 5, CV_8U));
@@ -151,32 +167,63 @@ void fill_notches(const std::vector<Contour>& outlines, cv::Mat& bone) {
     if (notch.area <= most && is_a_cut_pore(notch, hull, machined)) fill(bone, notch.border, 255);
 }
 
-}  // namespace
+// The brighter one of two regions; none where bone fills the image. A level that is no region is
+// that of pores: the rest is looked at again.
+cv::Mat brighter_region(const cv::Mat& copy) {
+  cv::Mat mask(copy.size(), CV_8U, cv::Scalar(255));
+  for (int look = 0; look < 2; ++look) {
+    const TwoLevels levels = split_levels(copy, mask);
+    if (!is_a_step(levels, copy, mask)) break;
+    const cv::Mat dark = ~levels.bright;
+    const bool bright_region =
+        is_a_region(levels.bright) || (look == 0 && is_a_small_bone(levels.bright, false));
+    const bool dark_region = is_a_region(dark) || (look == 0 && is_a_small_bone(dark, true));
+    const double step = cv::mean(copy, levels.bright & mask)[0] - cv::mean(copy, dark & mask)[0];
+    if (look == 1 && step < 0.1) break;  // What is left of pores about them.
+    if (bright_region && dark_region) return levels.bright;
+    mask &= ~dilated(bright_region ? dark : levels.bright, 5);
+  }
+  return {};
+}
 
-Regions divide(const cv::Mat& grey, io::Pores pores) {
-  const cv::Mat everywhere(grey.size(), CV_8U, cv::Scalar(255));
-  const cv::Mat copy = small_copy(grey);
-  const TwoLevels levels = split_levels(copy);
-  if (!is_a_step(levels, copy)) return all_of(grey, everywhere, pores);
-  const cv::Mat dark = ~levels.bright;
-  if (!is_a_region(levels.bright) || !is_a_region(dark)) return all_of(grey, everywhere, pores);
-
-  // (I3) Of two regions the bone is the one that has less of the image's frame.
-  const bool bright_bone = are_dark(pores, share_of_frame(levels.bright) < share_of_frame(dark));
-  const cv::Mat parts = main_parts(bright_bone ? levels.bright : dark);
-  const cv::Mat bone = parts & (bright_bone ? levels.bright : dark);
+// The masks of a bone that is one level of the small copy.
+Regions around(const cv::Mat& level, cv::Size size) {
+  const cv::Mat parts = main_parts(level), bone = parts & level;
   const cv::Mat core = eroded(bone, 3), search = search_area(parts);
   const cv::Mat background = dilated(bone, 9) & ~dilated(bone, 3) & ~parts;
 
-  const int factor = reduction(grey.size());
+  const int factor = reduction(size);
   const cv::Rect near = cv::boundingRect(search | background);
   const cv::Rect large(near.tl() * factor, near.size() * factor);
-  Regions regions{.outlined = true, .dark_pores = bright_bone};
-  regions.box = large & cv::Rect({}, grey.size());
+  Regions regions{.outlined = true};
+  regions.box = large & cv::Rect({}, size);
   const cv::Mat& sure = cv::countNonZero(core) > 0 ? core : bone;
   regions.bone = enlarged(sure(near), factor, regions.box.size());
   regions.search = enlarged(search(near), factor, regions.box.size());
   regions.background = enlarged(background(near), factor, regions.box.size());
+  return regions;
+}
+
+}  // namespace
+
+Regions divide(const cv::Mat& grey, io::Pores pores) {
+  const cv::Mat bright = brighter_region(small_copy(grey));
+  if (bright.empty()) return all_of(grey, cv::Mat(grey.size(), CV_8U, cv::Scalar(255)), pores);
+
+  // (I3) Of two regions the bone is the one that has less of the image's frame, unless its pores
+  // are said to be on the side where neither background nor a tail of its grey levels is.
+  const cv::Mat dark = ~bright;
+  bool bright_bone = share_of_frame(bright) < share_of_frame(dark);
+  Regions regions = around(bright_bone ? bright : dark, grey.size());
+  const bool dark_pores = are_dark(pores, bright_bone);
+  if (dark_pores != bright_bone) {
+    const double skewness = tail(grey(regions.box), regions.bone);
+    if ((dark_pores ? -skewness : skewness) < 0.3) {
+      bright_bone = !bright_bone;
+      regions = around(bright_bone ? bright : dark, grey.size());
+    }
+  }
+  regions.dark_pores = bright_bone;
   return regions;
 }
 
@@ -195,10 +242,13 @@ cv::Mat outline(const cv::Mat& solid) {
   if (outlines.empty()) return {};
   cv::drawContours(bone, outlines, -1, 255, cv::FILLED);
   const double enclosed = cv::countNonZero(bone);
-  std::erase_if(holes, [&](const Contour& hole) { return enclosed_area(hole) <= 0.1 * enclosed; });
+  const bool machined = std::all_of(outlines.begin(), outlines.end(), is_a_machined_bar);
+  std::erase_if(holes, [&](const Contour& hole) {
+    return machined || enclosed_area(hole) <= 0.1 * enclosed;
+  });
   cv::drawContours(bone, holes, -1, 0, cv::FILLED);
   cv::drawContours(bone, holes, -1, 255, 1);  // their borders are bone
-  fill_notches(outlines, bone);
+  fill_notches(outlines, machined, bone);
   return bone;
 }
 

@@ -13,7 +13,7 @@ namespace havers::images {
 struct Regions {
   bool outlined =
       false;  ///< Background surrounds the bone; otherwise bone fills the image or the user's mask.
-  bool dark_pores = true;
+  bool dark_pores = true;  ///< Darker than bone are the background and, until more is known, pores.
   cv::Rect box;        ///< What of the image the masks below cover, and all that follows from them.
   cv::Mat bone;        ///< 255 on what is surely bone or pores in it.
   cv::Mat search;      ///< 255 where the outline may run: bone, holes and a rim around.

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
+#include "io/images/masks.hpp"
 #include "io/images/surface.hpp"
 
 namespace havers::images {
@@ -15,15 +17,26 @@ cv::Mat values_of(const Surface& surface) {
   return values;
 }
 
+// What covers less than a tenth says nothing of a shade elsewhere.
 Surface fit_where(const cv::Mat& image, const cv::Mat& mask) {
-  return fit_surface(sample(image, mask, 4000), image.size(), 2);
+  const bool wide = cv::countNonZero(mask) > 0.1 * static_cast<double>(image.total());
+  return fit_surface(sample(image, mask, 4000), image.size(), wide ? 2 : 0);
 }
 
-cv::Mat otsu(const cv::Mat& image) {
-  cv::Mat bytes;
-  cv::normalize(image, bytes, 0, 255, cv::NORM_MINMAX, CV_8U);
+cv::Mat otsu(const cv::Mat& image, const cv::Mat& mask) {
+  cv::Mat bytes = image.clone();
+  bytes.setTo(cv::mean(image, mask), ~mask);
+  cv::normalize(bytes, bytes, 0, 255, cv::NORM_MINMAX, CV_8U);
   cv::threshold(bytes, bytes, 0, 255, cv::THRESH_OTSU);
   return bytes;
+}
+
+// Deviation by the median, which pores of a third level hardly move.
+double usual(const cv::Mat& distance, const cv::Mat& mask) {
+  std::vector<float> values;
+  for (int y = 0; y < mask.rows; ++y)
+    for_each_set(mask, y, [&](int x) { values.push_back(distance.at<float>(y, x)); });
+  return 1.4826 * quantile(values, 0.5);
 }
 
 struct Split {
@@ -32,21 +45,23 @@ struct Split {
 };
 
 // Each level's surface from its pixels, each pixel to the nearer surface, until hardly any moves.
-Split refine(const cv::Mat& image, cv::Mat bright) {
+Split refine(const cv::Mat& image, const cv::Mat& mask, cv::Mat bright) {
   Split split;
-  const int fewest = static_cast<int>(image.total() / 200), few = fewest / 10;
+  const int all = cv::countNonZero(mask), fewest = all / 200, few = fewest / 10;
   for (int round = 0; round < 20; ++round) {
-    const int count = cv::countNonZero(bright);
-    if (count < fewest || static_cast<int>(image.total()) - count < fewest) return split;
-    const cv::Mat upper = values_of(fit_where(image, bright));
-    const cv::Mat lower = values_of(fit_where(image, ~bright));
+    const int count = cv::countNonZero(bright & mask);
+    if (count < fewest || all - count < fewest) return split;
+    const cv::Mat upper = values_of(fit_where(image, bright & mask));
+    const cv::Mat lower = values_of(fit_where(image, ~bright & mask));
     const cv::Mat to_upper = cv::abs(image - upper), to_lower = cv::abs(image - lower);
     const cv::Mat next = to_upper < to_lower;
     const bool settled = cv::countNonZero(next != bright) <= few;
     bright = next;
-    split.deviation =
-        cv::norm(cv::min(to_upper, to_lower)) / std::sqrt(static_cast<double>(image.total()));
-    split.levels.separation = cv::mean(cv::abs(upper - lower))[0] / std::max(split.deviation, 1e-6);
+    split.deviation = cv::norm(cv::min(to_upper, to_lower), cv::NORM_L2, mask) / std::sqrt(all);
+    const double most = std::max(split.deviation, 1e-6);
+    split.levels.separation =
+        cv::mean(cv::abs(upper - lower), mask)[0] /
+        std::clamp(usual(cv::min(to_upper, to_lower), mask), 0.6 * most, most);
     if (settled) break;
   }
   split.levels.bright = bright;
@@ -55,15 +70,15 @@ Split refine(const cv::Mat& image, cv::Mat bright) {
 
 }  // namespace
 
-TwoLevels split_levels(const cv::Mat& image) {
-  const cv::Mat everywhere(image.size(), CV_8U, cv::Scalar(255));
-  const Split as_seen = refine(image, otsu(image));
-  const Split flattened = refine(image, otsu(image - values_of(fit_where(image, everywhere))));
+TwoLevels split_levels(const cv::Mat& image, const cv::Mat& mask) {
+  const cv::Mat flat = image - values_of(fit_where(image, mask));
+  const Split as_seen = refine(image, mask, otsu(image, mask));
+  const Split flattened = refine(image, mask, otsu(flat, mask));
   return as_seen.deviation <= flattened.deviation ? as_seen.levels : flattened.levels;
 }
 
 // Noise cut in halves has a separation of 2.65; a shade cut along a contour has no jump across it.
-bool is_a_step(const TwoLevels& levels, const cv::Mat& image) {
+bool is_a_step(const TwoLevels& levels, const cv::Mat& image, const cv::Mat& mask) {
   if (levels.bright.empty() || levels.separation < 4.5) return false;
   cv::Mat grown, shrunk, grown_far, shrunk_far;
   const cv::Mat near = cv::Mat::ones(3, 3, CV_8U), far = cv::Mat::ones(7, 7, CV_8U);
@@ -71,10 +86,11 @@ bool is_a_step(const TwoLevels& levels, const cv::Mat& image) {
   cv::dilate(levels.bright, grown_far, far);
   cv::erode(levels.bright, shrunk, near);
   cv::erode(levels.bright, shrunk_far, far);
-  const cv::Mat inside = shrunk & ~shrunk_far, outside = grown_far & ~grown;
+  const cv::Mat inside = shrunk & ~shrunk_far & mask, outside = grown_far & ~grown & mask;
   if (cv::countNonZero(inside) == 0 || cv::countNonZero(outside) == 0) return false;
   const double jump = cv::mean(image, inside)[0] - cv::mean(image, outside)[0];
-  const double whole = cv::mean(image, levels.bright)[0] - cv::mean(image, ~levels.bright)[0];
+  const double whole =
+      cv::mean(image, levels.bright & mask)[0] - cv::mean(image, ~levels.bright & mask)[0];
   return jump > 0.4 * whole;
 }
 

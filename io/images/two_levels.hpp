@@ -11,10 +11,11 @@ struct TwoLevels {
   double separation = 0.0;  ///< Distance of the levels over the deviation about them. [-]
 };
 
-/// Splits a float image into two levels, each a smooth surface (I2).
-TwoLevels split_levels(const cv::Mat& image);
+/// Splits a float image into two levels, each a smooth surface through pixels where `mask` is set
+/// (I2).
+TwoLevels split_levels(const cv::Mat& image, const cv::Mat& mask);
 
 /// Whether the levels differ by a step and not by a slope of the shade or by noise.
-bool is_a_step(const TwoLevels& levels, const cv::Mat& image);
+bool is_a_step(const TwoLevels& levels, const cv::Mat& image, const cv::Mat& mask);
 
 }  // namespace havers::images

@@ -19,6 +19,7 @@ enum class Outline { filled, bar, tilted_bar, ring };
 struct SectionTruth {
   Outline outline = Outline::bar;
   int width = 700, height = 600;
+  double bar_height = 0.68;  ///< Of a bar, over that of the image.
   double porosity = 0.05;
   double smallest_radius = 4.0, largest_radius = 4.0;  ///< [px]
   double elongation = 1.0;                             ///< Largest ratio of an ellipse's axes.
@@ -64,7 +65,8 @@ inline double depth_inside(const SectionTruth& c, double x, double y) {
     case Outline::ring:
       return std::min(0.45 * side - std::hypot(u, v), std::hypot(u, v) - 0.22 * side);
     default:
-      return std::min(0.4 * c.width - std::abs(along), 0.34 * c.height - std::abs(across));
+      return std::min(0.4 * c.width - std::abs(along),
+                      0.5 * c.bar_height * c.height - std::abs(across));
   }
 }
 

@@ -1,0 +1,53 @@
+#include "io/images/cut_off.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <set>
+
+#include "io/images/file_bytes.hpp"
+#include "io/input_error.hpp"
+
+namespace havers::images {
+namespace {
+
+// Each page has a directory: how many tags, the tags, and the place of the next one, which counts
+// even where the file ends before it.
+std::size_t pages_of_tiff(const std::filesystem::path& file) {
+  FileBytes bytes(file);
+  const std::string order = bytes.text(0, 2);
+  bytes.set_big_endian(order == "MM");
+  const Offset version = bytes.number(2, 2);
+  if ((order != "MM" && order != "II") || (version != 42 && version != 43)) return 0;
+  const bool large = version == 43;  // BigTIFF
+  const std::size_t place = large ? 8 : 4, count = large ? 8 : 2, tag = large ? 20 : 12;
+  std::set<Offset> passed{0};
+  for (Offset at = bytes.number(place, place); passed.insert(at).second;)
+    at = bytes.number(at + count + tag * bytes.number(at, count), place);
+  return passed.size() - 1;
+}
+
+// The last scan ends with the marker of the image's end; a thumbnail has one of its own, before.
+bool is_cut_off_jpeg(const std::filesystem::path& file) {
+  if (FileBytes(file).text(0, 3) != "\xFF\xD8\xFF") return false;
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const auto scan = bytes.rfind("\xFF\xDA"), end = bytes.rfind("\xFF\xD9");
+  return scan == std::string::npos || end == std::string::npos || end < scan;
+}
+
+}  // namespace
+
+void check_all_was_read(const std::filesystem::path& file, std::size_t pages_read) {
+  if (const std::size_t pages = pages_of_tiff(file); pages_read < pages)
+    throw io::InputError(
+        file.string(),
+        fmt::format("only {} of at least {} pages can be read: it is cut off or damaged",
+                    pages_read, pages),
+        "copy or export it again");
+  if (is_cut_off_jpeg(file))
+    throw io::InputError(file.string(), "is cut off: its end is missing",
+                         "copy or export it again");
+}
+
+}  // namespace havers::images

@@ -1,0 +1,44 @@
+// Numbers and text at places of a file. Private to io/images.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace havers::images {
+
+using Offset = std::uint64_t;
+
+/// Beyond the file's end numbers are zero and text is none.
+class FileBytes {
+ public:
+  explicit FileBytes(const std::filesystem::path& file) : in_(file, std::ios::binary) {}
+  void set_big_endian(bool big) { big_endian_ = big; }
+
+  /// At most 4096 bytes.
+  std::string text(Offset at, std::size_t length) {
+    std::string found(std::min<std::size_t>(length, 4096), '\0');
+    in_.clear();
+    in_.seekg(static_cast<std::streamoff>(at));
+    in_.read(found.data(), static_cast<std::streamsize>(found.size()));
+    found.resize(static_cast<std::size_t>(in_.gcount()));
+    return found;
+  }
+
+  /// Of 1 to 8 bytes.
+  std::uint64_t number(Offset at, std::size_t size) {
+    std::string bytes = text(at, size);
+    if (!big_endian_) std::reverse(bytes.begin(), bytes.end());
+    std::uint64_t value = 0;
+    for (const char byte : bytes) value = value << 8U | static_cast<unsigned char>(byte);
+    return value;
+  }
+
+ private:
+  std::ifstream in_;
+  bool big_endian_ = true;
+};
+
+}  // namespace havers::images

@@ -1,0 +1,101 @@
+// Files that end too soon: refused, with their name, never measured in part.
+#include "io/images/cut_off.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+
+#include "io/images/measure_section.hpp"
+#include "io/input_error.hpp"
+#include "tests/support/sections.hpp"
+
+namespace havers::io {
+namespace {
+
+// What is said of the file's first `share`; empty when it is measured.
+std::string said_of_the_first(double share, const std::filesystem::path& file) {
+  const auto part = file.parent_path() / ("cut_" + file.filename().string());
+  std::filesystem::copy_file(file, part, std::filesystem::copy_options::overwrite_existing);
+  const auto size = static_cast<double>(std::filesystem::file_size(file));
+  std::filesystem::resize_file(part, static_cast<std::uintmax_t>(share * size));
+  try {
+    measure_sections(part, {});
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().size(), 1U);
+    EXPECT_NE(std::string(error.what()).find(part.string()), std::string::npos);
+    return error.what();
+  }
+  return "";
+}
+
+// A TIFF as ImageJ writes it, its directory before its pixels; or a large one of 64-bit places.
+std::filesystem::path directory_first(const cv::Mat& image, bool large) {
+  const auto n = [](std::uint64_t value, std::size_t size) {
+    std::string bytes;
+    for (std::size_t i = 0; i < size; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xFFU);
+    return bytes;
+  };
+  const std::size_t width = large ? 8 : 4, begin = large ? 16 : 8, count = large ? 8 : 2, tags = 9;
+  const std::size_t pixels = begin + count + tags * (4 + 2 * width) + width;
+  std::string bytes = large ? "II" + n(43, 2) + n(8, 2) + n(0, 2) : "II" + n(42, 2);
+  bytes += n(begin, width) + n(tags, count);
+  for (const auto& [tag, value] : std::map<int, std::size_t>{{256, image.cols},
+                                                             {257, image.rows},
+                                                             {258, 8},
+                                                             {259, 1},
+                                                             {262, 1},
+                                                             {273, pixels},
+                                                             {277, 1},
+                                                             {278, image.rows},
+                                                             {279, image.total()}})
+    bytes += n(static_cast<std::uint64_t>(tag), 2) + n(large ? 16 : 4, 2) + n(1, width) +
+             n(value, width);
+  bytes += n(0, width) + std::string(image.ptr<char>(), image.total());
+  const auto file = test::write(image, "directory_first.tif");
+  std::ofstream(file, std::ios::binary) << bytes;
+  return file;
+}
+
+class CutOff : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(, CutOff, testing::Values("png", "tif", "jpg", "bmp"),
+                         [](const auto& ending) { return ending.param; });
+
+TEST_P(CutOff, AFileIsRefused) {
+  const auto drawn = test::draw({.width = 300, .height = 260, .noise = 0.05, .blur = 0.7});
+  const auto file = test::write(drawn.image, std::string("whole.") + GetParam());
+  EXPECT_EQ(said_of_the_first(1.0, file), "");
+  for (const double share : {0.02, 0.3, 0.6, 0.9, 0.99})
+    EXPECT_NE(said_of_the_first(share, file), "") << share;
+}
+
+TEST(CutOffTiff, OfSeveralPagesIsRefused) {
+  for (const int compression : {1, 5}) {  // None, LZW.
+    for (const int bits : {8, 16}) {
+      const auto drawn =
+          test::draw({.width = 300, .height = 260, .noise = 0.05, .blur = 0.7, .bits = bits});
+      const auto file = test::write(drawn.image, "pages.tif");
+      cv::imwrite(file.string(), std::vector<cv::Mat>(3, drawn.image),
+                  {cv::IMWRITE_TIFF_COMPRESSION, compression});
+      EXPECT_EQ(said_of_the_first(1.0, file), "");
+      for (const double share : {0.1, 0.3, 0.34, 0.5, 0.67, 0.8, 0.95, 0.999})
+        EXPECT_NE(said_of_the_first(share, file), "") << share;
+      EXPECT_NE(said_of_the_first(0.8, file).find("only 2 of at least 3 pages can be read"),
+                std::string::npos);
+    }
+  }
+}
+
+TEST(CutOffTiff, WhosePixelsAreBehindItsDirectoryIsRefused) {
+  const auto drawn = test::draw({.width = 300, .height = 260, .noise = 0.05, .blur = 0.7});
+  for (const bool large : {false, true}) {
+    const auto file = directory_first(drawn.image, large);
+    const double porosity = measure_sections(file, {}).front().porosity.porosity;
+    EXPECT_NEAR(porosity, drawn.porosity, 5e-3);
+    for (const double share : {0.01, 0.3, 0.6, 0.9, 0.999})
+      EXPECT_NE(said_of_the_first(share, file), "") << share << large;
+  }
+}
+
+}  // namespace
+}  // namespace havers::io
