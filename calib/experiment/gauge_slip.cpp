@@ -59,9 +59,8 @@ Record record_of(std::vector<double>& strain, std::span<const double> stress) {
   const auto peak = static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin());
   const auto loading = std::span<const double>(strain).first(peak + 1);
   const auto [low, high] = std::ranges::minmax(loading);
-  const double resolution = 0.01 * (high - low);
-  const auto arrived =
-      std::ranges::find_if(loading, [&](double e) { return e >= high - resolution; });
+  const double resolution = 0.01 * (high - low), end = high - resolution;
+  const auto arrived = std::ranges::find_if(loading, [end](double e) { return e >= end; });
   const auto rising = loading.first(static_cast<std::size_t>(arrived - loading.begin()) + 1);
   std::vector<double> steps;
   for (std::size_t i = 1; i < rising.size(); i += 1 + rising.size() / enough_for_median)

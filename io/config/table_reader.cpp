@@ -269,7 +269,7 @@ std::string ConfigFile::where(const toml::node& node, const std::string& key) co
   return fmt::format("{}:{}: {}", file_.string(), source.begin.line, key);
 }
 
-void ConfigFile::find_unknown() {
+std::vector<Problem> ConfigFile::problems() {
   std::vector<std::pair<const toml::table*, std::string>> open{{top_.get(), ""}};
   for (std::size_t i = 0; i < open.size(); ++i) {
     const auto [table, path] = open[i];
@@ -287,10 +287,6 @@ void ConfigFile::find_unknown() {
         for (const toml::node& item : *list) open.emplace_back(item.as_table(), name);
     }
   }
-}
-
-std::vector<Problem> ConfigFile::problems() {
-  find_unknown();
   return std::move(problems_);
 }
 

@@ -113,7 +113,6 @@ class ConfigFile {
  private:
   friend class TableReader;
   [[nodiscard]] std::string where(const toml::node& node, const std::string& key) const;
-  void find_unknown();
 
   std::filesystem::path file_;
   std::unique_ptr<toml::table> top_;

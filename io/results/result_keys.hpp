@@ -1,7 +1,6 @@
 // The keys of results, declared once for writing and for reading back, like those of scenes.
 #pragma once
 
-#include "calib/fit/calibration.hpp"
 #include "io/config/scene_keys.hpp"
 #include "io/config/study_keys.hpp"
 #include "io/results/result_files.hpp"
