@@ -73,9 +73,9 @@ void warn_of_bone(const PoreMap& map, bool outlined, cv::Size image,
 
 void warn_of_side(const PoreMap& map, bool like_background, io::Pores known, Warnings& warnings) {
   const std::string_view side = map.dark ? "dark" : "bright", other = map.dark ? "bright" : "dark";
-  if (map.areas.empty())
+  if (map.areas.empty() && map.crack_count + map.specks == 0)
     warnings.emplace_back("no pores were found: no patch lies five deviations apart from bone");
-  else if (!like_background && known == io::Pores::found)
+  if (!map.areas.empty() && !like_background && known == io::Pores::found)
     warnings.push_back(fmt::format(
         "pores are taken to be {}er than bone, which the background is not: if that is wrong, say "
         "--pores {} (in a study pores = \"{}\")",
