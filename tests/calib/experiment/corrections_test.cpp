@@ -13,17 +13,12 @@ namespace havers::calib {
 namespace {
 
 using test::detail_of;
+using test::expect_the_truth;
 using test::record;
 using test::reduced;
 using test::TensileTruth;
 
 const TensileTruth fine{.strain_rate = 2e-5};
-
-void expect_the_truth(const MeasuredTest& test, double tolerance) {
-  EXPECT_NEAR(test.modulus, fine.young, tolerance * fine.young);
-  EXPECT_NEAR(test.strength, fine.strength, tolerance * fine.strength);
-  EXPECT_NEAR(test.failure_strain, fine.failure_strain(), tolerance * fine.failure_strain());
-}
 
 TEST(Corrections, EnergyToFailureIsThatOfTheTriangle) {
   const MeasuredTest test = reduced(record(fine));
@@ -40,7 +35,7 @@ TEST(Corrections, RemovesSpikes) {
   RawTest raw = record(fine);
   raw.force[2000] += 200.0;  // above the strength
   raw.strain[60] -= 1e-3;
-  expect_the_truth(reduced(raw), 1e-6);
+  expect_the_truth(reduced(raw), fine, 1e-6);
   EXPECT_NE(detail_of(reduced(raw), "spikes").find("1 single rows of force"), std::string::npos);
   const MeasuredTest kept = reduced(raw, {.remove_spikes = false});
   EXPECT_GT(kept.strength, 1.2 * fine.strength);
@@ -91,7 +86,7 @@ TEST(Corrections, TakesTheMachinesComplianceOffTheCrosshead) {
   for (std::size_t i = 0; i < raw.rows(); ++i) raw.extension[i] += compliance * raw.force[i];
   EXPECT_LT(reduced(raw).modulus, 0.95 * fine.young);
   const MeasuredTest test = reduced(raw, {.machine_compliance = compliance});
-  expect_the_truth(test, 1e-6);
+  expect_the_truth(test, fine, 1e-6);
   EXPECT_EQ(detail_of(test, "machine compliance"),
             "0.02 mm per kN of force taken off the crosshead's extension");
   EXPECT_TRUE(test.warnings.empty());
@@ -109,7 +104,7 @@ TEST(Corrections, TakesBackTheJumpsOfASlippingGauge) {
   for (const double part : {0.2, 0.6, 0.95}) {
     const RawTest raw = slipping(part, 5e-4);
     const MeasuredTest test = reduced(raw);
-    expect_the_truth(test, 0.001);
+    expect_the_truth(test, fine, 0.001);
     EXPECT_NE(detail_of(test, "gauge slip").find("the strain jumped back by 0.05000 %"),
               std::string::npos)
         << detail_of(test, "gauge slip");
@@ -126,7 +121,7 @@ TEST(Corrections, KnowsABreakThatTheGaugeSawFirst) {
   for (std::size_t i = raw.rows() - 6; i < raw.rows(); ++i)
     raw.strain[i] = 0.0;  // from the strength on
   const MeasuredTest test = reduced(raw);
-  expect_the_truth(test, 1e-3);
+  expect_the_truth(test, fine, 1e-3);
   EXPECT_EQ(detail_of(test, "gauge slip"), "");
   EXPECT_NE(detail_of(test, "gauge at the break").find("a row before the load did"),
             std::string::npos);
@@ -152,7 +147,7 @@ RawTest fallen() {
 
 TEST(Corrections, GoesOnWithTheCrossheadWhereTheGaugeFellOff) {
   const MeasuredTest test = reduced(fallen());
-  expect_the_truth(test, 0.001);
+  expect_the_truth(test, fine, 0.001);
   EXPECT_NE(detail_of(test, "gauge fell off").find("60 % of the strength"), std::string::npos);
   EXPECT_NE(test.warnings.at(0).find("rests on the crosshead"), std::string::npos);
 }

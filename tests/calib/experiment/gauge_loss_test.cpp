@@ -12,17 +12,12 @@ namespace havers::calib {
 namespace {
 
 using test::detail_of;
+using test::expect_the_truth;
 using test::record;
 using test::reduced;
 using test::TensileTruth;
 
 const TensileTruth gauged{.strain_rate = 2e-5};
-
-void expect_the_bar(const MeasuredTest& test, double tolerance) {
-  EXPECT_NEAR(test.modulus, gauged.young, tolerance * gauged.young);
-  EXPECT_NEAR(test.strength, gauged.strength, tolerance * gauged.strength);
-  EXPECT_NEAR(test.failure_strain, gauged.failure_strain(), tolerance * gauged.failure_strain());
-}
 
 // Past its range the gauge shows its last value, or what a torn wire gives.
 RawTest saturated(double at_part, double jump) {
@@ -37,14 +32,14 @@ TEST(GaugeLoss, GoesOnWithTheCrossheadWhereTheGaugeIsSaturated) {
   for (const double part : {0.3, 0.6, 0.9}) {
     RawTest raw = saturated(part, 0.0);
     const MeasuredTest test = reduced(raw);
-    expect_the_bar(test, 0.001);
+    expect_the_truth(test, gauged, 0.001);
     EXPECT_NE(detail_of(test, "gauge stood still").find("of the strength"), std::string::npos);
     EXPECT_NE(test.warnings.at(0).find("rests on the crosshead"), std::string::npos);
     raw.extension.clear();
     EXPECT_NE(reduce_test(raw).problems.at(0).find("the gauge stood still"), std::string::npos);
   }
   const MeasuredTest torn = reduced(saturated(0.6, 0.05));
-  expect_the_bar(torn, 0.001);
+  expect_the_truth(torn, gauged, 0.001);
   EXPECT_NE(detail_of(torn, "gauge fell off"), "");
 }
 
@@ -83,7 +78,7 @@ RawTest jumping(double at_part, double jump) {
 TEST(GaugeLoss, TakesBackAJumpAhead) {
   for (const double part : {0.2, 0.6, 0.95}) {
     const MeasuredTest test = reduced(jumping(part, 5e-4));
-    expect_the_bar(test, 0.001);
+    expect_the_truth(test, gauged, 0.001);
     EXPECT_NE(detail_of(test, "gauge slip").find("the strain jumped ahead by 0.05000 %"),
               std::string::npos)
         << detail_of(test, "gauge slip");
@@ -97,7 +92,7 @@ TEST(GaugeLoss, TakesNoStepOfTheSpecimenForASlip) {
   for (auto* channel : {&gap.time, &gap.force, &gap.strain, &gap.extension, &gap.stress})
     channel->erase(channel->begin() + 1000, channel->begin() + 1200);
   EXPECT_EQ(detail_of(reduced(gap), "gauge slip"), "");
-  expect_the_bar(reduced(gap), 1e-6);
+  expect_the_truth(reduced(gap), gauged, 1e-6);
 
   RawTest cracking = record(gauged);
   for (std::size_t i = 1500; i < cracking.rows(); ++i) {
@@ -111,7 +106,7 @@ TEST(GaugeLoss, KnowsAGaugeThatSawTheSpecimenPart) {
   RawTest raw = record(gauged);
   for (std::size_t i = raw.rows() - 6; i < raw.rows(); ++i) raw.strain[i] = 0.1;
   const MeasuredTest test = reduced(raw);
-  expect_the_bar(test, 1e-3);
+  expect_the_truth(test, gauged, 1e-3);
   EXPECT_NE(detail_of(test, "gauge at the break"), "");
 }
 
@@ -131,7 +126,7 @@ TEST(GaugeLoss, IsSeenInFewRowsToo) {
   for (const double part : {0.5, 0.85}) {
     RawTest raw = record(few);
     for (double& strain : raw.strain) strain = std::min(strain, part * few.failure_strain());
-    expect_the_bar(reduced(raw), 0.01);
+    expect_the_truth(reduced(raw), gauged, 0.01);
     EXPECT_NE(detail_of(reduced(raw), "gauge stood still"), "") << part;
   }
 }
