@@ -74,8 +74,8 @@ struct Simulation {
   int steps = 0;                ///< Time steps, or events of the quasi-static sequence.
   long iterations = 0;          ///< Of the contact solver, all steps together.
   double energy_defect = 0.0;   ///< Largest relative defect of (M4) over the steps. [-]
-  double energy_gain = 0.0;     ///< Quasi-static: the most that a break added to the energy stored,
-                                ///< of its maximum; contact took another answer. [-]
+  double energy_gain = 0.0;     ///< Quasi-static: the most that a break up to the strength added to
+                                ///< the energy stored, of that at the strength. [-]
   double worst_residual = 0.0;  ///< Largest (M11) over the steps. [-]
   double tolerance = 0.0;       ///< Of the residual, as asked for. [-]
   double worst_penetration = 0.0;  ///< Largest −g. [m]

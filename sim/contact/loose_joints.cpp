@@ -2,10 +2,27 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace havers::sim {
 
 using Eigen::Index;
+
+namespace {
+
+// Columns of so many times the factor's nonzeros are read no faster than it is solved with, and are
+// more than should be kept. [-]
+constexpr long columns_of_a_solve = 6;
+
+}  // namespace
+
+LooseJoints::LooseJoints(const Structure& structure, Source source)
+    : structure_(&structure),
+      source_(std::move(source)),
+      most_kept_(structure.joints() == 0 || !structure.ok()
+                     ? 0
+                     : static_cast<std::size_t>(columns_of_a_solve * structure.factor().nonzeros() /
+                                                (4 * structure.joints()))) {}
 
 bool LooseJoints::contains(int joint) const {
   return std::find(joints_.begin(), joints_.end(), joint) != joints_.end();
@@ -19,10 +36,12 @@ void LooseJoints::add(int joint) {
     stiffness_.conservativeResize(size, size);
   }
   joints_.push_back(joint);
-  reactions_.push_back(source_(joint));
+  const Reactions reactions = source_(joint);
   for (std::size_t i = 0; i < joints_.size(); ++i)
     stiffness_.block<2, 2>(first, static_cast<Index>(2 * i)) =
-        reactions_.back()->middleRows<2>(2 * static_cast<Index>(joints_[i])).transpose();
+        reactions->middleRows<2>(2 * static_cast<Index>(joints_[i])).transpose();
+  reactions_.push_back(reactions);
+  if (joints_.size() > most_kept_) reactions_.clear();
 }
 
 Eigen::MatrixXd LooseJoints::stiffness() const {
@@ -35,9 +54,15 @@ Eigen::MatrixXd LooseJoints::stiffness() const {
 
 Eigen::VectorXd LooseJoints::reactions_with(const Eigen::VectorXd& y,
                                             Eigen::VectorXd reactions) const {
-  for (std::size_t i = 0; i < reactions_.size(); ++i)
-    reactions.noalias() += *reactions_[i] * y.segment<2>(2 * static_cast<Index>(i));
-  return reactions;
+  if (joints_.size() <= most_kept_) {
+    for (std::size_t i = 0; i < joints_.size(); ++i)
+      reactions.noalias() += *reactions_[i] * y.segment<2>(2 * static_cast<Index>(i));
+    return reactions;
+  }
+  Eigen::VectorXd jumps = Eigen::VectorXd::Zero(reactions.size());
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    jumps.segment<2>(2 * static_cast<Index>(joints_[i])) = y.segment<2>(2 * static_cast<Index>(i));
+  return reactions + structure_->reactions_to_jumps(jumps);
 }
 
 }  // namespace havers::sim

@@ -4,8 +4,9 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
-#include <utility>
 #include <vector>
+
+#include "sim/structure/structure.hpp"
 
 namespace havers::sim {
 
@@ -17,7 +18,7 @@ class LooseJoints {
   using Reactions = std::shared_ptr<const Eigen::MatrixX2d>;
   /// Where they come from: Structure::reactions_to_jump, or something that remembers its answers.
   using Source = std::function<Reactions(int joint)>;
-  explicit LooseJoints(Source source) : source_(std::move(source)) {}
+  LooseJoints(const Structure& structure, Source source);
 
   [[nodiscard]] std::size_t size() const { return joints_.size(); }
   [[nodiscard]] const std::vector<int>& joints() const { return joints_; }
@@ -33,9 +34,11 @@ class LooseJoints {
                                                Eigen::VectorXd reactions) const;
 
  private:
+  const Structure* structure_;
   Source source_;
+  std::size_t most_kept_;
   std::vector<int> joints_;
-  std::vector<Reactions> reactions_;  // to jumps at each
+  std::vector<Reactions> reactions_;  // to jumps at each; none where they are too many
   Eigen::MatrixXd stiffness_;         // lower triangle of 2 × 2 blocks; grows by doubling
 };
 

@@ -34,7 +34,7 @@ BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructu
     : scene_(scene),
       careful_(careful),
       intact_(std::move(intact)),
-      loose_([this](int joint) { return intact_->reactions_to_jump(joint); }),
+      loose_(intact_->structure(), [this](int joint) { return intact_->reactions_to_jump(joint); }),
       reference_{{}, intact_->answer().reactions, intact_->answer().force, 0.0},
       reactions_(reference_.reactions),
       force_(reference_.force),

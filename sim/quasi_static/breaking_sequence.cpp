@@ -23,6 +23,20 @@ namespace {
 // Residual above which a run is done again with care.
 constexpr double accurate = 1e-9;
 
+// Breaks at a given strain release energy. What they add up to the strength belongs to it.
+double energy_gain(const std::vector<CurvePoint>& curve) {
+  std::size_t strongest = 0;
+  double gain = 0.0, gain_to_strength = 0.0;
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    if (curve[i].strain == curve[i - 1].strain)
+      gain = std::max(gain, curve[i].elastic - curve[i - 1].elastic);
+    if (curve[i].stress_right <= curve[strongest].stress_right) continue;
+    strongest = i;
+    gain_to_strength = gain;
+  }
+  return gain_to_strength > 0.0 ? gain_to_strength / curve[strongest].elastic : 0.0;
+}
+
 Simulation break_event_by_event(const Scene& scene,
                                 const std::shared_ptr<const IntactStructure>& intact, bool careful,
                                 const Observer& observer) {
@@ -33,7 +47,7 @@ Simulation break_event_by_event(const Scene& scene,
   BreakingRun run(scene, intact, careful);
   if (run.take_missing() && !run.settle()) return simulation;
   simulation.curve.push_back(run.point(0.0));
-  double strain = 0.0, largest_energy = 0.0, largest_gain = 0.0;
+  double strain = 0.0, largest_energy = 0.0;
   const double end_fraction = end_fraction_used(scene);
 
   for (;;) {
@@ -52,9 +66,7 @@ Simulation break_event_by_event(const Scene& scene,
 
     run.break_joints(event, strain);
     const bool solved = run.settle();
-    const double released = before.elastic - run.point(strain).elastic;
-    run.dissipated += released;
-    largest_gain = std::max(largest_gain, -released);
+    run.dissipated += before.elastic - run.point(strain).elastic;
     simulation.curve.push_back(run.point(strain));
     ++simulation.steps;
     if (!solved) {
@@ -74,7 +86,7 @@ Simulation break_event_by_event(const Scene& scene,
   }
   largest_energy = std::max(largest_energy, simulation.curve.back().elastic);
   run.finish(strain, largest_energy, simulation);
-  if (largest_energy > 0.0) simulation.energy_gain = largest_gain / largest_energy;
+  simulation.energy_gain = energy_gain(simulation.curve);
   simulation.events_without_contact = run.without_contact;
   return simulation;
 }

@@ -61,6 +61,8 @@ class Structure {
   /// Reactions of all joints to unit jumps at one: a column for the normal, one for the tangential
   /// jump (S8). [N/m²]
   [[nodiscard]] Eigen::MatrixX2d reactions_to_jump(int joint) const;
+  /// Reactions of all joints to jumps at any of them [m], by one solve. [N/m]
+  [[nodiscard]] Eigen::VectorXd reactions_to_jumps(const Eigen::VectorXd& jumps) const;
 
  private:
   struct PortLoads;

@@ -2,6 +2,8 @@
 // pixel takes its share, under blur, shade, texture and noise, in any file format.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -176,9 +178,11 @@ inline DrawnSection draw(const SectionTruth& c) {
   return drawn;
 }
 
-/// The image in a file of the tests' own folder; the ending gives the format.
+/// The image in a file of the running test's own folder; the ending gives the format.
 inline std::filesystem::path write(const cv::Mat& image, const std::string& name) {
-  const auto folder = std::filesystem::temp_directory_path() / "havers_sections";
+  const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+  const auto folder = std::filesystem::temp_directory_path() / "havers_sections" /
+                      test.test_suite_name() / test.name();
   std::filesystem::create_directories(folder);
   cv::imwrite((folder / name).string(), image);
   return folder / name;
