@@ -117,7 +117,8 @@ mstch::array correlation_rows(const calib::CalibrationResult& result) {
   mstch::array rows;
   for (std::size_t i = 0; i < result.correlation.size(); ++i) {
     mstch::array cells;
-    for (const double value : result.correlation[i]) cells.push_back(text(number(value, 2)));
+    for (const double value : result.correlation[i])  // to a hundredth: what rounding leaves is 0
+      cells.push_back(text(number(std::round(100.0 * value) / 100.0 + 0.0, 2)));
     rows.emplace_back(mstch::map{{"name", text(result.fitted[i])}, {"cells", mstch::node{cells}}});
   }
   return rows;

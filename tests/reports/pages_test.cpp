@@ -114,6 +114,15 @@ TEST(FitPage, ShowsEverySpecimenParameterCheckAndStage) {
   EXPECT_TRUE(contains(page, "porosity 4.80 ± 0.21 %"));
 }
 
+TEST(FitPage, ShowsNoCorrelationAsZero) {
+  auto sample = test::fit_sample();
+  sample.result.fitted = {"young_GPa", "head_tail_MPa"};
+  sample.result.correlation = {{1.0, -9e-32}, {-9e-32, 1.0}};
+  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  EXPECT_TRUE(contains(page, "Correlation"));
+  EXPECT_FALSE(contains(page, "10⁻³²"));
+}
+
 TEST(FitPage, NamesTheChecksThatFailed) {
   auto sample = test::fit_sample();
   sample.result.verdict[1].outcome = calib::Outcome::fail;
