@@ -30,9 +30,9 @@ ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, int max_iterations, bool 
       stiffness_(joint_stiffness(bodies)) {}
 
 LooseJoints ActiveSetSolver::make_loose() const {
-  return LooseJoints(structure_, [this](int joint) {
-    return std::make_shared<const Eigen::MatrixX2d>(structure_.reactions_to_jump(joint));
-  });
+  return {structure_, [this](int joint) {
+            return std::make_shared<const Eigen::MatrixX2d>(structure_.reactions_to_jump(joint));
+          }};
 }
 
 void ActiveSetSolver::rebuild(std::vector<Held> held) {
