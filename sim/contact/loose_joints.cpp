@@ -10,8 +10,8 @@ using Eigen::Index;
 
 namespace {
 
-// Columns of so many times the factor's nonzeros are read no faster than it is solved with, and are
-// more than should be kept. [-]
+// Columns with more than this many times the factor's nonzeros would fill the memory of a large
+// wall: a solve takes their place, at about their cost. [-]
 constexpr long columns_of_a_solve = 6;
 
 }  // namespace

@@ -12,16 +12,10 @@ namespace havers {
 namespace {
 
 namespace fs = std::filesystem;
+using test::folder_with_tests;
 using test::own_folder;
 using test::run_havers;
 using testing::HasSubstr;
-
-fs::path folder_with_made_study() {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "study.toml", test::small_study());
-  EXPECT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
-  return folder;
-}
 
 // As if the machine had been stopped at a part of the strength.
 void stop(const fs::path& file, double part) {
@@ -39,7 +33,7 @@ std::string replaced_once(std::string text, const std::string& what, const std::
 }
 
 TEST(StoppedTest, IsSaidToBeNoneThatBroke) {
-  const fs::path folder = folder_with_made_study();
+  const fs::path folder = folder_with_tests();
   stop(folder / "made/B0.csv", 0.6);
   EXPECT_THAT(run_havers(folder, "import made/B0.csv").out,
               testing::AllOf(HasSubstr("strength at least "), HasSubstr("no break was seen")));
@@ -52,7 +46,7 @@ TEST(StoppedTest, IsSaidToBeNoneThatBroke) {
 
 // At 0.6 of its strength nothing had failed: the other specimen tells the strength of the joints.
 TEST(StoppedTest, IsALowerBoundOfTheFit) {
-  const fs::path folder = folder_with_made_study();
+  const fs::path folder = folder_with_tests();
   stop(folder / "made/B0.csv", 0.6);
   const auto fitted = [&](const std::string& study, const std::string& output) {
     const auto answer = run_havers(folder, "fit made/" + study + " -o " + output + " --json");
@@ -72,7 +66,7 @@ TEST(StoppedTest, IsALowerBoundOfTheFit) {
 }
 
 TEST(Check, SaysWhatAStudyLeavesOutAndTakesTwice) {
-  const fs::path folder = folder_with_made_study();
+  const fs::path folder = folder_with_tests();
   std::string study = replaced_once(test::small_study(), "orientation_deg = 0\n", "");
   study = replaced_once(study, "\"B90.csv\"", "\"B0.csv\"");
   test::write_text(folder / "made/doubtful.toml", study);

@@ -13,16 +13,9 @@ namespace havers {
 namespace {
 
 namespace fs = std::filesystem;
+using test::folder_with_tests;
 using test::own_folder;
 using test::run_havers;
-
-// A study whose two tests are made by the program.
-fs::path folder_with_tests() {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "study.toml", test::small_study());
-  EXPECT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
-  return folder;
-}
 
 TEST(Import, GivesBackWhatSynthesizePutIn) {
   const fs::path folder = folder_with_tests();

@@ -84,4 +84,11 @@ budget = 60
   return text;
 }
 
+std::filesystem::path folder_with_tests() {
+  const std::filesystem::path folder = own_folder();
+  write_text(folder / "study.toml", small_study());
+  EXPECT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
+  return folder;
+}
+
 }  // namespace havers::test

@@ -27,4 +27,7 @@ std::string small_scene();
 /// sections.
 std::string small_study();
 
+/// A folder of its own with that study, and its tests in "made", made by the program.
+std::filesystem::path folder_with_tests();
+
 }  // namespace havers::test
