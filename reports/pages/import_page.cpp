@@ -34,7 +34,7 @@ Facts facts_of(const ImportReport& report) {
                    plus_minus(test.strength / in::MPa, test.strength_standard_error / in::MPa))},
       {"Largest force", quantity(test.max_force, "N")},
       {bounded("Failure strain"), quantity(test.failure_strain / in::percent, "%")},
-      {"Energy to failure", quantity(test.energy_to_failure / in::MPa, "MJ/m³")},
+      {bounded("Energy to failure"), quantity(test.energy_to_failure / in::MPa, "MJ/m³")},
       {"Strain rate",
        test.strain_rate > 0.0 ? quantity(test.strain_rate, "1/s", 3) : "time not recorded"},
       {"Strength / (modulus · failure strain)", number(test.linearity, 3)}};
@@ -73,15 +73,16 @@ mstch::node clocks_section(const ImportReport& report, std::size_t index) {
 
 mstch::map content_of(const ImportReport& report, std::size_t index) {
   const calib::MeasuredTest& test = report.test;
+  const std::string least = test.broke || test.strain.empty() ? "" : "≥ ";
   return {
       {"file", text(base_name(report.file))},
       {"specimen", text(report.raw.specimen_id)},
       {"rows", text(std::to_string(report.raw.rows()))},
       {"modulus", text(plus_minus(known(report, test.modulus) / in::GPa,
                                   test.modulus_standard_error / in::GPa))},
-      {"strength", text(plus_minus(known(report, test.strength) / in::MPa,
-                                   test.strength_standard_error / in::MPa))},
-      {"failure_strain", text(number(known(report, test.failure_strain) / in::percent))},
+      {"strength", text(least + plus_minus(known(report, test.strength) / in::MPa,
+                                           test.strength_standard_error / in::MPa))},
+      {"failure_strain", text(least + number(known(report, test.failure_strain) / in::percent))},
       {"warning_count", text(std::to_string(test.warnings.size()))},
       {"caption", text(test.strain.empty()
                            ? "As read; it cannot be turned into stress and strain."
