@@ -215,6 +215,7 @@ TEST(ImportPage, ShowsNumbersCorrectionsAndWarningsOfEveryTest) {
   const std::string stopped = import_page({{"a/A1.csv", raw, measured}}, {});
   EXPECT_TRUE(contains(stopped, "Strength, at least"));
   EXPECT_TRUE(contains(stopped, "Failure strain, at least"));
+  EXPECT_TRUE(contains(stopped, "<td class=\"n\">≥ "));
 }
 
 TEST(ImportPage, SurvivesAnEmptyTest) {
