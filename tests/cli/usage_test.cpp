@@ -77,7 +77,8 @@ TEST(Usage, NumbersThatCannotBeAreNamedWithTheRule) {
   }
 }
 
-// The answer that was lost is no answer, whether it filled the buffer or waited in it.
+// The answer that was lost is no answer, whether it filled the buffer or waited in it. A build
+// without pages says before it that it makes none.
 TEST(Usage, AnAnswerThatCannotBePrintedIsSaid) {
   const auto folder = own_folder();
   test::write_text(folder / "good.toml", test::small_scene());
@@ -86,8 +87,8 @@ TEST(Usage, AnAnswerThatCannotBePrintedIsSaid) {
         "--version", "fit -h"}) {
     const auto answer = run_havers(folder, std::string(arguments) + " >/dev/full 2>said #");
     EXPECT_EQ(answer.exit_code, 1) << arguments;
-    EXPECT_EQ(test::read_text(folder / "said"),
-              "havers: stdout: cannot be written (is the disk full?)\n")
+    EXPECT_TRUE(test::read_text(folder / "said")
+                    .ends_with("havers: stdout: cannot be written (is the disk full?)\n"))
         << arguments;
   }
 }
