@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "cli/number_check.hpp"
-#include "io/input_error.hpp"
 
 namespace havers::cli {
 namespace {

@@ -64,7 +64,7 @@ class Checker {
 };
 
 void check_assembly(const AssemblyOptions& assembly, Checker& checker) {
-  constexpr double most_fibres = 1e6;
+  constexpr double most_fibres = 1e6, most_cells = 1e7;
   const double fibres = static_cast<double>(assembly.layers) * assembly.fibres;
   checker.require(assembly.layers >= 1, "assembly.layers", assembly.layers, "at least 1");
   checker.require(assembly.fibres >= 1, "assembly.fibres", assembly.fibres, "at least 1");
@@ -88,6 +88,18 @@ void check_assembly(const AssemblyOptions& assembly, Checker& checker) {
     checker.require(assembly.fibre_length >= assembly.fibre_height, "assembly.fibre_length_um",
                     assembly.fibre_length * 1e6, "at least fibre_height_um",
                     "a fibre is longer than it is high");
+
+  // The grid of fibres is as large as the box around the turned specimen.
+  const double c = std::abs(std::cos(assembly.orientation)),
+               s = std::abs(std::sin(assembly.orientation));
+  const double cells = (assembly.width() * c + assembly.height() * s) / assembly.fibre_length *
+                       (assembly.width() * s + assembly.height() * c) / assembly.fibre_height;
+  if (fibres <= most_fibres && cells > most_cells)
+    checker.say("assembly.orientation_deg",
+                fmt::format("needs a grid of {:.2g} fibres around so long and narrow a specimen, "
+                            "must be at most {:g}",
+                            cells, most_cells),
+                "check layers, fibres and their size");
 
   const double degrees = assembly.orientation * 180.0 / std::numbers::pi;
   checker.require(degrees > -90.0 && degrees <= 90.0, "assembly.orientation_deg", degrees,

@@ -48,20 +48,28 @@ std::vector<LeftOut> left_out(const Scene& scene, const Simulation& simulation) 
     list.push_back({fmt::format("{} half fibre{} at the specimen's sides", simulation.dropped,
                                 simulation.dropped == 1 ? "" : "s"),
                     "less than 1e-6 of one is inside, and its neighbours fill the place"});
+  if (simulation.events_without_contact > 0)
+    list.push_back({fmt::format("contact of broken joints in {} of {} events",
+                                simulation.events_without_contact, simulation.steps),
+                    "no set of sticking, sliding and open joints was found that obeys friction"});
+  if (simulation.regime == Regime::quasi_static) {
+    if (scene.material.viscosity > 0.0)
+      list.push_back({"viscosity", "the quasi-static limit that was asked for has no rates"});
+    if (scene.loading.start == Start::rest)
+      list.push_back({"the start from rest", "the quasi-static limit has no motion"});
+    if (scene.solver.step || scene.solver.contact == ContactMethod::gauss_seidel)
+      list.push_back({"step_s and contact", "the quasi-static limit has no steps"});
+    list.push_back({"inertia and time steps", simulation.regime_ground});
+    list.push_back({"contact of pieces that no bonded joint connects to an end",
+                    "they carry nothing, and without inertia their position is not determined"});
+  }
   if (!scene.solver.leave_out) return list;
   list.push_back({"one operator for each body", "equal bodies share theirs"});
   if (simulation.regime == Regime::quasi_static) {
-    list.push_back({"inertia and time steps", simulation.regime_ground});
     if (end_fraction_used(scene) > scene.loading.end_fraction)
       list.push_back(
           {fmt::format("the avalanche below {:g} of the strength", end_fraction_used(scene)),
            "it happens at one strain, and none of such thresholds was seen to stop below"});
-    if (simulation.events_without_contact > 0)
-      list.push_back({fmt::format("contact of broken joints in {} of {} events",
-                                  simulation.events_without_contact, simulation.steps),
-                      "no set of sticking, sliding and open joints was found that obeys friction"});
-    list.push_back({"contact of pieces that no bonded joint connects to an end",
-                    "they carry nothing, and without inertia their position is not determined"});
     return list;
   }
   if (simulation.leapt_strain > 0.0)

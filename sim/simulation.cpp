@@ -63,6 +63,8 @@ std::string Simulation::why_not_trusted() const {
     return "a time step is longer than a tenth of the time to failure; a shorter step_s shows more";
   if (!(worst_residual <= tolerance)) return "the joints' law is not met to the tolerance";
   if (!(energy_defect <= largest_energy_defect)) return "the energy balance does not close";
+  if (without_contact_to_strength > 0)
+    return "the contact of broken joints had no solution in an event before the strength";
   if (energy_gain > largest_energy_gain)
     return "a break added to the energy stored: friction let the contacts take another answer";
   return std::isfinite(strength) ? "" : explain(SimulationStatus::not_finite);

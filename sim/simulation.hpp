@@ -80,8 +80,9 @@ struct Simulation {
   double tolerance = 0.0;       ///< Of the residual, as asked for. [-]
   double worst_penetration = 0.0;  ///< Largest −g. [m]
   int events_without_contact =
-      0;            ///< Quasi-static: events whose contact had no solution and was left out.
-  int dropped = 0;  ///< Half fibres of which the clipping left but a sliver.
+      0;  ///< Quasi-static: events whose contact had no solution and was left out.
+  int without_contact_to_strength = 0;  ///< Those of them before the strength.
+  int dropped = 0;                      ///< Half fibres of which the clipping left but a sliver.
   std::vector<LeftOut> left_out;
 
   /// Whether the numbers may be used: the run ended as it should and the checks hold.

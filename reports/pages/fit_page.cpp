@@ -50,13 +50,13 @@ struct Compared {
 };
 
 std::vector<Compared> compared(const calib::SpecimenResult& s) {
-  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  const double not_measured = std::numeric_limits<double>::quiet_NaN();
   return {{"Modulus", "GPa", in::GPa, s.measured.modulus, s.measured.modulus_standard_error,
            s.modulus, s.residual[0]},
           {"Strength", "MPa", in::MPa, s.measured.strength, s.measured.strength_standard_error,
            s.strength, s.residual[1]},
-          {"Failure strain", "%", in::percent, s.measured.failure_strain, unknown, s.failure_strain,
-           s.residual[2]}};
+          {"Failure strain", "%", in::percent, s.measured.failure_strain, not_measured,
+           s.failure_strain, s.residual[2]}};
 }
 
 mstch::array comparison_rows(const calib::SpecimenResult& specimen) {

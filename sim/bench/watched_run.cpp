@@ -114,6 +114,7 @@ double first_break_by_uniform_stress(const Scene& scene) {
   const double noise = forces.size() > 0 ? 1e-12 * forces.cwiseAbs().maxCoeff() : 0.0;
   double first = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < thresholds.size(); ++j) {
+    if (is_missing(thresholds[j])) continue;
     const JointLaw law = intact_law(thresholds[j]);
     const Local r = forces.segment<2>(static_cast<Index>(2 * j));
     const double denominator = std::abs(r.y()) - law.friction * r.x();

@@ -107,6 +107,9 @@ BenchSpread over(const std::vector<WatchedRun>& runs, const Number& number) {
 // The reference of the forces before the first break is known in closed form, but for a shock.
 void take_exact_forces(const Scene& scene, double strain, std::vector<WatchedRun>& references) {
   if (scene.loading.start == Start::rest || scene.material.viscosity > 0.0) return;
+  if (scene.joints.missing > 0.0 ||
+      std::any_of(scene.joints.thresholds.begin(), scene.joints.thresholds.end(), is_missing))
+    return;
   for (WatchedRun& reference : references)
     reference.bonded_forces = uniform_stress_forces(scene, strain);
 }
@@ -185,9 +188,8 @@ void name_cheapest(WorkPrecision& study) {
 // Runs settings over the seeds; remembers nothing but whether somebody asked to stop.
 class Bench {
  public:
-  Bench(const Scene& scene, const BenchOptions& options, const BenchObserver& observer,
-        const WorkPrecision& study)
-      : scene_(scene), options_(options), observer_(observer), study_(study) {}
+  Bench(const Scene& scene, const BenchObserver& observer, const WorkPrecision& study)
+      : scene_(scene), observer_(observer), study_(study) {}
 
   [[nodiscard]] bool stopped() const { return stopped_; }
 
@@ -209,7 +211,6 @@ class Bench {
 
  private:
   const Scene& scene_;
-  const BenchOptions& options_;
   const BenchObserver& observer_;
   const WorkPrecision& study_;
   bool stopped_ = false;
@@ -263,7 +264,7 @@ WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
   for (int i = 0; i < options.seeds; ++i)
     study.seeds.push_back(scene.joints.seed + static_cast<std::uint64_t>(i));
 
-  Bench bench(scene, options, observer, study);
+  Bench bench(scene, observer, study);
   std::vector<WatchedRun> references = bench.run(study.reference, 1e9);
   if (bench.stopped()) return study;
   const std::vector<WatchedRun> first_row = references;

@@ -13,6 +13,8 @@ namespace {
 // A new factor costs about as much as the columns of this many joints.
 constexpr int worth_detaching = 24;
 constexpr int worth_searching = 24;
+// Part of the stiffness that is less than what inertia adds, in all but the longest steps.
+constexpr double below_inertia = 1e-13;
 
 Local at(const VectorXd& values, int joint) {
   return values.segment<2>(2 * static_cast<Index>(joint));
@@ -66,7 +68,8 @@ bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded
                                    bool combine, JointStepResult& result, VectorXd& y) {
   for (;;) {
     const auto n = static_cast<Index>(loose_.size());
-    LocalContact contact{loose_.stiffness(), VectorXd(2 * n), VectorXd(2 * n), {}, {}};
+    LocalContact contact{loose_.stiffness(), VectorXd(2 * n), VectorXd(2 * n), {}, {},
+                         below_inertia};
     std::vector<JointState> states;
     for (Index i = 0; i < n; ++i) {
       const int joint = loose_.joints()[static_cast<std::size_t>(i)];

@@ -33,7 +33,7 @@ class ConvexContact {
         side_(static_cast<std::size_t>(b_.size()), 0) {
     const VectorXd c = cohesions(problem);
     for (Index i = 0; i < c.size(); ++i) b_(2 * i) += c(i);
-    S_.diagonal().array() += trace_stiffness * S_.diagonal().maxCoeff();
+    S_.diagonal().array() += problem.trace * S_.diagonal().maxCoeff();
     tolerance_ = no_force * b_.lpNorm<Eigen::Infinity>();
   }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -23,6 +24,10 @@ constexpr int sets_of_a_cycle = 20;       // after which it is none, or too long
 constexpr std::size_t most_combined = 5;  // joints whose states are combined in every way
 constexpr int searches = 6;               // by sweeps, before the release path is taken
 constexpr int sweeps_of_search = 200;
+// Of springs that hold joints, parts of the largest stiffness; each is tried with so many answers.
+constexpr std::array<double, 5> springs{1e-11, 1e-10, 1e-9, 1e-8, 1e-7};
+constexpr int times_moved = 8;
+constexpr double lawful = 1e-10;  // of the free reactions, by the natural map
 constexpr int calm = 10;  // sweeps without a change of state, after which the set is worth a solve
 
 double sign_of(JointState state) {
@@ -140,11 +145,7 @@ LocalContactResult try_combinations(const LocalContact& p, States states,
   return result;
 }
 
-}  // namespace
-
-LocalContactResult solve_local_contact(const LocalContact& problem, States states,
-                                       int max_iterations) {
-  if (states.empty()) return {.converged = true, .y = {}, .states = {}, .iterations = 0};
+LocalContactResult solve_as_it_is(const LocalContact& problem, States states, int max_iterations) {
   LocalContactResult result;
   int spent = 0;
   const auto try_from = [&](States found) {
@@ -174,6 +175,56 @@ LocalContactResult solve_local_contact(const LocalContact& problem, States state
     spent += result.iterations;
   }
   result.iterations = spent;
+  return result;
+}
+
+// The natural map of the law over all joints, relative to the free reactions. [-]
+double law_residual_of(const LocalContact& p, const VectorXd& y) {
+  const VectorXd r = p.r0 + p.S * y, u = p.u0 + y;
+  double squared = 0.0;
+  for (std::size_t i = 0; i < p.laws.size(); ++i) {
+    const auto row = static_cast<Index>(2 * i);
+    if (p.is_apart(i)) continue;
+    squared +=
+        law_residual(r.segment<2>(row), u.segment<2>(row), p.laws[i], p.S(row, row)).squaredNorm();
+  }
+  return std::sqrt(squared) / p.r0.norm();
+}
+
+// (C10). Joints held by springs where the last answer has left them, until these bear nothing.
+LocalContactResult solve_with_springs(const LocalContact& problem, const States& states,
+                                      int max_iterations) {
+  LocalContactResult result;
+  int spent = 0;
+  for (const double part : springs) {
+    const double stiffness = part * problem.S.diagonal().maxCoeff();
+    LocalContact held = problem;
+    held.S.diagonal().array() += stiffness;
+    result.states = states;
+    for (int i = 0; i < times_moved; ++i) {
+      result = solve_as_it_is(held, std::move(result.states), max_iterations);
+      spent += result.iterations;
+      result.iterations = spent;
+      if (!result.converged) break;
+      result.converged = law_residual_of(problem, result.y) <= lawful;
+      if (result.converged) return result;
+      held.r0 = problem.r0 - stiffness * result.y;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+LocalContactResult solve_local_contact(const LocalContact& problem, States states,
+                                       int max_iterations) {
+  if (states.empty()) return {.converged = true, .y = {}, .states = {}, .iterations = 0};
+  LocalContactResult result = solve_as_it_is(problem, states, max_iterations);
+  if (result.converged) return result;
+  LocalContactResult held = solve_with_springs(problem, states, max_iterations);
+  held.iterations += result.iterations;
+  if (held.converged) return held;
+  result.iterations = held.iterations;
   return result;
 }
 

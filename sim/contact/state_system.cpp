@@ -67,7 +67,7 @@ std::vector<StateSystem::Equation> StateSystem::equations_of_states() const {
 void StateSystem::factorise() {
   factorised_ = equations_;
   const auto n = static_cast<Index>(factorised_.size());
-  const double hold = n > 0 ? trace_stiffness * scale() : 0.0;
+  const double hold = n > 0 ? problem_->trace * scale() : 0.0;
   MatrixXd matrix(n, n);
   std::fill(place_.begin(), place_.end(), -1);
   for (Index k = 0; k < n; ++k) {
@@ -133,7 +133,7 @@ bool StateSystem::border_factor() {
     for (Index j = 0; j < k; ++j)
       if (borders_[static_cast<std::size_t>(j)].has_unknown)
         corner(i, j) = coefficient(equation, borders_[static_cast<std::size_t>(j)].row);
-    const double hold = trace_stiffness * scale();
+    const double hold = problem_->trace * scale();
     if (border.has_unknown)
       corner(i, i) += hold;
     else

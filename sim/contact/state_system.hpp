@@ -11,10 +11,6 @@
 
 namespace havers::sim {
 
-/// A piece that hangs on nothing leaves equations singular: this part of the largest stiffness
-/// holds it. A long strip beside a crack bends as softly as 1e-8 of that, so it has to be less. [-]
-inline constexpr double trace_stiffness = 1e-11;
-
 /// Gaps and reactions for given states; one load a column.
 struct StateSolution {
   Eigen::MatrixXd y;  ///< [m]

@@ -1,4 +1,4 @@
-// The choice of the time step by what it does to the failure strain. Section 7 of sim/README.md.
+// The choice of the time step by what it does to the failure strain. Section 8 of sim/README.md.
 #pragma once
 
 #include "sim/simulation.hpp"

@@ -1,10 +1,6 @@
 #include "sim/dynamics/time_stepping.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
 
 #include "sim/contact/active_set.hpp"
@@ -42,7 +38,7 @@ class DynamicRun {
   [[nodiscard]] bool finite() const { return motion_.q.allFinite() && motion_.v.allFinite(); }
 
   std::vector<JointOutcome> joints;
-  double worst_residual = 0.0, worst_penetration = 0.0, penetration_scale = 0.0;
+  double worst_residual = 0.0, worst_penetration = 0.0;
   long iterations = 0;
   int steps = 0;
 

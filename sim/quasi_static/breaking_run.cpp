@@ -156,7 +156,8 @@ bool BreakingRun::settle() {
     reactions_ = reference_.reactions;
     force_ = reference_.force;
   }
-  if (std::abs(force_) <= nothing_borne * intact_->answer().force) force_ = 0.0;
+  joint_work_ = of_loose(reactions_).dot(y_);
+  if (std::abs(force_) <= nothing_borne * intact_->answer().force) force_ = joint_work_ = 0.0;
   return result.converged;
 }
 
@@ -196,6 +197,11 @@ void BreakingRun::refine() {
   y_at_reference_ = y_;
 }
 
+void BreakingRun::stretch(double from, double to) {
+  dissipated -= 0.5 * scene_.material.young * joint_work_ * (to * to - from * from);
+}
+
+// ½qᵀKq = ½ (F W ε + r·u).
 CurvePoint BreakingRun::point(double strain) const {
   const Assembly& assembly = intact_->assembly();
   const double stress = scene_.material.young * force_ * strain / assembly.height;
@@ -204,17 +210,20 @@ CurvePoint BreakingRun::point(double strain) const {
           .stress_right = stress,
           .stress_left = stress,
           .broken_joints = broken,
-          .elastic = 0.5 * stress * strain * assembly.width * assembly.height,
+          .elastic = 0.5 * strain *
+                     (stress * assembly.width * assembly.height +
+                      scene_.material.young * strain * joint_work_),
           .dissipated = dissipated};
 }
 
-// (M11), without the scale, for E = 1: reactions and gaps of all joints at ε = 1.
-double BreakingRun::law_residual_of(const VectorXd& reactions, const VectorXd& gaps) const {
+// (M11), without the scale, for E = 1: reactions of all joints at ε = 1.
+double BreakingRun::law_residual_of(const VectorXd& reactions) const {
   double squared = 0.0;
   for (std::size_t i = 0; i < loose_.size(); ++i) {
     if (contact_.is_apart(i)) continue;  // left out, and said so
     const auto row = 2 * static_cast<Index>(loose_.joints()[i]);
-    squared += law_residual(reactions.segment<2>(row), gaps.segment<2>(row), contact_.laws[i],
+    squared += law_residual(reactions.segment<2>(row), y_.segment<2>(2 * static_cast<Index>(i)),
+                            contact_.laws[i],
                             contact_.S(static_cast<Index>(2 * i), static_cast<Index>(2 * i)))
                    .squaredNorm();
   }
@@ -242,9 +251,9 @@ void BreakingRun::finish(double strain, double energy_scale, Simulation& simulat
   const double work = 0.5 * (last.force * intact_->assembly().width + last.reactions.dot(gaps));
   if (energy_scale > 0.0)
     simulation.energy_defect = young * strain * strain * std::abs(elastic - work) / energy_scale;
-  simulation.worst_residual = std::max({intact_->answer().residual, last.residual,
-                                        law_residual_of(last.reactions, gaps) / scale,
-                                        std::abs(last.force - force_) / intact_->answer().force});
+  simulation.worst_residual =
+      std::max({intact_->answer().residual, last.residual, law_residual_of(last.reactions) / scale,
+                std::abs(last.force - force_) / intact_->answer().force});
   simulation.iterations = iterations;
 }
 

@@ -31,6 +31,8 @@ class BreakingRun {
   /// Solves the changed structure for ε = 1, broken joints pressed together included (M7).
   bool settle();
 
+  /// Accounts for the friction of joints that slide while the strain grows.
+  void stretch(double from, double to);
   [[nodiscard]] CurvePoint point(double strain) const;
   /// Fills in the last row's joints and displacements, and the checks.
   void finish(double strain, double energy_scale, Simulation& simulation);
@@ -43,8 +45,7 @@ class BreakingRun {
   [[nodiscard]] Eigen::VectorXd of_loose(const Eigen::VectorXd& of_all) const;
   [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& reactions) const;
   void refine();
-  [[nodiscard]] double law_residual_of(const Eigen::VectorXd& reactions,
-                                       const Eigen::VectorXd& gaps) const;
+  [[nodiscard]] double law_residual_of(const Eigen::VectorXd& reactions) const;
 
   const Scene& scene_;
   bool careful_;
@@ -59,6 +60,7 @@ class BreakingRun {
   Eigen::VectorXd y_at_reference_;
   Eigen::VectorXd reactions_;  // for E = 1 and ε = 1 [N/m]
   double force_;               // likewise
+  double joint_work_ = 0.0;    // r·u of the loose joints, likewise [N]
   double noise_;               // what rounding leaves on an unloaded joint is not a load
 
  public:

@@ -1,6 +1,7 @@
 #include "sim/quasi_static/breaking_sequence.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "sim/outcome.hpp"
@@ -53,15 +54,23 @@ Simulation break_event_by_event(const Scene& scene,
   for (;;) {
     const double event = run.next_event();
     if (event > scene.loading.max_strain) {
+      run.stretch(strain, scene.loading.max_strain);
       strain = scene.loading.max_strain;
       simulation.curve.push_back(run.point(strain));
       simulation.status = SimulationStatus::strain_limit;
       break;
     }
+    if (event > strain) run.stretch(strain, event);
     strain = std::max(strain, event);
     const CurvePoint before = run.point(strain);
     simulation.curve.push_back(before);
     has_failed(simulation, end_fraction);  // takes note of the strength
+    if (!std::isfinite(before.stress_right)) {
+      simulation.status = SimulationStatus::not_finite;
+      break;
+    }
+    if (before.stress_right >= simulation.strength)
+      simulation.without_contact_to_strength = run.without_contact;
     largest_energy = std::max(largest_energy, before.elastic);
 
     run.break_joints(event, strain);

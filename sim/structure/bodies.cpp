@@ -1,9 +1,9 @@
 #include "sim/structure/bodies.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace havers::sim {

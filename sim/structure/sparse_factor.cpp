@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <new>
 #include <numeric>
 #include <utility>
 
@@ -37,7 +38,8 @@ class CholmodCommon {
   cholmod_common* get() { return &common_; }
 
   const double* solve(int system, cholmod_factor* factor, cholmod_dense* b) {
-    cholmod_solve2(system, factor, b, nullptr, &x_, nullptr, &y_, &e_, &common_);
+    if (cholmod_solve2(system, factor, b, nullptr, &x_, nullptr, &y_, &e_, &common_) == 0)
+      throw std::bad_alloc();
     return static_cast<const double*>(x_->x);
   }
 
@@ -62,7 +64,8 @@ class CholmodCommon {
     set.xtype = CHOLMOD_PATTERN;
     set.dtype = CHOLMOD_DOUBLE;
     set.packed = 1;
-    cholmod_solve2(CHOLMOD_L, factor, b_, &set, &x_, &reached_, &y_, &e_, &common_);
+    if (cholmod_solve2(CHOLMOD_L, factor, b_, &set, &x_, &reached_, &y_, &e_, &common_) == 0)
+      throw std::bad_alloc();
     for (const int row : rows) b[row] = 0.0;
     return reached_;
   }
@@ -125,6 +128,7 @@ std::vector<int> order_of_little_fill(const Eigen::SparseMatrix<double>& lower) 
   cholmod_sparse view = view_of(lower);
   common->method[0].ordering = CHOLMOD_AMD;
   cholmod_factor* best = cholmod_analyze(&view, common);
+  if (best == nullptr) throw std::bad_alloc();
   const double operations = common->fl;
   if (operations > much * common->lnz) {
     common->method[0].ordering = CHOLMOD_NESDIS;
@@ -151,7 +155,8 @@ SparseFactor::SparseFactor(const Eigen::SparseMatrix<double>& lower, Index multi
   common->method[0].ordering = CHOLMOD_GIVEN;
   cholmod_sparse view = view_of(lower);
   factor_->L = cholmod_analyze_p(&view, order.data(), nullptr, 0, common);
-  cholmod_factorize(&view, factor_->L, common);
+  if (factor_->L != nullptr) cholmod_factorize(&view, factor_->L, common);
+  if (common->status < CHOLMOD_OK) throw std::bad_alloc();
 
   const cholmod_factor* L = factor_->L;
   place_.resize(order.size());

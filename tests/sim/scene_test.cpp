@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/support/scenes.hpp"
 
 namespace havers::sim {
@@ -45,6 +47,17 @@ TEST(ReinforcedBoundary, IsOnAt0DegreesOnlyUnlessTheSceneSaysSo) {
 
 TEST(Scene, IsSoundByDefault) {
   EXPECT_TRUE(Scene{}.problems().empty());
+}
+
+// A box around a long row that is turned holds the square of its fibres.
+TEST(Scene, RefusesAGridThatIsMuchLargerThanTheSpecimen) {
+  Scene scene;
+  scene.assembly.layers = 1;
+  scene.assembly.fibres = 100'000;
+  EXPECT_TRUE(scene.problems().empty());
+  scene.assembly.orientation = 0.25 * std::numbers::pi;
+  ASSERT_EQ(scene.problems().size(), 1U);
+  EXPECT_EQ(scene.problems().front().key, "assembly.orientation_deg");
 }
 
 }  // namespace

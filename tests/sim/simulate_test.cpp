@@ -154,6 +154,13 @@ TEST(Simulate, SaysWhatItLeftOut) {
   EXPECT_THAT(words(simulate(scene)), HasSubstr("inertia and time steps"));
   scene.loading.lateral = Lateral::free;
   EXPECT_THAT(words(simulate(scene)), HasSubstr("periodic ties"));
+  EXPECT_THAT(words(simulate(scene)), HasSubstr("viscosity: viscosity_s is 0"));
+  scene.material.viscosity = 1e-6;  // and all the same the limit is asked for
+  scene.loading.start = Start::rest;
+  scene.solver.step = 1e-8;
+  EXPECT_THAT(words(simulate(scene)),
+              testing::AllOf(HasSubstr("viscosity: the quasi-static limit"),
+                             HasSubstr("start from rest"), HasSubstr("step_s")));
   scene = test::dynamic_scene();
   scene.loading.max_strain = 1e-3;
   EXPECT_THAT(words(simulate(scene)), HasSubstr("viscosity"));
@@ -166,6 +173,15 @@ TEST(Simulate, SaysWhatItLeftOut) {
     EXPECT_THAT(words(simulate(scene)),
                 HasSubstr(degrees == 35.0 ? "1 half fibre " : "2 half fibres "));
   }
+}
+
+TEST(Simulate, IsNotTrustedWhereContactWasLeftOutBeforeTheStrength) {
+  Simulation simulation = simulate(test::small_scene());
+  EXPECT_EQ(simulation.why_not_trusted(), "");
+  simulation.events_without_contact = 2;
+  EXPECT_EQ(simulation.why_not_trusted(), "");
+  simulation.without_contact_to_strength = 1;
+  EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("no solution"));
 }
 
 TEST(Simulate, EndsWhereNothingIsLeftToBear) {

@@ -21,6 +21,14 @@ TEST_P(FirstBreak, IsThatOfTheUniformStress) {
   }
 }
 
+TEST(WatchedRun, TakesNoMissingJointForTheFirstBreak) {
+  Scene scene = test::small_scene(20.0);
+  const double first = first_break_by_uniform_stress(scene);
+  scene.joints.missing = 0.3;
+  EXPECT_GE(first_break_by_uniform_stress(scene), first);
+  EXPECT_TRUE(std::isfinite(first_break_by_uniform_stress(scene)));
+}
+
 TEST(WatchedRun, TakesTheForcesAtTheStrainAskedFor) {
   const Scene scene = test::dynamic_scene(30.0);
   const double strain = 0.4 * first_break_by_uniform_stress(scene);

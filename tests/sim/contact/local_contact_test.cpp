@@ -3,10 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <random>
 
+#include "sim/assembly/assembly.hpp"
 #include "sim/contact/given_friction.hpp"
+#include "sim/contact/loose_joints.hpp"
 #include "sim/contact/release_path.hpp"
 #include "tests/sim/contact/enumerated_contact.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace havers::sim {
 namespace {
@@ -228,6 +233,41 @@ TEST(ReleasePath, StartsWhereEveryJointSticks) {
       problem.laws[i].cohesion += extra(static_cast<Eigen::Index>(i));
     EXPECT_TRUE(test::keeps_law(problem, -problem.u0, 1e-12));
   }
+}
+
+// Of a wall in long steps, most joints broken, any gaps and forces: pieces hang on nothing but
+// their inertia, 1e-11 to 1e-15 of the stiffness of the others.
+TEST(LocalContact, IsSolvedWherePiecesHangOnAlmostNothing) {
+  const Scene scene = test::small_scene(0.0, 4, 5);
+  const Assembly assembly = build_assembly(scene.assembly, Lateral::periodic);
+  int lawful = 0;
+  for (const double h : {1e-3, 1e-1}) {
+    const Bodies bodies(assembly, scene.material, {1.0 / (h * h), 1.0 + 1e-6 / h});
+    const Structure structure(bodies);
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+      std::mt19937 random(seed);
+      std::normal_distribution<double> normal;
+      std::uniform_real_distribution<double> uniform;
+      LooseJoints loose(structure, [&](int joint) {
+        return std::make_shared<const Eigen::MatrixX2d>(structure.reactions_to_jump(joint));
+      });
+      for (int joint = 0; joint < static_cast<int>(assembly.joints.size()); ++joint)
+        if (uniform(random) < 0.7) loose.add(joint);
+      LocalContact problem{.S = loose.stiffness(), .r0 = {}, .u0 = {}, .laws = {}};
+      problem.trace = 1e-13;
+      const auto draw = [&] { return 1e-7 * normal(random); };
+      problem.r0 = 0.1 * problem.S * VectorXd::NullaryExpr(problem.S.rows(), draw);
+      problem.u0 = VectorXd::NullaryExpr(problem.S.rows(), draw);
+      for (Eigen::Index row = 0; row < problem.u0.size(); row += 2)
+        problem.u0(row) = std::abs(problem.u0(row)) - 0.2e-7;
+      problem.laws.assign(loose.size(), broken_law(0.3));
+      const auto result =
+          solve_local_contact(problem, States(loose.size(), JointState::open), 10 * many);
+      if (result.converged && test::keeps_law(problem, result.y, 1e-9 * problem.r0.norm()))
+        ++lawful;
+    }
+  }
+  EXPECT_GE(lawful, 39);  // of 40; 27 before springs held the pieces
 }
 
 }  // namespace
