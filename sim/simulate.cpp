@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/dynamics/time_stepping.hpp"
+#include "sim/joint/thresholds.hpp"
 #include "sim/outcome.hpp"
 #include "sim/quasi_static/breaking_sequence.hpp"
 #include "sim/simulation.hpp"
@@ -17,7 +18,7 @@ RegimeChoice choose_regime(const Scene& scene) {
   const double transit = scene.assembly.width() / wave;
   RegimeChoice choice;
   choice.inertia_number =
-      scene.loading.strain_rate * transit * scene.material.young / scene.joints.head_tail;
+      scene.loading.strain_rate * transit * scene.material.young / head_tail_strength(scene);
   if (scene.solver.regime != Regime::automatic) {
     choice.regime = scene.solver.regime;
     choice.ground =

@@ -35,8 +35,8 @@ unset multiplot
 constexpr std::string_view left_side =
     "$curve using ($1*100):($3*1e-6) with lines lw 1.2 lc rgb orange title 'left side', ";
 
-// A quasi-static run has rows at breaks only: between them stress grows with the strain, and energy
-// with its square.
+// A quasi-static run has rows at breaks only: between them stress grows with the strain, energy
+// and what friction takes with its square.
 std::vector<sim::CurvePoint> with_parabolas(const sim::Simulation& simulation) {
   if (simulation.regime == sim::Regime::dynamic) return simulation.curve;
   constexpr int parts = 60;
@@ -50,6 +50,9 @@ std::vector<sim::CurvePoint> with_parabolas(const sim::Simulation& simulation) {
       point.strain = strain;
       point.stress_right = point.stress_left = part * end.stress_right;
       point.elastic = part * part * end.elastic;
+      const double grown = (strain * strain - begin.strain * begin.strain) /
+                           (end.strain * end.strain - begin.strain * begin.strain);
+      point.dissipated += grown * (end.dissipated - begin.dissipated);
     }
     curve.push_back(end);
   }

@@ -16,7 +16,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-constexpr int finest = 4;  // refinement of the mesh that meshes are compared with
+constexpr int finest = 4;  // refinement of the last mesh that is tried
 
 bool is_quasi_static(const Scene& scene) {
   return choose_regime(scene).regime == Regime::quasi_static;
@@ -259,7 +259,7 @@ WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
   study.reference = reference_setting(scene);
   study.reference_ground = is_quasi_static(scene)
                                ? "the exact breaking sequence of the quasi-static limit"
-                               : "the finest step, a direct solve to 1e-12";
+                               : "the finest step, solved directly";
   study.bonded_strain = 0.4 * first_break_by_uniform_stress(scene);
   for (int i = 0; i < options.seeds; ++i)
     study.seeds.push_back(scene.joints.seed + static_cast<std::uint64_t>(i));

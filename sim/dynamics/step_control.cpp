@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sim/dynamics/time_stepping.hpp"
+#include "sim/joint/thresholds.hpp"
 #include "sim/outcome.hpp"
 
 namespace havers::sim {
@@ -37,7 +38,7 @@ double first_step(const Scene& scene) {
   const double wave = std::sqrt(scene.material.young / scene.material.density);
   const double transit = may_leap(scene) ? 0.25 * scene.assembly.fibre_height / wave
                                          : 0.5 * scene.assembly.fibre_length / wave;
-  const double strain = 0.02 * scene.joints.head_tail / scene.material.young;
+  const double strain = 0.02 * head_tail_strength(scene) / scene.material.young;
   return std::min(transit, strain / scene.loading.strain_rate);
 }
 

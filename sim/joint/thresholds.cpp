@@ -66,6 +66,20 @@ bool is_drawn_missing(std::uint64_t seed, std::uint64_t joint, double fraction) 
   return uniform(seed, joint, Stream::missing) < fraction;
 }
 
+double head_tail_strength(const Scene& scene) {
+  const std::vector<Threshold>& given = scene.joints.thresholds;
+  if (given.empty()) return scene.joints.head_tail;
+  const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
+  std::vector<double> strengths;
+  for (std::size_t j = 0; j < std::min(given.size(), assembly.joints.size()); ++j)
+    if (assembly.joints[j].kind == JointKind::head_tail && !is_missing(given[j]))
+      strengths.push_back(given[j].normal / assembly.joints[j].length);
+  if (strengths.empty()) return scene.joints.head_tail;
+  const auto median = strengths.begin() + static_cast<std::ptrdiff_t>(strengths.size() / 2);
+  std::nth_element(strengths.begin(), median, strengths.end());
+  return *median;
+}
+
 Threshold mean_threshold(const Scene& scene, const Joint& joint) {
   const JointOptions& j = scene.joints;
   const double height = scene.assembly.fibre_height, half = 0.5 * scene.assembly.fibre_length;

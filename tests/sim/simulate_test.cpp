@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "sim/joint/thresholds.hpp"
 #include "sim/quasi_static/breaking_sequence.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/scenes.hpp"
@@ -36,6 +37,16 @@ TEST(ChooseRegime, FollowsTheInertiaNumber) {
   EXPECT_EQ(fast.regime, Regime::dynamic);
   EXPECT_THAT(slow.ground, HasSubstr("inertia number 0.00019 is below 0.0002"));
   EXPECT_THAT(fast.ground, HasSubstr("inertia number 0.00021 is not below 0.0002"));
+}
+
+TEST(ChooseRegime, GoesByTheThresholdsThatAreGiven) {
+  Scene scene = unit_scene(0.0019);
+  const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
+  scene.joints.thresholds = draw_thresholds(scene, assembly);
+  EXPECT_NEAR(choose_regime(scene).inertia_number, 1.9e-4, 0.05e-4);
+  for (Threshold& threshold : scene.joints.thresholds) threshold.normal *= 0.01;
+  EXPECT_NEAR(choose_regime(scene).inertia_number, 1.9e-2, 0.05e-2);
+  EXPECT_EQ(choose_regime(scene).regime, Regime::dynamic);
 }
 
 TEST(ChooseRegime, KeepsTimeForWhatNeedsIt) {
