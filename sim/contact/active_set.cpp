@@ -78,9 +78,9 @@ bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded
       contact.laws.push_back(step.laws[static_cast<std::size_t>(joint)]);
       states.push_back(result.states[static_cast<std::size_t>(joint)]);
     }
-    const LocalContactResult local =
-        combine ? combine_states(contact, std::move(states))
-                : solve_local_contact(contact, std::move(states), max_iterations_);
+    const LocalContactResult local = combine
+                                         ? combine_states(contact, std::move(states))
+                                         : solve_local_contact(contact, states, max_iterations_);
     result.iterations += local.iterations;
     y = local.y;
     if (!local.converged) return false;

@@ -216,8 +216,8 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
 
 }  // namespace
 
-LocalContactResult solve_local_contact(const LocalContact& problem, States states,
-                                       int max_iterations) {
+LocalContactResult solve_local_contact(const LocalContact& problem,
+                                       const std::vector<JointState>& states, int max_iterations) {
   if (states.empty()) return {.converged = true, .y = {}, .states = {}, .iterations = 0};
   LocalContactResult result = solve_as_it_is(problem, states, max_iterations);
   if (result.converged) return result;

@@ -56,8 +56,8 @@ SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, cons
 /// Active set started from `states`: each set is one linear solve (C2). Where sets do not lead to
 /// each other, convex problems (C7), then sweeps over the joints, each solved alone (C3), find a
 /// better one (C4). Where that ends nowhere, the release of cohesion is followed (C5).
-LocalContactResult solve_local_contact(const LocalContact& problem, std::vector<JointState> states,
-                                       int max_iterations);
+LocalContactResult solve_local_contact(const LocalContact& problem,
+                                       const std::vector<JointState>& states, int max_iterations);
 
 /// For what that does not solve: sets follow from each other until one comes back, then the states
 /// of the few joints that changed on the way are combined in every way. Where friction leaves
