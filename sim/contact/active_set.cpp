@@ -27,19 +27,13 @@ ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, int max_iterations, bool 
       max_iterations_(max_iterations),
       detach_open_(detach_open),
       structure_(bodies),
-      loose_(make_loose()),
+      loose_(structure_),
       search_(bodies),
       stiffness_(joint_stiffness(bodies)) {}
 
-LooseJoints ActiveSetSolver::make_loose() const {
-  return {structure_, [this](int joint) {
-            return std::make_shared<const Eigen::MatrixX2d>(structure_.reactions_to_jump(joint));
-          }};
-}
-
 void ActiveSetSolver::rebuild(std::vector<Held> held) {
   structure_ = Structure(*bodies_, std::move(held));
-  loose_ = make_loose();
+  loose_ = LooseJoints(structure_);
 }
 
 void ActiveSetSolver::detach_opened(const JointStep& step) {
@@ -63,32 +57,27 @@ VectorXd ActiveSetSolver::jumps(const JointStep& step) const {
   return target - step.predicted;
 }
 
-// The loose joints among themselves, and again with those that the answer overloads, until none is.
+// The loose joints among themselves.
 bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded_reactions,
-                                   bool combine, JointStepResult& result, VectorXd& y) {
-  for (;;) {
-    const auto n = static_cast<Index>(loose_.size());
-    LocalContact contact{loose_.stiffness(), VectorXd(2 * n), VectorXd(2 * n), {}, {},
-                         below_inertia};
-    std::vector<JointState> states;
-    for (Index i = 0; i < n; ++i) {
-      const int joint = loose_.joints()[static_cast<std::size_t>(i)];
-      contact.r0.segment<2>(2 * i) = at(bonded_reactions, joint);
-      contact.u0.segment<2>(2 * i) = at(step.gaps, joint) - at(step.held_at, joint);
-      contact.laws.push_back(step.laws[static_cast<std::size_t>(joint)]);
-      states.push_back(result.states[static_cast<std::size_t>(joint)]);
-    }
-    const LocalContactResult local = combine
-                                         ? combine_states(contact, std::move(states))
-                                         : solve_local_contact(contact, states, max_iterations_);
-    result.iterations += local.iterations;
-    y = local.y;
-    if (!local.converged) return false;
-    for (Index i = 0; i < n; ++i)
-      result.states[static_cast<std::size_t>(loose_.joints()[static_cast<std::size_t>(i)])] =
-          local.states[static_cast<std::size_t>(i)];
-    if (!loosen_violated(step, loose_.reactions_with(y, bonded_reactions), result)) return true;
+                                   bool combine, JointStepResult& result, VectorXd& y) const {
+  const auto n = static_cast<Index>(loose_.size());
+  LocalContact contact{loose_.stiffness(), VectorXd(2 * n), VectorXd(2 * n), {}, {}, below_inertia};
+  std::vector<JointState> states;
+  for (Index i = 0; i < n; ++i) {
+    const int joint = loose_.joints()[static_cast<std::size_t>(i)];
+    contact.r0.segment<2>(2 * i) = at(bonded_reactions, joint);
+    contact.u0.segment<2>(2 * i) = at(step.gaps, joint) - at(step.held_at, joint);
+    contact.laws.push_back(step.laws[static_cast<std::size_t>(joint)]);
+    states.push_back(result.states[static_cast<std::size_t>(joint)]);
   }
+  const LocalContactResult local = combine ? combine_states(contact, std::move(states))
+                                           : solve_local_contact(contact, states, max_iterations_);
+  result.iterations += local.iterations;
+  y = local.y;
+  for (Index i = 0; i < n && local.converged; ++i)
+    result.states[static_cast<std::size_t>(loose_.joints()[static_cast<std::size_t>(i)])] =
+        local.states[static_cast<std::size_t>(i)];
+  return local.converged;
 }
 
 bool ActiveSetSolver::loosen_violated(const JointStep& step, const VectorXd& reactions,
@@ -149,16 +138,20 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, bool combine
   do {
     result.states = step.states;
     if (!structure_.ok()) return result;
-    StructureLoads loads{step.forces, step.prescribed, jumps(step), step.force_scale};
-    StructureResponse response = structure_.solve(loads);
-    VectorXd y;
-    result.converged = settle_loose(step, response.reactions, combine, result, y);
-    if (y.size() > 0 && !y.isZero(0.0)) {
+    const StructureLoads bonded{step.forces, step.prescribed, jumps(step), step.force_scale};
+    const StructureResponse bonded_response = structure_.solve(bonded);
+    StructureResponse response;
+    do {  // again with those that the answer overloads, until none is
+      VectorXd y;
+      result.converged = settle_loose(step, bonded_response.reactions, combine, result, y);
+      response = bonded_response;
+      if (y.size() == 0 || y.isZero(0.0)) continue;
+      StructureLoads loads = bonded;
       for (std::size_t i = 0; i < loose_.size(); ++i)
         loads.jumps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) +=
             y.segment<2>(2 * static_cast<Index>(i));
       response = structure_.solve(loads);
-    }
+    } while (result.converged && loosen_violated(step, response.reactions, result));
     result.iterations += response.solves;
     result.displacements = std::move(response.displacements);
     result.reactions = std::move(response.reactions);

@@ -19,7 +19,6 @@ class ActiveSetSolver : public JointSolver {
   JointStepResult solve(const JointStep& step) override;
 
  private:
-  [[nodiscard]] LooseJoints make_loose() const;
   void detach_opened(const JointStep& step);
   void rebuild(std::vector<Held> held);
   [[nodiscard]] bool detached(int joint) const {
@@ -28,7 +27,7 @@ class ActiveSetSolver : public JointSolver {
   JointStepResult solve_loose(const JointStep& step, bool combine = false);
   [[nodiscard]] Eigen::VectorXd jumps(const JointStep& step) const;
   bool settle_loose(const JointStep& step, const Eigen::VectorXd& bonded_reactions, bool combine,
-                    JointStepResult& result, Eigen::VectorXd& y);
+                    JointStepResult& result, Eigen::VectorXd& y) const;
   bool loosen_violated(const JointStep& step, const Eigen::VectorXd& reactions,
                        JointStepResult& result);
   bool reattach_closed(const JointStepResult& result);

@@ -1,6 +1,7 @@
 #include "sim/contact/given_friction.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -24,17 +25,22 @@ constexpr int most_rounds = 200;
 // its side on the way to their minimum stops at zero [LH74].
 class ConvexContact {
  public:
-  explicit ConvexContact(const LocalContact& problem)
+  ConvexContact(const LocalContact& problem, const VectorXd& start)
       : problem_(problem),
         S_(problem.S),
         b_(problem.r0 - problem.S * problem.u0),
         bound_(VectorXd::Zero(static_cast<Index>(problem.laws.size()))),
-        u_(VectorXd::Zero(b_.size())),
+        u_(start),
         side_(static_cast<std::size_t>(b_.size()), 0) {
     const VectorXd c = cohesions(problem);
     for (Index i = 0; i < c.size(); ++i) b_(2 * i) += c(i);
     S_.diagonal().array() += problem.trace * S_.diagonal().maxCoeff();
     tolerance_ = no_force * b_.lpNorm<Eigen::Infinity>();
+    for (Index row = 0; row < u_.size(); ++row) {
+      if (row % 2 == 0 && !apart(row)) u_(row) = std::max(u_(row), 0.0);
+      side_[static_cast<std::size_t>(row)] = (u_(row) > 0.0 ? 1 : 0) - (u_(row) < 0.0 ? 1 : 0);
+    }
+    if (!u_.isZero(0.0)) bound_by_pressures();
   }
 
   // Whether the minimum was found; `changes` counts.
@@ -98,7 +104,7 @@ class ConvexContact {
         }
       }
       for (std::size_t k = 0; k < free.size(); ++k)
-        u_(free[k]) += part * (goal(static_cast<Index>(k)) - u_(free[k]));
+        u_(free[k]) = (1.0 - part) * u_(free[k]) + part * goal(static_cast<Index>(k));
       if (stops < 0) return;
       u_(stops) = 0.0;
       side_[static_cast<std::size_t>(stops)] = 0;
@@ -130,9 +136,9 @@ class ConvexContact {
 
 }  // namespace
 
-StatesOfGivenFriction states_by_given_friction(const LocalContact& problem) {
+StatesOfGivenFriction states_by_given_friction(const LocalContact& problem, const VectorXd& start) {
   StatesOfGivenFriction found;
-  ConvexContact convex(problem);
+  ConvexContact convex(problem, start);
   for (int round = 0; round < most_rounds; ++round) {
     if (!convex.minimise(found.iterations)) break;
     found.states = convex.states();

@@ -13,6 +13,8 @@ struct StatesOfGivenFriction {
 /// With given bounds on the tangential reactions the gaps minimise a convex function, which an
 /// active set finds in finitely many steps; its pressures give the next bounds, until they stay
 /// (C7). Friction that is large may keep them from it: a caller checks the states.
-StatesOfGivenFriction states_by_given_friction(const LocalContact& problem);
+/// @param start  gaps u to start from, 2n, zero or as near as may be. [m]
+StatesOfGivenFriction states_by_given_friction(const LocalContact& problem,
+                                               const Eigen::VectorXd& start);
 
 }  // namespace havers::sim

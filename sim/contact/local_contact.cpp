@@ -22,7 +22,9 @@ constexpr double rounding = 1e-12;
 constexpr int sets_at_once = 3;  // that follow from each other, before a better one is looked for
 constexpr int sets_of_a_cycle = 20;       // after which it is none, or too long to look at
 constexpr std::size_t most_combined = 5;  // joints whose states are combined in every way
-constexpr int searches = 6;               // by sweeps, before the release path is taken
+// Where more are loose, a start that is far from the answer takes longer than none.
+constexpr std::size_t few_joints = 100;
+constexpr int searches = 6;  // by sweeps, before the release path is taken
 constexpr int sweeps_of_search = 200;
 // Of springs that hold joints, parts of the largest stiffness; each is tried with so many answers.
 constexpr std::array<double, 5> springs{1e-11, 1e-10, 1e-9, 1e-8, 1e-7};
@@ -154,17 +156,22 @@ LocalContactResult solve_as_it_is(const LocalContact& problem, States states, in
     spent += result.iterations;
   };
   try_from(std::move(states));
-  if (!result.converged) {
-    StatesOfGivenFriction found = states_by_given_friction(problem);
+  const auto try_given_friction = [&](const VectorXd& start) {
+    if (result.converged) return;
+    StatesOfGivenFriction found = states_by_given_friction(problem, start);
     spent += found.iterations;
     if (!found.states.empty()) try_from(std::move(found.states));
-  }
+  };
+  const VectorXd zero = VectorXd::Zero(problem.u0.size());
+  const bool from_answer = problem.laws.size() <= few_joints && result.y.allFinite();
+  try_given_friction(from_answer ? VectorXd(problem.u0 + result.y) : zero);
   for (int i = 0; i < searches && !result.converged; ++i) {
     if (!result.y.allFinite()) result.y.setZero();
     spent +=
         gauss_seidel(problem, result.y, result.states, std::min(max_iterations, sweeps_of_search));
     try_from(std::move(result.states));
   }
+  if (from_answer) try_given_friction(zero);
   if (!result.converged) {
     States stuck(problem.laws.size(), JointState::stick);
     for (std::size_t i = 0; i < stuck.size(); ++i)

@@ -8,21 +8,13 @@ namespace havers::sim {
 
 using Eigen::Index;
 
-namespace {
-
-// Columns with more than this many times the factor's nonzeros would fill the memory of a large
-// wall: a solve takes their place, at about their cost. [-]
-constexpr long columns_of_a_solve = 6;
-
-}  // namespace
-
 LooseJoints::LooseJoints(const Structure& structure, Source source)
-    : structure_(&structure),
-      source_(std::move(source)),
-      most_kept_(structure.joints() == 0 || !structure.ok()
-                     ? 0
-                     : static_cast<std::size_t>(columns_of_a_solve * structure.factor().nonzeros() /
-                                                (4 * structure.joints()))) {}
+    : structure_(&structure), source_(std::move(source)) {}
+
+LooseJoints::LooseJoints(const Structure& structure)
+    : LooseJoints(structure, [&structure](int joint) {
+        return std::make_shared<const Jump>(structure.jump(joint));
+      }) {}
 
 bool LooseJoints::contains(int joint) const {
   return std::find(joints_.begin(), joints_.end(), joint) != joints_.end();
@@ -36,12 +28,10 @@ void LooseJoints::add(int joint) {
     stiffness_.conservativeResize(size, size);
   }
   joints_.push_back(joint);
-  const Reactions reactions = source_(joint);
+  jumps_.push_back(source_(joint));
   for (std::size_t i = 0; i < joints_.size(); ++i)
     stiffness_.block<2, 2>(first, static_cast<Index>(2 * i)) =
-        reactions->middleRows<2>(2 * static_cast<Index>(joints_[i])).transpose();
-  reactions_.push_back(reactions);
-  if (joints_.size() > most_kept_) reactions_.clear();
+        structure_->reactions_between(*jumps_.back(), *jumps_[i]);
 }
 
 Eigen::MatrixXd LooseJoints::stiffness() const {
@@ -50,19 +40,6 @@ Eigen::MatrixXd LooseJoints::stiffness() const {
   S.triangularView<Eigen::Lower>() = stiffness_.topLeftCorner(n, n);
   S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
   return S;
-}
-
-Eigen::VectorXd LooseJoints::reactions_with(const Eigen::VectorXd& y,
-                                            Eigen::VectorXd reactions) const {
-  if (joints_.size() <= most_kept_) {
-    for (std::size_t i = 0; i < joints_.size(); ++i)
-      reactions.noalias() += *reactions_[i] * y.segment<2>(2 * static_cast<Index>(i));
-    return reactions;
-  }
-  Eigen::VectorXd jumps = Eigen::VectorXd::Zero(reactions.size());
-  for (std::size_t i = 0; i < joints_.size(); ++i)
-    jumps.segment<2>(2 * static_cast<Index>(joints_[i])) = y.segment<2>(2 * static_cast<Index>(i));
-  return reactions + structure_->reactions_to_jumps(jumps);
 }
 
 }  // namespace havers::sim

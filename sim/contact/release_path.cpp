@@ -28,14 +28,19 @@ struct Branch {
   double force_tolerance = 0.0;  // [N/m]
 };
 
-Branch solve_branch(StateSystem& system, const VectorXd& extra, double part) {
+// Of the answers on the way; the last one is solved for anew.
+constexpr double accuracy_on_the_way = 1e-11;
+
+Branch solve_branch(StateSystem& system, StateSolution known, const VectorXd& extra, double part) {
   const LocalContact& p = system.problem();
   const auto n = static_cast<Index>(p.laws.size());
   MatrixXd r0 = MatrixXd::Zero(2 * n, 2), u0 = MatrixXd::Zero(2 * n, 2), cohesion(n, 2);
   r0.col(0) = p.r0;
   u0.col(0) = p.u0;
   cohesion << cohesions(p), extra;
-  StateSolution solution = system.solve(r0, -u0, cohesion);
+  if (known.y.size() == 0) known = {MatrixXd::Zero(2 * n, 2), r0};
+  StateSolution solution =
+      system.solve_from(std::move(known), r0, -u0, cohesion, accuracy_on_the_way);
   u0 += solution.y;
   return {std::move(solution.y), std::move(solution.r), std::move(u0),
           part * p.r0.lpNorm<Eigen::Infinity>()};
@@ -109,27 +114,33 @@ VectorXd cohesion_to_stick(const VectorXd& reactions, const std::vector<JointLaw
 
 namespace {
 
-LocalContactResult follow(StateSystem& system, const VectorXd& extra, double part) {
+LocalContactResult follow(StateSystem& system, StateSolution known, const VectorXd& extra,
+                          double part) {
+  const LocalContact& p = system.problem();
   LocalContactResult result;
   double lambda = 1.0;
   std::set<States> met;  // at this λ
   for (;;) {
     ++result.iterations;
-    const Branch branch = solve_branch(system, extra, part);
-    if (!branch.y.allFinite()) break;
+    Branch branch = solve_branch(system, std::move(known), extra, part);
     result.y = branch.y.col(0);
+    if (!branch.y.allFinite()) break;
     Change next;
     for (std::size_t j = 0; j < system.states().size(); ++j) {
       const Change change = next_change(system, branch, j, extra(static_cast<Index>(j)), lambda);
       if (change.at > next.at) next = change;
     }
     result.converged = next.at < 0.0;
-    if (result.converged) break;
+    if (result.converged) {
+      result.y = system.solve(p.r0, -p.u0, cohesions(p)).y;
+      break;
+    }
     if (next.at < lambda) met.clear();
     if (!met.insert(system.states()).second)
       break;  // the same states again without having moved: the path turns back
     lambda = next.at;
     system.set(next.joint, next.to);
+    known = {std::move(branch.y), std::move(branch.r)};
   }
   result.states = system.states();
   return result;
@@ -137,13 +148,14 @@ LocalContactResult follow(StateSystem& system, const VectorXd& extra, double par
 
 }  // namespace
 
-LocalContactResult follow_release(StateSystem& system, const VectorXd& extra) {
+LocalContactResult follow_release(StateSystem& system, const VectorXd& extra,
+                                  const StateSolution& known) {
   const States start = system.states();
   LocalContactResult result;
   int spent = 0;
   for (const double part : nothing) {
     system.set(start);
-    result = follow(system, extra, part);
+    result = follow(system, known, extra, part);
     spent += result.iterations;
     if (result.converged) break;
   }

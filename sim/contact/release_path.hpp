@@ -10,7 +10,10 @@ namespace havers::sim {
 /// (C5). For given states the solution is linear in λ; one joint changes its state at a time, where
 /// its condition says so. Not converged when the path turns back, which friction allows.
 /// @param extra  e of each joint, n. [N/m]
-LocalContactResult follow_release(StateSystem& system, const Eigen::VectorXd& extra);
+/// @param known  gaps and reactions as they are with these states, if there is an answer: at λ = 0
+/// and by λ, a column each
+LocalContactResult follow_release(StateSystem& system, const Eigen::VectorXd& extra,
+                                  const StateSolution& known = {});
 
 /// c of every joint, n. [N/m]
 Eigen::VectorXd cohesions(const LocalContact& problem);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace havers::sim {
 
@@ -13,7 +14,8 @@ namespace {
 
 // A few corrections take the effect of the trace on everything else away.
 constexpr int corrections = 5;
-constexpr double accuracy = 1e-13;
+constexpr double accuracy_of_solve = 1e-13;
+constexpr double shrinkage = 0.5;  // by a correction, without which rounding is all that is left
 // A bordered factor that leaves more of the reactions than this, and more than rounding leaves of
 // those by the gaps, is made anew.
 constexpr double tolerated = 1e-10, rounding_of_gaps = 1e-15;
@@ -83,7 +85,7 @@ void StateSystem::factorise() {
 }
 
 VectorXd StateSystem::from_factor(const VectorXd& load) const {
-  return load.size() == 0 ? load : VectorXd(factor_.solve(load));
+  return load.isZero(0.0) ? load : VectorXd(factor_.solve(load));
 }
 
 // The factor's answer to what a border adds to its equations: the effect of a gap that it does not
@@ -182,38 +184,58 @@ MatrixXd StateSystem::missing(const MatrixXd& r, const MatrixXd& cohesion) const
 
 StateSolution StateSystem::solve(const MatrixXd& r0, const MatrixXd& held,
                                  const MatrixXd& cohesion) {
-  equations_ = equations_of_states();
-  if (!border_factor()) factorise();
-  StateSolution solution = try_to_solve(r0, held, cohesion);
-  if (borders_.empty()) return solution;
-  const double lacks = missing(solution.r, cohesion).norm();
-  if (lacks <= tolerated * solution.r.norm() + rounding_of_gaps * scale() * solution.y.norm())
-    return solution;
-  factorise();
-  return try_to_solve(r0, held, cohesion);
+  return solve_from({MatrixXd::Zero(r0.rows(), r0.cols()), r0}, r0, held, cohesion,
+                    accuracy_of_solve);
 }
 
-StateSolution StateSystem::try_to_solve(const MatrixXd& r0, const MatrixXd& held,
-                                        const MatrixXd& cohesion) {
-  // Column by column: for few of them Eigen's product of matrices would first copy S into panels.
-  const auto add_reactions = [&](const MatrixXd& gaps, MatrixXd& r) {
-    for (Index c = 0; c < r.cols(); ++c) r.col(c).noalias() += problem_->S * gaps.col(c);
-  };
-  StateSolution solution{held, r0};
-  for (const Equation& equation : equations_) solution.y.row(equation.row).setZero();
-  if (!solution.y.isZero(0.0)) add_reactions(solution.y, solution.r);
-  double before = 0.0;
+StateSolution StateSystem::solve_from(StateSolution known, const MatrixXd& r0, const MatrixXd& held,
+                                      const MatrixXd& cohesion, double accuracy) {
+  equations_ = equations_of_states();
+  if (!border_factor()) factorise();
+  const double load = missing(r0, cohesion).norm();
+  correct(known, held, cohesion, load, accuracy);
+  if (borders_.empty()) return known;
+  const double lacks = missing(known.r, cohesion).norm();
+  if (lacks <= tolerated * known.r.norm() + rounding_of_gaps * scale() * known.y.norm())
+    return known;
+  factorise();
+  known = {MatrixXd::Zero(r0.rows(), r0.cols()), r0};
+  correct(known, held, cohesion, load, accuracy);
+  return known;
+}
+
+// Gaps that the states hold are set, the others found.
+void StateSystem::correct(StateSolution& solution, const MatrixXd& held, const MatrixXd& cohesion,
+                          double load, double accuracy) {
+  std::vector<char> free(place_.size(), 0);
+  for (const Equation& equation : equations_) free[static_cast<std::size_t>(equation.row)] = 1;
+  for (Index row = 0; row < held.rows(); ++row) {
+    if (free[static_cast<std::size_t>(row)] != 0 || solution.y.row(row) == held.row(row)) continue;
+    solution.r.noalias() += problem_->S.col(row) * (held.row(row) - solution.y.row(row));
+    solution.y.row(row) = held.row(row);
+  }
+  double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= corrections && !equations_.empty(); ++i) {
     const MatrixXd b = missing(solution.r, cohesion);
     const double size = b.norm();
-    if (i == 0) before = size;
-    if (size <= accuracy * before) break;
-    MatrixXd change(b.rows(), b.cols());
-    for (Index c = 0; c < b.cols(); ++c) change.col(c) = corrected_by(b.col(c));
-    solution.y += change;
-    add_reactions(change, solution.r);
+    if (size <= accuracy * load || size > shrinkage * before) break;
+    before = size;
+    // Where one state has changed, all loads lack the same but for a factor.
+    Index most = 0;
+    const double squared = b.colwise().squaredNorm().maxCoeff(&most);
+    const Eigen::RowVectorXd factors = b.col(most).transpose() * b / squared;
+    if ((b - b.col(most) * factors).norm() <= accuracy * load) {
+      const VectorXd change = corrected_by(b.col(most));
+      solution.y.noalias() += change * factors;
+      solution.r.noalias() += VectorXd(problem_->S * change) * factors;
+      continue;
+    }
+    for (Index c = 0; c < b.cols(); ++c) {
+      const VectorXd change = corrected_by(b.col(c));
+      solution.y.col(c) += change;
+      solution.r.col(c).noalias() += problem_->S * change;
+    }
   }
-  return solution;
 }
 
 }  // namespace havers::sim

@@ -37,6 +37,11 @@ class StateSystem {
   /// For free reactions `r0` [N/m], gaps `held` where they are held [m] and cohesions c [N/m].
   [[nodiscard]] StateSolution solve(const Eigen::MatrixXd& r0, const Eigen::MatrixXd& held,
                                     const Eigen::MatrixXd& cohesion);
+  /// The same from a solution for other states, cheap where few have changed; what the reactions
+  /// lack in the equations is at most `accuracy` times what they lack without gaps.
+  [[nodiscard]] StateSolution solve_from(StateSolution known, const Eigen::MatrixXd& r0,
+                                         const Eigen::MatrixXd& held,
+                                         const Eigen::MatrixXd& cohesion, double accuracy);
 
  private:
   // The equation for a gap; the gap is its unknown.
@@ -61,8 +66,8 @@ class StateSystem {
   [[nodiscard]] Eigen::VectorXd corrected_by(const Eigen::VectorXd& missing);
   [[nodiscard]] Eigen::MatrixXd missing(const Eigen::MatrixXd& r,
                                         const Eigen::MatrixXd& cohesion) const;
-  [[nodiscard]] StateSolution try_to_solve(const Eigen::MatrixXd& r0, const Eigen::MatrixXd& held,
-                                           const Eigen::MatrixXd& cohesion);
+  void correct(StateSolution& solution, const Eigen::MatrixXd& held,
+               const Eigen::MatrixXd& cohesion, double load, double accuracy);
 
   const LocalContact* problem_;
   std::vector<JointState> states_;

@@ -13,6 +13,7 @@
 namespace havers::sim {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -34,7 +35,7 @@ BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructu
     : scene_(scene),
       careful_(careful),
       intact_(std::move(intact)),
-      loose_(intact_->structure(), [this](int joint) { return intact_->reactions_to_jump(joint); }),
+      loose_(intact_->structure(), [this](int joint) { return intact_->jump(joint); }),
       reference_{{}, intact_->answer().reactions, intact_->answer().force, 0.0},
       reactions_(reference_.reactions),
       force_(reference_.force),
@@ -127,7 +128,11 @@ bool BreakingRun::settle() {
   for (std::size_t i = 0; i < loose_.size(); ++i)
     if (contact_.is_apart(i) && system_.states()[i] != JointState::open)
       system_.set(i, JointState::open);
-  LocalContactResult result = follow_release(system_, extra_);
+  // Nothing has moved yet, and nothing does before the first of those released gives way.
+  StateSolution known{MatrixXd::Zero(contact_.r0.size(), 2), MatrixXd::Zero(contact_.r0.size(), 2)};
+  known.y.col(0).head(y_.size()) = y_;
+  known.r.col(0) = of_loose(reactions_);
+  LocalContactResult result = follow_release(system_, extra_, known);
   iterations += result.iterations;
   if (!result.converged) {
     result = solve_local_contact(contact_, result.states, scene_.solver.max_iterations);
@@ -146,7 +151,7 @@ bool BreakingRun::settle() {
   system_.set(result.states);
   y_ = result.y;
   const VectorXd moved = y_ - y_at_reference_;
-  reactions_ = loose_.reactions_with(moved, reference_.reactions);
+  reactions_ = reference_.reactions + intact_->reactions_to(loose_.jumps(), moved);
   // By reciprocity the force at the end changes by r⁰·y/W, r⁰ being those of the intact structure.
   force_ = reference_.force +
            of_loose(intact_->answer().reactions).dot(moved) / intact_->assembly().width;

@@ -16,9 +16,21 @@ constexpr std::size_t kept = 8;
 // Part of the forces by which the solved ones may miss those of the uniform stress, which then
 // stand in for them. Where they miss by more, self-stress is not determined (M10).
 constexpr double known = 1e-6;
-// Of reactions to jumps, all structures together.
+// Of jumps and what they do, all structures together.
 constexpr std::size_t most_remembered = std::size_t{1} << 30U;
 std::atomic<std::size_t> remembered{0};
+
+std::size_t bytes(const Jump& jump) {
+  return jump.half.rows.size() * (sizeof(int) + 2 * sizeof(double));
+}
+
+std::size_t bytes(const Eigen::MatrixX2d& column) {
+  return sizeof(double) * static_cast<std::size_t>(column.size());
+}
+
+// To add up a column of reactions takes as long as a solve spends on so many nonzeros of the factor
+// a joint.
+constexpr long nonzeros_of_a_column = 2;
 
 // A trace of inertia, that of h c = 3e6 specimens, holds what hangs on a single joint or floats,
 // and nothing else feels it.
@@ -93,26 +105,46 @@ double IntactStructure::energy(const Eigen::VectorXd& q) const {
   return 0.5 * q.dot(bodies_.shifted_times(q));
 }
 
-std::shared_ptr<const Eigen::MatrixX2d> IntactStructure::reactions_to_jump(int joint) const {
-  {
-    const std::scoped_lock lock(mutex_);
-    const auto found = reactions_.find(joint);
-    if (found != reactions_.end()) return found->second;
+SharedJump IntactStructure::jump(int joint) const {
+  return remembered_in(jumps_, joint, [&] { return structure_.jump(joint); });
+}
+
+Eigen::VectorXd IntactStructure::reactions_to(const std::vector<SharedJump>& jumps,
+                                              const Eigen::VectorXd& y) const {
+  const Eigen::Index joints = structure_.joints();
+  const Eigen::Index spent =
+      nonzeros_of_a_column * joints * static_cast<Eigen::Index>(jumps.size());
+  const bool room = remembered + sizeof(double) * 4 * assembly_.joints.size() <= most_remembered;
+  if (!room || spent > structure_.factor().nonzeros()) return structure_.reactions_to(jumps, y);
+  Eigen::VectorXd reactions = Eigen::VectorXd::Zero(2 * joints);
+  for (std::size_t i = 0; i < jumps.size(); ++i) {
+    const auto column = remembered_in(columns_, jumps[i]->joint, [&]() -> Eigen::MatrixX2d {
+      return structure_.reactions_to({jumps[i]}, Eigen::Matrix2d::Identity());
+    });
+    reactions.noalias() += *column * y.segment<2>(2 * static_cast<Eigen::Index>(i));
   }
-  auto reactions = std::make_shared<const Eigen::MatrixX2d>(structure_.reactions_to_jump(joint));
-  const std::scoped_lock lock(mutex_);
-  if (remembered + bytes_per_joint() <= most_remembered &&
-      reactions_.emplace(joint, reactions).second)
-    remembered += bytes_per_joint();
   return reactions;
 }
 
-std::size_t IntactStructure::bytes_per_joint() const {
-  return sizeof(double) * 4 * assembly_.joints.size();
+// What was found for a joint before, or is now; kept while there is room.
+template <class Value, class Find>
+std::shared_ptr<const Value> IntactStructure::remembered_in(Memory<Value>& memory, int joint,
+                                                            const Find& find) const {
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto found = memory.find(joint);
+    if (found != memory.end()) return found->second;
+  }
+  auto value = std::make_shared<const Value>(find());
+  const std::scoped_lock lock(mutex_);
+  if (remembered + bytes(*value) <= most_remembered && memory.emplace(joint, value).second)
+    remembered += bytes(*value);
+  return value;
 }
 
 IntactStructure::~IntactStructure() {
-  remembered -= reactions_.size() * bytes_per_joint();
+  for (const auto& [joint, jump] : jumps_) remembered -= bytes(*jump);
+  for (const auto& [joint, column] : columns_) remembered -= bytes(*column);
 }
 
 std::shared_ptr<const IntactStructure> intact_structure(const Scene& scene) {

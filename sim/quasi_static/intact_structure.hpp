@@ -44,12 +44,20 @@ class IntactStructure {
   /// Bodies with a node at one of the ends.
   [[nodiscard]] const std::vector<int>& held_bodies() const { return held_bodies_; }
 
-  /// Structure::reactions_to_jump, remembered for later runs as long as memory allows. May be
-  /// called by several threads.
-  [[nodiscard]] std::shared_ptr<const Eigen::MatrixX2d> reactions_to_jump(int joint) const;
+  // What these find is remembered for later runs while there is room. Both may be called by several
+  // threads.
+  /// Structure::jump.
+  [[nodiscard]] SharedJump jump(int joint) const;
+  /// Structure::reactions_to.
+  [[nodiscard]] Eigen::VectorXd reactions_to(const std::vector<SharedJump>& jumps,
+                                             const Eigen::VectorXd& y) const;
 
  private:
-  [[nodiscard]] std::size_t bytes_per_joint() const;
+  template <class Value>
+  using Memory = std::map<int, std::shared_ptr<const Value>>;
+  template <class Value, class Find>
+  std::shared_ptr<const Value> remembered_in(Memory<Value>& memory, int joint,
+                                             const Find& find) const;
 
   Assembly assembly_;
   Shift shift_;
@@ -59,7 +67,8 @@ class IntactStructure {
   Eigen::VectorXd lost_;  // forces of the uniform stress that a solve does not find [N/m]
   std::vector<int> held_bodies_;
   mutable std::mutex mutex_;
-  mutable std::map<int, std::shared_ptr<const Eigen::MatrixX2d>> reactions_;  // to jumps at each
+  mutable Memory<Jump> jumps_;                // at each joint
+  mutable Memory<Eigen::MatrixX2d> columns_;  // reactions to these
 };
 
 /// The one for a scene, made once and shared between runs and threads; the last few are kept.

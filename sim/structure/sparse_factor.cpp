@@ -12,6 +12,7 @@
 namespace havers::sim {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // CHOLMOD keeps its workspace in a `common`; one per thread makes a factor usable by all of them.
@@ -160,11 +161,13 @@ SparseFactor::SparseFactor(const Eigen::SparseMatrix<double>& lower, Index multi
 
   const cholmod_factor* L = factor_->L;
   place_.resize(order.size());
+  inverse_pivots_.resize(static_cast<Index>(order.size()));
   ok_ = L->minor == L->n;
   for (std::size_t j = 0; j < L->n; ++j) {
     const int row = static_cast<const int*>(L->Perm)[j];
     place_[static_cast<std::size_t>(row)] = static_cast<int>(j);
     const double pivot = static_cast<const double*>(L->x)[static_cast<const int*>(L->p)[j]];
+    inverse_pivots_(static_cast<Index>(j)) = 1.0 / pivot;
     ok_ = ok_ && (row < lower.rows() - multipliers ? pivot > 0.0 : pivot < 0.0);
   }
 }
@@ -176,6 +179,7 @@ SparseFactor::SparseFactor(SparseFactor&&) noexcept = default;
 SparseFactor& SparseFactor::operator=(SparseFactor&& other) noexcept {
   std::swap(factor_, other.factor_);
   place_ = std::move(other.place_);
+  inverse_pivots_ = std::move(other.inverse_pivots_);
   ok_ = other.ok_;
   return *this;
 }
@@ -191,21 +195,53 @@ VectorXd SparseFactor::solve(const VectorXd& b) const {
   return Eigen::Map<const VectorXd>(x, b.size());
 }
 
-Eigen::MatrixX2d SparseFactor::solve_sparse(std::vector<int> rows,
-                                            const Eigen::MatrixX2d& values) const {
+Eliminated SparseFactor::eliminate(std::vector<int> rows, const Eigen::MatrixX2d& values) const {
   assert(ok());
   for (int& row : rows) row = place_[static_cast<std::size_t>(row)];
   CholmodCommon& common = this_threads_common();
-  Eigen::MatrixX2d half = Eigen::MatrixX2d::Zero(static_cast<Index>(place_.size()), 2);
-  for (const Index c : {0, 1}) {
+  Eliminated half;
+  for (const Index c : {0, 1}) {  // reaching the same rows
     const cholmod_sparse* reached = common.solve_sparse(factor_->L, rows, values.col(c));
-    const auto* const reached_rows = static_cast<const int*>(reached->i);
-    for (int i = 0; i < static_cast<const int*>(reached->p)[1]; ++i)
-      half(reached_rows[i], c) = common.solution()[reached_rows[i]];
+    const auto* const first = static_cast<const int*>(reached->i);
+    half.rows.assign(first, first + static_cast<const int*>(reached->p)[1]);
+    std::sort(half.rows.begin(), half.rows.end());
+    half.values.conservativeResize(2, static_cast<Index>(half.rows.size()));
+    for (std::size_t i = 0; i < half.rows.size(); ++i)
+      half.values(c, static_cast<Index>(i)) = common.solution()[half.rows[i]];
   }
+  return half;
+}
+
+// Rows reached are paths through the tree of elimination: where two of them have met they go on as
+// one, and there is nothing to multiply before.
+Eigen::Matrix2d SparseFactor::product(const Eliminated& a, const Eliminated& b) const {
+  std::size_t common = 0, beyond = std::min(a.rows.size(), b.rows.size()) + 1;
+  while (beyond - common > 1) {
+    const std::size_t middle = (common + beyond) / 2;
+    (a.rows[a.rows.size() - middle] == b.rows[b.rows.size() - middle] ? common : beyond) = middle;
+  }
+  const auto n = static_cast<Index>(common);
+  const Index first_a = a.values.cols() - n, first_b = b.values.cols() - n;
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (Index i = 0; i < n; ++i) {
+    const int row = a.rows[static_cast<std::size_t>(first_a + i)];
+    sum += a.values.col(first_a + i) * inverse_pivots_(row) * b.values.col(first_b + i).transpose();
+  }
+  return sum;
+}
+
+MatrixXd SparseFactor::solve(const std::vector<const Eliminated*>& parts, const MatrixXd& y) const {
+  assert(ok());
+  MatrixXd half = MatrixXd::Zero(rows(), y.cols());
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (Index c = 0; c < y.cols(); ++c) {
+      const Eigen::Vector2d factors = y.block<2, 1>(2 * static_cast<Index>(k), c);
+      for (std::size_t i = 0; i < parts[k]->rows.size(); ++i)
+        half(parts[k]->rows[i], c) += parts[k]->values.col(static_cast<Index>(i)).dot(factors);
+    }
   cholmod_dense view = view_of(half);
-  const Eigen::Map<const Eigen::MatrixX2d> x(common.solve(CHOLMOD_DLt, factor_->L, &view),
-                                             half.rows(), 2);
+  const Eigen::Map<const MatrixXd> x(this_threads_common().solve(CHOLMOD_DLt, factor_->L, &view),
+                                     half.rows(), half.cols());
   return x(place_, Eigen::all);
 }
 

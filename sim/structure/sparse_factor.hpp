@@ -11,6 +11,13 @@ namespace havers::sim {
 /// An order of elimination that leaves little fill. [rows of a symmetric matrix]
 std::vector<int> order_of_little_fill(const Eigen::SparseMatrix<double>& lower);
 
+/// L⁻¹ P b of two columns with few entries: the few rows that it reaches, in the order of
+/// elimination.
+struct Eliminated {
+  std::vector<int> rows;
+  Eigen::Matrix2Xd values;  ///< One row of b a column.
+};
+
 /// L D Lᵀ = P A Pᵀ of A = (K Nᵀ; N 0), K positive definite, the rows of N independent. There is no
 /// pivoting: the order has to make sure that no pivot is small.
 class SparseFactor {
@@ -30,10 +37,13 @@ class SparseFactor {
   // All of these may be called by several threads at once.
   /// A⁻¹ b.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
-  /// The same for two columns of few entries, of which L⁻¹ reaches few rows.
   /// @param rows  those of b that are not zero, `values` has one row for each
-  [[nodiscard]] Eigen::MatrixX2d solve_sparse(std::vector<int> rows,
-                                              const Eigen::MatrixX2d& values) const;
+  [[nodiscard]] Eliminated eliminate(std::vector<int> rows, const Eigen::MatrixX2d& values) const;
+  /// aᵀ A⁻¹ b.
+  [[nodiscard]] Eigen::Matrix2d product(const Eliminated& a, const Eliminated& b) const;
+  /// A⁻¹ Σ b y, y having two rows for each b.
+  [[nodiscard]] Eigen::MatrixXd solve(const std::vector<const Eliminated*>& parts,
+                                      const Eigen::MatrixXd& y) const;
 
   [[nodiscard]] Eigen::Index rows() const { return static_cast<Eigen::Index>(place_.size()); }
   [[nodiscard]] long nonzeros() const;  ///< Of L.
@@ -41,7 +51,8 @@ class SparseFactor {
  private:
   struct Factor;
   std::unique_ptr<Factor> factor_;
-  std::vector<int> place_;  // of each row in P
+  std::vector<int> place_;          // of each row in P
+  Eigen::VectorXd inverse_pivots_;  // of D
   bool ok_ = false;
 };
 

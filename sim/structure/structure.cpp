@@ -193,15 +193,6 @@ VectorXd Structure::reactions_of(const VectorXd& port_forces) const {
   return r;
 }
 
-VectorXd Structure::reactions_to_jumps(const VectorXd& jumps) const {
-  VectorXd offsets = VectorXd::Zero(ports());
-  for (int unknown = 0; unknown < 2 * static_cast<int>(joints()); ++unknown)
-    if (holds(unknown)) offsets(ports_of_[static_cast<std::size_t>(unknown)][1]) = jumps(unknown);
-  const VectorXd forces = bodies_->port_forces(offsets, VectorXd::Zero(bodies_->compatibilities()));
-  const Correction change = correct(forces, bodies_->incompatibility(offsets), {});
-  return reactions_of(forces + change.forces).head(2 * joints());
-}
-
 StructureResponse Structure::solve(const StructureLoads& loads) const {
   PortLoads at_ports{VectorXd(ports()), VectorXd::Zero(ports()), loads.friction, loads.force_scale};
   std::vector<MatrixXd> forces;  // on the free degrees of freedom of each class

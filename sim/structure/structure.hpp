@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -41,6 +42,14 @@ struct StructureResponse {
   double residual = 0.0;          ///< Relative error of the port forces, as corrections shrink. [-]
 };
 
+/// Unit jumps at a joint, normal and tangential, solved for half way: all that it takes to know
+/// what joints do to each other.
+struct Jump {
+  int joint = 0;
+  Eliminated half;
+};
+using SharedJump = std::shared_ptr<const Jump>;
+
 /// Factor of the structure in which the joints hold as given (S5)-(S8),
 /// sim/README.md. Unknowns are the joints' own displacements; what an even ring of ports
 /// cannot do is imposed by multipliers, so that no digits are lost at large steps (M10).
@@ -58,11 +67,14 @@ class Structure {
 
   [[nodiscard]] StructureResponse solve(const StructureLoads& loads) const;
 
-  /// Reactions of all joints to unit jumps at one: a column for the normal, one for the tangential
-  /// jump (S8). [N/m²]
-  [[nodiscard]] Eigen::MatrixX2d reactions_to_jump(int joint) const;
-  /// Reactions of all joints to jumps at any of them [m], by one solve. [N/m]
-  [[nodiscard]] Eigen::VectorXd reactions_to_jumps(const Eigen::VectorXd& jumps) const;
+  /// Unit jumps at a joint that holds fully (S8).
+  [[nodiscard]] Jump jump(int joint) const;
+  /// Reactions of one such joint to unit jumps at another, a column for each. [N/m²]
+  [[nodiscard]] Eigen::Matrix2d reactions_between(const Jump& of, const Jump& to) const;
+  /// Reactions of all joints to jumps y [m] at some, normal and tangential of each; one answer a
+  /// column. [N/m]
+  [[nodiscard]] Eigen::MatrixXd reactions_to(const std::vector<SharedJump>& jumps,
+                                             const Eigen::MatrixXd& y) const;
 
  private:
   struct PortLoads;

@@ -5,16 +5,16 @@
 namespace havers::sim {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // The load of unit jumps: forces at the ports of body b, and what they ask of its ring.
-Eigen::MatrixX2d Structure::reactions_to_jump(int joint) const {
+Jump Structure::jump(int joint) const {
   const int body = bodies_->assembly().joints[static_cast<std::size_t>(joint)].body_b;
   const BodyOperator& op = *op_of_body_[static_cast<std::size_t>(body)];
   const Index first = bodies_->first_port(body);
-  const std::array<Index, 2> jumping{port_b(joint, 0), port_b(joint, 1)};
-  const Eigen::MatrixX2d forces =
-      stiffened(op)(Eigen::all, std::array{jumping[0] - first, jumping[1] - first});
+  const std::array<Index, 2> jumping{port_b(joint, 0) - first, port_b(joint, 1) - first};
+  const Eigen::MatrixX2d forces = stiffened(op)(Eigen::all, jumping);
 
   std::vector<int> rows;
   std::vector<Eigen::RowVector2d> values;
@@ -30,21 +30,46 @@ Eigen::MatrixX2d Structure::reactions_to_jump(int joint) const {
     }
   for (Index i = 0; i < op.compatibility.rows(); ++i) {
     rows.push_back(static_cast<int>(first_multiplier(static_cast<std::size_t>(body)) + i));
-    values.emplace_back(op.compatibility(i, jumping[0] - first),
-                        op.compatibility(i, jumping[1] - first));
+    values.emplace_back(op.compatibility(i, jumping[0]), op.compatibility(i, jumping[1]));
   }
   Eigen::MatrixX2d load(static_cast<Index>(rows.size()), 2);
   for (std::size_t i = 0; i < rows.size(); ++i) load.row(static_cast<Index>(i)) = -values[i];
-  const Eigen::MatrixX2d answer = factor_->solve_sparse(std::move(rows), load);
+  return {joint, factor_->eliminate(std::move(rows), load)};
+}
 
-  Eigen::MatrixX2d reactions(2 * joints(), 2);
-  for (const std::size_t c : {0U, 1U}) {
-    const VectorXd unknowns = answer.col(static_cast<Index>(c));
-    VectorXd displacements = unknowns_to_ports(unknowns);
-    displacements(jumping[c]) += 1.0;
-    reactions.col(static_cast<Index>(c)) =
-        reactions_of(bodies_->port_forces(displacements, unknowns.tail(bodies_->compatibilities())))
-            .head(2 * joints());
+Eigen::Matrix2d Structure::reactions_between(const Jump& of, const Jump& to) const {
+  Eigen::Matrix2d reactions = -factor_->product(of.half, to.half);
+  const auto body_b = [&](int joint) {
+    return bodies_->assembly().joints[static_cast<std::size_t>(joint)].body_b;
+  };
+  const int body = body_b(of.joint);
+  if (body != body_b(to.joint)) return reactions;
+  const BodyOperator& op = *op_of_body_[static_cast<std::size_t>(body)];
+  const Index first = bodies_->first_port(body);
+  for (const std::size_t i : {0U, 1U})
+    for (const std::size_t j : {0U, 1U}) {
+      const Index row = port_b(of.joint, i) - first, column = port_b(to.joint, j) - first;
+      reactions(static_cast<Index>(i), static_cast<Index>(j)) +=
+          op.impedance(row, column) +
+          stiffness_ * op.compatibility.col(row).dot(op.compatibility.col(column));
+    }
+  return reactions;
+}
+
+MatrixXd Structure::reactions_to(const std::vector<SharedJump>& jumps, const MatrixXd& y) const {
+  std::vector<const Eliminated*> halves;
+  halves.reserve(jumps.size());
+  for (const SharedJump& jump : jumps) halves.push_back(&jump->half);
+  const MatrixXd unknowns = factor_->solve(halves, y);
+  MatrixXd reactions(2 * joints(), y.cols());
+  for (Index c = 0; c < y.cols(); ++c) {
+    VectorXd displacements = unknowns_to_ports(unknowns.col(c));
+    for (std::size_t i = 0; i < jumps.size(); ++i)
+      for (const std::size_t k : {0U, 1U})
+        displacements(port_b(jumps[i]->joint, k)) += y(static_cast<Index>(2 * i + k), c);
+    const VectorXd multipliers = unknowns.col(c).tail(bodies_->compatibilities());
+    reactions.col(c) =
+        reactions_of(bodies_->port_forces(displacements, multipliers)).head(2 * joints());
   }
   return reactions;
 }

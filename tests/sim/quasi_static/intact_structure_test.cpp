@@ -24,8 +24,23 @@ TEST(IntactStructure, IsSharedByScenesThatDifferInStrengthAndModulusOnly) {
 
 TEST(IntactStructure, RemembersWhatItWasAsked) {
   const auto intact = intact_structure(test::small_scene(30.0));
-  EXPECT_EQ(intact->reactions_to_jump(3), intact->reactions_to_jump(3));
-  EXPECT_NE(intact->reactions_to_jump(3), intact->reactions_to_jump(4));
+  EXPECT_EQ(intact->jump(3), intact->jump(3));
+  EXPECT_NE(intact->jump(3), intact->jump(4));
+}
+
+// Those of few by columns of their own, of many by one solve.
+TEST(IntactStructure, AddsUpWhatJumpsDoHoweverMany) {
+  const auto intact = intact_structure(test::small_scene(17.0, 14, 10));
+  const auto joints = static_cast<int>(intact->structure().joints());
+  std::vector<SharedJump> jumps;
+  for (int joint = 0; joint < joints; ++joint) {
+    jumps.push_back(intact->jump(joint));
+    if (joint != 3 && joint + 1 < joints) continue;
+    const Eigen::VectorXd y = Eigen::VectorXd::Random(2 * (joint + 1));
+    const Eigen::VectorXd reactions = intact->reactions_to(jumps, y),
+                          solved = intact->structure().reactions_to(jumps, y);
+    EXPECT_LT((reactions - solved).norm(), 1e-11 * solved.norm()) << joint;
+  }
 }
 
 }  // namespace

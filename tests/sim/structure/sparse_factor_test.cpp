@@ -46,17 +46,25 @@ TEST(SparseFactor, SolvesForFewEntriesAsForMany) {
   const SparseFactor factor(chain(), 1, end_first());
   Eigen::MatrixX2d values(2, 2);
   values << 1.0, 0.5, -2.0, 3.0;
-  const Eigen::MatrixX2d x = factor.solve_sparse({7, links}, values);
-  for (const Eigen::Index c : {0, 1}) {
-    Eigen::VectorXd b = Eigen::VectorXd::Zero(links + 1);
-    b(7) = values(0, c);
-    b(links) = values(1, c);
-    EXPECT_LT((x.col(c) - factor.solve(b)).norm(), 1e-13 * x.col(c).norm());
-  }
-  // What the next load finds must not be what this one left behind.
+  const Eliminated half = factor.eliminate({7, links}, values);
+  EXPECT_TRUE(std::is_sorted(half.rows.begin(), half.rows.end()));
+  Eigen::MatrixX2d b = Eigen::MatrixX2d::Zero(links + 1, 2);
+  b.row(7) = values.row(0);
+  b.row(links) = values.row(1);
+  Eigen::MatrixX2d x(links + 1, 2);
+  for (const Eigen::Index c : {0, 1}) x.col(c) = factor.solve(b.col(c));
+  EXPECT_LT((factor.solve({&half}, Eigen::Matrix2d::Identity()) - x).norm(), 1e-13 * x.norm());
+
+  // Of two that meet late, and of what must not find what the last one left behind.
+  const Eliminated other = factor.eliminate({3}, Eigen::RowVector2d(1.0, -1.0));
   const Eigen::VectorXd unit = factor.solve(Eigen::VectorXd::Unit(links + 1, 3));
-  EXPECT_LT((factor.solve_sparse({3}, Eigen::MatrixX2d::Ones(1, 2)).col(0) - unit).norm(),
-            1e-13 * unit.norm());
+  const Eigen::RowVector2d product = unit.transpose() * b;
+  EXPECT_LT((factor.product(other, half).row(0) - product).norm(), 1e-13 * product.norm());
+  EXPECT_LT((factor.product(half, other).col(1) + product.transpose()).norm(),
+            1e-13 * product.norm());
+  const Eigen::Vector4d y(1.0, -2.0, 0.5, 0.25);
+  EXPECT_LT((factor.solve({&half, &other}, y) - x * y.head(2) - 0.25 * unit).norm(),
+            1e-13 * x.norm());
 }
 
 TEST(SparseFactor, SaysWhenItHasNoPivots) {

@@ -174,8 +174,17 @@ TEST_P(TinyStructure, AnswersJumpsAsTheFullEquationsDo) {
   std::vector<Held> held(assembly.joints.size(), Held::fully);
   held.front() = Held::not_at_all;
   const Structure structure(bodies, held);
+  const auto jump_at = [&](int joint) {
+    return std::make_shared<const Jump>(structure.jump(joint));
+  };
+  const SharedJump other = jump_at(3);
   for (const int joint : {1, 2, static_cast<int>(held.size()) - 1}) {
-    const Eigen::MatrixX2d reactions = structure.reactions_to_jump(joint);
+    const SharedJump jump = jump_at(joint);
+    const Eigen::MatrixXd reactions = structure.reactions_to({jump}, Eigen::Matrix2d::Identity());
+    for (const SharedJump& to : {jump, other}) {
+      const Eigen::Matrix2d at_once = structure.reactions_between(*to, *jump);
+      EXPECT_LT((at_once - reactions.middleRows<2>(2 * to->joint)).norm(), 1e-9 * at_once.norm());
+    }
     for (const Index component : {0, 1}) {
       StructureLoads loads = no_loads(bodies);
       loads.jumps(2 * joint + component) = 1.0;
