@@ -88,6 +88,10 @@ void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {
     const std::size_t joint = breaking[static_cast<std::size_t>(i - old)];
     const auto row = static_cast<Index>(2 * joint);
     loose_.add(static_cast<int>(joint));
+    if (loose_.size() <= intact_->columns_of_a_solve())
+      columns_.push_back(intact_->column(loose_.jumps().back()));
+    else
+      columns_.clear();
     contact_.laws.push_back(law);
     extra_.segment<1>(i) = cohesion_to_stick(reactions_.segment<2>(row), {law});
   }
@@ -151,7 +155,7 @@ bool BreakingRun::settle() {
   system_.set(result.states);
   y_ = result.y;
   const VectorXd moved = y_ - y_at_reference_;
-  reactions_ = reference_.reactions + intact_->reactions_to(loose_.jumps(), moved);
+  reactions_ = reference_.reactions + reactions_to(moved);
   // By reciprocity the force at the end changes by r⁰·y/W, r⁰ being those of the intact structure.
   force_ = reference_.force +
            of_loose(intact_->answer().reactions).dot(moved) / intact_->assembly().width;
@@ -164,6 +168,15 @@ bool BreakingRun::settle() {
   joint_work_ = of_loose(reactions_).dot(y_);
   if (std::abs(force_) <= nothing_borne * intact_->answer().force) force_ = joint_work_ = 0.0;
   return result.converged;
+}
+
+// What gaps of the loose joints change in the reactions of all.
+VectorXd BreakingRun::reactions_to(const VectorXd& y) const {
+  if (columns_.size() < loose_.size()) return intact_->structure().reactions_to(loose_.jumps(), y);
+  VectorXd reactions = VectorXd::Zero(reactions_.size());
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    reactions.noalias() += *columns_[i] * y.segment<2>(2 * static_cast<Index>(i));
+  return reactions;
 }
 
 VectorXd BreakingRun::of_loose(const VectorXd& of_all) const {

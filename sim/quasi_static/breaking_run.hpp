@@ -42,6 +42,7 @@ class BreakingRun {
   void loosen(const std::vector<std::size_t>& breaking);
   [[nodiscard]] std::vector<char> apart() const;
   [[nodiscard]] Eigen::VectorXd gaps() const;
+  [[nodiscard]] Eigen::VectorXd reactions_to(const Eigen::VectorXd& y) const;
   [[nodiscard]] Eigen::VectorXd of_loose(const Eigen::VectorXd& of_all) const;
   [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& reactions) const;
   void refine();
@@ -51,7 +52,8 @@ class BreakingRun {
   bool careful_;
   std::shared_ptr<const IntactStructure> intact_;
   LooseJoints loose_;
-  LocalContact contact_;  // of the loose joints
+  std::vector<IntactStructure::Column> columns_;  // of the loose joints; none where they are many
+  LocalContact contact_;                          // of the loose joints
   StateSystem system_{contact_};
   Eigen::VectorXd extra_;  // cohesion that lets those just broken bear what they bore [N/m]
   Eigen::VectorXd y_;      // gaps of the loose joints [m per unit strain]

@@ -109,21 +109,15 @@ SharedJump IntactStructure::jump(int joint) const {
   return remembered_in(jumps_, joint, [&] { return structure_.jump(joint); });
 }
 
-Eigen::VectorXd IntactStructure::reactions_to(const std::vector<SharedJump>& jumps,
-                                              const Eigen::VectorXd& y) const {
-  const Eigen::Index joints = structure_.joints();
-  const Eigen::Index spent =
-      nonzeros_of_a_column * joints * static_cast<Eigen::Index>(jumps.size());
-  const bool room = remembered + sizeof(double) * 4 * assembly_.joints.size() <= most_remembered;
-  if (!room || spent > structure_.factor().nonzeros()) return structure_.reactions_to(jumps, y);
-  Eigen::VectorXd reactions = Eigen::VectorXd::Zero(2 * joints);
-  for (std::size_t i = 0; i < jumps.size(); ++i) {
-    const auto column = remembered_in(columns_, jumps[i]->joint, [&]() -> Eigen::MatrixX2d {
-      return structure_.reactions_to({jumps[i]}, Eigen::Matrix2d::Identity());
-    });
-    reactions.noalias() += *column * y.segment<2>(2 * static_cast<Eigen::Index>(i));
-  }
-  return reactions;
+IntactStructure::Column IntactStructure::column(const SharedJump& jump) const {
+  return remembered_in(columns_, jump->joint, [&]() -> Eigen::MatrixX2d {
+    return structure_.reactions_to({jump}, Eigen::Matrix2d::Identity());
+  });
+}
+
+std::size_t IntactStructure::columns_of_a_solve() const {
+  const Eigen::Index joints = std::max<Eigen::Index>(1, structure_.joints());
+  return static_cast<std::size_t>(structure_.factor().nonzeros() / (nonzeros_of_a_column * joints));
 }
 
 // What was found for a joint before, or is now; kept while there is room.

@@ -48,9 +48,12 @@ class IntactStructure {
   // threads.
   /// Structure::jump.
   [[nodiscard]] SharedJump jump(int joint) const;
-  /// Structure::reactions_to.
-  [[nodiscard]] Eigen::VectorXd reactions_to(const std::vector<SharedJump>& jumps,
-                                             const Eigen::VectorXd& y) const;
+  /// Reactions of all joints to unit jumps at one, normal and tangential. [N/m²]
+  using Column = std::shared_ptr<const Eigen::MatrixX2d>;
+  [[nodiscard]] Column column(const SharedJump& jump) const;
+
+  /// So many columns are added up in the time of Structure::reactions_to.
+  [[nodiscard]] std::size_t columns_of_a_solve() const;
 
  private:
   template <class Value>
