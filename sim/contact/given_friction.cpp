@@ -25,12 +25,12 @@ constexpr int most_rounds = 200;
 // its side on the way to their minimum stops at zero [LH74].
 class ConvexContact {
  public:
-  ConvexContact(const LocalContact& problem, const VectorXd& start)
+  ConvexContact(const LocalContact& problem, VectorXd start)
       : problem_(problem),
         S_(problem.S),
         b_(problem.r0 - problem.S * problem.u0),
         bound_(VectorXd::Zero(static_cast<Index>(problem.laws.size()))),
-        u_(start),
+        u_(std::move(start)),
         side_(static_cast<std::size_t>(b_.size()), 0) {
     const VectorXd c = cohesions(problem);
     for (Index i = 0; i < c.size(); ++i) b_(2 * i) += c(i);
