@@ -10,7 +10,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-// A new factor costs about as much as the columns of this many joints.
+// Fewer that have opened are not worth a new factor.
 constexpr int worth_detaching = 24;
 constexpr int worth_searching = 24;
 // Part of the stiffness that is less than what inertia adds, in all but the longest steps.
