@@ -212,8 +212,7 @@ Eliminated SparseFactor::eliminate(std::vector<int> rows, const Eigen::MatrixX2d
   return half;
 }
 
-// Rows reached are paths through the tree of elimination: where two of them have met they go on as
-// one, and there is nothing to multiply before.
+// Two paths that have met go on as one, and before that there is nothing to multiply.
 Eigen::Matrix2d SparseFactor::product(const Eliminated& a, const Eliminated& b) const {
   std::size_t common = 0, beyond = std::min(a.rows.size(), b.rows.size()) + 1;
   while (beyond - common > 1) {

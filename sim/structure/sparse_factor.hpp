@@ -11,8 +11,7 @@ namespace havers::sim {
 /// An order of elimination that leaves little fill. [rows of a symmetric matrix]
 std::vector<int> order_of_little_fill(const Eigen::SparseMatrix<double>& lower);
 
-/// L⁻¹ P b of two columns with few entries: the few rows that it reaches, in the order of
-/// elimination.
+/// L⁻¹ P b of two columns with few entries: the rows that it reaches, in the order of elimination.
 struct Eliminated {
   std::vector<int> rows;
   Eigen::Matrix2Xd values;  ///< One row of b a column.
@@ -37,7 +36,10 @@ class SparseFactor {
   // All of these may be called by several threads at once.
   /// A⁻¹ b.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
-  /// @param rows  those of b that are not zero, `values` has one row for each
+  /// Half a solve.
+  /// @param rows  those of b that are not zero, `values` has one row for each. All of them must be
+  /// coupled in A, as those of one body are: then L⁻¹ reaches one path through the tree of
+  /// elimination, from the first of them to its root, and `product` relies on that.
   [[nodiscard]] Eliminated eliminate(std::vector<int> rows, const Eigen::MatrixX2d& values) const;
   /// aᵀ A⁻¹ b.
   [[nodiscard]] Eigen::Matrix2d product(const Eliminated& a, const Eliminated& b) const;
