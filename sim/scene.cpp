@@ -28,6 +28,14 @@ double head_tail_from_resultant(const AssemblyOptions& assembly, double resultan
   return resultant / (1.0 + (1.0 + 1.0 / assembly.layers) / ratio);
 }
 
+double young_of_layer(const Material& material, int layer) {
+  return material.young * (layer % 2 == 0 ? 1.0 : material.layer_contrast);
+}
+
+double wave_speed(const Material& material) {
+  return std::sqrt(material.young / material.density);
+}
+
 bool reinforced_boundary(const Scene& scene) {
   return scene.joints.reinforced_boundary.value_or(scene.assembly.orientation == 0.0);
 }
@@ -120,6 +128,8 @@ void check_material(const Material& material, Checker& checker) {
                     material.poisson, "above -1 and below 0.5 in plane strain");
   checker.positive("material.density_kg_m3", material.density);
   checker.not_negative("material.viscosity_s", material.viscosity);
+  checker.require(material.layer_contrast > 0.0 && material.layer_contrast <= 1.0,
+                  "material.layer_contrast", material.layer_contrast, "above 0 and at most 1");
 }
 
 void check_joints(const JointOptions& joints, Checker& checker) {

@@ -31,7 +31,15 @@ struct Material {
   double density = 2000.0;  ///< ρ. [kg/m³]
   Plane plane = Plane::stress;
   double viscosity = 0.0;  ///< τ of the damping matrix τK. [s]
+  /// Modulus of every second layer relative to E, at most 1: lamellae of bone alternate. [-]
+  double layer_contrast = 1.0;
 };
+
+/// Young's modulus of a layer of fibres, counted from the lower left corner. [Pa]
+double young_of_layer(const Material& material, int layer);
+
+/// c = √(E/ρ). [m/s]
+double wave_speed(const Material& material);
 
 /// Distribution of the threshold factor w, of mean 1 and standard deviation d/√12 (M8).
 enum class Distribution { uniform, weibull, lognormal };

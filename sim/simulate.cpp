@@ -14,8 +14,8 @@
 namespace havers::sim {
 
 RegimeChoice choose_regime(const Scene& scene) {
-  const double wave = std::sqrt(scene.material.young / scene.material.density);
-  const double transit = scene.assembly.width() / wave;
+  const double slowest = std::sqrt(scene.material.layer_contrast) * wave_speed(scene.material);
+  const double transit = scene.assembly.width() / slowest;
   RegimeChoice choice;
   choice.inertia_number =
       scene.loading.strain_rate * transit * scene.material.young / head_tail_strength(scene);

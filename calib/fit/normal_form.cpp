@@ -41,8 +41,9 @@ std::string text(const sim::AssemblyOptions& options) {
 }
 
 std::string text(const sim::Material& material) {
-  const auto& [young, poisson, density, plane, viscosity] = material;
-  return fmt::format("{} {} {} {} {}", young, poisson, density, static_cast<int>(plane), viscosity);
+  const auto& [young, poisson, density, plane, viscosity, contrast] = material;
+  return fmt::format("{} {} {} {} {} {}", young, poisson, density, static_cast<int>(plane),
+                     viscosity, contrast);
 }
 
 std::string text(const sim::JointOptions& joints, bool reinforced) {

@@ -27,6 +27,7 @@ void keys(Table& table, sim::Material& material) {
   table.key("density_kg_m3", material.density);
   table.key("plane", material.plane);
   table.key("viscosity_s", material.viscosity);
+  table.key("layer_contrast", material.layer_contrast);
 }
 
 template <class Table>

@@ -15,6 +15,7 @@ enum class JointKind { head_tail, flank };
 struct Body {
   int first_node = 0, nodes = 0;
   int first_triangle = 0, triangles = 0;
+  int layer = 0;  ///< Of the running bond; 0 lies on the lower left corner.
 };
 
 /// An edge between two bodies, bonded at its midpoint. Side a lies where −n points, side b where n

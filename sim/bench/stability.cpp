@@ -13,16 +13,10 @@ namespace {
 constexpr double largest_error = 1e-8;
 constexpr double largest_penetration = 1e-9;
 
-// Modulus of the bonded specimen along the load.
-double expected_modulus(const Material& material) {
-  const double nu = material.poisson;
-  return material.young / (material.plane == Plane::strain ? 1.0 - nu * nu : 1.0);
-}
-
 // Largest deviation of the loading curve from σ = E(ε + τε̇), relative to the largest stress until
 // the first break.
 double stress_error(const Scene& scene, const Simulation& run) {
-  const double modulus = expected_modulus(scene.material);
+  const double modulus = bonded_modulus(scene);
   const double viscous =
       run.regime == Regime::dynamic ? scene.material.viscosity * scene.loading.strain_rate : 0.0;
   double error = 0.0, largest = 0.0;

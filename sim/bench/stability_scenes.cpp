@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "sim/assembly/assembly.hpp"
 #include "sim/bench/stability.hpp"
 #include "sim/bench/watched_run.hpp"
 
@@ -42,8 +43,7 @@ Scene quasi_static(Scene scene) {
 
 // Steps of h c/L = `size`, the first break in the eleventh.
 Scene dynamic(double size, Scene scene) {
-  const double wave = std::sqrt(scene.material.young / scene.material.density);
-  const double h = size * scene.assembly.fibre_length / wave;
+  const double h = size * scene.assembly.fibre_length / wave_speed(scene.material);
   const double first = first_break_by_uniform_stress(scene);
   scene.solver.regime = Regime::dynamic;
   scene.solver.step = h;
@@ -73,6 +73,15 @@ void add_steps_and_materials(Scenes& scenes) {
     scene.material.poisson = poisson;
     add_both(scenes, fmt::format("plane strain, Poisson's ratio {:g}", poisson), scene);
   }
+  for (const double contrast : {1e-3, 1e-6}) {
+    Scene scene = wall();
+    scene.material.layer_contrast = contrast;
+    add_both(scenes, fmt::format("every second layer {:g} as stiff", contrast), scene);
+  }
+  Scene in_series = wall(4, 3, 90.0);
+  in_series.material.layer_contrast = 1e-3;
+  in_series.material.poisson = 0.0;
+  scenes.push_back({"layers in series, every second 0.001 as stiff", quasi_static(in_series)});
   Scene auxetic = wall();
   auxetic.material.poisson = -0.9;
   add_both(scenes, "Poisson's ratio -0.9", auxetic);
@@ -167,6 +176,10 @@ void add_refused(Scenes& scenes) {
          [](Scene& s) { s.loading.strain_rate = std::numeric_limits<double>::infinity(); });
   refuse("a step of no time", [](Scene& s) { s.solver.step = 0.0; });
   refuse("thresholds of another wall", [](Scene& s) { s.joints.thresholds = {{1.0, 1.0}}; });
+  refuse("joints that are there twice", [](Scene& s) {
+    const std::size_t joints = build_assembly(s.assembly, s.loading.lateral).joints.size();
+    s.joints.thresholds.assign(2 * joints, {1e3, 1e3});
+  });
   refuse("six layers of one fibre", [](Scene& s) {
     s.assembly.layers = 6;
     s.assembly.fibres = 1;

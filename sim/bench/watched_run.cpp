@@ -80,6 +80,10 @@ class Watcher {
   WatchedRun* run_;
 };
 
+double plane_factor(const Material& material) {
+  return material.plane == Plane::strain ? 1.0 / (1.0 - material.poisson * material.poisson) : 1.0;
+}
+
 }  // namespace
 
 WatchedRun watch(const Scene& scene, const WatchOptions& options, const KeepGoing& keep_going) {
@@ -99,12 +103,26 @@ WatchedRun watch(const Scene& scene, const WatchOptions& options, const KeepGoin
   return run;
 }
 
-Eigen::VectorXd uniform_stress_forces(const Scene& scene, double strain) {
-  const double nu = scene.material.poisson;
-  const double modulus =
-      scene.material.young / (scene.material.plane == Plane::strain ? 1.0 - nu * nu : 1.0);
-  return uniform_stress_forces(build_assembly(scene.assembly, scene.loading.lateral),
-                               modulus * strain);
+double bonded_modulus(const Scene& scene) {
+  const auto& [assembly, material, joints, loading, solver] = scene;
+  const bool along = assembly.orientation == 0.0;
+  const double second = along ? assembly.layers / 2 / static_cast<double>(assembly.layers) : 0.5;
+  const double first = 1.0 - second, contrast = material.layer_contrast;
+  const double mean = along ? first + second * contrast : 1.0 / (first + second / contrast);
+  return mean * material.young * plane_factor(material);
+}
+
+VectorXd uniform_stress_forces(const Scene& scene, double strain) {
+  const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
+  VectorXd forces = uniform_stress_forces(assembly, strain * bonded_modulus(scene));
+  if (scene.assembly.orientation != 0.0) return forces;
+  for (std::size_t j = 0; j < assembly.joints.size(); ++j) {  // flanks bear nothing
+    const int layer = assembly.bodies[static_cast<std::size_t>(assembly.joints[j].body_a)].layer;
+    forces.segment<2>(static_cast<Index>(2 * j)) *= young_of_layer(scene.material, layer) *
+                                                    plane_factor(scene.material) /
+                                                    bonded_modulus(scene);
+  }
+  return forces;
 }
 
 double first_break_by_uniform_stress(const Scene& scene) {

@@ -30,11 +30,16 @@ struct WatchOptions {
 
 WatchedRun watch(const Scene& scene, const WatchOptions& options, const KeepGoing& keep_going);
 
-/// Forces of all joints in the bonded specimen, whose stress is uniform (M1). [N/m]
+// Closed forms of the bonded specimen. Where layers are not alike they hold if these lie along the
+// load, or across it without lateral contraction.
+
+/// Modulus along the load: layers share the strain at 0°, else the stress. [Pa]
+double bonded_modulus(const Scene& scene);
+
+/// Forces of all joints: the stress of each layer is uniform (M1). [N/m]
 Eigen::VectorXd uniform_stress_forces(const Scene& scene, double strain);
 
-/// Strain at which a joint first meets its cone under the uniform stress of the bonded specimen
-/// (M1), in closed form; infinite when none ever does. [-]
+/// Strain at which a joint first meets its cone under these; infinite when none ever does. [-]
 double first_break_by_uniform_stress(const Scene& scene);
 
 }  // namespace havers::sim

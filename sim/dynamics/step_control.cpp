@@ -35,7 +35,7 @@ std::string ground_of(const Simulation& run) {
 }  // namespace
 
 double first_step(const Scene& scene) {
-  const double wave = std::sqrt(scene.material.young / scene.material.density);
+  const double wave = wave_speed(scene.material);
   const double transit = may_leap(scene) ? 0.25 * scene.assembly.fibre_height / wave
                                          : 0.5 * scene.assembly.fibre_length / wave;
   const double strain = 0.02 * head_tail_strength(scene) / scene.material.young;

@@ -34,8 +34,8 @@ class IntactStructure {
   [[nodiscard]] const Assembly& assembly() const { return assembly_; }
   [[nodiscard]] const Bodies& bodies() const { return bodies_; }
   [[nodiscard]] const Structure& structure() const { return structure_; }
-  /// No gaps: the uniform stress (M1). Its residual is that of a solve, or how far a solve misses
-  /// it where self-stress is not determined (M10).
+  /// No gaps: where layers are alike the uniform stress (M1). Its residual is that of a solve, or
+  /// how far a solve misses it where self-stress is not determined (M10).
   [[nodiscard]] const UnitAnswer& answer() const { return answer_; }
   /// With given gaps at the joints. [m]
   [[nodiscard]] UnitAnswer stretch(const Eigen::VectorXd& gaps) const;

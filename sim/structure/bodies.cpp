@@ -111,6 +111,7 @@ Bodies::Bodies(const Assembly& assembly, const Material& material, const Shift& 
     const auto first = held_.begin() + 2 * body.first_node;
     const std::vector<char> held(first, first + 2 * body.nodes);
     Signature key = signature(assembly, body, B, held);
+    if (material.layer_contrast != 1.0) key.push_back(body.layer & 1);
     if (!share) key.push_back(static_cast<std::int64_t>(b));
     const auto [place, is_new] = known.try_emplace(std::move(key), classes_.size());
     if (is_new)

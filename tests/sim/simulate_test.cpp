@@ -39,6 +39,12 @@ TEST(ChooseRegime, FollowsTheInertiaNumber) {
   EXPECT_THAT(fast.ground, HasSubstr("inertia number 0.00021 is not below 0.0002"));
 }
 
+TEST(ChooseRegime, GoesByTheWavesOfTheSoftestLayers) {
+  Scene scene = unit_scene(0.0019);
+  scene.material.layer_contrast = 0.25;
+  EXPECT_NEAR(choose_regime(scene).inertia_number, 3.8e-4, 1e-12);
+}
+
 TEST(ChooseRegime, GoesByTheThresholdsThatAreGiven) {
   Scene scene = unit_scene(0.0019);
   const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);

@@ -55,6 +55,8 @@ INSTANTIATE_TEST_SUITE_P(
                    "material.density_kg_m3: is 0, must be above 0"},
         Impossible{"[material]", "viscosity_s = -1e-6",
                    "material.viscosity_s: is -1e-06, must be 0 or more"},
+        Impossible{"[material]", "layer_contrast = 1.5",
+                   "material.layer_contrast: is 1.5, must be above 0 and at most 1"},
         Impossible{"[joints]", "head_tail_MPa = 0", "joints.head_tail_MPa: is 0, must be above 0"},
         Impossible{"[joints]", "flank_MPa = -10", "joints.flank_MPa: is -10, must be above 0"},
         Impossible{"[joints]", "head_tail_shear_MPa = -1",

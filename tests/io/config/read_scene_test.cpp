@@ -38,6 +38,7 @@ poisson = 0.3
 density_kg_m3 = 1900.0
 plane = "strain"
 viscosity_s = 1e-6
+layer_contrast = 0.4
 [joints]
 head_tail_MPa = 40.0
 flank_MPa = 8.0
@@ -73,6 +74,7 @@ snapshots = 5
   EXPECT_EQ(scene.material.young, 15.5e9);
   EXPECT_EQ(scene.material.poisson, 0.3);
   EXPECT_EQ(scene.material.density, 1900.0);
+  EXPECT_EQ(scene.material.layer_contrast, 0.4);
   EXPECT_EQ(scene.material.plane, sim::Plane::strain);
   EXPECT_EQ(scene.material.viscosity, 1e-6);
   EXPECT_EQ(scene.joints.head_tail, 40e6);

@@ -96,6 +96,13 @@ TEST_P(AssemblyAt, JoinsAllThatTouches) {
               1e-10);
 }
 
+// How two joints at one place share their force would not be determined.
+TEST_P(AssemblyAt, HasNoJointTwice) {
+  for (std::size_t i = 0; i < assembly.joints.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GT((assembly.joints[i].position - assembly.joints[j].position).norm(), small);
+}
+
 TEST_P(AssemblyAt, HasTheSameEdgeOnBothSidesOfAJoint) {
   for (const Joint& joint : assembly.joints) {
     const Vector2d a0 = node(assembly, joint.edge_a.front()),

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <numeric>
+#include <random>
 
 #include "sim/contact/active_set.hpp"
 #include "sim/contact/gauss_seidel.hpp"
@@ -141,6 +143,31 @@ TEST_P(EveryJointSolver, AgreesWithTheActiveSet) {
     EXPECT_LT((found.displacements - truth.displacements).norm(),
               1e-7 * truth.displacements.norm());
     EXPECT_EQ(found.states, truth.states);
+  }
+}
+
+// Nor does it matter how joints are numbered, not even where all break together.
+TEST_P(EveryJointSolver, DoesNotKnowTheOrderOfJoints) {
+  std::vector<std::size_t> order(assembly.joints.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::shuffle(order.begin(), order.end(), std::mt19937(1));
+  Assembly shuffled = assembly;
+  for (std::size_t j = 0; j < order.size(); ++j) shuffled.joints[j] = assembly.joints[order[j]];
+  const Bodies others(shuffled, scene.material, {1.0 / (h * h), 1.0});
+  for (const double scatter : {0.0, 1.0}) {
+    scene.joints.scatter = scatter;
+    const JointStep step = stretch(0.01);
+    JointStep other = step;
+    for (std::size_t j = 0; j < order.size(); ++j) other.laws[j] = step.laws[order[j]];
+    const JointStepResult one = solver->solve(step),
+                          two = std::get<0>(GetParam()).make(others)->solve(other);
+    EXPECT_TRUE(two.converged);
+    EXPECT_LT(count(two, JointState::stick), static_cast<int>(order.size()));
+    for (std::size_t j = 0; j < order.size(); ++j)
+      EXPECT_LT((two.reactions.segment<2>(static_cast<Index>(2 * j)) -
+                 one.reactions.segment<2>(static_cast<Index>(2 * order[j])))
+                    .norm(),
+                1e-7 * one.reactions.norm());
   }
 }
 

@@ -109,22 +109,27 @@ struct Tiny {
   double degrees;
   Lateral lateral;
   double size;  // h c/L
+  double layer_contrast = 1.0;
 };
 
 class TinyStructure : public testing::TestWithParam<Tiny> {
  protected:
-  Scene scene = test::small_scene(GetParam().degrees, 3, 2);
+  static Scene scene_of(const Tiny& tiny) {
+    Scene scene = test::small_scene(tiny.degrees, 3, 2);
+    scene.material.layer_contrast = tiny.layer_contrast;
+    return scene;
+  }
+  Scene scene = scene_of(GetParam());
   Assembly assembly = build_assembly(scene.assembly, GetParam().lateral);
   Shift shift = shift_of(GetParam().size, scene.material);
   Bodies bodies{assembly, scene.material, shift};
   test::DenseStructure dense{assembly, scene.material, shift};
 };
-INSTANTIATE_TEST_SUITE_P(, TinyStructure,
-                         testing::Values(Tiny{0.0, Lateral::periodic, 0.3},
-                                         Tiny{0.0, Lateral::free, 5.0},
-                                         Tiny{45.0, Lateral::periodic, 1.0},
-                                         Tiny{-25.0, Lateral::free, 20.0},
-                                         Tiny{90.0, Lateral::periodic, 20.0}));
+INSTANTIATE_TEST_SUITE_P(
+    , TinyStructure,
+    testing::Values(Tiny{0.0, Lateral::periodic, 0.3}, Tiny{0.0, Lateral::free, 5.0},
+                    Tiny{45.0, Lateral::periodic, 1.0}, Tiny{30.0, Lateral::periodic, 1.0, 0.05},
+                    Tiny{-25.0, Lateral::free, 20.0}, Tiny{90.0, Lateral::periodic, 20.0}));
 
 TEST_P(TinyStructure, AnswersRandomLoadsAsTheFullEquationsDo) {
   const Structure structure(bodies);
