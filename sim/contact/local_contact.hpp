@@ -21,7 +21,7 @@ struct LocalContact {
   std::vector<JointLaw> laws;  ///< n.
   std::vector<char>
       apart{};  ///< 1 for a joint that stays open whatever its gap; n, or empty for none.
-  /// A piece that hangs on nothing leaves equations singular: this part of the largest stiffness
+  /// A piece that hangs on nothing leaves equations singular: this part of its joints' stiffness
   /// holds it. A long strip beside a crack bends as softly as 1e-8 of that, so it has to be less.
   /// In long steps inertia holds pieces by 1e-11, and has to be what decides. [-]
   double trace = 1e-11;
@@ -37,6 +37,11 @@ struct LocalContactResult {
   std::vector<JointState> states;  ///< n.
   int iterations = 0;              ///< Sets tried, and solves and sweeps in between.
 };
+
+/// The law's natural map (M11) over all joints, relative to the free reactions, and below what it
+/// counts as met. [-]
+double law_residual_of(const LocalContact& problem, const Eigen::VectorXd& y);
+constexpr double law_is_met = 1e-10;
 
 /// Which state a joint with that reaction and gap belongs in. `scale` is a force: less than 1e-12
 /// of it is rounding.

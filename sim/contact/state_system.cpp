@@ -48,6 +48,10 @@ double StateSystem::scale() const {
   return problem_->S.diagonal().maxCoeff();
 }
 
+double StateSystem::hold(Index row) const {
+  return problem_->trace * problem_->S.diagonal().segment<2>(row - row % 2).maxCoeff();
+}
+
 double StateSystem::coefficient(const Equation& equation, Index unknown) const {
   double value = problem_->S(equation.row, unknown);
   if (equation.slope != 0.0) value += equation.slope * problem_->S(equation.row - 1, unknown);
@@ -69,7 +73,6 @@ std::vector<StateSystem::Equation> StateSystem::equations_of_states() const {
 void StateSystem::factorise() {
   factorised_ = equations_;
   const auto n = static_cast<Index>(factorised_.size());
-  const double hold = n > 0 ? problem_->trace * scale() : 0.0;
   MatrixXd matrix(n, n);
   std::fill(place_.begin(), place_.end(), -1);
   for (Index k = 0; k < n; ++k) {
@@ -77,7 +80,7 @@ void StateSystem::factorise() {
     place_[static_cast<std::size_t>(equation.row)] = k;
     for (Index j = 0; j < n; ++j)
       matrix(k, j) = coefficient(equation, factorised_[static_cast<std::size_t>(j)].row);
-    matrix(k, k) += hold;
+    matrix(k, k) += hold(equation.row);
   }
   factor_.compute(matrix);
   columns_.clear();
@@ -135,11 +138,10 @@ bool StateSystem::border_factor() {
     for (Index j = 0; j < k; ++j)
       if (borders_[static_cast<std::size_t>(j)].has_unknown)
         corner(i, j) = coefficient(equation, borders_[static_cast<std::size_t>(j)].row);
-    const double hold = problem_->trace * scale();
     if (border.has_unknown)
-      corner(i, i) += hold;
+      corner(i, i) += hold(border.row);
     else
-      border_rows_(i, place_[static_cast<std::size_t>(border.row)]) += hold;
+      border_rows_(i, place_[static_cast<std::size_t>(border.row)]) += hold(border.row);
   }
   if (k > 0) complement_.compute(corner - border_rows_ * border_columns_);
   return true;
@@ -193,13 +195,13 @@ StateSolution StateSystem::solve_from(StateSolution known, const MatrixXd& r0, c
   equations_ = equations_of_states();
   if (!border_factor()) factorise();
   const double load = missing(r0, cohesion).norm();
-  correct(known, held, cohesion, load, accuracy);
-  if (borders_.empty()) return known;
-  const double lacks = missing(known.r, cohesion).norm();
-  if (lacks <= tolerated * known.r.norm() + rounding_of_gaps * scale() * known.y.norm())
-    return known;
+  StateSolution found = known;
+  correct(found, held, cohesion, load, accuracy);
+  if (borders_.empty()) return found;
+  const double lacks = missing(found.r, cohesion).norm();
+  if (lacks <= tolerated * found.r.norm() + rounding_of_gaps * scale() * found.y.norm())
+    return found;
   factorise();
-  known = {MatrixXd::Zero(r0.rows(), r0.cols()), r0};
   correct(known, held, cohesion, load, accuracy);
   return known;
 }

@@ -46,7 +46,7 @@ class BreakingRun {
   [[nodiscard]] Eigen::VectorXd of_loose(const Eigen::VectorXd& of_all) const;
   [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& reactions) const;
   void refine();
-  [[nodiscard]] double law_residual_of(const Eigen::VectorXd& reactions) const;
+  [[nodiscard]] double law_missed_by(const Eigen::VectorXd& reactions) const;
 
   const Scene& scene_;
   bool careful_;
@@ -63,6 +63,7 @@ class BreakingRun {
   Eigen::VectorXd reactions_;  // for E = 1 and ε = 1 [N/m]
   double force_;               // likewise
   double joint_work_ = 0.0;    // r·u of the loose joints, likewise [N]
+  double worst_residual_ = 0.0;  // of the law, over all answers, for E = 1 [N/m]
   double noise_;               // what rounding leaves on an unloaded joint is not a load
 
  public:
