@@ -21,7 +21,7 @@ struct LocalContact {
   std::vector<JointLaw> laws;  ///< n.
   std::vector<char>
       apart{};  ///< 1 for a joint that stays open whatever its gap; n, or empty for none.
-  /// A piece that hangs on nothing leaves equations singular: this part of its joints' stiffness
+  /// A piece that hangs on nothing leaves equations singular: this part of the largest stiffness
   /// holds it. A long strip beside a crack bends as softly as 1e-8 of that, so it has to be less.
   /// In long steps inertia holds pieces by 1e-11, and has to be what decides. [-]
   double trace = 1e-11;

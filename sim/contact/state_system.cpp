@@ -48,10 +48,6 @@ double StateSystem::scale() const {
   return problem_->S.diagonal().maxCoeff();
 }
 
-double StateSystem::hold(Index row) const {
-  return problem_->trace * problem_->S.diagonal().segment<2>(row - row % 2).maxCoeff();
-}
-
 double StateSystem::coefficient(const Equation& equation, Index unknown) const {
   double value = problem_->S(equation.row, unknown);
   if (equation.slope != 0.0) value += equation.slope * problem_->S(equation.row - 1, unknown);
@@ -73,6 +69,7 @@ std::vector<StateSystem::Equation> StateSystem::equations_of_states() const {
 void StateSystem::factorise() {
   factorised_ = equations_;
   const auto n = static_cast<Index>(factorised_.size());
+  const double hold = n > 0 ? problem_->trace * scale() : 0.0;
   MatrixXd matrix(n, n);
   std::fill(place_.begin(), place_.end(), -1);
   for (Index k = 0; k < n; ++k) {
@@ -80,7 +77,7 @@ void StateSystem::factorise() {
     place_[static_cast<std::size_t>(equation.row)] = k;
     for (Index j = 0; j < n; ++j)
       matrix(k, j) = coefficient(equation, factorised_[static_cast<std::size_t>(j)].row);
-    matrix(k, k) += hold(equation.row);
+    matrix(k, k) += hold;
   }
   factor_.compute(matrix);
   columns_.clear();
@@ -138,10 +135,11 @@ bool StateSystem::border_factor() {
     for (Index j = 0; j < k; ++j)
       if (borders_[static_cast<std::size_t>(j)].has_unknown)
         corner(i, j) = coefficient(equation, borders_[static_cast<std::size_t>(j)].row);
+    const double hold = problem_->trace * scale();
     if (border.has_unknown)
-      corner(i, i) += hold(border.row);
+      corner(i, i) += hold;
     else
-      border_rows_(i, place_[static_cast<std::size_t>(border.row)]) += hold(border.row);
+      border_rows_(i, place_[static_cast<std::size_t>(border.row)]) += hold;
   }
   if (k > 0) complement_.compute(corner - border_rows_ * border_columns_);
   return true;

@@ -126,18 +126,8 @@ std::vector<char> BreakingRun::apart() const {
   return apart;
 }
 
-// Only what has just broken is released; the others follow from where they are.
-bool BreakingRun::settle() {
-  contact_.apart = apart();
-  for (std::size_t i = 0; i < loose_.size(); ++i)
-    if (contact_.is_apart(i) && system_.states()[i] != JointState::open)
-      system_.set(i, JointState::open);
-  // Nothing has moved yet, and nothing does before the first of those released gives way.
-  StateSolution known{MatrixXd::Zero(contact_.r0.size(), 2), MatrixXd::Zero(contact_.r0.size(), 2)};
-  known.y.col(0).head(y_.size()) = y_;
-  known.r.col(0) = of_loose(reactions_);
-  LocalContactResult result = follow_release(system_, extra_, known);
-  iterations += result.iterations;
+// What keeps the law to the tolerance, found in another way if need be.
+LocalContactResult BreakingRun::or_better(LocalContactResult result) {
   double residual = law_residual_of(contact_, result.y);
   const auto unless_solved = [&](const auto& solve) {
     if (result.converged && residual <= scene_.solver.tolerance) return;
@@ -151,6 +141,22 @@ bool BreakingRun::settle() {
   unless_solved(
       [&] { return solve_local_contact(contact_, result.states, scene_.solver.max_iterations); });
   unless_solved([&] { return combine_states(contact_, result.states); });
+  return result;
+}
+
+// Only what has just broken is released; the others follow from where they are.
+bool BreakingRun::settle() {
+  contact_.apart = apart();
+  for (std::size_t i = 0; i < loose_.size(); ++i)
+    if (contact_.is_apart(i) && system_.states()[i] != JointState::open)
+      system_.set(i, JointState::open);
+  // Nothing has moved yet, and nothing does before the first of those released gives way.
+  StateSolution known{MatrixXd::Zero(contact_.r0.size(), 2), MatrixXd::Zero(contact_.r0.size(), 2)};
+  known.y.col(0).head(y_.size()) = y_;
+  known.r.col(0) = of_loose(reactions_);
+  LocalContactResult result = follow_release(system_, extra_, known);
+  iterations += result.iterations;
+  result = or_better(std::move(result));
   if (!result.converged) {  // an answer without contact, counted and reported, instead of none
     ++without_contact;
     contact_.apart.assign(loose_.size(), 1);
@@ -215,7 +221,12 @@ void BreakingRun::refine() {
     const VectorXd lacking = missing(reference_.reactions);
     if (lacking.norm() <= refined * scale) break;
     contact_.r0 += lacking;
-    y_ = answer_of_states(system_, {y_, contact_.r0 + contact_.S * y_});
+    const LocalContactResult found =
+        or_better({.converged = true,
+                   .y = answer_of_states(system_, {y_, contact_.r0 + contact_.S * y_}),
+                   .states = system_.states()});
+    system_.set(found.states);
+    y_ = found.y;
     reference_ = intact_->stretch(gaps());
   }
   y_at_reference_ = y_;
