@@ -20,6 +20,64 @@ constexpr double no_force = 1e-12;
 constexpr int most_changes = 20;
 constexpr int most_rounds = 200;
 
+// Cholesky factor of those rows and columns of a matrix that are in, in the order in which they
+// came.
+class PartialFactor {
+ public:
+  explicit PartialFactor(const MatrixXd& matrix)
+      : matrix_(&matrix), L_(matrix.rows(), matrix.cols()) {}
+
+  [[nodiscard]] const std::vector<Index>& rows() const { return rows_; }
+
+  void start(std::vector<Index> rows) {
+    rows_ = std::move(rows);
+    const auto n = static_cast<Index>(rows_.size());
+    L_.topLeftCorner(n, n) = (*matrix_)(rows_, rows_).llt().matrixL();
+  }
+
+  void add(Index row) {
+    const auto n = static_cast<Index>(rows_.size());
+    VectorXd border = (*matrix_)(rows_, row);
+    L_.topLeftCorner(n, n).triangularView<Eigen::Lower>().solveInPlace(border);
+    L_.row(n).head(n) = border.transpose();
+    L_(n, n) = std::sqrt((*matrix_)(row, row) - border.squaredNorm());
+    rows_.push_back(row);
+  }
+
+  // What a row has taken from those after it is given back to them, in a sum of squares.
+  void remove(Index row) {
+    const auto place = std::find(rows_.begin(), rows_.end(), row);
+    const Index k = place - rows_.begin(), m = static_cast<Index>(rows_.size()) - k - 1;
+    VectorXd back = L_.col(k).segment(k + 1, m);
+    L_.block(k, 0, m, k) = L_.block(k + 1, 0, m, k).eval();
+    L_.block(k, k, m, m) = L_.block(k + 1, k + 1, m, m).eval();
+    for (Index j = 0; j < m; ++j) {
+      const Index after = m - j - 1;
+      auto column = L_.col(k + j).segment(k + j + 1, after);
+      double& diagonal = L_(k + j, k + j);
+      const double larger = std::hypot(diagonal, back(j));
+      const double cosine = diagonal / larger, sine = back(j) / larger;
+      diagonal = larger;
+      column = cosine * column + sine * back.tail(after);
+      back.tail(after) = (back.tail(after) - sine * column) / cosine;
+    }
+    rows_.erase(place);
+  }
+
+  [[nodiscard]] VectorXd solve(VectorXd load) const {
+    const Index n = load.size();
+    const auto L = L_.topLeftCorner(n, n).triangularView<Eigen::Lower>();
+    L.solveInPlace(load);
+    L.transpose().solveInPlace(load);
+    return load;
+  }
+
+ private:
+  const MatrixXd* matrix_;
+  MatrixXd L_;
+  std::vector<Index> rows_;
+};
+
 // min ½ uᵀSu + bᵀu + Σ s |u_T| over u_N ≥ 0. Components that are not at zero are free, each on its
 // side; one at a time becomes free where the function falls most steeply, and whatever would change
 // its side on the way to their minimum stops at zero [LH74].
@@ -31,7 +89,8 @@ class ConvexContact {
         b_(problem.r0 - problem.S * problem.u0),
         bound_(VectorXd::Zero(static_cast<Index>(problem.laws.size()))),
         u_(std::move(start)),
-        side_(static_cast<std::size_t>(b_.size()), 0) {
+        side_(static_cast<std::size_t>(b_.size()), 0),
+        free_(S_) {
     const VectorXd c = cohesions(problem);
     for (Index i = 0; i < c.size(); ++i) b_(2 * i) += c(i);
     S_.diagonal().array() += problem.trace * S_.diagonal().maxCoeff();
@@ -40,6 +99,10 @@ class ConvexContact {
       if (row % 2 == 0 && !apart(row)) u_(row) = std::max(u_(row), 0.0);
       side_[static_cast<std::size_t>(row)] = (u_(row) > 0.0 ? 1 : 0) - (u_(row) < 0.0 ? 1 : 0);
     }
+    std::vector<Index> free;
+    for (Index row = 0; row < u_.size(); ++row)
+      if (apart(row) || side_[static_cast<std::size_t>(row)] != 0) free.push_back(row);
+    free_.start(std::move(free));
     if (!u_.isZero(0.0)) bound_by_pressures();
   }
 
@@ -82,14 +145,12 @@ class ConvexContact {
 
   void move_to_minimum_of_free() {
     for (;;) {
-      std::vector<Index> free;
-      for (Index row = 0; row < u_.size(); ++row)
-        if (apart(row) || side_[static_cast<std::size_t>(row)] != 0) free.push_back(row);
+      const std::vector<Index>& free = free_.rows();
       if (free.empty()) return;
       VectorXd load = b_(free);
       for (std::size_t k = 0; k < free.size(); ++k)
         load(static_cast<Index>(k)) += friction(free[k]) * side_[static_cast<std::size_t>(free[k])];
-      const VectorXd goal = -S_(free, free).llt().solve(load);
+      const VectorXd goal = -free_.solve(load);
 
       double part = 1.0;
       Index stops = -1;
@@ -108,6 +169,7 @@ class ConvexContact {
       if (stops < 0) return;
       u_(stops) = 0.0;
       side_[static_cast<std::size_t>(stops)] = 0;
+      free_.remove(stops);
     }
   }
 
@@ -124,6 +186,7 @@ class ConvexContact {
     }
     if (steepest < 0) return false;
     side_[static_cast<std::size_t>(steepest)] = force(steepest) < 0.0 ? 1 : -1;
+    free_.add(steepest);
     return true;
   }
 
@@ -131,6 +194,7 @@ class ConvexContact {
   MatrixXd S_;
   VectorXd b_, bound_, u_;
   std::vector<int> side_;  // of each component: its sign where it is free, else 0
+  PartialFactor free_;
   double tolerance_ = 0.0;
 };
 

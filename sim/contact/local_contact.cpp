@@ -29,7 +29,6 @@ constexpr int sweeps_of_search = 200;
 // Of springs that hold joints, parts of the largest stiffness; each is tried with so many answers.
 constexpr std::array<double, 5> springs{1e-11, 1e-10, 1e-9, 1e-8, 1e-7};
 constexpr int times_moved = 8;
-constexpr double lawful = 1e-10;  // of the free reactions, by the natural map
 constexpr int calm = 10;  // sweeps without a change of state, after which the set is worth a solve
 
 double sign_of(JointState state) {
@@ -51,6 +50,18 @@ States states_of(const LocalContact& p, const VectorXd& y, const States& now) {
 }
 
 }  // namespace
+
+double law_residual_of(const LocalContact& p, const VectorXd& y) {
+  const VectorXd r = p.r0 + p.S * y, u = p.u0 + y;
+  double squared = 0.0;
+  for (std::size_t i = 0; i < p.laws.size(); ++i) {
+    const auto row = static_cast<Index>(2 * i);
+    if (p.is_apart(i)) continue;
+    squared +=
+        law_residual(r.segment<2>(row), u.segment<2>(row), p.laws[i], p.S(row, row)).squaredNorm();
+  }
+  return std::sqrt(squared) / p.r0.norm();
+}
 
 JointState state_of(const Local& reaction, const Local& gap, JointState now, const JointLaw& law,
                     double scale) {
@@ -185,19 +196,6 @@ LocalContactResult solve_as_it_is(const LocalContact& problem, States states, in
   return result;
 }
 
-// The natural map of the law over all joints, relative to the free reactions. [-]
-double law_residual_of(const LocalContact& p, const VectorXd& y) {
-  const VectorXd r = p.r0 + p.S * y, u = p.u0 + y;
-  double squared = 0.0;
-  for (std::size_t i = 0; i < p.laws.size(); ++i) {
-    const auto row = static_cast<Index>(2 * i);
-    if (p.is_apart(i)) continue;
-    squared +=
-        law_residual(r.segment<2>(row), u.segment<2>(row), p.laws[i], p.S(row, row)).squaredNorm();
-  }
-  return std::sqrt(squared) / p.r0.norm();
-}
-
 // (C10). Joints held by springs where the last answer has left them, until these bear nothing.
 LocalContactResult solve_with_springs(const LocalContact& problem, const States& states,
                                       int max_iterations) {
@@ -213,7 +211,7 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
       spent += result.iterations;
       result.iterations = spent;
       if (!result.converged) break;
-      result.converged = law_residual_of(problem, result.y) <= lawful;
+      result.converged = law_residual_of(problem, result.y) <= law_is_met;
       if (result.converged) return result;
       held.r0 = problem.r0 - stiffness * result.y;
     }

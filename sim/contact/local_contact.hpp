@@ -38,6 +38,11 @@ struct LocalContactResult {
   int iterations = 0;              ///< Sets tried, and solves and sweeps in between.
 };
 
+/// The law's natural map (M11) over all joints, relative to the free reactions, and below what it
+/// counts as met. [-]
+double law_residual_of(const LocalContact& problem, const Eigen::VectorXd& y);
+constexpr double law_is_met = 1e-10;
+
 /// Which state a joint with that reaction and gap belongs in. `scale` is a force: less than 1e-12
 /// of it is rounding.
 JointState state_of(const Local& reaction, const Local& gap, JointState now, const JointLaw& law,

@@ -28,8 +28,8 @@ struct Branch {
   double force_tolerance = 0.0;  // [N/m]
 };
 
-// Of the answers on the way; the last one is solved for anew.
-constexpr double accuracy_on_the_way = 1e-11;
+// Of the answers on the way, and of the last one where it is not solved for anew.
+constexpr double accuracy_on_the_way = 1e-11, accuracy_of_answer = 1e-13;
 
 Branch solve_branch(StateSystem& system, StateSolution known, const VectorXd& extra, double part) {
   const LocalContact& p = system.problem();
@@ -95,6 +95,16 @@ Change next_change(const StateSystem& system, const Branch& branch, std::size_t 
 
 }  // namespace
 
+VectorXd answer_of_states(StateSystem& system, StateSolution known) {
+  const LocalContact& p = system.problem();
+  const VectorXd c = cohesions(p);
+  VectorXd anew = system.solve(p.r0, -p.u0, c).y;
+  const double residual = law_residual_of(p, anew);
+  if (residual <= law_is_met) return anew;
+  VectorXd near = system.solve_from(std::move(known), p.r0, -p.u0, c, accuracy_of_answer).y;
+  return law_residual_of(p, near) < residual ? near : anew;
+}
+
 VectorXd cohesions(const LocalContact& p) {
   VectorXd c(static_cast<Index>(p.laws.size()));
   for (Index i = 0; i < c.size(); ++i) c(i) = p.laws[static_cast<std::size_t>(i)].cohesion;
@@ -116,7 +126,6 @@ namespace {
 
 LocalContactResult follow(StateSystem& system, StateSolution known, const VectorXd& extra,
                           double part) {
-  const LocalContact& p = system.problem();
   LocalContactResult result;
   double lambda = 1.0;
   std::set<States> met;  // at this λ
@@ -132,7 +141,7 @@ LocalContactResult follow(StateSystem& system, StateSolution known, const Vector
     }
     result.converged = next.at < 0.0;
     if (result.converged) {
-      result.y = system.solve(p.r0, -p.u0, cohesions(p)).y;
+      result.y = answer_of_states(system, {branch.y.col(0), branch.r.col(0)});
       break;
     }
     if (next.at < lambda) met.clear();

@@ -15,6 +15,10 @@ namespace havers::sim {
 LocalContactResult follow_release(StateSystem& system, const Eigen::VectorXd& extra,
                                   const StateSolution& known = {});
 
+/// Gaps of the system's states. A piece that hangs on next to nothing may lie anywhere: if not
+/// where equations solved from nothing leave it, then where they are met nearest to a known answer.
+Eigen::VectorXd answer_of_states(StateSystem& system, StateSolution known);
+
 /// c of every joint, n. [N/m]
 Eigen::VectorXd cohesions(const LocalContact& problem);
 

@@ -193,13 +193,13 @@ StateSolution StateSystem::solve_from(StateSolution known, const MatrixXd& r0, c
   equations_ = equations_of_states();
   if (!border_factor()) factorise();
   const double load = missing(r0, cohesion).norm();
-  correct(known, held, cohesion, load, accuracy);
-  if (borders_.empty()) return known;
-  const double lacks = missing(known.r, cohesion).norm();
-  if (lacks <= tolerated * known.r.norm() + rounding_of_gaps * scale() * known.y.norm())
-    return known;
+  StateSolution found = known;
+  correct(found, held, cohesion, load, accuracy);
+  if (borders_.empty()) return found;
+  const double lacks = missing(found.r, cohesion).norm();
+  if (lacks <= tolerated * found.r.norm() + rounding_of_gaps * scale() * found.y.norm())
+    return found;
   factorise();
-  known = {MatrixXd::Zero(r0.rows(), r0.cols()), r0};
   correct(known, held, cohesion, load, accuracy);
   return known;
 }

@@ -46,7 +46,8 @@ class BreakingRun {
   [[nodiscard]] Eigen::VectorXd of_loose(const Eigen::VectorXd& of_all) const;
   [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& reactions) const;
   void refine();
-  [[nodiscard]] double law_residual_of(const Eigen::VectorXd& reactions) const;
+  LocalContactResult or_better(LocalContactResult result);
+  [[nodiscard]] double law_missed_by(const Eigen::VectorXd& reactions) const;
 
   const Scene& scene_;
   bool careful_;
@@ -60,10 +61,11 @@ class BreakingRun {
   // The intact structure, or the last refined answer: what changes is reckoned from it.
   UnitAnswer reference_;
   Eigen::VectorXd y_at_reference_;
-  Eigen::VectorXd reactions_;  // for E = 1 and ε = 1 [N/m]
-  double force_;               // likewise
-  double joint_work_ = 0.0;    // r·u of the loose joints, likewise [N]
-  double noise_;               // what rounding leaves on an unloaded joint is not a load
+  Eigen::VectorXd reactions_;    // for E = 1 and ε = 1 [N/m]
+  double force_;                 // likewise
+  double joint_work_ = 0.0;      // r·u of the loose joints, likewise [N]
+  double worst_residual_ = 0.0;  // of the law, over all answers, for E = 1 [N/m]
+  double noise_;                 // what rounding leaves on an unloaded joint is not a load
 
  public:
   std::vector<JointOutcome> joints;
