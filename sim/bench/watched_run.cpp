@@ -106,7 +106,8 @@ WatchedRun watch(const Scene& scene, const WatchOptions& options, const KeepGoin
 double bonded_modulus(const Scene& scene) {
   const auto& [assembly, material, joints, loading, solver] = scene;
   const bool along = assembly.orientation == 0.0;
-  const double second = along ? assembly.layers / 2 / static_cast<double>(assembly.layers) : 0.5;
+  const int seconds = assembly.layers / 2;
+  const double second = along ? static_cast<double>(seconds) / assembly.layers : 0.5;
   const double first = 1.0 - second, contrast = material.layer_contrast;
   const double mean = along ? first + second * contrast : 1.0 / (first + second / contrast);
   return mean * material.young * plane_factor(material);
