@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/dynamics/time_stepping.hpp"
+#include "sim/joint/cohesive_cone.hpp"
 #include "sim/joint/thresholds.hpp"
 #include "sim/outcome.hpp"
 #include "sim/quasi_static/breaking_sequence.hpp"
@@ -43,6 +44,9 @@ namespace {
 std::vector<LeftOut> left_out(const Scene& scene, const Simulation& simulation) {
   std::vector<LeftOut> list;
   if (scene.material.viscosity == 0.0) list.push_back({"viscosity", "viscosity_s is 0"});
+  if (scene.joints.friction < least_friction)
+    list.push_back({"friction below 0.001",
+                    "it counts as 0.001: without any, rounding decides which way a joint slides"});
   if (scene.loading.lateral == Lateral::free)
     list.push_back({"periodic ties", "the sides are free"});
   if (simulation.dropped > 0)

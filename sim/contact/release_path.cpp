@@ -28,6 +28,8 @@ struct Branch {
   double force_tolerance = 0.0;  // [N/m]
 };
 
+constexpr int most_changes_of_a_joint = 100;  // after which the path leads nowhere
+
 // Of the answers on the way, and of the last one where it is not solved for anew.
 constexpr double accuracy_on_the_way = 1e-11, accuracy_of_answer = 1e-13;
 
@@ -115,7 +117,7 @@ VectorXd cohesion_to_stick(const VectorXd& reactions, const std::vector<JointLaw
   VectorXd extra(static_cast<Index>(laws.size()));
   for (Index i = 0; i < extra.size(); ++i) {
     const JointLaw& law = laws[static_cast<std::size_t>(i)];
-    const double need = std::abs(reactions(2 * i + 1)) / std::max(law.friction, 1e-3) -
+    const double need = std::abs(reactions(2 * i + 1)) / std::max(law.friction, least_friction) -
                         reactions(2 * i) - law.cohesion;
     extra(i) = std::max(0.0, 1.01 * need);
   }
@@ -129,7 +131,8 @@ LocalContactResult follow(StateSystem& system, StateSolution known, const Vector
   LocalContactResult result;
   double lambda = 1.0;
   std::set<States> met;  // at this λ
-  for (;;) {
+  const int most = most_changes_of_a_joint * (1 + static_cast<int>(system.states().size()));
+  while (result.iterations < most) {
     ++result.iterations;
     Branch branch = solve_branch(system, std::move(known), extra, part);
     result.y = branch.y.col(0);

@@ -6,13 +6,6 @@
 
 namespace havers::sim {
 
-namespace {
-
-// A cone without width leaves to rounding which way its joint slides.
-constexpr double least_friction = 1e-3;
-
-}  // namespace
-
 JointLaw intact_law(const Threshold& threshold) {
   assert(threshold.normal > 0.0);
   return {threshold.normal, std::max(threshold.tangent / threshold.normal, least_friction)};

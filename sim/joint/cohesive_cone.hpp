@@ -18,7 +18,9 @@ struct JointLaw {
   double friction = 0.0;  ///< μ. [-]
 };
 
-/// Friction below 0.001 counts as 0.001.
+/// Less friction counts as this: a cone without width leaves to rounding which way its joint
+/// slides.
+constexpr double least_friction = 1e-3;
 JointLaw intact_law(const Threshold& threshold);
 JointLaw broken_law(double friction);
 

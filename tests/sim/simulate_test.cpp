@@ -172,6 +172,9 @@ TEST(Simulate, SaysWhatItLeftOut) {
   scene.loading.lateral = Lateral::free;
   EXPECT_THAT(words(simulate(scene)), HasSubstr("periodic ties"));
   EXPECT_THAT(words(simulate(scene)), HasSubstr("viscosity: viscosity_s is 0"));
+  EXPECT_THAT(words(simulate(scene)), testing::Not(HasSubstr("friction below")));
+  scene.joints.friction = 0.0;
+  EXPECT_THAT(words(simulate(scene)), HasSubstr("friction below 0.001"));
   scene.material.viscosity = 1e-6;  // and all the same the limit is asked for
   scene.loading.start = Start::rest;
   scene.solver.step = 1e-8;
