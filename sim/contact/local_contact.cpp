@@ -51,8 +51,7 @@ States states_of(const LocalContact& p, const VectorXd& y, const States& now) {
 
 }  // namespace
 
-double law_residual_of(const LocalContact& p, const VectorXd& y) {
-  const VectorXd r = p.r0 + p.S * y, u = p.u0 + y;
+double law_missed(const LocalContact& p, const VectorXd& r, const VectorXd& u) {
   double squared = 0.0;
   for (std::size_t i = 0; i < p.laws.size(); ++i) {
     const auto row = static_cast<Index>(2 * i);
@@ -60,7 +59,12 @@ double law_residual_of(const LocalContact& p, const VectorXd& y) {
     squared +=
         law_residual(r.segment<2>(row), u.segment<2>(row), p.laws[i], p.S(row, row)).squaredNorm();
   }
-  return std::sqrt(squared) / p.r0.norm();
+  return std::sqrt(squared);
+}
+
+double law_residual_of(const LocalContact& p, const VectorXd& y) {
+  const double missed = law_missed(p, p.r0 + p.S * y, p.u0 + y);
+  return missed == 0.0 ? 0.0 : missed / p.r0.norm();
 }
 
 JointState state_of(const Local& reaction, const Local& gap, JointState now, const JointLaw& law,

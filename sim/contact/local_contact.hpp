@@ -38,8 +38,12 @@ struct LocalContactResult {
   int iterations = 0;              ///< Sets tried, and solves and sweeps in between.
 };
 
-/// The law's natural map (M11) over all joints, relative to the free reactions, and below what it
-/// counts as met. [-]
+/// Norm of the law's natural map (M11) over the joints that are not apart, for reactions [N/m] and
+/// gaps [m]. [N/m]
+double law_missed(const LocalContact& problem, const Eigen::VectorXd& reactions,
+                  const Eigen::VectorXd& gaps);
+
+/// That of an answer, relative to the free reactions, and below what the law counts as met. [-]
 double law_residual_of(const LocalContact& problem, const Eigen::VectorXd& y);
 constexpr double law_is_met = 1e-10;
 

@@ -21,6 +21,8 @@ struct JointLaw {
 /// Less friction counts as this: a cone without width leaves to rounding which way its joint
 /// slides.
 constexpr double least_friction = 1e-3;
+
+/// The law of (M5) and that of (M7).
 JointLaw intact_law(const Threshold& threshold);
 JointLaw broken_law(double friction);
 

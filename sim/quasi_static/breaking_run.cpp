@@ -177,7 +177,7 @@ bool BreakingRun::settle() {
     force_ = reference_.force;
   }
   joint_work_ = of_loose(reactions_).dot(y_);
-  worst_residual_ = std::max(worst_residual_, law_missed_by(reactions_));
+  worst_residual_ = std::max(worst_residual_, law_missed(contact_, of_loose(reactions_), y_));
   if (std::abs(force_) <= nothing_borne * intact_->answer().force) force_ = joint_work_ = 0.0;
   return result.converged;
 }
@@ -251,20 +251,6 @@ CurvePoint BreakingRun::point(double strain) const {
           .dissipated = dissipated};
 }
 
-// (M11), without the scale, for E = 1: reactions of all joints at ε = 1.
-double BreakingRun::law_missed_by(const VectorXd& reactions) const {
-  double squared = 0.0;
-  for (std::size_t i = 0; i < loose_.size(); ++i) {
-    if (contact_.is_apart(i)) continue;  // left out, and said so
-    const auto row = 2 * static_cast<Index>(loose_.joints()[i]);
-    squared += law_residual(reactions.segment<2>(row), y_.segment<2>(2 * static_cast<Index>(i)),
-                            contact_.laws[i],
-                            contact_.S(static_cast<Index>(2 * i), static_cast<Index>(2 * i)))
-                   .squaredNorm();
-  }
-  return std::sqrt(squared);
-}
-
 // What events computed is checked against the refined answer, ½ qᵀĀq = ½ (F W ε + r·u) too.
 void BreakingRun::finish(double strain, double energy_scale, Simulation& simulation) {
   const double scale = intact_->answer().reactions.norm();
@@ -288,7 +274,7 @@ void BreakingRun::finish(double strain, double energy_scale, Simulation& simulat
     simulation.energy_defect = young * strain * strain * std::abs(elastic - work) / energy_scale;
   simulation.worst_residual =
       std::max({simulation.worst_residual, intact_->answer().residual, last.residual,
-                worst_residual_ / scale, law_missed_by(last.reactions) / scale,
+                worst_residual_ / scale, law_missed(contact_, of_loose(last.reactions), y_) / scale,
                 std::abs(last.force - force_) / intact_->answer().force});
   simulation.iterations = iterations;
 }

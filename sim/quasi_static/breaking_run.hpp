@@ -47,7 +47,6 @@ class BreakingRun {
   [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& reactions) const;
   void refine();
   LocalContactResult or_better(LocalContactResult result);
-  [[nodiscard]] double law_missed_by(const Eigen::VectorXd& reactions) const;
 
   const Scene& scene_;
   bool careful_;
