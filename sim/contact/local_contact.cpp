@@ -51,13 +51,13 @@ States states_of(const LocalContact& p, const VectorXd& y, const States& now) {
 
 }  // namespace
 
-double law_missed(const LocalContact& p, const VectorXd& r, const VectorXd& u) {
+double law_missed(const LocalContact& p, const VectorXd& r, const VectorXd& gaps) {
   double squared = 0.0;
   for (std::size_t i = 0; i < p.laws.size(); ++i) {
     const auto row = static_cast<Index>(2 * i);
     if (p.is_apart(i)) continue;
-    squared +=
-        law_residual(r.segment<2>(row), u.segment<2>(row), p.laws[i], p.S(row, row)).squaredNorm();
+    squared += law_residual(r.segment<2>(row), gaps.segment<2>(row), p.laws[i], p.S(row, row))
+                   .squaredNorm();
   }
   return std::sqrt(squared);
 }
