@@ -10,9 +10,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-// Fewer that have opened are not worth a new factor.
+// Fewer that have opened are not worth a new factor, fewer that are loose not some for each step.
 constexpr int worth_detaching = 24;
-constexpr int worth_searching = 24;
+constexpr int worth_searching = 48;
+constexpr double nothing = 1e-9;  // of the reactions
 // Part of the stiffness that is less than what inertia adds, in all but the longest steps.
 constexpr double below_inertia = 1e-13;
 
@@ -40,9 +41,9 @@ void ActiveSetSolver::detach_opened(const JointStep& step) {
   if (!detach_open_) return;
   std::vector<Held> held = structure_.held();
   int opened = 0;
-  for (const int joint : loose_.joints()) {
-    const auto j = static_cast<std::size_t>(joint);
-    if (step.broken[j] == 0 || step.states[j] != JointState::open) continue;
+  for (std::size_t j = 0; j < held.size(); ++j) {
+    if (step.broken[j] == 0 || step.states[j] != JointState::open || held[j] == Held::not_at_all)
+      continue;
     held[j] = Held::not_at_all;
     ++opened;
   }
@@ -115,8 +116,12 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
   const std::vector<BodyClass>& classes = bodies_->classes();
   const bool at_rest = std::any_of(classes.begin(), classes.end(),
                                    [](const BodyClass& bodies) { return bodies.op.at_rest; });
-  const bool many = detach_open_ && !at_rest &&
-                    std::count(step.broken.begin(), step.broken.end(), 1) >= worth_searching;
+  int bearing = 0;  // broken joints that have just broken, or press
+  for (int joint = 0; joint < static_cast<int>(step.broken.size()); ++joint)
+    if (step.broken[static_cast<std::size_t>(joint)] != 0 &&
+        at(step.reactions, joint).norm() > nothing * step.force_scale)
+      ++bearing;
+  const bool many = detach_open_ && !at_rest && bearing >= worth_searching;
   JointStepResult result = many ? search_.solve(step) : solve_loose(step);
   if (result.converged) return result;
   // Either way may find the set that the other misses.

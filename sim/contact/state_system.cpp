@@ -72,12 +72,12 @@ void StateSystem::factorise() {
   const double hold = n > 0 ? problem_->trace * scale() : 0.0;
   MatrixXd matrix(n, n);
   std::fill(place_.begin(), place_.end(), -1);
-  for (Index k = 0; k < n; ++k) {
-    const Equation& equation = factorised_[static_cast<std::size_t>(k)];
-    place_[static_cast<std::size_t>(equation.row)] = k;
-    for (Index j = 0; j < n; ++j)
-      matrix(k, j) = coefficient(equation, factorised_[static_cast<std::size_t>(j)].row);
-    matrix(k, k) += hold;
+  for (Index j = 0; j < n; ++j) {
+    const Index unknown = factorised_[static_cast<std::size_t>(j)].row;
+    place_[static_cast<std::size_t>(unknown)] = j;
+    for (Index k = 0; k < n; ++k)
+      matrix(k, j) = coefficient(factorised_[static_cast<std::size_t>(k)], unknown);
+    matrix(j, j) += hold;
   }
   factor_.compute(matrix);
   columns_.clear();
