@@ -13,7 +13,7 @@ namespace {
 // Fewer that have opened are not worth a new factor, fewer that are loose not some for each step.
 constexpr int worth_detaching = 24;
 constexpr int worth_searching = 48;
-constexpr double no_force = 1e-9;  // of the reactions
+constexpr double least_borne = 1e-9;  // of the reactions
 // Part of the stiffness that is less than what inertia adds, in all but the longest steps.
 constexpr double below_inertia = 1e-13;
 
@@ -119,7 +119,7 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
   int bearing = 0;  // broken joints that have just broken, or press
   for (int joint = 0; joint < static_cast<int>(step.broken.size()); ++joint)
     if (step.broken[static_cast<std::size_t>(joint)] != 0 &&
-        at(step.reactions, joint).norm() > no_force * step.force_scale)
+        at(step.reactions, joint).norm() > least_borne * step.force_scale)
       ++bearing;
   const bool many = detach_open_ && !at_rest && bearing >= worth_searching;
   JointStepResult result = many ? search_.solve(step) : solve_loose(step);
