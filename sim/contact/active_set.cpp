@@ -10,7 +10,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-// Fewer that have opened are not worth a new factor, fewer that are loose not some for each step.
+// Fewer that have opened are not worth a new factor, fewer that bear not some for each step.
 constexpr int worth_detaching = 24;
 constexpr int worth_searching = 48;
 constexpr double least_borne = 1e-9;  // of the reactions
