@@ -1,169 +1,17 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <set>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "reports/bench_pages.hpp"
-#include "tests/support/results.hpp"
+#include "tests/reports/sound_page.hpp"
 
 namespace havers::reports {
 namespace {
 
+using test::after;
 using test::contains;
-
-// What stands between each `before` and the next of `ends`.
-std::vector<std::string> after(const std::string& text, std::string_view before,
-                               std::string_view ends) {
-  std::vector<std::string> found;
-  for (std::size_t at = text.find(before); at != std::string::npos; at = text.find(before, at)) {
-    at += before.size();
-    found.push_back(text.substr(at, text.find_first_of(ends, at) - at));
-  }
-  return found;
-}
-
-std::vector<std::string> attributes(const std::string& page, const std::string& name) {
-  std::vector<std::string> found = after(page, name + "=\"", "\"");
-  for (std::string& value : after(page, name + "='", "'")) found.push_back(std::move(value));
-  return found;
-}
-
-// Every start tag has its end tag in the right order; void elements and self-closed ones aside.
-void expect_balanced(const std::string& page) {
-  static const std::set<std::string> alone{"meta", "img", "br"};
-  std::vector<std::string> open;
-  for (const std::string& tag : after(page, "<", ">")) {
-    const bool ends = tag.starts_with('/');
-    const std::string name =
-        tag.substr(ends ? 1 : 0, tag.find_first_of(" \n/", 1) - (ends ? 1 : 0));
-    if (alone.contains(name) || tag.ends_with('/') || tag.starts_with('!') || tag.starts_with('?'))
-      continue;
-    if (!ends) {
-      open.push_back(name);
-    } else {
-      ASSERT_FALSE(open.empty()) << "</" << name << "> closes nothing";
-      ASSERT_EQ(open.back(), name);
-      open.pop_back();
-    }
-  }
-  EXPECT_TRUE(open.empty());
-}
-
-void expect_self_contained(const std::string& page) {
-  EXPECT_FALSE(contains(page, "<script"));
-  EXPECT_FALSE(contains(page, "<link"));
-  EXPECT_FALSE(contains(page, "@import"));
-  for (const char* name : {"src", "href"})
-    for (const std::string& source : attributes(page, name))
-      EXPECT_TRUE(source.starts_with("data:image/") || source.starts_with("#"))
-          << source.substr(0, 20);
-}
-
-void expect_unique_ids(const std::string& page) {
-  std::map<std::string, int> uses;
-  for (const std::string& id : attributes(page, " id")) ++uses[id];
-  for (const auto& [id, n] : uses) EXPECT_EQ(n, 1) << id;
-  for (const char* reference : {"href=\"#", "href='#", "url(#"})
-    for (const std::string& target : after(page, reference, "\"')"))
-      EXPECT_TRUE(uses.contains(target)) << target;
-}
-
-void expect_sound(const std::string& page) {
-  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
-  EXPECT_FALSE(contains(page, "{{"));
-  EXPECT_FALSE(contains(page, ">nan"));
-  expect_balanced(page);
-  expect_self_contained(page);
-  expect_unique_ids(page);
-}
+using test::expect_sound;
 
 sim::Assembly small_assembly() {
   return sim::build_assembly({.layers = 6, .fibres = 4}, sim::Lateral::periodic);
-}
-
-TEST(FitPage, GivesTheVerdictBeforeAnyNumber) {
-  const auto sample = test::fit_sample();
-  const std::string page = fit_page({sample.study, sample.result, {}, {{"havers", "0.1.0"}}, 38.2});
-  expect_sound(page);
-  const std::size_t verdict = page.find("The fit can be trusted, with 1 reservation.");
-  ASSERT_NE(verdict, std::string::npos);
-  EXPECT_LT(verdict, page.find("goodness of fit"));
-  EXPECT_LT(page.find("goodness of fit"), page.find("13.123 ± 0.087"));
-}
-
-TEST(FitPage, ShowsEverySpecimenParameterCheckAndStage) {
-  const auto sample = test::fit_sample();
-  const std::string page =
-      fit_page({sample.study, sample.result, {{"A2", {test::tiny_png()}}}, {{"seed", "1"}}, 38.2});
-  for (const auto& specimen : sample.result.specimens)
-    EXPECT_TRUE(contains(page, "<h3>" + specimen.id + " "));
-  for (const auto& parameter : sample.result.parameters)
-    EXPECT_TRUE(contains(page, parameter.name));
-  for (const auto& check : sample.result.verdict) EXPECT_TRUE(contains(page, check.text));
-  for (const auto& stage : sample.result.stages) EXPECT_TRUE(contains(page, stage.optimiser));
-  for (const char* wall : {"21.4\u00a0s", "6.25\u00a0s"}) EXPECT_TRUE(contains(page, wall)) << wall;
-  EXPECT_TRUE(contains(page, sample.result.parameters.back().left_out_because));
-  EXPECT_TRUE(contains(page, "38.2\u00a0s wall time"));
-  EXPECT_TRUE(contains(page, "data:image/png;base64,iVBORw0KGgo"));
-  EXPECT_TRUE(contains(page, "porosity 4.80 ± 0.21 %"));
-}
-
-TEST(FitPage, ShowsNoCorrelationAsZero) {
-  auto sample = test::fit_sample();
-  sample.result.fitted = {"young_GPa", "head_tail_MPa"};
-  sample.result.correlation = {{1.0, -9e-32}, {-9e-32, 1.0}};
-  const std::string page = fit_page({sample.study, sample.result, {}, {}});
-  EXPECT_TRUE(contains(page, "Correlation"));
-  EXPECT_FALSE(contains(page, "10⁻³²"));
-}
-
-TEST(FitPage, NamesTheChecksThatFailed) {
-  auto sample = test::fit_sample();
-  sample.result.verdict[1].outcome = calib::Outcome::fail;
-  const std::string page = fit_page({sample.study, sample.result, {}, {}});
-  EXPECT_TRUE(contains(page, "The fit cannot be trusted: 1 of 4 checks failed (goodness of fit)."));
-  EXPECT_FALSE(contains(page, "class=\"verdict good\""));
-}
-
-TEST(FitPage, SaysWhyAFitWithoutFailedChecksCannotBeTrusted) {
-  auto sample = test::fit_sample();
-  sample.result.status = calib::CalibrationStatus::cancelled;
-  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}),
-                       "The fit cannot be trusted: " + explain(sample.result.status)));
-}
-
-TEST(FitPage, EscapesWhatUsersWrote) {
-  auto sample = test::fit_sample();
-  sample.study.name = "<script>alert(1)</script> & \"co\"";
-  sample.result.specimens.front().id = "<b>A1</b>";
-  sample.result.specimens.front().measured.warnings = {"1 < 2 & 3"};
-  const std::string page = fit_page({sample.study, sample.result, {}, {{"command", "a <b> 'c'"}}});
-  expect_sound(page);
-  EXPECT_FALSE(contains(page, "<b>A1"));
-  EXPECT_TRUE(contains(page, "&lt;script&gt;"));
-}
-
-TEST(FitPage, SurvivesAResultOfNothing) {
-  expect_sound(fit_page({calib::Study{}, calib::CalibrationResult{}, {}, {}}));
-}
-
-TEST(FitPage, SurvivesNumbersThatAreNone) {
-  auto sample = test::fit_sample();
-  auto& specimen = sample.result.specimens.front();
-  specimen.modulus = specimen.strength = specimen.failure_strain = {test::nan, test::nan};
-  specimen.residual = {test::nan, test::nan, test::nan};
-  specimen.porosity = test::nan;
-  specimen.measured = {};
-  std::fill(specimen.band.residual.begin(), specimen.band.residual.end(), test::nan);
-  std::fill(specimen.band.median.begin(), specimen.band.median.end(), test::nan);
-  sample.result.parameters.front().value = test::nan;
-  expect_sound(fit_page({sample.study, sample.result, {}, {}}));
 }
 
 TEST(SimulationPage, PutsTheErrorBesideTheTime) {

@@ -1,0 +1,124 @@
+#include <gmock/gmock.h>
+
+#include "io/config/read_study.hpp"
+#include "tests/io/config/complaints.hpp"
+
+namespace havers::io {
+namespace {
+
+using testing::ElementsAre;
+
+class RefusedStudy : public testing::Test {
+ protected:
+  std::vector<std::string> complaints(const std::string& text,
+                                      Files files = Files::will_be_written) {
+    return test::complaints_of(
+        folder, [&] { read_study(folder.write("study.toml", text), Overrides{}, files); });
+  }
+  test::ScratchFolder folder;
+  const std::string one_specimen = "[[specimen]]\nid = \"A1\"\ntest = \"A1.csv\"\n";
+};
+
+TEST_F(RefusedStudy, ReportsAllProblemsAtOnce) {
+  folder.write("A1.csv", "");
+  EXPECT_THAT(complaints(R"([study]
+nmae = "x"
+[[specimen]]
+id = "A1"
+test = "A1.csv"
+gauge = "g.csv"
+[[specimen]]
+id = "A1"
+test = "B.csv"
+sections = ["s.png"]
+mask = "m.png"
+use = "both"
+[model.material]
+young_GPa = -1
+)",
+                         Files::must_exist),
+              ElementsAre("study.toml:6: specimen.gauge: names g.csv, which is not there (paths "
+                          "are relative to the folder "
+                          "of this file)",
+                          "study.toml:12: specimen.use: is \"both\", must be one of: fit, validate "
+                          "(did you mean fit?)",
+                          "study.toml:8: specimen.id: is \"A1\", as that of an earlier specimen",
+                          "study.toml:9: specimen.test: names B.csv, which is not there (paths are "
+                          "relative to the folder of "
+                          "this file)",
+                          "study.toml:11: specimen.mask: names m.png, which is not there (paths "
+                          "are relative to the folder of this file)",
+                          "study.toml:10: specimen.sections: names s.png, which is not there "
+                          "(paths are relative to the "
+                          "folder of this file)",
+                          "study.toml:14: model.material.young_GPa: is -1, must be above 0",
+                          "study.toml:2: study.nmae: is not a known key (did you mean name?)"));
+}
+
+TEST_F(RefusedStudy, AsksForSpecimens) {
+  EXPECT_THAT(complaints(""),
+              ElementsAre("study.toml: specimen: is missing (write one [[specimen]] for each "
+                          "test)"));
+  EXPECT_THAT(
+      complaints("[specimen]\nid = \"A\"\n"),
+      ElementsAre("study.toml:1: specimen: is a table, must be tables (write [[specimen]])"));
+}
+
+struct ImpossibleStudy {
+  std::string text, sentence;
+};
+
+TEST_F(RefusedStudy, NamesImpossibleValuesWithLineAndRule) {
+  const std::vector<ImpossibleStudy> cases{
+      {"[[specimen]]\ntest = \"t\"\n", "study.toml:1: specimen.id: is missing (name the specimen)"},
+      {"[[specimen]]\nid = \"\"\ntest = \"t\"\n",
+       "study.toml:2: specimen.id: is empty (name the specimen)"},
+      {"[[specimen]]\nid = \"a/b\"\ntest = \"t\"\n",
+       "study.toml:2: specimen.id: is \"a/b\", must be usable as a file's name"},
+      {"[[specimen]]\nid = \"A1\"\n",
+       "study.toml:1: specimen.test: is missing (the testing machine's file)"},
+      {one_specimen + "width_mm = 0", "study.toml:4: specimen.width_mm: is 0, must be above 0"},
+      {one_specimen + "thickness_mm = -2",
+       "study.toml:4: specimen.thickness_mm: is -2, must be above 0"},
+      {one_specimen + "gauge_length_mm = 0",
+       "study.toml:4: specimen.gauge_length_mm: is 0, must be above 0"},
+      {one_specimen + "pixel_size_um = 0",
+       "study.toml:4: specimen.pixel_size_um: is 0, must be above 0"},
+      {one_specimen + "orientation_deg = 91",
+       "study.toml:4: specimen.orientation_deg: is 91, must be above -90 and at most 90"},
+      {one_specimen + "porosity = 1",
+       "study.toml:4: specimen.porosity: is 1, must be at least 0 and below 1"},
+      {one_specimen + "sections = \"s.png\"",
+       "study.toml:4: specimen.sections: is a text, must be a list of texts"},
+      {one_specimen + "[porosity]\nstrength_exponent = -1",
+       "study.toml:5: porosity.strength_exponent: is -1, must be 0 or more"},
+      {one_specimen + "[porosity]\nmodulus_exponent = -1",
+       "study.toml:5: porosity.modulus_exponent: is -1, must be 0 or more"},
+      {one_specimen + "[porosity]\nlinear_offset = 2",
+       "study.toml:5: porosity.linear_offset: is 2, must be at least 0 and below 2"},
+      {one_specimen + "[calibrate]\nparameters = [\"yuong_GPa\"]",
+       "study.toml:5: calibrate.parameters: names \"yuong_GPa\", which cannot be calibrated (did "
+       "you mean "
+       "young_GPa?)"},
+      {one_specimen + "[calibrate.bounds]\nyung_GPa = [1, 2]",
+       "study.toml:5: calibrate.bounds.yung_GPa: is not a known key (did you mean young_GPa?)"},
+      {one_specimen + "[calibrate.bounds]\nyoung_GPa = [1]",
+       "study.toml:5: calibrate.bounds.young_GPa: must be a list of two numbers (as in [5.0, "
+       "30.0])"},
+      {one_specimen + "[calibrate.level]\nratio = \"bone\"",
+       "study.toml:5: calibrate.level.ratio: is \"bone\", must be one of: shared, orientation, "
+       "specimen (did "
+       "you mean shared?)"},
+      {one_specimen + "[synthesize]\nforce_noise_N = -1",
+       "study.toml:5: synthesize.force_noise_N: is -1, must be 0 or more"},
+      {one_specimen + "[synthesize]\nsampling_s = 0",
+       "study.toml:5: synthesize.sampling_s: is 0, must be above 0"},
+      {one_specimen + "[synthesize]\nsection_pixels = 3",
+       "study.toml:5: synthesize.section_pixels: is 3, must be at least 16"},
+  };
+  for (const ImpossibleStudy& wrong : cases)
+    EXPECT_THAT(complaints(wrong.text), ElementsAre(wrong.sentence)) << wrong.text;
+}
+
+}  // namespace
+}  // namespace havers::io

@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include "reports/bench_pages.hpp"
+#include "tests/reports/sound_page.hpp"
+
+namespace havers::reports {
+namespace {
+
+using test::contains;
+using test::expect_sound;
+
+TEST(FitPage, GivesTheVerdictBeforeAnyNumber) {
+  const auto sample = test::fit_sample();
+  const std::string page = fit_page({sample.study, sample.result, {}, {{"havers", "0.1.0"}}, 38.2});
+  expect_sound(page);
+  const std::size_t verdict = page.find("The fit can be trusted, with 1 reservation.");
+  ASSERT_NE(verdict, std::string::npos);
+  EXPECT_LT(verdict, page.find("goodness of fit"));
+  EXPECT_LT(page.find("goodness of fit"), page.find("13.123 ± 0.087"));
+}
+
+TEST(FitPage, ShowsEverySpecimenParameterCheckAndStage) {
+  const auto sample = test::fit_sample();
+  const std::string page =
+      fit_page({sample.study, sample.result, {{"A2", {test::tiny_png()}}}, {{"seed", "1"}}, 38.2});
+  for (const auto& specimen : sample.result.specimens)
+    EXPECT_TRUE(contains(page, "<h3>" + specimen.id + " "));
+  for (const auto& parameter : sample.result.parameters)
+    EXPECT_TRUE(contains(page, parameter.name));
+  for (const auto& check : sample.result.verdict) EXPECT_TRUE(contains(page, check.text));
+  for (const auto& stage : sample.result.stages) EXPECT_TRUE(contains(page, stage.optimiser));
+  for (const char* wall : {"21.4\u00a0s", "6.25\u00a0s"}) EXPECT_TRUE(contains(page, wall)) << wall;
+  EXPECT_TRUE(contains(page, sample.result.parameters.back().left_out_because));
+  EXPECT_TRUE(contains(page, "38.2\u00a0s wall time"));
+  EXPECT_TRUE(contains(page, "data:image/png;base64,iVBORw0KGgo"));
+  EXPECT_TRUE(contains(page, "porosity 4.80 ± 0.21 %"));
+}
+
+TEST(FitPage, ShowsNoCorrelationAsZero) {
+  auto sample = test::fit_sample();
+  sample.result.fitted = {"young_GPa", "head_tail_MPa"};
+  sample.result.correlation = {{1.0, -9e-32}, {-9e-32, 1.0}};
+  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  EXPECT_TRUE(contains(page, "Correlation"));
+  EXPECT_FALSE(contains(page, "10⁻³²"));
+}
+
+TEST(FitPage, NamesTheChecksThatFailed) {
+  auto sample = test::fit_sample();
+  sample.result.verdict[1].outcome = calib::Outcome::fail;
+  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  EXPECT_TRUE(contains(page, "The fit cannot be trusted: 1 of 4 checks failed (goodness of fit)."));
+  EXPECT_FALSE(contains(page, "class=\"verdict good\""));
+}
+
+TEST(FitPage, SaysWhyAFitWithoutFailedChecksCannotBeTrusted) {
+  auto sample = test::fit_sample();
+  sample.result.status = calib::CalibrationStatus::cancelled;
+  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}),
+                       "The fit cannot be trusted: " + explain(sample.result.status)));
+}
+
+TEST(FitPage, EscapesWhatUsersWrote) {
+  auto sample = test::fit_sample();
+  sample.study.name = "<script>alert(1)</script> & \"co\"";
+  sample.result.specimens.front().id = "<b>A1</b>";
+  sample.result.specimens.front().measured.warnings = {"1 < 2 & 3"};
+  const std::string page = fit_page({sample.study, sample.result, {}, {{"command", "a <b> 'c'"}}});
+  expect_sound(page);
+  EXPECT_FALSE(contains(page, "<b>A1"));
+  EXPECT_TRUE(contains(page, "&lt;script&gt;"));
+}
+
+TEST(FitPage, SurvivesAResultOfNothing) {
+  expect_sound(fit_page({calib::Study{}, calib::CalibrationResult{}, {}, {}}));
+}
+
+TEST(FitPage, SurvivesNumbersThatAreNone) {
+  auto sample = test::fit_sample();
+  auto& specimen = sample.result.specimens.front();
+  specimen.modulus = specimen.strength = specimen.failure_strain = {test::nan, test::nan};
+  specimen.residual = {test::nan, test::nan, test::nan};
+  specimen.porosity = test::nan;
+  specimen.measured = {};
+  std::fill(specimen.band.residual.begin(), specimen.band.residual.end(), test::nan);
+  std::fill(specimen.band.median.begin(), specimen.band.median.end(), test::nan);
+  sample.result.parameters.front().value = test::nan;
+  expect_sound(fit_page({sample.study, sample.result, {}, {}}));
+}
+
+}  // namespace
+}  // namespace havers::reports
