@@ -126,9 +126,13 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
   if (result.converged) return result;
   // Either way may find the set that the other misses.
   JointStepResult other = many ? solve_loose(step) : search_.solve(step);
+  other.iterations += result.iterations;
   if (other.converged) return other;
   JointStepResult combined = solve_loose(step, true);
-  return combined.converged || many ? combined : result;
+  combined.iterations += other.iterations;
+  if (combined.converged || many) return combined;
+  result.iterations = combined.iterations;
+  return result;
 }
 
 JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, bool combine) {

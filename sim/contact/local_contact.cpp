@@ -31,10 +31,6 @@ constexpr std::array<double, 5> springs{1e-11, 1e-10, 1e-9, 1e-8, 1e-7};
 constexpr int times_moved = 8;
 constexpr int calm = 10;  // sweeps without a change of state, after which the set is worth a solve
 
-double sign_of(JointState state) {
-  return state == JointState::slip_forward ? 1.0 : state == JointState::slip_backward ? -1.0 : 0.0;
-}
-
 States states_of(const LocalContact& p, const VectorXd& y, const States& now) {
   const VectorXd r = p.r0 + p.S * y, u = p.u0 + y;
   const double scale = std::max(r.cwiseAbs().maxCoeff(), p.r0.cwiseAbs().maxCoeff());
@@ -50,6 +46,11 @@ States states_of(const LocalContact& p, const VectorXd& y, const States& now) {
 }
 
 }  // namespace
+
+double slip_sign(JointState state) {
+  if (state == JointState::slip_forward) return 1.0;
+  return state == JointState::slip_backward ? -1.0 : 0.0;
+}
 
 double law_missed(const LocalContact& p, const VectorXd& r, const VectorXd& gaps) {
   double squared = 0.0;
@@ -76,7 +77,7 @@ JointState state_of(const Local& reaction, const Local& gap, JointState now, con
     if (cone_margin(reaction, law) >= -tolerance) return now;
     return reaction.y() < 0.0 ? JointState::slip_forward : JointState::slip_backward;
   }
-  return sign_of(now) * gap.y() < -tolerance ? JointState::stick : now;
+  return slip_sign(now) * gap.y() < -tolerance ? JointState::stick : now;
 }
 
 SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const Local& u0,
@@ -88,9 +89,9 @@ SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, cons
   const double rn = free.x() - S(0, 0) * u0.x() + law.cohesion, rt = free.y() - S(1, 0) * u0.x();
   SingleJoint slipped{stuck, JointState::slip_backward};
   for (const JointState way : {JointState::slip_forward, JointState::slip_backward}) {
-    const double slope = sign_of(way) * law.friction;
+    const double slope = slip_sign(way) * law.friction;
     slipped = {{stuck.x(), -(rt + slope * rn) / (S(1, 1) + slope * S(0, 1))}, way};
-    if (sign_of(way) * (slipped.y.y() + u0.y()) >= 0.0) break;
+    if (slip_sign(way) * (slipped.y.y() + u0.y()) >= 0.0) break;
   }
   return slipped;
 }

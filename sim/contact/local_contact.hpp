@@ -12,6 +12,9 @@ namespace havers::sim {
 /// What a joint does in the solution of a step.
 enum class JointState { stick, slip_forward, slip_backward, open };
 
+/// Sign of the slip; 0 where there is none, or no friction. The friction is −sign μ (R_N + c).
+double slip_sign(JointState state);
+
 /// Find y with r = r₀ + S y and the joint law at every joint, gaps being u = u₀ + y (C1),
 /// sim/README.md.
 struct LocalContact {

@@ -14,15 +14,12 @@ constexpr int sets_from_answers = 12;  // each answer being where the next sweep
 constexpr int sets_from_sweeps = 8;    // then sweeps go on from where they were, ever longer
 constexpr int most_sweeps = 200;       // between two sets
 constexpr int quiet_sweeps = 10;       // sweeps without a change of state
+// Part of the reactions that an answer may err by, where it breaks a law by more.
+constexpr double rough = 1e-4;
 
 Held held_in(JointState state) {
   if (state == JointState::stick) return Held::fully;
   return state == JointState::open ? Held::not_at_all : Held::normal;
-}
-
-double slope_in(JointState state, const JointLaw& law) {
-  if (state == JointState::slip_forward) return -law.friction;
-  return state == JointState::slip_backward ? law.friction : 0.0;
 }
 
 }  // namespace
@@ -39,23 +36,46 @@ void SetSearch::take(const std::vector<JointState>& states) {
   if (!structure_ || structure_->held() != held) structure_.emplace(*bodies_, std::move(held));
 }
 
-StructureResponse SetSearch::answer(const JointStep& step,
-                                    const std::vector<JointState>& states) const {
-  const auto joints = static_cast<Index>(states.size());
+// Of the structure as it is, for the result's states.
+StructureResponse SetSearch::answer(const JointStep& step, double accuracy,
+                                    JointStepResult& result) const {
+  const auto joints = static_cast<Index>(result.states.size());
   StructureLoads loads{step.forces,
                        step.prescribed,
                        step.held_at - step.predicted,
                        step.force_scale,
                        VectorXd::Zero(2 * joints),
-                       VectorXd::Zero(joints)};
+                       VectorXd::Zero(joints),
+                       accuracy};
   for (Index j = 0; j < joints; ++j) {
-    const JointState state = states[static_cast<std::size_t>(j)];
+    const JointState state = result.states[static_cast<std::size_t>(j)];
     const JointLaw& law = step.laws[static_cast<std::size_t>(j)];
-    loads.friction(j) = slope_in(state, law);
+    loads.friction(j) = -slip_sign(state) * law.friction;
     if (state == JointState::open) loads.given(2 * j) = -law.cohesion;
     loads.given(2 * j + 1) = loads.friction(j) * law.cohesion;
   }
-  return structure_->solve(loads);
+  StructureResponse response = structure_->solve(loads);
+  ++result.iterations;
+  result.gaps = step.predicted + response.gaps;
+  result.reactions = response.reactions;
+  result.displacements = response.displacements;
+  result.converged = is_lawful(step, result, accuracy);
+  return response;
+}
+
+// Whether the law leaves every joint in its state, where reactions err by part of the largest.
+bool SetSearch::is_lawful(const JointStep& step, const JointStepResult& result,
+                          double accuracy) const {
+  const double scale = accuracy / accuracy_of_forces *
+                       std::max(step.force_scale, result.reactions.lpNorm<Eigen::Infinity>());
+  for (std::size_t j = 0; j < step.laws.size(); ++j) {
+    const auto row = static_cast<Index>(2 * j);
+    const Local gap = result.gaps.segment<2>(row) - step.held_at.segment<2>(row);
+    if (state_of(result.reactions.segment<2>(row), stiffness_(static_cast<Index>(j)) * gap,
+                 result.states[j], step.laws[j], scale) != result.states[j])
+      return false;
+  }
+  return true;
 }
 
 // Returns the sweeps spent.
@@ -75,23 +95,12 @@ JointStepResult SetSearch::solve(const JointStep& step) {
   for (int set = 0; set < sets_from_answers + sets_from_sweeps; ++set) {
     take(result.states);
     if (!structure_->ok()) return result;
-    StructureResponse response = answer(step, result.states);
-    ++result.iterations;
-    result.gaps = step.predicted + response.gaps;
-    result.reactions = response.reactions;
-    result.displacements = response.displacements;
-    result.residual = std::max(joint_residual(step, result, stiffness_), response.residual);
-
-    const double scale = std::max(step.force_scale, result.reactions.lpNorm<Eigen::Infinity>());
-    bool lawful = true;
-    for (std::size_t j = 0; j < step.laws.size() && lawful; ++j) {
-      const auto row = static_cast<Index>(2 * j);
-      const Local gap = result.gaps.segment<2>(row) - step.held_at.segment<2>(row);
-      lawful = state_of(result.reactions.segment<2>(row), stiffness_(static_cast<Index>(j)) * gap,
-                        result.states[j], step.laws[j], scale) == result.states[j];
-    }
-    result.converged = lawful && response.residual < 1e-9;
+    StructureResponse response = answer(step, rough, result);
+    if (result.converged && response.residual > accuracy_of_forces)
+      response = answer(step, accuracy_of_forces, result);
+    result.converged = result.converged && response.residual < 1e-9;
     if (result.converged) {
+      result.residual = std::max(joint_residual(step, result, stiffness_), response.residual);
       tie_forces_ = std::move(response.tie_forces);
       break;
     }

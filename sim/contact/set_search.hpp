@@ -20,8 +20,9 @@ class SetSearch {
 
  private:
   void take(const std::vector<JointState>& states);
-  [[nodiscard]] StructureResponse answer(const JointStep& step,
-                                         const std::vector<JointState>& states) const;
+  StructureResponse answer(const JointStep& step, double accuracy, JointStepResult& result) const;
+  [[nodiscard]] bool is_lawful(const JointStep& step, const JointStepResult& result,
+                               double accuracy) const;
   int look_for_states(const JointStep& step, int patience, std::vector<JointState>& states);
 
   const Bodies* bodies_;

@@ -22,12 +22,6 @@ constexpr double tolerated = 1e-10, rounding_of_gaps = 1e-15;
 // A border costs its cube, a factor that of all equations: so many, and a tenth of these.
 constexpr std::size_t borders_at_least = 4;
 
-double friction_slope(JointState state, const JointLaw& law) {
-  if (state == JointState::slip_forward) return law.friction;
-  if (state == JointState::slip_backward) return -law.friction;
-  return 0.0;
-}
-
 }  // namespace
 
 StateSystem::StateSystem(const LocalContact& problem) : problem_(&problem) {
@@ -61,7 +55,7 @@ std::vector<StateSystem::Equation> StateSystem::equations_of_states() const {
     const auto row = static_cast<Index>(2 * i);
     if (states_[i] == JointState::open) equations.push_back({row, 0.0});
     if (states_[i] != JointState::stick)
-      equations.push_back({row + 1, friction_slope(states_[i], problem_->laws[i])});
+      equations.push_back({row + 1, slip_sign(states_[i]) * problem_->laws[i].friction});
   }
   return equations;
 }

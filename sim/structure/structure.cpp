@@ -12,7 +12,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double accuracy_of_forces = 1e-12;  // of the port forces, relative
 // Forces err by more than the bodies' imbalance: 5 times as a rule, 200 times at the most over all
 // scenes of known answer.
 constexpr double forces_by_imbalance = 1e3;
@@ -27,6 +26,7 @@ struct Structure::PortLoads {
   VectorXd offsets;   // displacements that the ports have beyond those of their unknowns
   VectorXd friction;  // of each joint; empty: none
   double force_scale = 0.0;
+  double accuracy = accuracy_of_forces;
 };
 
 // Displacements, forces and compatibility multipliers at the ports of all bodies.
@@ -174,7 +174,7 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads) const {
           state.error,
           forces_by_imbalance *
               std::hypot(ports_to_unknowns(state.forces).norm(), stiffness_ * gap.norm()) / scale);
-    if (!(state.error > accuracy_of_forces)) break;
+    if (!(state.error > loads.accuracy)) break;
     if (state.solves > 3 && shrinkage > 0.5 && !rubs) break;
     before = correction;
     if (rubs) past.push_back(std::move(change));
@@ -194,7 +194,8 @@ VectorXd Structure::reactions_of(const VectorXd& port_forces) const {
 }
 
 StructureResponse Structure::solve(const StructureLoads& loads) const {
-  PortLoads at_ports{VectorXd(ports()), VectorXd::Zero(ports()), loads.friction, loads.force_scale};
+  PortLoads at_ports{VectorXd(ports()), VectorXd::Zero(ports()), loads.friction, loads.force_scale,
+                     loads.accuracy};
   std::vector<MatrixXd> forces;  // on the free degrees of freedom of each class
   forces.reserve(bodies_->classes().size());
   for (const BodyClass& group : bodies_->classes()) {  // (S3): condense the loads

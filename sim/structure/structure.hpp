@@ -20,6 +20,9 @@ enum class Held : char {
   not_at_all
 };
 
+/// Port forces that err by less than this part of their norm are solved for as well as can be.
+constexpr double accuracy_of_forces = 1e-12;
+
 /// What acts on a structure. Vectors over degrees of freedom, and over joints (normal, tangential
 /// of each).
 struct StructureLoads {
@@ -27,10 +30,11 @@ struct StructureLoads {
   Eigen::VectorXd
       prescribed;            ///< Displacements of the held degrees of freedom, zero elsewhere. [m]
   Eigen::VectorXd jumps;     ///< u_b − u_a imposed where a joint is held. [m]
-  double force_scale = 0.0;  ///< Port forces below 1e-12 of this norm are rounding. [N/m]
+  double force_scale = 0.0;  ///< What port forces err by is compared to this norm at least. [N/m]
   Eigen::VectorXd given{};   ///< Reactions where a joint is not held; empty: none. [N/m]
   Eigen::VectorXd
       friction{};  ///< Of each sliding joint: R_T = given + friction · R_N; empty: 0. [-]
+  double accuracy = accuracy_of_forces;  ///< Part of the port forces that they may err by. [-]
 };
 
 struct StructureResponse {
