@@ -1,6 +1,5 @@
 #include "sim/simulation.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace havers::sim {
@@ -57,6 +56,10 @@ bool steps_over_failure(const Simulation& run) {
 std::string Simulation::why_not_trusted() const {
   if (status != SimulationStatus::broken && status != SimulationStatus::strain_limit)
     return explain(status);
+  if (std::isnan(step_error))
+    return "the chosen time step was never halved, so that its error is not known; a step_s of "
+           "your "
+           "own, or regime = \"quasi-static\", goes further";
   if (step_error > largest_step_error)
     return "halving the time step still changes the failure strain";
   if (steps_over_failure(*this))

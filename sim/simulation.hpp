@@ -73,7 +73,8 @@ struct Simulation {
   double leapt_strain = 0.0;    ///< What was stretched without steps, before the first break. [-]
   int steps = 0;                ///< Time steps, or events of the quasi-static sequence.
   long iterations = 0;          ///< Of the contact solver, all steps together.
-  double energy_defect = 0.0;   ///< Largest relative defect of (M4) over the steps. [-]
+  double energy_defect = 0.0;   ///< Largest relative defect of (M4) over the steps; quasi-static:
+                                ///< that of the last state. [-]
   double energy_gain = 0.0;     ///< Quasi-static: the most that a break up to the strength added to
                                 ///< the energy stored, of that at the strength. [-]
   double worst_residual = 0.0;  ///< Largest (M11) over the steps. [-]
@@ -94,11 +95,16 @@ struct Simulation {
 /// What a caller may watch while a simulation runs.
 struct Progress {
   const CurvePoint& point;
-  const Eigen::VectorXd& displacements;  ///< x and y of every node. [m]
+  std::size_t row;  ///< Of the curve, from 0.
   const std::vector<JointOutcome>& joints;
+  /// x and y of every node; in the quasi-static limit a solve, which the run itself does without.
+  /// [m]
+  std::function<Eigen::VectorXd()> displacements;
 };
 
-/// Called after each recorded row; returning false stops the run (status `cancelled`).
+/// Called after each step or break; returning false stops the run (status `cancelled`). Where a run
+/// is done again, with a shorter step or more care, its rows are seen again, from an earlier time.
+/// Watching changes nothing.
 using Observer = std::function<bool(const Progress&)>;
 
 /// Runs a scene. Precondition: scene.problems() is empty.

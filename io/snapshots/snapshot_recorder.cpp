@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "io/input_error.hpp"
 #include "io/snapshots/snapshots.hpp"
 
@@ -21,14 +19,13 @@ SnapshotRecorder::SnapshotRecorder(int count) : count_(static_cast<std::size_t>(
 
 void SnapshotRecorder::record(const sim::Progress& progress) {
   if (progress.point.time < time_) {
-    rows_ = 0;
+    shown_ = 0;
     stride_ = 1;
     held_.clear();
   }
   time_ = progress.point.time;
-  const int row = rows_++;
-  if (count_ == 0 || progress.displacements.size() == 0 || row % stride_ != 0) return;
-  held_.push_back({.row = row, .displacements = progress.displacements, .joints = progress.joints});
+  if (count_ == 0 || shown_++ % stride_ != 0) return;
+  held_.push_back({progress.row, progress.displacements(), progress.joints});
   if (held_.size() < 2 * count_ + 1) return;
   drop_every_second(held_);
   stride_ *= 2;
@@ -36,10 +33,9 @@ void SnapshotRecorder::record(const sim::Progress& progress) {
 
 void SnapshotRecorder::finish(const sim::Simulation& simulation) {
   if (count_ == 0 || simulation.displacements.size() == 0) return;
-  const int last = std::max(rows_ - 1, 0);
+  const std::size_t last = simulation.curve.size() - 1;
   if (!held_.empty() && held_.back().row == last) held_.pop_back();
-  held_.push_back(
-      {.row = last, .displacements = simulation.displacements, .joints = simulation.joints});
+  held_.push_back({last, simulation.displacements, simulation.joints});
 }
 
 std::vector<Snapshot> SnapshotRecorder::chosen() const {

@@ -14,7 +14,7 @@ bool snapshots_available();
 
 /// One moment of a run.
 struct Snapshot {
-  int row = 0;                            ///< Of the curve, from 0.
+  std::size_t row = 0;                    ///< Of the curve, from 0.
   Eigen::VectorXd displacements;          ///< x and y of every node. [m]
   std::vector<sim::JointOutcome> joints;  ///< In the order of Assembly::joints.
 };
@@ -26,20 +26,19 @@ class SnapshotRecorder {
   /// @throws InputError when snapshots are asked for and VTK is not built in.
   explicit SnapshotRecorder(int count);
 
-  /// To be called for every row, in order. A row of an earlier time begins another run, as when a
-  /// chosen step is halved; what the one before left is dropped. Rows without displacements (the
-  /// quasi-static sequence finds them at its end only) are passed over.
+  /// To be called for every row that a run shows, in order. A row of an earlier time begins another
+  /// run, as when a chosen step is halved; what the one before left is dropped.
   void record(const sim::Progress& progress);
 
   /// To be called once after the run: its last state is the last moment.
   void finish(const sim::Simulation& simulation);
 
-  /// The moments, the first and the last row among them (one: the last).
+  /// The moments, the first that was shown and the last row among them (one: the last).
   [[nodiscard]] std::vector<Snapshot> chosen() const;
 
  private:
   std::size_t count_;
-  int rows_ = 0, stride_ = 1;
+  std::size_t shown_ = 0, stride_ = 1;
   double time_ = 0.0;  // of the last row [s]
   std::vector<Snapshot> held_;
 };

@@ -63,6 +63,7 @@ void BreakingRun::break_joints(double event, double strain) {
   std::vector<std::size_t> breaking;
   for (std::size_t j = 0; j < joints.size(); ++j)
     if (meets_cone_at(j) <= event * (1.0 + together)) breaking.push_back(j);
+  take_note_of_penetration(strain);
   for (const std::size_t j : breaking) {
     joints[j].broken = true;
     joints[j].broken_at_strain = strain;
@@ -251,27 +252,44 @@ CurvePoint BreakingRun::point(double strain) const {
           .dissipated = dissipated};
 }
 
+void BreakingRun::take_note_of_penetration(double strain) {
+  for (Index i = 0; i < y_.size(); i += 2)
+    worst_penetration_ = std::max(worst_penetration_, -strain * y_(i));
+}
+
+std::vector<JointOutcome> BreakingRun::outcomes(double strain) const {
+  std::vector<JointOutcome> outcomes = joints;
+  const double young = scene_.material.young;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const auto row = static_cast<Index>(2 * j);
+    outcomes[j].reaction_normal = young * strain * reactions_(row);
+    outcomes[j].reaction_tangent = young * strain * reactions_(row + 1);
+  }
+  for (std::size_t i = 0; i < loose_.size(); ++i)
+    outcomes[static_cast<std::size_t>(loose_.joints()[i])].gap =
+        strain * y_(2 * static_cast<Index>(i));
+  return outcomes;
+}
+
+VectorXd BreakingRun::displacements(double strain) const {
+  return strain * intact_->stretch(gaps()).displacements;
+}
+
 // What events computed is checked against the refined answer, ½ qᵀĀq = ½ (F W ε + r·u) too.
 void BreakingRun::finish(double strain, double energy_scale, Simulation& simulation) {
   const double scale = intact_->answer().reactions.norm();
   refine();
   const UnitAnswer& last = reference_;
-  const VectorXd gaps = this->gaps();
-  const double young = scene_.material.young;
+  reactions_ = last.reactions;
   simulation.displacements = strain * last.displacements;
-  simulation.joints = joints;
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    const auto row = static_cast<Index>(2 * j);
-    JointOutcome& joint = simulation.joints[j];
-    joint.reaction_normal = young * strain * last.reactions(row);
-    joint.reaction_tangent = young * strain * last.reactions(row + 1);
-    joint.gap = strain * gaps(row);
-    simulation.worst_penetration = std::max(simulation.worst_penetration, -joint.gap);
-  }
+  simulation.joints = outcomes(strain);
+  take_note_of_penetration(strain);
+  simulation.worst_penetration = worst_penetration_;
   const double elastic = intact_->energy(last.displacements);
-  const double work = 0.5 * (last.force * intact_->assembly().width + last.reactions.dot(gaps));
+  const double work = 0.5 * (last.force * intact_->assembly().width + last.reactions.dot(gaps()));
   if (energy_scale > 0.0)
-    simulation.energy_defect = young * strain * strain * std::abs(elastic - work) / energy_scale;
+    simulation.energy_defect =
+        scene_.material.young * strain * strain * std::abs(elastic - work) / energy_scale;
   simulation.worst_residual =
       std::max({simulation.worst_residual, intact_->answer().residual, last.residual,
                 worst_residual_ / scale, law_missed(contact_, of_loose(last.reactions), y_) / scale,

@@ -34,10 +34,14 @@ class BreakingRun {
   /// Accounts for the friction of joints that slide while the strain grows.
   void stretch(double from, double to);
   [[nodiscard]] CurvePoint point(double strain) const;
+  /// The joints, with what they bear and how far they are open by now.
+  [[nodiscard]] std::vector<JointOutcome> outcomes(double strain) const;
+  [[nodiscard]] Eigen::VectorXd displacements(double strain) const;
   /// Fills in the last row's joints and displacements, and the checks.
   void finish(double strain, double energy_scale, Simulation& simulation);
 
  private:
+  void take_note_of_penetration(double strain);
   [[nodiscard]] double meets_cone_at(std::size_t joint) const;
   void loosen(const std::vector<std::size_t>& breaking);
   [[nodiscard]] std::vector<char> apart() const;
@@ -60,11 +64,12 @@ class BreakingRun {
   // The intact structure, or the last refined answer: what changes is reckoned from it.
   UnitAnswer reference_;
   Eigen::VectorXd y_at_reference_;
-  Eigen::VectorXd reactions_;    // for E = 1 and ε = 1 [N/m]
-  double force_;                 // likewise
-  double joint_work_ = 0.0;      // r·u of the loose joints, likewise [N]
-  double worst_residual_ = 0.0;  // of the law, over all answers, for E = 1 [N/m]
-  double noise_;                 // what rounding leaves on an unloaded joint is not a load
+  Eigen::VectorXd reactions_;       // for E = 1 and ε = 1 [N/m]
+  double force_;                    // likewise
+  double joint_work_ = 0.0;         // r·u of the loose joints, likewise [N]
+  double worst_residual_ = 0.0;     // of the law, over all answers, for E = 1 [N/m]
+  double worst_penetration_ = 0.0;  // likewise, of the specimen [m]
+  double noise_;                    // what rounding leaves on an unloaded joint is not a load
 
  public:
   std::vector<JointOutcome> joints;

@@ -38,6 +38,12 @@ double energy_gain(const std::vector<CurvePoint>& curve) {
   return gain_to_strength > 0.0 ? gain_to_strength / curve[strongest].elastic : 0.0;
 }
 
+bool goes_on(const Observer& observer, const BreakingRun& run, const Simulation& simulation) {
+  const CurvePoint& now = simulation.curve.back();
+  return !observer || observer({now, simulation.curve.size() - 1, run.outcomes(now.strain),
+                                [&] { return run.displacements(now.strain); }});
+}
+
 Simulation break_event_by_event(const Scene& scene,
                                 const std::shared_ptr<const IntactStructure>& intact, bool careful,
                                 const Observer& observer) {
@@ -82,9 +88,7 @@ Simulation break_event_by_event(const Scene& scene,
       simulation.status = SimulationStatus::not_converged;
       break;
     }
-    if (observer) run.finish(strain, largest_energy, simulation);
-    if (observer &&
-        !observer({simulation.curve.back(), simulation.displacements, simulation.joints})) {
+    if (!goes_on(observer, run, simulation)) {
       simulation.status = SimulationStatus::cancelled;
       break;
     }
@@ -104,10 +108,8 @@ Simulation break_event_by_event(const Scene& scene,
 
 Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
   const std::shared_ptr<const IntactStructure> intact = intact_structure(scene);
-  if (!observer) {
-    Simulation quick = break_event_by_event(scene, intact, false, {});
-    if (quick.worst_residual <= accurate) return quick;
-  }
+  Simulation quick = break_event_by_event(scene, intact, false, observer);
+  if (quick.worst_residual <= accurate || quick.status == SimulationStatus::cancelled) return quick;
   return break_event_by_event(scene, intact, true, observer);
 }
 

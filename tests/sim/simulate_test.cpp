@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 #include <string>
 
@@ -144,17 +145,37 @@ TEST(Simulate, StopsWhenTheObserverAsksForIt) {
   }
 }
 
+TEST(Simulate, IsTheSameWatchedOrNot) {
+  for (Scene scene : {test::small_scene(0.0, 12, 8), test::dynamic_scene()}) {
+    const Simulation alone = simulate(scene);
+    std::vector<std::size_t> rows;
+    const Simulation watched = simulate(scene, [&](const Progress& progress) {
+      EXPECT_TRUE(progress.displacements().allFinite());
+      rows.push_back(progress.row);
+      return true;
+    });
+    ASSERT_EQ(alone.curve.size(), watched.curve.size());
+    EXPECT_EQ(alone.strength, watched.strength);
+    EXPECT_EQ(alone.failure_strain, watched.failure_strain);
+    EXPECT_EQ(alone.worst_residual, watched.worst_residual);
+    EXPECT_EQ(alone.energy_defect, watched.energy_defect);
+    EXPECT_EQ(rows.size(), static_cast<std::size_t>(watched.steps));
+    EXPECT_EQ(rows.back(), watched.curve.size() - 1);
+  }
+}
+
 // Snapshots are made of what the observer sees.
 TEST(Simulate, ShowsTheObserverDisplacementsOfEveryNode) {
   for (const Scene& scene : {test::small_scene(), test::dynamic_scene()}) {
     const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
     const auto dofs = static_cast<Eigen::Index>(2 * assembly.nodes.size());
     const Simulation simulation = simulate(scene, [&](const Progress& progress) {
-      EXPECT_EQ(progress.displacements.size(), dofs);
+      const Eigen::VectorXd displacements = progress.displacements();
+      EXPECT_EQ(displacements.size(), dofs);
       EXPECT_EQ(progress.joints.size(), assembly.joints.size());
-      if (progress.displacements.size() != dofs) return false;
-      EXPECT_NEAR(progress.displacements(2 * assembly.right.front()),
-                  progress.point.strain * assembly.width, 1e-12 * assembly.width);
+      if (displacements.size() != dofs) return false;
+      EXPECT_NEAR(displacements(2 * assembly.right.front()), progress.point.strain * assembly.width,
+                  1e-12 * assembly.width);
       return true;
     });
     EXPECT_EQ(simulation.displacements.size(), dofs);
@@ -246,6 +267,10 @@ TEST(Simulation, IsNotTrustedUnlessItsChecksHold) {
   EXPECT_TRUE(simulation.trusted());
   simulation.worst_residual = 2e-8;
   EXPECT_FALSE(simulation.trusted());
+  simulation.worst_residual = 0.0;
+  EXPECT_TRUE(simulation.trusted());
+  simulation.step_error = std::numeric_limits<double>::quiet_NaN();  // of a step never halved
+  EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("never halved"));
 }
 
 }  // namespace

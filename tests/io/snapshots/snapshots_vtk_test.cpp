@@ -16,16 +16,18 @@ namespace {
 std::vector<int> chosen_rows(int count, int rows) {
   SnapshotRecorder recorder(count);
   const std::vector<sim::JointOutcome> joints;
-  for (int row = 0; row < rows; ++row)
-    recorder.record(
-        {.point = {}, .displacements = Eigen::VectorXd::Constant(2, row), .joints = joints});
   sim::Simulation end;
-  if (rows > 0) end.displacements = Eigen::VectorXd::Constant(2, rows - 1);
+  for (int row = 0; row < rows; ++row) {
+    end.displacements = Eigen::VectorXd::Constant(2, row);
+    end.curve.emplace_back();
+    recorder.record(
+        {end.curve.back(), end.curve.size() - 1, joints, [&end] { return end.displacements; }});
+  }
   recorder.finish(end);
   std::vector<int> chosen;
   for (const Snapshot& snapshot : recorder.chosen()) {
-    EXPECT_EQ(snapshot.displacements(0), snapshot.row);
-    chosen.push_back(snapshot.row);
+    EXPECT_EQ(snapshot.displacements(0), static_cast<double>(snapshot.row));
+    chosen.push_back(static_cast<int>(snapshot.row));
   }
   return chosen;
 }
@@ -54,14 +56,21 @@ TEST(SnapshotRecorder, KeepsAllRowsOfAShortRunAndTheLastWhenAskedForOne) {
   EXPECT_TRUE(chosen_rows(4, 0).empty());
 }
 
-// The quasi-static sequence knows its displacements at the end only.
-TEST(SnapshotRecorder, KeepsTheEndOfARunWithoutDisplacementsOnTheWay) {
+// The quasi-static limit shows every second row, after each break.
+TEST(SnapshotRecorder, NamesTheRowsOfTheCurve) {
   SnapshotRecorder recorder(4);
-  recorder.record({.point = {}, .displacements = {}, .joints = {}});
-  sim::Simulation end;
-  end.displacements = Eigen::VectorXd::Ones(2);
-  recorder.finish(end);
-  EXPECT_EQ(recorder.chosen().size(), 1U);
+  sim::Simulation run;
+  run.curve.resize(1);
+  run.displacements = Eigen::VectorXd::Ones(2);
+  for (int i = 0; i < 2; ++i) {
+    run.curve.resize(run.curve.size() + 2);
+    recorder.record(
+        {run.curve.back(), run.curve.size() - 1, {}, [&run] { return run.displacements; }});
+  }
+  recorder.finish(run);
+  ASSERT_EQ(recorder.chosen().size(), 2U);
+  EXPECT_EQ(recorder.chosen().front().row, 2U);
+  EXPECT_EQ(recorder.chosen().back().row, 4U);
 }
 
 // Two triangles and one joint between them.
