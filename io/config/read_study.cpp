@@ -191,6 +191,10 @@ StudyFile read_tables(ConfigFile& config, Files files) {
 
   TableReader model = top.table("model");
   read_scene_tables(model, read.study.model);
+  if (TableReader joints = model.table("joints"); joints.has("thresholds_file"))
+    joints.complain("thresholds_file",
+                    "is of one assembly; a study draws thresholds for each specimen",
+                    "leave it out; a scene for havers simulate may name it");
   int snapshots = 0;  // accepted, so that a scene can be pasted whole; a fit writes none
   model.table("output").key("snapshots", snapshots);
 

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "io/config/read_study.hpp"
+#include "sim/assembly/assembly.hpp"
 #include "tests/io/config/complaints.hpp"
 
 namespace havers::io {
@@ -62,6 +63,22 @@ TEST_F(RefusedStudy, AsksForSpecimens) {
   EXPECT_THAT(
       complaints("[specimen]\nid = \"A\"\n"),
       ElementsAre("study.toml:1: specimen: is a table, must be tables (write [[specimen]])"));
+}
+
+// Joints are as many as a specimen's orientation makes them, and a scene that a fit leaves would
+// name a file beside it that is not there.
+TEST_F(RefusedStudy, DrawsItsThresholds) {
+  std::string joints = "joint,f_N,f_T\n";
+  const sim::AssemblyOptions small{.layers = 2, .fibres = 3};
+  const std::size_t count = sim::build_assembly(small, sim::Lateral::periodic).joints.size();
+  for (std::size_t joint = 0; joint < count; ++joint) joints += fmt::format("{},3,4\n", joint);
+  folder.write("joints.csv", joints);
+  EXPECT_THAT(
+      complaints(one_specimen + "[model.assembly]\nlayers = 2\nfibres = 3\n[model.joints]\n"
+                                "thresholds_file = \"joints.csv\"\n"),
+      ElementsAre("study.toml:8: model.joints.thresholds_file: is of one assembly; a study draws "
+                  "thresholds for each specimen (leave it out; a scene for havers simulate may "
+                  "name it)"));
 }
 
 struct ImpossibleStudy {
