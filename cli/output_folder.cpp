@@ -109,13 +109,16 @@ void OutputFolder::publish(Earlier earlier) {
   const std::set<std::string> old = own;
   own.insert(staged.begin(), staged.end());
   write_names(folder_, own);
-  if (earlier == Earlier::goes)
+  // The result goes first and comes last: where it stands, its run is complete, whenever a kill
+  // came.
+  if (earlier == Earlier::goes) {
+    if (old.contains(last_name)) fs::remove_all(folder_ / last_name);
     for (const std::string& name : old) fs::remove_all(folder_ / name);
+  }
   const auto move = [&](const std::string& name) {
     fs::remove_all(folder_ / name);
     fs::rename(staging_ / name, folder_ / name);
   };
-  // The result last: where it stands, the run is complete, whenever a kill came.
   const bool has_result = staged.erase(last_name) > 0;
   std::ranges::for_each(staged, move);
   if (has_result) move(last_name);

@@ -41,6 +41,17 @@ TEST(OutputFolder, IsNotReplacedUnlessForceIsGiven) {
   EXPECT_EQ(test::read_text(folder / "out/notes.txt"), "mine");
 }
 
+// A kill between two files, for which a name stands that cannot be removed.
+TEST(OutputFolder, LosesTheResultBeforeItsFiles) {
+  const fs::path folder = folder_with_scene();
+  ASSERT_EQ(run_havers(folder, "simulate scene.toml -o out").exit_code, 0);
+  const std::string behind_curve = "d" + std::string(300, 'x') + "\n";
+  test::write_text(folder / "out/.havers", test::read_text(folder / "out/.havers") + behind_curve);
+  EXPECT_EQ(run_havers(folder, "simulate scene.toml -o out --force").exit_code, 2);
+  EXPECT_FALSE(fs::exists(folder / "out/curve.csv"));
+  EXPECT_FALSE(fs::exists(folder / "out/result.json")) << "a result without its files";
+}
+
 // Not even by --force: neither a scene and curves of the user's own, nor his result.
 TEST(OutputFolder, KeepsWhatNoRunHasWritten) {
   const fs::path folder = folder_with_scene();
