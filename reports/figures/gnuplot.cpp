@@ -84,7 +84,9 @@ std::string draw(const Figure& figure) {
                   fmt::format("set terminal svg size {},{} dynamic font 'sans-serif,13'\n{}{}",
                               figure.width, figure.height, preamble, figure.commands));
   if (!gnuplot.started)
-    return sentence_svg("Figure not drawn: gnuplot did not start (apt-get install gnuplot-nox).");
+    return sentence_svg(
+        "Figure not drawn: gnuplot did not start (apt-get install gnuplot-nox), or TMPDIR names no "
+        "folder that can be written.");
   if (gnuplot.status != 0 || gnuplot.output.find("</svg>") == std::string::npos)
     return sentence_svg("Figure not drawn; gnuplot says: " + last_line(gnuplot.errors));
   return inline_svg(gnuplot.output, figure);

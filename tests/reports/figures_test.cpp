@@ -116,6 +116,16 @@ TEST(Figure, IsASentenceWithoutGnuplot) {
   EXPECT_TRUE(contains(svg, "gnuplot did not start (apt-get install gnuplot-nox)"));
 }
 
+TEST(Process, DoesNotStartWithoutAPlaceForItsFiles) {
+  const char* before = std::getenv("TMPDIR");
+  const std::string place = before == nullptr ? "" : before;
+  setenv("TMPDIR", "/nonexistent", 1);
+  ProcessResult result;
+  EXPECT_NO_THROW(result = run_process({"cat"}, ""));
+  EXPECT_FALSE(result.started);
+  before == nullptr ? unsetenv("TMPDIR") : setenv("TMPDIR", place.c_str(), 1);
+}
+
 TEST(Process, HandsOverItsInputAndEndsWithItsStatus) {
   const ProcessResult copied = run_process({"cat"}, "as it is");
   EXPECT_EQ(copied.status, 0);
