@@ -40,6 +40,17 @@ void check_id(TableReader& table, const std::string& id, std::set<std::string>& 
     table.complain("id", fmt::format("is \"{}\", as that of an earlier specimen", id));
 }
 
+// Files of one id may not be those of another: io/results and cli add to ids.
+void check_file_names(TableReader& table, const std::string& id, const std::set<std::string>& ids) {
+  for (const std::string_view ending : {"_measured", "_clocks"}) {
+    if (!id.ends_with(ending)) continue;
+    const std::string other = id.substr(0, id.size() - ending.size());
+    if (ids.contains(other))
+      table.complain("id", fmt::format("is \"{}\", which names files of \"{}\"", id, other),
+                     "give one of them another id");
+  }
+}
+
 void check_specimen(TableReader& table, const SpecimenFiles& specimen) {
   if (!table.has("test")) table.complain("test", "is missing", "the testing machine's file");
   require_positive(table, "width_mm", specimen.width, millimetre);
@@ -68,7 +79,8 @@ std::vector<SpecimenFiles> read_specimens(TableReader& top, Files files) {
   std::set<std::string> ids;
   if (!top.has("specimen"))
     top.complain("specimen", "is missing", "write one [[specimen]] for each test");
-  for (TableReader& table : top.tables("specimen")) {
+  std::vector<TableReader> tables = top.tables("specimen");
+  for (TableReader& table : tables) {
     SpecimenFiles& specimen = specimens.emplace_back();
     keys(table, specimen);
     TableReader columns = table.table("columns"), gauge_columns = table.table("gauge_columns");
@@ -78,6 +90,7 @@ std::vector<SpecimenFiles> read_specimens(TableReader& top, Files files) {
     check_specimen(table, specimen);
     if (files == Files::must_exist) check_files(table, specimen);
   }
+  for (std::size_t i = 0; i < tables.size(); ++i) check_file_names(tables[i], specimens[i].id, ids);
   return specimens;
 }
 

@@ -137,5 +137,16 @@ TEST_F(RefusedStudy, NamesImpossibleValuesWithLineAndRule) {
     EXPECT_THAT(complaints(wrong.text), ElementsAre(wrong.sentence)) << wrong.text;
 }
 
+TEST_F(RefusedStudy, GivesEachSpecimenFilesOfItsOwn) {
+  const std::string measured = "[[specimen]]\nid = \"A1_measured\"\ntest = \"B.csv\"\n";
+  const std::string clocks = "[[specimen]]\nid = \"A1_clocks\"\ntest = \"C.csv\"\n";
+  EXPECT_THAT(complaints(measured + one_specimen + clocks),
+              ElementsAre("study.toml:2: specimen.id: is \"A1_measured\", which names files of "
+                          "\"A1\" (give one of them another id)",
+                          "study.toml:8: specimen.id: is \"A1_clocks\", which names files of "
+                          "\"A1\" (give one of them another id)"));
+  EXPECT_THAT(complaints(measured + clocks), ElementsAre());
+}
+
 }  // namespace
 }  // namespace havers::io
