@@ -6,6 +6,7 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "calib/experiment/join_logger.hpp"
 #include "cli/command.hpp"
@@ -172,7 +173,7 @@ std::string figure_name(const std::vector<Imported>& tests, std::size_t i) {
     before += k < i ? 1 : 0;
   }
   const std::string stem = std::filesystem::path(tests[i].file.file).stem().string();
-  return all == 1 ? stem + ".svg" : fmt::format("{}_{}.svg", stem, before + 1);
+  return all == 1 ? stem : fmt::format("{}_{}", stem, before + 1);
 }
 
 void write_figures(const OutputFolder& output, const std::vector<Imported>& tests,
@@ -182,10 +183,13 @@ void write_figures(const OutputFolder& output, const std::vector<Imported>& test
   for (const Imported& test : tests)
     pages.push_back({test.file.file, test.file.test, test.reduction.test, test.reduction.problems,
                      test.clocks ? &*test.clocks : nullptr});
+  std::set<std::string> used;
+  const auto write = [&](const std::string& name, const std::string& svg) {
+    io::write_file(output.stage(name_of_its_own(name, used) + ".svg"), svg);
+  };
   for (std::size_t i = 0; i < pages.size(); ++i) {
-    io::write_file(output.stage(figure_name(tests, i)), reports::test_svg(pages[i]));
-    if (pages[i].clocks != nullptr)
-      io::write_file(output.stage("clocks.svg"), reports::clocks_svg(*pages[i].clocks));
+    write(figure_name(tests, i), reports::test_svg(pages[i]));
+    if (pages[i].clocks != nullptr) write("clocks", reports::clocks_svg(*pages[i].clocks));
   }
   io::write_file(output.stage("report.html"), reports::import_page(pages, facts));
 }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <set>
 #include <string>
 #include <system_error>
 
@@ -72,6 +71,12 @@ void refuse_to_overwrite(const fs::path& folder, bool force) {
 void take_note(const fs::path& folder, const std::string& name) {
   std::set<std::string> names = names_of_runs(folder);
   if (names.insert(name).second) write_names(folder, names);
+}
+
+std::string name_of_its_own(const std::string& name, std::set<std::string>& used) {
+  std::string own = name;
+  for (int number = 2; !used.insert(own).second; ++number) own = fmt::format("{}_{}", name, number);
+  return own;
 }
 
 OutputFolder::OutputFolder(const fs::path& folder, bool force)

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "calib/porosity/scatter_map.hpp"
@@ -139,22 +140,15 @@ nlohmann::json json_of(const std::vector<Section>& sections) {
   return {{"sections", all}, {"mean", io::mean_porosity_json(mean)}};
 }
 
-// Names of one folder for images of any: what comes second of a name gets a number.
-std::string overlay_name(const std::filesystem::path& image, std::map<std::string, int>& used) {
-  const std::string stem = image.stem().string();
-  const int before = used[stem]++;
-  return before == 0 ? stem + "_overlay.png" : fmt::format("{}_{}_overlay.png", stem, before + 1);
-}
-
 void write_page(const PorosityArguments& arguments, const std::vector<Section>& sections,
                 const CommonOptions& common, const Stopwatch& watch) {
   OutputFolder output(arguments.folder, common.force);
   reports::PorosityReport page;
-  std::map<std::string, int> used;
+  std::set<std::string> used;
   for (const Section& section : sections) {
     const auto& overlay = section.measured.overlay_png;
-    io::write_file(output.stage(overlay_name(section.image, used)),
-                   {overlay.begin(), overlay.end()});
+    const std::string name = name_of_its_own(section.image.stem().string(), used);
+    io::write_file(output.stage(name + "_overlay.png"), {overlay.begin(), overlay.end()});
     page.sections.push_back(section.measured.porosity);
     page.overlays.push_back(overlay);
     page.scatter.push_back(section.scatter);

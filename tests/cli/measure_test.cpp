@@ -133,6 +133,22 @@ TEST(Import, TakesWhatAStudyCouldSay) {
   EXPECT_EQ(nlohmann::json::parse(named.out).at("columns").at(1).at("quantity"), "force");
 }
 
+// Of whatever folders the files are, and whatever their names look like with a number.
+TEST(Import, DrawsEveryFileEvenOfOneName) {
+  const fs::path folder = own_folder();
+  if (run_havers(folder, "--version").out.find("reports OFF") != std::string::npos)
+    GTEST_SKIP() << "this build makes no figures";
+  std::string files;
+  for (const char* name : {"a/t.csv", "b/t.csv", "b/t_2.csv"}) {
+    fs::create_directories((folder / name).parent_path());
+    test::write_text(folder / name, "Time (s),Load (N)\n0,1\n1,2\n2,3\n");
+    files += std::string(" ") + name;
+  }
+  run_havers(folder, "import" + files + " -o out");
+  for (const char* figure : {"t.svg", "t_2.svg", "t_2_2.svg"})
+    EXPECT_TRUE(fs::exists(folder / "out" / figure)) << figure;
+}
+
 // What is not known is null, and what was read is shown.
 TEST(Import, ShowsATestThatCannotBeReduced) {
   const fs::path folder = own_folder();
