@@ -164,6 +164,16 @@ void read_calibrate(TableReader calibrate, const sim::Scene& model,
   }
 }
 
+void read_laws_file(TableReader calibrate, std::vector<calib::SweepLaw>& laws) {
+  std::filesystem::path file;
+  if (!calibrate.key("laws", file) || !calibrate.require_file("laws", file)) return;
+  try {
+    laws = read_laws(file);
+  } catch (const InputError& error) {
+    calibrate.complain(error.problems());
+  }
+}
+
 void read_synthesize(TableReader table, SynthesizeOptions& options) {
   keys(table, options);
   require_not_negative(table, "force_noise_N", options.force_noise);
@@ -213,10 +223,7 @@ StudyFile read_tables(ConfigFile& config, Files files) {
 
   read_porosity(top.table("porosity"), read.study.porosity);
   read_calibrate(top.table("calibrate"), read.study.model, read.study.calibrate);
-  std::filesystem::path laws;
-  TableReader calibrate = top.table("calibrate");
-  if (calibrate.key("laws", laws) && calibrate.require_file("laws", laws))
-    read.study.laws = read_laws(laws);
+  read_laws_file(top.table("calibrate"), read.study.laws);
   read_synthesize(top.table("synthesize"), read.synthesize);
   read_reduction(top.table("reduction"), read.reduction);
   read_sections(top.table("sections"), read.sections);

@@ -56,6 +56,13 @@ young_GPa = -1
                           "study.toml:2: study.nmae: is not a known key (did you mean name?)"));
 }
 
+TEST_F(RefusedStudy, ReportsFaultyLawsAmongTheOthers) {
+  folder.write("laws.json", "{}");
+  EXPECT_THAT(complaints(one_specimen + "width_mm = 0\n[calibrate]\nlaws = \"laws.json\"\n"),
+              ElementsAre("study.toml:4: specimen.width_mm: is 0, must be above 0",
+                          "laws.json: is no file of laws (name the laws.json of a sweep)"));
+}
+
 TEST_F(RefusedStudy, AsksForSpecimens) {
   EXPECT_THAT(complaints(""),
               ElementsAre("study.toml: specimen: is missing (write one [[specimen]] for each "
