@@ -45,7 +45,7 @@ int bench_scene(const BenchArguments& arguments, const CommonOptions& common) {
   OutputFolder output(arguments.folder, common.force);
 
   const sim::WorkPrecision study = watched(file.scene, arguments, common);
-  const io::Provenance provenance = provenance_of(common, {arguments.scene}, watch);
+  const io::Provenance provenance = provenance_of(common, file.inputs, watch);
   const nlohmann::json result = io::work_precision_json(file.scene, study, provenance);
   io::write_file(output.stage("result.json"), io::json_text(result));
   io::write_file(output.stage("bench.csv"), io::work_precision_csv(study));

@@ -104,13 +104,6 @@ Outcome load_specimen(const calib::Specimen& declared, const io::SpecimenFiles& 
   return outcome;
 }
 
-void list_inputs(const io::SpecimenFiles& files, std::vector<std::filesystem::path>& inputs) {
-  inputs.push_back(files.test);
-  if (files.gauge) inputs.push_back(*files.gauge);
-  if (files.mask) inputs.push_back(*files.mask);
-  inputs.insert(inputs.end(), files.sections.begin(), files.sections.end());
-}
-
 // A test that cannot be used does not stop the others.
 void leave_out(const io::SpecimenFiles& files, const Outcome& outcome, LoadedStudy& loaded) {
   std::string why;
@@ -122,7 +115,6 @@ void leave_out(const io::SpecimenFiles& files, const Outcome& outcome, LoadedStu
 }
 
 void take_specimen(const io::SpecimenFiles& files, Outcome outcome, LoadedStudy& loaded) {
-  list_inputs(files, loaded.inputs);
   loaded.warnings.insert(loaded.warnings.end(), outcome.warnings.begin(), outcome.warnings.end());
   if (!outcome.rejections.empty()) {
     leave_out(files, outcome, loaded);
@@ -180,7 +172,7 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   LoadedStudy loaded;
   loaded.study = std::move(read.study);
   loaded.study.specimens.clear();
-  loaded.inputs = {file};
+  loaded.inputs = std::move(read.inputs);
   doubt_specimens(read.specimens, loaded);
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     take_specimen(read.specimens[i], std::move(outcomes[i]), loaded);

@@ -98,7 +98,7 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
     return answer_is_no;
   }
   snapshots.finish(simulation);
-  const io::Provenance provenance = provenance_of(common, {arguments.scene}, watch);
+  const io::Provenance provenance = provenance_of(common, file.inputs, watch);
   write_results(output, file.scene, simulation, snapshots, provenance);
   output.publish();
 

@@ -35,6 +35,7 @@ struct SweepArguments {
 
 struct Done {
   std::string stem;
+  std::vector<fs::path> inputs;
   calib::Sweep sweep;
   calib::SweepResult result;
 };
@@ -47,7 +48,8 @@ std::vector<Done> read_all(const SweepArguments& arguments, const CommonOptions&
     if (!stems.insert(file.stem().string()).second)
       problems.push_back({file.string(), "has the name of another sweep", "rename one"});
     try {
-      all.push_back({file.stem().string(), io::read_sweep(file, common.set, common.seed), {}});
+      io::SweepFile read = io::read_sweep(file, common.set, common.seed);
+      all.push_back({file.stem().string(), std::move(read.inputs), std::move(read.sweep), {}});
     } catch (const io::InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -68,6 +70,12 @@ bool run_all(std::vector<Done>& all, calib::EvaluationStore& store, const Common
     if (one.result.cancelled) return false;
   }
   return true;
+}
+
+std::vector<fs::path> inputs_of(const std::vector<Done>& all) {
+  std::vector<fs::path> inputs;
+  for (const Done& one : all) inputs.insert(inputs.end(), one.inputs.begin(), one.inputs.end());
+  return inputs;
 }
 
 long runs_of(const std::vector<Done>& all) {
@@ -151,7 +159,7 @@ int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
                      ": the same command goes on from there");
     return answer_is_no;
   }
-  const io::Provenance provenance = provenance_of(common, arguments.files, watch);
+  const io::Provenance provenance = provenance_of(common, inputs_of(all), watch);
   write_all(output, arguments, all, provenance);
   output.publish();
   if (common.json) {

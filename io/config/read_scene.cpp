@@ -18,6 +18,7 @@ SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrid
     output.complain("snapshots", fmt::format("is {}, must be 0 or more", read.snapshots));
 
   config.finish();
+  read.inputs = config.inputs();
   return read;
 }
 

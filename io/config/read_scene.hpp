@@ -15,7 +15,8 @@ using Overrides = std::vector<std::string>;
 
 struct SceneFile {
   sim::Scene scene;
-  int snapshots = 0;  ///< .vtu files to write.
+  int snapshots = 0;                            ///< .vtu files to write.
+  std::vector<std::filesystem::path> inputs{};  ///< The scene, and what it names.
 };
 
 /// Reads a scene. Paths in it are relative to its folder.

@@ -227,6 +227,7 @@ StudyFile read_tables(ConfigFile& config, Files files) {
   read_synthesize(top.table("synthesize"), read.synthesize);
   read_reduction(top.table("reduction"), read.reduction);
   read_sections(top.table("sections"), read.sections);
+  read.inputs = config.inputs();
   return read;
 }
 

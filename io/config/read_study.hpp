@@ -53,6 +53,7 @@ struct StudyFile {
   SynthesizeOptions synthesize;
   calib::ReductionOptions reduction;
   SectionOptions sections;  ///< [sections]; pixel size, mask and window are the specimen's.
+  std::vector<std::filesystem::path> inputs;  ///< The study, and what it names that is there.
 };
 
 /// Whether the named test and section files must exist (all commands but `synthesize`).

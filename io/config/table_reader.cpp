@@ -191,10 +191,12 @@ bool TableReader::key(std::string_view name, std::vector<std::filesystem::path>&
 }
 
 bool TableReader::require_file(std::string_view name, const std::filesystem::path& file) {
-  if (std::filesystem::is_regular_file(file)) return true;
-  complain(name, fmt::format("names {}, which is not there", file.string()),
-           "paths are relative to the folder of this file");
-  return false;
+  const bool there = std::filesystem::is_regular_file(file);
+  if (there) file_->inputs_.push_back(file);
+  if (!there)
+    complain(name, fmt::format("names {}, which is not there", file.string()),
+             "paths are relative to the folder of this file");
+  return there;
 }
 
 std::optional<std::size_t> TableReader::word_index(std::string_view name,

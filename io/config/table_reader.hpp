@@ -110,12 +110,16 @@ class ConfigFile {
   /// @throws InputError with these.
   void finish();
 
+  /// The file, and those that it names and that are there.
+  [[nodiscard]] const std::vector<std::filesystem::path>& inputs() const { return inputs_; }
+
  private:
   friend class TableReader;
   [[nodiscard]] std::string where(const toml::node& node, const std::string& key) const;
 
   std::filesystem::path file_;
   std::unique_ptr<toml::table> top_;
+  std::vector<std::filesystem::path> inputs_{file_};
   std::map<std::string, std::set<std::string, std::less<>>> asked_;  ///< Keys by the table's path.
   std::vector<Problem> problems_;
 };

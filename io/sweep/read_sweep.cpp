@@ -77,11 +77,12 @@ double number_in(const std::string& value) {
 }
 
 // The scene with a point's values on top, as if they were given by --set.
-calib::SweepPoint read_point(const std::filesystem::path& file, Overrides overrides,
-                             const calib::SweepPlan& plan, std::vector<std::string> values) {
+calib::SweepPoint read_point(SweepFile& read, Overrides overrides,
+                             std::vector<std::string> values) {
+  const calib::SweepPlan& plan = read.sweep.plan;
   for (std::size_t i = 0; i < values.size(); ++i)
     overrides.push_back(fmt::format("{}={}", plan.keys[i].name, values[i]));
-  ConfigFile config(file, overrides);
+  ConfigFile config(read.inputs.front(), overrides);
   TableReader top = config.top();
   calib::Sweep again;
   read_plan(top, again);
@@ -89,6 +90,8 @@ calib::SweepPoint read_point(const std::filesystem::path& file, Overrides overri
   calib::SweepPoint point;
   read_scene_tables(top, point.scene);
   config.finish();
+  for (const std::filesystem::path& input : config.inputs())
+    if (std::ranges::find(read.inputs, input) == read.inputs.end()) read.inputs.push_back(input);
   for (const std::string& value : values) point.numbers.push_back(number_in(value));
   point.values = std::move(values);
   point.inertia_number = sim::choose_regime(point.scene).inertia_number;
@@ -111,11 +114,12 @@ void add_if_new(Problem problem, std::vector<Problem>& problems) {
 
 }  // namespace
 
-calib::Sweep read_sweep(const std::filesystem::path& file, const Overrides& overrides,
-                        std::optional<std::uint64_t> seed) {
+SweepFile read_sweep(const std::filesystem::path& file, const Overrides& overrides,
+                     std::optional<std::uint64_t> seed) {
   ConfigFile config(file, overrides);
   TableReader top = config.top();
-  calib::Sweep sweep;
+  SweepFile read{.sweep = {}, .inputs = {file}};
+  calib::Sweep& sweep = read.sweep;
   read_plan(top, sweep);
   if (!sweep.plan.problems().empty()) {  // no points, so the scene is read as it stands
     sim::Scene scene;
@@ -130,7 +134,7 @@ calib::Sweep read_sweep(const std::filesystem::path& file, const Overrides& over
   std::vector<Problem> problems;
   for (std::vector<std::string>& values : points_of(sweep.plan)) {
     try {
-      sweep.points.push_back(read_point(file, overrides, sweep.plan, std::move(values)));
+      sweep.points.push_back(read_point(read, overrides, std::move(values)));
     } catch (const InputError& error) {
       for (const Problem& problem : error.problems()) {
         add_if_new(of_sweep(problem, file, sweep.plan), problems);
@@ -138,7 +142,7 @@ calib::Sweep read_sweep(const std::filesystem::path& file, const Overrides& over
     }
   }
   if (!problems.empty()) throw InputError(std::move(problems));
-  return sweep;
+  return read;
 }
 
 }  // namespace havers::io

@@ -4,16 +4,22 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "calib/sweep/sweep.hpp"
 #include "io/config/read_scene.hpp"
 
 namespace havers::io {
 
+struct SweepFile {
+  calib::Sweep sweep;
+  std::vector<std::filesystem::path> inputs;  ///< The sweep, and what its scenes name.
+};
+
 /// Reads a sweep; every point's scene is complete and possible.
 /// @param seed  of the first run, instead of the file's.
 /// @throws InputError with every problem, as read_scene; a problem of several points is named once.
-calib::Sweep read_sweep(const std::filesystem::path& file, const Overrides& overrides = {},
-                        std::optional<std::uint64_t> seed = {});
+SweepFile read_sweep(const std::filesystem::path& file, const Overrides& overrides = {},
+                     std::optional<std::uint64_t> seed = {});
 
 }  // namespace havers::io

@@ -54,6 +54,18 @@ TEST(Simulate, JsonIsTheResultFile) {
             nlohmann::json::parse(test::read_text(folder / "out/result.json")));
 }
 
+TEST(Simulate, KeepsTheDigestOfItsThresholds) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "scene.toml", test::small_scene());
+  ASSERT_EQ(run_havers(folder, "simulate scene.toml -o out").exit_code, 0);
+  const auto answer = run_havers(folder,
+                                 "simulate scene.toml -o again --json --set "
+                                 "joints.thresholds_file=out/joints.csv");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const auto inputs = nlohmann::json::parse(answer.out)["provenance"]["inputs"];
+  EXPECT_EQ(inputs.size(), 2U) << inputs.dump();
+}
+
 TEST(Simulate, SetAndSeedReplaceTheScenesValues) {
   const fs::path folder = own_folder();
   test::write_text(folder / "scene.toml", test::small_scene());

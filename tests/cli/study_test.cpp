@@ -60,6 +60,7 @@ TEST(Fit, WritesItsFilesAndResumesOnlyWhatHasNoResult) {
   const auto result = nlohmann::json::parse(first.out);
   EXPECT_EQ(first.exit_code, result["trusted"].get<bool>() ? 0 : 1);
   EXPECT_NEAR(result["parameters"][0]["value"].get<double>(), 16.0, 0.3);
+  EXPECT_EQ(result["provenance"]["inputs"].size(), 3U) << "the study and its tests";
   for (const char* file : {"curves/B0.csv", "curves/B90.csv", "evaluations.sqlite", "result.json"})
     EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
 

@@ -202,6 +202,23 @@ TEST_F(ReadStudy, AsksTheOptionsOfTheCalibration) {
               ElementsAre("study.toml:5: calibrate.bounds.ratio: " + falling.problems()[0]));
 }
 
+TEST_F(ReadStudy, NamesEveryFileThatAResultComesFrom) {
+  for (const char* name : {"A1.csv", "g.csv", "m.png", "s.png"}) folder.write(name, "");
+  folder.write("laws.json", R"({"laws": [{"response": "strength", "status": "fitted",
+    "terms": ["joints.scatter"], "coefficients": [1.0, 2.0]}]})");
+  const StudyFile file = read(one_specimen + R"(gauge = "g.csv"
+mask = "m.png"
+sections = ["s.png"]
+[calibrate]
+laws = "laws.json"
+)",
+                              {}, Files::must_exist);
+  std::vector<std::string> names;
+  for (const auto& input : file.inputs) names.push_back(input.filename());
+  EXPECT_THAT(names, testing::UnorderedElementsAre("study.toml", "A1.csv", "g.csv", "m.png",
+                                                   "s.png", "laws.json"));
+}
+
 TEST_F(ReadStudy, DoesNotAskForFilesThatWillBeWritten) {
   EXPECT_THAT(complaints(one_specimen, Files::will_be_written), IsEmpty());
   EXPECT_EQ(complaints(one_specimen, Files::must_exist).size(), 1U);

@@ -45,7 +45,7 @@ x = "joints.scatter"
 // TOML keeps no order: the keys are in that of the alphabet.
 TEST(ReadSweep, MakesASceneOfEveryPoint) {
   const ScratchFolder folder;
-  const calib::Sweep sweep = read_sweep(folder.write("s.toml", good));
+  const calib::Sweep sweep = read_sweep(folder.write("s.toml", good)).sweep;
   EXPECT_EQ(sweep.name, "Small");
   EXPECT_EQ(sweep.plan.seeds, 3);
   ASSERT_EQ(sweep.points.size(), 4U);
@@ -59,9 +59,23 @@ TEST(ReadSweep, MakesASceneOfEveryPoint) {
   EXPECT_EQ(sweep.figures.front().x, "joints.scatter");
 }
 
+TEST(ReadSweep, NamesEveryFileThatItReadOnce) {
+  const ScratchFolder folder;
+  const auto joints = folder.write("joints.csv", "joint,f_N,f_T\n0,3,4\n");
+  const auto file = folder.write("s.toml", R"([sweep.keys]
+"joints.friction" = [0.1, 0.2]
+[assembly]
+layers = 1
+fibres = 2
+[joints]
+thresholds_file = "joints.csv"
+)");
+  EXPECT_THAT(read_sweep(file).inputs, ElementsAre(file, joints));
+}
+
 TEST(ReadSweep, TakesTheSeedOfTheCommandLine) {
   const ScratchFolder folder;
-  EXPECT_EQ(read_sweep(folder.write("s.toml", good), {}, 7).plan.seed, 7U);
+  EXPECT_EQ(read_sweep(folder.write("s.toml", good), {}, 7).sweep.plan.seed, 7U);
 }
 
 TEST(ReadSweep, NamesAnImpossibleValueOnceAndByTheSweepsKey) {
@@ -114,7 +128,7 @@ TEST(ReadSweep, NamesKeysThatCannotVary) {
 
 TEST(SweepFiles, HaveARowForEveryRunAndForEveryPointAndMeasure) {
   const ScratchFolder folder;
-  const calib::Sweep sweep = read_sweep(folder.write("s.toml", good));
+  const calib::Sweep sweep = read_sweep(folder.write("s.toml", good)).sweep;
   const calib::SweepResult result = calib::run_sweep(sweep, nullptr, 1, {});
   const std::string runs = runs_csv(sweep, result);
   EXPECT_THAT(runs, testing::StartsWith("point,level,joints.distribution,joints.scatter,seed,"
@@ -125,7 +139,7 @@ TEST(SweepFiles, HaveARowForEveryRunAndForEveryPointAndMeasure) {
 
 TEST(SweepFiles, ExportTheLawsAndTheFindings) {
   const ScratchFolder folder;
-  const calib::Sweep sweep = read_sweep(folder.write("s.toml", good));
+  const calib::Sweep sweep = read_sweep(folder.write("s.toml", good)).sweep;
   const calib::SweepResult result = calib::run_sweep(sweep, nullptr, 1, {});
   const nlohmann::json laws = laws_json(result);
   EXPECT_EQ(laws["laws"][0]["terms"][0], "joints.scatter");
