@@ -101,10 +101,11 @@ std::string status_sentence(const calib::CalibrationResult& result) {
 std::string search_sentence(const FitReport& report) {
   const calib::CalibrationResult& result = report.result;
   return fmt::format(
-      "Cost ½ Σ residual² = {} after {} ({} run, {} taken from the store, {} failed) in {} wall "
-      "time.",
+      "Cost ½ Σ residual² = {} after {} ({} run, {} taken from the store, {} asked for again; {} "
+      "failed) in {} wall time.",
       number(result.cost), count(result.evaluations, "simulation"), result.simulated,
-      result.evaluations - result.simulated, result.failed_simulations,
+      result.distinct_simulations - result.simulated,
+      result.evaluations - result.distinct_simulations, result.failed_simulations,
       duration(report.wall_seconds));
 }
 

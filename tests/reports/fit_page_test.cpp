@@ -36,6 +36,16 @@ TEST(FitPage, ShowsEverySpecimenParameterCheckAndStage) {
   EXPECT_TRUE(contains(page, "porosity 4.80 ± 0.21 %"));
 }
 
+// What a search asks for again is in memory; the store knows what earlier runs left.
+TEST(FitPage, TellsRepeatsFromTheStore) {
+  auto sample = test::fit_sample();
+  sample.result.evaluations = 14898;
+  sample.result.distinct_simulations = 2540;
+  sample.result.simulated = 2538;
+  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}),
+                       "2538 run, 2 taken from the store, 12358 asked for again; "));
+}
+
 TEST(FitPage, ShowsNoCorrelationAsZero) {
   auto sample = test::fit_sample();
   sample.result.fitted = {"young_GPa", "head_tail_MPa"};
