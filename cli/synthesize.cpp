@@ -66,6 +66,17 @@ fs::path place(const fs::path& study, const fs::path& file) {
   return fs::absolute(file).lexically_normal().lexically_relative(folder);
 }
 
+// What the copy of the study would name in vain.
+void refuse_what_is_not_made(const std::string& where, const io::SpecimenFiles& specimen,
+                             std::vector<io::Problem>& problems) {
+  const auto refuse = [&](bool named, const std::string& key) {
+    if (named) problems.push_back({where, "has " + key + ", which is not made", "leave it out"});
+  };
+  refuse(specimen.gauge.has_value(), "a gauge");
+  refuse(specimen.mask.has_value(), "a mask");
+  refuse(!specimen.columns.specimen.empty(), "specimen_in_file");
+}
+
 std::vector<io::Problem> problems_of(const fs::path& study, const io::StudyFile& file) {
   std::vector<io::Problem> problems;
   std::set<fs::path> to_be_made;
@@ -80,10 +91,16 @@ std::vector<io::Problem> problems_of(const fs::path& study, const io::StudyFile&
         problems.push_back({path.string(), "would be made twice",
                             "give each specimen files of its own to have them made"});
     }
+    const std::string where = study.string() + ": specimen " + specimen.id;
+    refuse_what_is_not_made(where, specimen, problems);
     if (!specimen.sections.empty() && !specimen.porosity)
-      problems.push_back({study.string() + ": specimen " + specimen.id,
-                          "has sections to draw but no porosity", "add porosity = 0.05, say"});
+      problems.push_back(
+          {where, "has sections to draw but no porosity", "add porosity = 0.05, say"});
   }
+  for (const fs::path& input : file.inputs)  // these are copied
+    if (*place(study, input).begin() == "..")
+      problems.push_back({input.string(), "lies outside the study's folder",
+                          "put it beside the study to have it copied"});
   return problems;
 }
 
@@ -209,7 +226,9 @@ int run_synthesize(const SynthesizeArguments& arguments, const CommonOptions& co
   }
   const nlohmann::json truth = truth_of(file, made);
   io::write_file(output.stage("truth.json"), io::json_text(truth));
-  fs::copy_file(arguments.study, output.stage("study.toml"));
+  for (const fs::path& input : file.inputs)
+    fs::copy_file(input, output.stage(input == arguments.study ? "study.toml"
+                                                               : place(arguments.study, input)));
   output.publish();
 
   if (common.json) {

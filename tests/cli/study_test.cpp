@@ -50,6 +50,41 @@ TEST(Synthesize, RefusesFilesOutsideTheStudysFolder) {
   EXPECT_FALSE(fs::exists(folder / "made"));
 }
 
+TEST(Synthesize, RefusesWhatItDoesNotMake) {
+  const fs::path folder = folder_with_study();
+  test::write_text(folder / "study.toml", test::small_study() +
+                                              "gauge = \"g.csv\"\nmask = \"m.png\"\n"
+                                              "specimen_in_file = 2\n");
+  const auto answer = run_havers(folder, "synthesize study.toml -o made");
+  EXPECT_EQ(answer.exit_code, 2);
+  for (const char* key : {"a gauge", "a mask", "specimen_in_file"})
+    EXPECT_NE(answer.err.find("study.toml: specimen B90: has " + std::string(key) + ", which is"),
+              std::string::npos)
+        << answer.err;
+  EXPECT_FALSE(fs::exists(folder / "made"));
+}
+
+TEST(Synthesize, BringsTheLawsOfTheStudyAlong) {
+  const fs::path folder = folder_with_study();
+  const std::string laws = R"({"laws": [{"response": "strength", "status": "fitted",
+    "terms": ["joints.scatter"], "coefficients": [1.0, 2.0]}]})";
+  fs::create_directories(folder / "sweep");
+  test::write_text(folder / "sweep/laws.json", laws);
+  std::string study = test::small_study();
+  study.replace(study.find("[calibrate]\n"), 12, "[calibrate]\nlaws = \"sweep/laws.json\"\n");
+  test::write_text(folder / "study.toml", study);
+  ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
+  EXPECT_EQ(test::read_text(folder / "made/sweep/laws.json"), laws);
+  EXPECT_EQ(run_havers(folder, "check made/study.toml").exit_code, 0);
+
+  fs::create_directories(folder / "deep");
+  study.replace(study.find("sweep/laws"), 5, "../sweep");
+  test::write_text(folder / "deep/study.toml", study);
+  const auto outside = run_havers(folder, "synthesize deep/study.toml -o again");
+  EXPECT_EQ(outside.exit_code, 2);
+  EXPECT_NE(outside.err.find("outside"), std::string::npos) << outside.err;
+}
+
 TEST(Fit, WritesItsFilesAndResumesOnlyWhatHasNoResult) {
   const fs::path folder = folder_with_study();
   ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made --set model.material.young_GPa=16")
