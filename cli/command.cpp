@@ -4,9 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "cli/number_check.hpp"
 #include "cli/version.hpp"
+#include "io/results/result_files.hpp"
 
 namespace havers::cli {
 
@@ -37,6 +39,14 @@ CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& n
 
 void note(const CommonOptions& common, const std::string& sentence) {
   if (!common.quiet) fmt::print(stderr, "{}\n", sentence);
+}
+
+ExitCode without_result(const CommonOptions& common, const std::string& status,
+                        const std::string& why) {
+  fmt::print(stderr, "{}\n", why);
+  if (common.json)
+    fmt::print("{}", io::json_text({{"status", status}, {"status_text", why}, {"trusted", false}}));
+  return answer_is_no;
 }
 
 }  // namespace havers::cli

@@ -58,4 +58,9 @@ CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& n
 /// A note for the user on stderr; silent with -q.
 void note(const CommonOptions& common, const std::string& sentence);
 
+/// What a run prints that ends without a result: why, on stderr; with --json the status too, on
+/// stdout. Returns the exit code.
+ExitCode without_result(const CommonOptions& common, const std::string& status,
+                        const std::string& why);
+
 }  // namespace havers::cli

@@ -63,13 +63,11 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
   const auto store = io::open_store(output.keep("evaluations.sqlite"));
   calib::CalibrationResult result = watched_fit(loaded.study, *store, common);
   result.left_out.insert(result.left_out.begin(), loaded.left_out.begin(), loaded.left_out.end());
-  if (result.status == calib::CalibrationStatus::cancelled) {
-    fmt::print(stderr,
-               "stopped by you; the simulations so far are kept in {}: the same command goes on "
-               "from there\n",
-               output.folder().string());
-    return answer_is_no;
-  }
+  if (result.status == calib::CalibrationStatus::cancelled)
+    return without_result(common, "cancelled",
+                          fmt::format("stopped by you; the simulations so far are kept in {}: the "
+                                      "same command goes on from there",
+                                      output.folder().string()));
 
   const io::Provenance provenance = provenance_of(common, loaded.inputs, watch);
   write_fit(output, loaded, result, provenance);

@@ -90,13 +90,12 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
     note(common, "no report.html and fracture.svg: this build makes no pages (havers --version)");
 
   const sim::Simulation simulation = watched_run(file.scene, snapshots, common);
-  if (simulation.curve.empty()) {
-    fmt::print(stderr,
-               "nothing could be computed and nothing was written: {}; fibres and joints may not "
-               "hold together as one structure\n",
-               sim::explain(simulation.status));
-    return answer_is_no;
-  }
+  if (simulation.curve.empty())
+    return without_result(
+        common, sim::to_string(simulation.status),
+        fmt::format("nothing could be computed and nothing was written: {}; fibres and joints may "
+                    "not hold together as one structure",
+                    sim::explain(simulation.status)));
   snapshots.finish(simulation);
   const io::Provenance provenance = provenance_of(common, file.inputs, watch);
   write_results(output, file.scene, simulation, snapshots, provenance);

@@ -154,11 +154,11 @@ int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
   OutputFolder output(arguments.folder, common.force || resumes);
   if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
   const auto store = io::open_store(output.keep("evaluations.sqlite"));
-  if (!run_all(all, *store, common)) {
-    note(common, "stopped by you; the runs so far are kept in " + output.folder().string() +
-                     ": the same command goes on from there");
-    return answer_is_no;
-  }
+  if (!run_all(all, *store, common))
+    return without_result(common, "cancelled",
+                          fmt::format("stopped by you; the runs so far are kept in {}: the same "
+                                      "command goes on from there",
+                                      output.folder().string()));
   const io::Provenance provenance = provenance_of(common, inputs_of(all), watch);
   write_all(output, arguments, all, provenance);
   output.publish();

@@ -220,10 +220,8 @@ int run_synthesize(const SynthesizeArguments& arguments, const CommonOptions& co
   OutputFolder output(arguments.folder, common.force);
 
   const std::vector<Made> made = make_all(arguments.study, output, file);
-  if (!all_trusted(made)) {
-    fmt::print(stderr, "nothing was written\n");
-    return answer_is_no;
-  }
+  if (!all_trusted(made))
+    return without_result(common, interrupted() ? "cancelled" : "failed", "nothing was written");
   const nlohmann::json truth = truth_of(file, made);
   io::write_file(output.stage("truth.json"), io::json_text(truth));
   for (const fs::path& input : file.inputs)

@@ -136,5 +136,34 @@ TEST(Fit, ReportsTheProblemsOfAllFilesAtOnceAndWritesNothing) {
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
+// The object that --json promises, of runs that have no result.
+TEST(Json, SaysHowARunEndedThatLeavesNothing) {
+  const fs::path folder = folder_with_study();
+  const auto failed = run_havers(folder,
+                                 "synthesize study.toml -o made --json --set "
+                                 "model.solver.regime=dynamic --set model.solver.max_iterations=1 "
+                                 "--set model.solver.contact=gauss-seidel --set "
+                                 "model.loading.strain_rate_per_s=1000");
+  ASSERT_EQ(failed.exit_code, 1) << failed.err;
+  const auto answer = nlohmann::json::parse(failed.out);
+  EXPECT_EQ(answer["status"], "failed");
+  EXPECT_EQ(answer["trusted"], false);
+  EXPECT_NE(failed.err.find("nothing was written"), std::string::npos) << failed.err;
+}
+
+TEST(Json, SaysThatAFitWasCancelled) {
+  const fs::path folder = folder_with_study();
+  ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
+  const auto stopped = run_havers(
+      folder, "-h >help; '" HAVERS_PROGRAM
+              "' fit made/study.toml -o out --json --set calibrate.options.replicates=20 >said "
+              "2>why & "
+              "for i in $(seq 1000); do [ -e out/evaluations.sqlite ] && break; sleep 0.01; done; "
+              "kill $!; wait $! #");
+  EXPECT_EQ(stopped.exit_code, 1);
+  EXPECT_EQ(nlohmann::json::parse(test::read_text(folder / "said"))["status"], "cancelled");
+  EXPECT_FALSE(fs::exists(folder / "out/result.json"));
+}
+
 }  // namespace
 }  // namespace havers
