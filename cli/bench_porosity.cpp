@@ -1,7 +1,6 @@
 // havers bench --porosity: common practice and ours on drawn sections of known porosity.
 #include <fmt/core.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/bench.hpp"

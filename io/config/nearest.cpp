@@ -1,7 +1,6 @@
 #include "io/config/nearest.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <vector>
 

@@ -2,7 +2,7 @@
 //
 // `Table` is whatever has key(name, field) and key(name, field, unit): the reader of TOML files
 // (table_reader.hpp), the writer and the reader of JSON (json_table.hpp). The strengths of [joints]
-// can be given in several ways and are read apart, in read_scene.cpp.
+// can be given in several ways and are read apart, in scene_tables.cpp.
 #pragma once
 
 #include "io/config/key_unit.hpp"

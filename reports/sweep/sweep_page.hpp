@@ -1,7 +1,6 @@
 // The page of one sweep, or of several with what they found.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
