@@ -25,7 +25,7 @@ std::set<std::string> names_of_runs(const fs::path& folder) {
   std::set<std::string> names;
   std::ifstream file(folder / own_names);
   for (std::string name; std::getline(file, name);)
-    if (fs::path(name).filename() == name) names.insert(name);
+    if (fs::path(name).filename() == name && name != "." && name != "..") names.insert(name);
   return names;
 }
 

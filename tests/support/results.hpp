@@ -189,6 +189,7 @@ inline FitSample fit_sample() {
   r.left_out = {{"ratio", "no specimen informs it"}, {"time steps", "the loading is quasi-static"}};
   r.cost = 7.942;
   r.evaluations = 4128;
+  r.distinct_simulations = 4000;
   r.simulated = 3980;
   r.failed_simulations = 12;
   return f;
