@@ -17,6 +17,8 @@ namespace {
 constexpr double screening_step = 0.2;
 // Replicates that are enough to find the neighbourhood of the answer.
 constexpr int scouting_replicates = 3;
+// As long as nothing says how many are needed.
+constexpr int replicates_before_need = 8;
 constexpr int most_rounds = 8;
 // Cost that a search may leave on the table: a fifth of a standard deviation (½·0.2²).
 constexpr double close_enough = 0.02;
@@ -137,7 +139,7 @@ void reweigh(Trail& trail, const Landmarks& effect) {
 
 // All replicates from here on, at the best point of the scouts; as many as asked for or needed.
 bool settle_down(const FitProblem& problem, Trail& trail, Answer& answer) {
-  if (answer.replicates == replicates_by_need) {
+  if (problem.study.calibrate.replicates == replicates_by_need) {
     Landmarks effect = Landmarks::Zero();
     const auto slopes = differentiate(trail, trail.best(), answer.active, slope_step);
     if (!slopes.failed)
@@ -213,13 +215,14 @@ CalibrationStatus status_of(const Trail& trail, const Answer& answer) {
 }
 
 Answer solve(const FitProblem& problem, Trail& trail) {
-  Answer answer{.replicates = problem.study.calibrate.replicates};
+  const int asked = problem.study.calibrate.replicates;
+  const int all = asked == replicates_by_need ? replicates_before_need : asked;
+  Answer answer{.replicates = all};
   answer.best.point = start_point(problem.unknowns);
   if (problem.fitted.empty() || problem.unknowns.empty()) {
     answer.status = CalibrationStatus::nothing_to_fit;
     return answer;
   }
-  const int all = answer.replicates > 0 ? answer.replicates : std::max(scouting_replicates, 8);
   if (!begin(problem, trail, std::min(scouting_replicates, all)) && !begin(problem, trail, all))
     return answer;
 

@@ -148,6 +148,30 @@ TEST(Calibrate, SaysThatThereIsNothingToFit) {
   EXPECT_EQ(test::fit(study).status, CalibrationStatus::nothing_to_fit);
 }
 
+// How many replicates are needed is asked of the answer; specimens are simulated without one too.
+TEST(Calibrate, SimulatesEverySpecimenWhereNoReplicatesAreAskedForAndNothingIsFitted) {
+  auto study = test::synthetic_study({0.0});
+  study.calibrate.replicates = replicates_by_need;
+  study.calibrate.parameters = {"friction"};
+  const auto uninformed = test::fit(study);
+  EXPECT_EQ(uninformed.status, CalibrationStatus::nothing_to_fit);
+  EXPECT_EQ(uninformed.specimens.at(1).replicates.size(), 8U);
+  for (auto& specimen : study.specimens) specimen.use = Use::validate;
+  const auto held_out = test::fit(study);
+  EXPECT_EQ(held_out.status, CalibrationStatus::nothing_to_fit);
+  EXPECT_EQ(held_out.specimens.at(1).replicates.size(), 8U);
+}
+
+TEST(Calibrate, SaysThatEverySimulationFailedWhereNoReplicatesAreAskedFor) {
+  auto study = test::synthetic_study({0.0});
+  study.calibrate.replicates = replicates_by_need;
+  auto simulator = test::ClosedForm{}.simulator();
+  simulator.run = [](const sim::Scene&) -> Response { throw std::runtime_error("broken model"); };
+  const auto result = calibrate_with(simulator, study);
+  EXPECT_EQ(result.status, CalibrationStatus::all_failed);
+  EXPECT_EQ(result.specimens.at(1).replicates.size(), 8U);
+}
+
 TEST(Calibrate, SaysThatTheBudgetIsSpentAndKeepsTheBestPoint) {
   auto study = test::synthetic_study(test::three_orientations);
   study.calibrate.budget = 6;
