@@ -83,8 +83,10 @@ void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
   answer.active = without(answer.active, left);
   trail.restart(trail.weights(), trail.evaluate(point));
   search_ceres(trail, trail.best(), answer.active);
-  if (!trail.stopped() && trail.best().cost > found.cost + contradicts) {
-    for (auto& one : left) one.because += kept_where_found;
+  // A trail that was stopped may have no simulation of where the study has them.
+  if (trail.best().failed || trail.best().cost > found.cost + contradicts) {
+    for (auto& one : left)
+      if (!trail.stopped()) one.because += kept_where_found;
     trail.restart(trail.weights(), found);
   }
   answer.left.insert(answer.left.end(), left.begin(), left.end());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "calib/fit/calibrate.hpp"
 #include "tests/support/studies.hpp"
@@ -48,7 +49,7 @@ TEST(Identifiability, IsNotFooledByNoise) {
 
 // Along the fibres the ratio counts below 1.5, as in the study (1.0), and not above, as in truth
 // (2.0): back at the study's value it would make the threshold wrong.
-TEST(Identifiability, LeavesWhatTheStudyHasWrongWhereTheFitFoundIt) {
+Simulator informed_of_low_ratios() {
   auto simulator = test::ClosedForm{}.simulator();
   simulator.run = [](const sim::Scene& scene) {
     auto response = test::ClosedForm{}(scene);
@@ -59,9 +60,13 @@ TEST(Identifiability, LeavesWhatTheStudyHasWrongWhereTheFitFoundIt) {
     response.failure_strain *= factor;
     return response;
   };
+  return simulator;
+}
+
+TEST(Identifiability, LeavesWhatTheStudyHasWrongWhereTheFitFoundIt) {
   const auto study = test::synthetic_study({0.0, 90.0});
   ASSERT_NEAR(value_of(study.model, "ratio"), 1.0, 1e-9);
-  const auto result = calibrate_with(simulator, study);
+  const auto result = calibrate_with(informed_of_low_ratios(), study);
   const auto ratio = test::parameter_of(result, "ratio");
   EXPECT_FALSE(ratio.identifiable);
   EXPECT_TRUE(std::isnan(ratio.interval_95[0]));
@@ -70,6 +75,22 @@ TEST(Identifiability, LeavesWhatTheStudyHasWrongWhereTheFitFoundIt) {
             std::string::npos)
       << ratio.left_out_because;
   EXPECT_NEAR(test::parameter_of(result, "head_tail_MPa").value, 60.0, 0.6);
+}
+
+TEST(Identifiability, IsStoppedAtAnyPointAndKeepsTheBestOne) {
+  auto study = test::synthetic_study({0.0, 90.0});
+  study.calibrate.profiles = false;
+  const auto calls_until = [&](int last) {
+    int calls = 0;
+    const auto result = calibrate_with(informed_of_low_ratios(), study, nullptr,
+                                       [&](const CalibrationProgress&) { return ++calls < last; });
+    for (const auto& parameter : result.parameters)
+      EXPECT_TRUE(parameter.bounds[0] <= parameter.value && parameter.value <= parameter.bounds[1])
+          << parameter.name << " = " << parameter.value << ", stopped at " << last;
+    return calls;
+  };
+  const int all = calls_until(std::numeric_limits<int>::max());
+  for (int last = 1; last <= all; last += 2) calls_until(last);
 }
 
 // At one orientation only a product of threshold and ratio shows. An interval of the threshold at
