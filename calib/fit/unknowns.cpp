@@ -38,22 +38,21 @@ Unknown bounded(const Study& study, const ParameterInfo& info) {
   return unknown;
 }
 
-// Groups are those of the fitted specimens, in the order of the study.
+// Groups are those of the fitted specimens, in the order of the study; those held out join them.
 void add_groups(const Study& study, const ParameterInfo& info, std::vector<Unknown>& unknowns) {
-  const auto first = unknowns.size();
   const Level level = level_of(study.calibrate, info);
-  for (std::size_t s = 0; s < study.specimens.size(); ++s) {
-    const auto& specimen = study.specimens[s];
-    const std::string label = std::string(info.name) + group_of(specimen, level);
-    auto group = std::find_if(unknowns.begin() + static_cast<std::ptrdiff_t>(first), unknowns.end(),
-                              [&](const Unknown& u) { return u.label == label; });
-    if (group == unknowns.end() && specimen.use == Use::fit) {
+  const auto group = [&](const Specimen& specimen) {
+    return std::ranges::find(unknowns, std::string(info.name) + group_of(specimen, level),
+                             &Unknown::label);
+  };
+  for (const auto& specimen : study.specimens)
+    if (specimen.use == Use::fit && group(specimen) == unknowns.end()) {
       unknowns.push_back(bounded(study, info));
-      unknowns.back().label = label;
-      group = std::prev(unknowns.end());
+      unknowns.back().label += group_of(specimen, level);
     }
-    if (group != unknowns.end()) group->specimens.push_back(s);
-  }
+  for (std::size_t s = 0; s < study.specimens.size(); ++s)
+    if (const auto found = group(study.specimens[s]); found != unknowns.end())
+      found->specimens.push_back(s);
 }
 
 }  // namespace

@@ -64,5 +64,20 @@ TEST(Unknowns, GiveAHeldOutSpecimenTheMeanOfTheOthers) {
   EXPECT_FALSE(value_at(unknowns, point, *find_parameter("scatter"), 0));
 }
 
+TEST(Unknowns, GiveAHeldOutSpecimenItsGroupWhereverItIsListed) {
+  auto study = test::synthetic_study({0.0, 45.0});
+  study.calibrate.parameters = {"young_GPa"};
+  study.calibrate.level["young_GPa"] = Level::orientation;
+  study.specimens[0].use = study.specimens[3].use = Use::validate;
+  const auto unknowns = unknowns_of(study);
+  EXPECT_EQ(labels_of(unknowns),
+            (std::vector<std::string>{"young_GPa[0 deg]", "young_GPa[45 deg]"}));
+  Point point(2);
+  point << std::log(10.0), std::log(20.0);
+  const auto& info = *find_parameter("young_GPa");
+  EXPECT_NEAR(*value_at(unknowns, point, info, 0), 10.0, 1e-12);
+  EXPECT_NEAR(*value_at(unknowns, point, info, 3), 20.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace havers::calib
