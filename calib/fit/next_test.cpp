@@ -47,7 +47,9 @@ MatrixXd simulated_rows(SimulationBatch& batch, const FitProblem& problem, const
     const auto &low = found[2 * i], &high = found[2 * i + 1];
     const double span = (high.point - low.point).norm();
     if (low.failed || high.failed || !(span > 0.0)) return {};
-    const Landmarks change = high.predictions.front().mean - low.predictions.front().mean;
+    // Of such a specimen as much counts as of those there are.
+    const Landmarks change = problem.targets[like].present.select(
+        high.predictions.front().mean - low.predictions.front().mean, 0.0);
     rows.col(static_cast<Index>(i)) = change / answer.weights.sd[like] / span;
   }
   return rows;

@@ -75,6 +75,26 @@ TEST(Hindsight, KnowsWhichFurtherTestTellsMost) {
   EXPECT_LT(result.next_tests[1].width[ratio], 0.9);
 }
 
+// Strength that follows the modulus would tell of it too; these tests are asked for the modulus
+// alone.
+TEST(Hindsight, ExpectsOfAFurtherTestWhatTheOthersAreAskedFor) {
+  auto study = test::synthetic_study({0.0});
+  study.calibrate.parameters = {"young_GPa"};
+  study.calibrate.terms = {"modulus"};
+  auto simulator = test::ClosedForm{.quasi_static = false}.simulator();
+  simulator.run = [](const sim::Scene& scene) {
+    auto response = test::ClosedForm{}(scene);
+    response.strength *= scene.material.young / 14e9;
+    response.failure_strain = response.strength / response.modulus;
+    return response;
+  };
+  const auto result = calibrate_with(simulator, study);
+  ASSERT_EQ(result.next_tests.size(), 3U);
+  const double like_the_others = result.next_tests[0].width.at(0);
+  for (const auto& test : result.next_tests)
+    EXPECT_NEAR(test.width.at(0), like_the_others, 1e-3) << test.what;
+}
+
 // In the quasi-static limit a faster test is the same test.
 TEST(Hindsight, KnowsWhatATestAtAnotherRateWouldTell) {
   auto study = test::synthetic_study(test::three_orientations);
