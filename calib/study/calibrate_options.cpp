@@ -36,13 +36,14 @@ void check_parameters(const CalibrateOptions& options, Complaints& found) {
   }
 }
 
-// Two names for one quantity: the later would undo the earlier.
+// The one that a fit sets later undoes the other: resultant_MPa and aspect_ratio keep the ratio.
 void check_rivals(const CalibrateOptions& options, Complaints& found) {
   const auto asked = [&](std::string_view name) {
     return std::ranges::find(options.parameters, name) != options.parameters.end();
   };
   for (const auto& [one, other] :
-       {std::pair("ratio", "flank_MPa"), std::pair("head_tail_MPa", "resultant_MPa")})
+       {std::pair("ratio", "flank_MPa"), std::pair("head_tail_MPa", "resultant_MPa"),
+        std::pair("resultant_MPa", "flank_MPa"), std::pair("aspect_ratio", "flank_MPa")})
     if (asked(one) && asked(other))
       found.push_back(fmt::format("parameters names {} and {}, which set the same stress; keep one",
                                   one, other));

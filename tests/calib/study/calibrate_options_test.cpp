@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "calib/study/parameter.hpp"
 #include "calib/study/study.hpp"
 
 namespace havers::calib {
@@ -38,6 +40,27 @@ TEST(CalibrateOptions, NameEveryProblemAtOnce) {
     EXPECT_TRUE(std::ranges::any_of(problems, [&](const std::string& text) {
       return text.find(word) != std::string::npos;
     })) << word;
+}
+
+TEST(CalibrateOptions, RefuseParametersOfWhichOneUndoesTheOther) {
+  const auto table = all_parameters();
+  CalibrateOptions options;
+  for (const auto& one : table)
+    for (const auto& other : table) {
+      if (one.of_porosity || other.of_porosity || one.name == other.name) continue;
+      sim::Scene scene;
+      const double first = 1.1 * value_of(scene, one.name);
+      const double second = 1.3 * value_of(scene, other.name);
+      // As a fit sets them: in the order of the table.
+      for (const auto& info : table) {
+        if (info.name == one.name) apply(scene, info.name, first);
+        if (info.name == other.name) apply(scene, info.name, second);
+      }
+      const bool both = std::abs(value_of(scene, one.name) - first) <= 1e-9 * first &&
+                        std::abs(value_of(scene, other.name) - second) <= 1e-9 * second;
+      options.parameters = {std::string(one.name), std::string(other.name)};
+      EXPECT_EQ(options.problems().empty(), both) << one.name << " and " << other.name;
+    }
 }
 
 TEST(CalibrateOptions, NeedAParameterUnlessTheyAreAutomatic) {
