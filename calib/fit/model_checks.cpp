@@ -175,10 +175,11 @@ Check check_validation(const CalibrationResult& result) {
   for (const auto& specimen : result.specimens) {
     if (specimen.use != Use::validate) continue;
     ++held_out;
-    const double worst = std::max({std::abs(specimen.residual[0]), std::abs(specimen.residual[1]),
-                                   std::abs(specimen.residual[2])});
-    if (!(worst <= 3.0))
-      off += fmt::format("{}{} ({:.1f})", off.empty() ? "" : ", ", specimen.id, worst);
+    double worst = std::nan("");
+    for (const double residual : specimen.residual) worst = std::fmax(worst, std::abs(residual));
+    if (worst <= 3.0) continue;
+    const auto how = std::isnan(worst) ? "nothing to compare" : fmt::format("{:.1f}", worst);
+    off += fmt::format("{}{} ({})", off.empty() ? "" : ", ", specimen.id, how);
   }
   if (held_out == 0)
     return {name, Outcome::pass, "None was kept for validation (use = \"validate\")."};

@@ -124,6 +124,19 @@ TEST(Verdict, SaysThatAHeldOutSpecimenIsOff) {
   EXPECT_TRUE(says(check, "S1"));
 }
 
+TEST(Verdict, ComparesAHeldOutSpecimenByTheTermsThereAre) {
+  auto study = test::synthetic_study(test::three_orientations);
+  study.calibrate.parameters = {"head_tail_MPa", "ratio"};
+  study.calibrate.terms = {"strength", "failure strain"};
+  study.specimens[0].use = Use::validate;
+  const auto held_out = check_of(test::fit(study), "held-out specimens");
+  EXPECT_EQ(held_out.outcome, Outcome::pass) << held_out.text;
+  study.specimens[0].test.modulus = std::nan("");
+  const auto useless = check_of(test::fit(study), "held-out specimens");
+  EXPECT_EQ(useless.outcome, Outcome::fail);
+  EXPECT_TRUE(says(useless, "S1 (nothing to compare)")) << useless.text;
+}
+
 TEST(CalibrationStatus, HasAWordAndASentenceEach) {
   std::set<std::string> words, sentences;
   for (const auto status : {CalibrationStatus::converged, CalibrationStatus::budget_spent,
