@@ -87,9 +87,9 @@ Check check_influence(const CalibrationResult& result) {
       const bool undetermined = !std::isfinite(shift);
       if (!undetermined && std::abs(shift) <= 2.0) continue;
       std::string& list = undetermined ? alone : strong;
-      if (list.find(specimen.id) != std::string::npos && undetermined) continue;
       list += fmt::format("{}{}{}", list.empty() ? "" : ", ", specimen.id,
                           undetermined ? "" : fmt::format(" ({} by {:.1f})", parameter, shift));
+      if (undetermined) break;
     }
   if (alone.empty() && strong.empty())
     return {name, Outcome::pass,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "calib/fit/answer_checks.hpp"
 #include "calib/fit/calibrate.hpp"
 #include "tests/support/studies.hpp"
 
@@ -135,6 +136,17 @@ TEST(Verdict, ComparesAHeldOutSpecimenByTheTermsThereAre) {
   const auto useless = check_of(test::fit(study), "held-out specimens");
   EXPECT_EQ(useless.outcome, Outcome::fail);
   EXPECT_TRUE(says(useless, "S1 (nothing to compare)")) << useless.text;
+}
+
+TEST(Verdict, NamesEverySpecimenThatAloneDeterminesAParameter) {
+  CalibrationResult result;
+  result.fitted = {"young_GPa", "ratio"};
+  for (const char* id : {"A10", "A1"})
+    result.specimens.push_back(
+        {.id = id, .influence = {{"young_GPa", std::nan("")}, {"ratio", std::nan("")}}});
+  const auto check = check_influence(result);
+  EXPECT_EQ(check.outcome, Outcome::warn);
+  EXPECT_TRUE(says(check, "Without A10, A1 the parameters")) << check.text;
 }
 
 TEST(CalibrationStatus, HasAWordAndASentenceEach) {
