@@ -7,6 +7,7 @@
 #include <string>
 
 #include "calib/sweep/sweep.hpp"
+#include "sim/simulate.hpp"
 
 namespace havers::calib {
 namespace {
@@ -97,6 +98,20 @@ TEST(RunSweep, TheScaleAboveHasTheStrengthsAsThresholds) {
   EXPECT_NEAR(above.scatter / std::sqrt(12.0), below.sd / below.mean, 1e-12);
   EXPECT_NEAR(sim::ratio(result.points[3].scene.assembly, above),
               sim::ratio(sweep.points[1].scene.assembly, sweep.points[1].scene.joints), 1e-12);
+}
+
+// Stronger joints give waves more time: I = ε̇ (W/c) / (σ₁/E).
+TEST(RunSweep, TheScaleAboveHasAnInertiaNumberOfItsOwn) {
+  Sweep sweep = small_sweep();
+  sweep.levels = 2;
+  for (SweepPoint& point : sweep.points)
+    point.inertia_number = sim::choose_regime(point.scene).inertia_number;
+  const SweepResult result = run_sweep(sweep, nullptr, 1, {});
+  const SweepPoint &below = result.points.at(1), &above = result.points.at(3);
+  EXPECT_NEAR(above.inertia_number * above.scene.joints.head_tail,
+              below.inertia_number * below.scene.joints.head_tail,
+              1e-12 * below.inertia_number * below.scene.joints.head_tail);
+  EXPECT_NE(above.inertia_number, below.inertia_number);
 }
 
 }  // namespace
