@@ -51,7 +51,7 @@ void set_column(const FitProblem& problem, const Weights& weights, const Move& m
 
 }  // namespace
 
-Differences differentiate(Trail& trail, const Evaluation& at, const Active& active, double step) {
+Differences differentiate(Trail& trail, Evaluation at, const Active& active, double step) {
   const auto& problem = trail.problem();
   std::vector<Point> points;
   for (const Eigen::Index k : active) {

@@ -20,9 +20,11 @@ struct Differences {
   double paired = 0.0, independent = 0.0;
 };
 
+/// @param at    a copy: the trail's best point, where the slopes are often asked for, may change
+///              while they are made.
 /// @param step  in the scale of the search; large enough to see through the replicates' noise,
 /// which makes the
 ///              residuals only piecewise smooth. Cut at the bounds.
-Differences differentiate(Trail& trail, const Evaluation& at, const Active& active, double step);
+Differences differentiate(Trail& trail, Evaluation at, const Active& active, double step);
 
 }  // namespace havers::calib

@@ -1,0 +1,42 @@
+#include "calib/fit/differences.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/studies.hpp"
+
+namespace havers::calib {
+namespace {
+
+// The trail's best point is where the slopes are asked for; it is needed again where a side fails.
+TEST(Differences, StayWhereTheyWereAskedForWhenABetterPointTurnsUp) {
+  auto study = test::synthetic_study({0.0});
+  study.calibrate.parameters = {"young_GPa", "head_tail_MPa"};
+  auto simulator = test::ClosedForm{.quasi_static = false}.simulator();
+  simulator.run = [](const sim::Scene& scene) {
+    auto response = test::ClosedForm{}(scene);
+    response.failed = scene.joints.head_tail > 60.5e6;
+    return response;
+  };
+  const FitProblem problem = make_problem(study);
+  SimulationBatch batch(simulator, nullptr, 1);
+  const CalibrationObserver nobody;
+  Trail trail(problem, batch, nobody);
+  Point point(2);
+  point << std::log(13.0), std::log(60.0);
+  const auto start = predict(problem, batch, {point}, 8).front();
+  const Landmarks none = Landmarks::Zero();
+  trail.restart(weigh(problem, start, {none, none}, none), start);
+
+  const Evaluation here = trail.best();
+  const auto slopes = differentiate(trail, trail.best(), {0, 1}, slope_step);
+  EXPECT_LT(trail.best().cost, here.cost);
+  trail.restart(trail.weights(), here);
+  const auto expected = differentiate(trail, here, {0, 1}, slope_step);
+  ASSERT_FALSE(slopes.failed);
+  EXPECT_EQ(slopes.jacobian, expected.jacobian);
+}
+
+}  // namespace
+}  // namespace havers::calib
