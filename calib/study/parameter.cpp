@@ -108,7 +108,7 @@ const std::vector<ParameterInfo>& all_parameters() {
        "Length of a fibre over its height: how much weaker bone is across than along."},
       {"poisson", "ν", "", 0.01, 0.49, linear, "Poisson's ratio of the fibres."},
       {"density_kg_m3", "ρ", "kg/m³", 500.0, 4000.0, logarithmic, "Density of the fibres."},
-      {"viscosity_s", "τ", "s", 0.0, 1e-5, linear, "Viscosity, as a time."},
+      {"viscosity_s", "τ", "s", 1e-9, 1e-5, logarithmic, "Viscosity, as a time."},
       {"modulus_exponent", "m", "", 0.1, 12.0, logarithmic,
        "Exponent of E = E₀ (1−p)^m; needs to_modulus = \"power\".", false, true},
       {"strength_exponent", "n", "", 0.1, 10.0, logarithmic,

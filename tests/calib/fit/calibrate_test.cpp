@@ -209,6 +209,24 @@ TEST(Calibrate, TellsTheObserverTheBestPointInItsUnits) {
   EXPECT_EQ(last.best[0].second, result.parameters[0].value);
 }
 
+// Far above where waves of the break matter, the strength rises with the viscosity.
+TEST(Calibrate, FindsAViscosityOfAnyMagnitude) {
+  auto study = test::synthetic_study(test::three_orientations);
+  study.model.joints.head_tail = 60e6;
+  study.model.joints.flank = sim::flank_from_ratio(study.model.assembly, 60e6, 2.0);
+  study.calibrate.parameters = {"viscosity_s"};
+  auto simulator = test::ClosedForm{.quasi_static = false}.simulator();
+  simulator.run = [](const sim::Scene& scene) {
+    auto response = test::ClosedForm{}(scene);
+    const double factor = std::pow((scene.material.viscosity + 1e-9) / 1.01e-7, 0.1);
+    response.strength *= factor;
+    response.modulus = 14e9;
+    response.failure_strain = response.strength / response.modulus;
+    return response;
+  };
+  expect_within(test::parameter_of(calibrate_with(simulator, study), "viscosity_s"), 1e-7, 0.1);
+}
+
 TEST(Calibrate, FitsAValuePerOrientationOrSpecimen) {
   auto study = test::synthetic_study(test::three_orientations);
   study.specimens[2].test.modulus *= 0.8;
