@@ -19,7 +19,7 @@ Check check_influence(const CalibrationResult& result);
 /// Parameters are told apart: no correlation above 0.9 in size.
 Check check_correlation(const CalibrationResult& result);
 
-/// Wald's, the profile's and the bootstrap's intervals are about as wide.
+/// Wald's and the profile's intervals are about as wide.
 Check check_intervals(const CalibrationResult& result);
 
 /// The model describes the strengths better than laws without fibres (F19).

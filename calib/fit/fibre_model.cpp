@@ -1,6 +1,4 @@
 // The simulator of havers::sim, as calibrations use it.
-#include <algorithm>
-
 #include "calib/fit/calibrate.hpp"
 #include "calib/fit/simulation_batch.hpp"
 #include "sim/simulate.hpp"

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <string_view>
-#include <vector>
 
 #include "calib/study/study.hpp"
 #include "sim/scene.hpp"

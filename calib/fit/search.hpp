@@ -1,7 +1,6 @@
 // The searches: each starts somewhere, moves some unknowns, and says where it got.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "calib/fit/trail.hpp"

@@ -87,10 +87,7 @@ void test_lack_of_fit(const SweepPlan& plan, const std::vector<SweepPoint>& poin
     lack += n * deviation * deviation;
     within += n - 1.0;
     levels += 1.0;
-    if (std::abs(deviation) > law.worst_deviation) {
-      law.worst_deviation = std::abs(deviation);
-      law.worst_deviation_error = mean.standard_error();
-    }
+    law.worst_deviation = std::max(law.worst_deviation, std::abs(deviation));
   }
   const double freedom = levels - static_cast<double>(law.coefficients.size());
   law.lack_of_fit = law.lack_of_fit_p = unknown;

@@ -30,10 +30,9 @@ struct Law {
   std::vector<std::size_t> points;
 
   // Lack of fit (W2): the points' means around the law against the runs around their means.
-  double lack_of_fit = 0.0;            ///< F; NaN where it cannot be tested. [-]
-  double lack_of_fit_p = 0.0;          ///< Its probability if the law held. [-]
-  double worst_deviation = 0.0;        ///< Largest |mean of a point − law|. SI units.
-  double worst_deviation_error = 0.0;  ///< Standard error of that mean. SI units.
+  double lack_of_fit = 0.0;      ///< F; NaN where it cannot be tested. [-]
+  double lack_of_fit_p = 0.0;    ///< Its probability if the law held. [-]
+  double worst_deviation = 0.0;  ///< Largest |mean of a point − law|. SI units.
 
   [[nodiscard]] double value(const SweepPoint& point, const SweepPlan& plan) const;
 };

@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
-#include <numeric>
 
 namespace havers::calib {
 namespace {

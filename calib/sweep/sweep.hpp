@@ -1,8 +1,6 @@
 // The model over many scenes: what is asked, and what came out.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>

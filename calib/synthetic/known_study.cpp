@@ -11,7 +11,7 @@
 
 #include "calib/study/parameter.hpp"
 #include "calib/synthetic/laboratory_record.hpp"
-#include "sim/simulate.hpp"
+#include "sim/simulation.hpp"
 
 namespace havers::calib {
 namespace {
