@@ -23,7 +23,8 @@ std::string to_string(SimulationStatus status) {
 std::string explain(SimulationStatus status) {
   switch (status) {
     case SimulationStatus::broken:
-      return "both sides dropped below the end fraction of the strength after a break";
+      return "after a break both sides bear less than the part of the strength to which failure is "
+             "followed";
     case SimulationStatus::strain_limit:
       return "the strain limit was reached before the specimen broke; the strength is a lower "
              "bound";
@@ -56,10 +57,7 @@ bool steps_over_failure(const Simulation& run) {
 std::string Simulation::why_not_trusted() const {
   if (status != SimulationStatus::broken && status != SimulationStatus::strain_limit)
     return explain(status);
-  if (std::isnan(step_error))
-    return "the chosen time step was never halved, so that its error is not known; a step_s of "
-           "your "
-           "own, or regime = \"quasi-static\", goes further";
+  if (std::isnan(step_error)) return "the error of the chosen time step is not known";
   if (step_error > largest_step_error)
     return "halving the time step still changes the failure strain";
   if (steps_over_failure(*this))

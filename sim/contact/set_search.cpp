@@ -96,8 +96,7 @@ JointStepResult SetSearch::solve(const JointStep& step) {
     take(result.states);
     if (!structure_->ok()) return result;
     StructureResponse response = answer(step, rough, result);
-    if (result.converged && response.residual > accuracy_of_forces)
-      response = answer(step, accuracy_of_forces, result);
+    if (result.converged) response = answer(step, accuracy_of_forces, result);
     result.converged = result.converged && response.residual < 1e-9;
     if (result.converged) {
       result.residual = std::max(joint_residual(step, result, stiffness_), response.residual);

@@ -22,7 +22,7 @@ TEST(Confirmation, AveragesWavesOverAStretchOfStrain) {
 
 TEST(Confirmation, SaysHowMuchTheLimitDiffersFromTimeStepsAtEachOrientation) {
   Study study = known_study(three_orientations(), 3).study;
-  study.calibrate.seed = 1;  // walls that waves do not break early; some along the fibres they do
+  study.calibrate.seed = 1;
   study.calibrate.confirm = 3;
   const CalibrationResult result = calibrate(study);
   ASSERT_EQ(result.confirmations.size(), 3U);
@@ -31,8 +31,13 @@ TEST(Confirmation, SaysHowMuchTheLimitDiffersFromTimeStepsAtEachOrientation) {
     specimens.insert(one.specimen);
     EXPECT_FALSE(one.failed);
     EXPECT_GT(one.strain_rate, 1.0);
-    EXPECT_NEAR(one.strength_in_time / one.strength_limit, 1.0, 0.05);
-    EXPECT_NEAR(one.failure_strain_in_time / one.failure_strain_limit, 1.0, 0.05);
+    // Along the fibres (S1) the waves of a break break the next joints, once steps are short enough
+    // to see them: 12 to 25 % too early with each of the seeds 1 to 11.
+    const double earliest = one.specimen == "S1" ? 0.7 : 0.95;
+    EXPECT_GE(one.strength_in_time / one.strength_limit, earliest);
+    EXPECT_LE(one.strength_in_time / one.strength_limit, 1.05);
+    EXPECT_GE(one.failure_strain_in_time / one.failure_strain_limit, earliest);
+    EXPECT_LE(one.failure_strain_in_time / one.failure_strain_limit, 1.05);
     EXPECT_GE(one.peak_in_time, one.strength_in_time);
   }
   EXPECT_EQ(specimens, (std::set<std::string>{"S1", "S3", "S5"}));
