@@ -41,5 +41,16 @@ TEST_P(EnergyBalanceOfRuns, OnlyEverDissipates) {
   }
 }
 
+// A thousandth of the time that a wave takes along a fibre, and most joints break.
+TEST(ChosenSteps, KeepTheLawHoweverShortTheyAre) {
+  Scene scene = test::small_scene(0.0, 10, 7);
+  scene.solver.regime = Regime::dynamic;
+  const Simulation simulation = simulate(scene);
+  EXPECT_TRUE(simulation.trusted()) << simulation.why_not_trusted();
+  EXPECT_LT(simulation.step, 1e-10);
+  EXPECT_GT(simulation.broken_joints, 100);
+  EXPECT_LE(simulation.worst_residual, 1e-10);
+}
+
 }  // namespace
 }  // namespace havers::sim
