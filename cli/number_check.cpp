@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -40,8 +41,14 @@ CLI::Validator count(int most) {
 }
 
 CLI::Validator seed_number() {
-  return number_check<std::uint64_t>("a whole number, 0 or more",
-                                     [](std::uint64_t) { return true; });
+  const auto complaint = [](const std::string& text) -> std::string {
+    std::uint64_t value = 0;
+    const char* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, value);
+    const bool good = read.ec == std::errc{} && read.ptr == end;
+    return good ? "" : fmt::format("is {}, must be a whole number from 0 to 2^64 - 1", text);
+  };
+  return {complaint, "NUMBER"};
 }
 
 }  // namespace havers::cli

@@ -192,7 +192,7 @@ void add_words(CLI::App& parser, const std::string& name, E& value, const std::s
     text = std::to_string(static_cast<int>(found->second));
     return {};
   };
-  parser.add_option(name, value, meaning)
+  parser.add_option(name, value, fmt::format("{}: {}", meaning, fmt::join(io::words<E>, ", ")))
       ->transform(CLI::Validator(number_of_word, "WORD"))
       ->type_name("WORD");
 }

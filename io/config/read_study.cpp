@@ -46,7 +46,7 @@ void check_file_names(TableReader& table, const std::string& id, const std::set<
     if (!id.ends_with(ending)) continue;
     const std::string other = id.substr(0, id.size() - ending.size());
     if (ids.contains(other))
-      table.complain("id", fmt::format("is \"{}\", which names files of \"{}\"", id, other),
+      table.complain("id", fmt::format(R"(is "{}", which names files of "{}")", id, other),
                      "give one of them another id");
   }
 }

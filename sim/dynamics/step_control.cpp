@@ -27,10 +27,12 @@ bool has_ended(const Simulation& run) {
 }
 
 std::string ground_of(const Simulation& run) {
-  const std::string step = fmt::format("; the step of {:.3g} ns is chosen", 1e9 * run.step);
-  if (std::isnan(run.step_error)) return step;
-  return step + fmt::format(": halving to it changed the failure strain by {:.2g} %",
-                            100.0 * run.step_error);
+  const std::string halved =
+      std::isnan(run.step_error)
+          ? ""
+          : fmt::format(": halving to it changed the failure strain by {:.2g} %",
+                        100.0 * run.step_error);
+  return fmt::format("; the step of {:.3g} ns is chosen{}", 1e9 * run.step, halved);
 }
 
 }  // namespace

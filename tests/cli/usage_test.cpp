@@ -66,7 +66,10 @@ TEST(Usage, NumbersThatCannotBeAreNamedWithTheRule) {
       {"import a.csv --gauge-length-mm=-1", "--gauge-length-mm: is -1, must be a number above 0"},
       {"check a.toml --threads 0", "--threads: is 0, must be a whole number, 1 or more"},
       {"check a.toml --threads 1.5", "--threads: is 1.5, must be a whole number, 1 or more"},
-      {"check a.toml --seed x", "--seed: is x, must be a whole number, 0 or more"},
+      {"check a.toml --seed x", "--seed: is x, must be a whole number from 0 to 2^64 - 1"},
+      {"check a.toml --seed=-1", "--seed: is -1, must be a whole number from 0 to 2^64 - 1"},
+      {"check a.toml --seed 18446744073709551616",
+       "--seed: is 18446744073709551616, must be a whole number from 0 to 2^64 - 1"},
       {"bench -o b --calibration --costly 3", "--costly: is 3, must be a whole number from 1 to 2"},
       {"porosity a.png --rim-um inf", "--rim-um: is inf, must be a number, 0 or more"},
       {"porosity a.png --pores grey", "--pores: is grey, must be one of: found, dark, bright"}};
