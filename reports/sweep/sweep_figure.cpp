@@ -180,7 +180,8 @@ std::vector<SweepPanel> sweep_figures(const calib::Sweep& sweep, const calib::Sw
                                .height = wanted.per.empty() ? 360 : 340}};
     made.figure.commands = wanted.x.empty() ? curve_commands(panel) : mean_commands(panel);
     if (!wanted.per.empty() && !made.figure.commands.empty())
-      made.figure.commands = "set lmargin at screen 0.235\n" + made.figure.commands;
+      made.figure.commands =
+          "set lmargin at screen 0.235\nset xtics font ',10'\n" + made.figure.commands;
     panels.push_back(std::move(made));
   }
   return panels;
