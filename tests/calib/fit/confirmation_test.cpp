@@ -32,7 +32,7 @@ TEST(Confirmation, SaysHowMuchTheLimitDiffersFromTimeStepsAtEachOrientation) {
     EXPECT_FALSE(one.failed);
     EXPECT_GT(one.strain_rate, 1.0);
     // Along the fibres (S1) the waves of a break break the next joints, once steps are short enough
-    // to see them: 12 to 25 % too early with each of the seeds 1 to 11.
+    // to see them: 12 to 25 % too early with seeds 1 to 3 and 6 to 11.
     const double earliest = one.specimen == "S1" ? 0.7 : 0.95;
     EXPECT_GE(one.strength_in_time / one.strength_limit, earliest);
     EXPECT_LE(one.strength_in_time / one.strength_limit, 1.05);
