@@ -90,6 +90,16 @@ struct HeaderSize {
   double value;
 };
 
+// The user may correct a size; ten times it is a slip of the unit. A bare length may be that of the
+// whole specimen.
+std::string far_from(double given, const HeaderSize& fresh) {
+  constexpr double most = 10.0;
+  const double ratio = std::max(given, fresh.value) / std::min(given, fresh.value);
+  if (fresh.fact == Fact::length || ratio < most) return {};
+  return fmt::format("{:.6g} mm here, and {:.6g} mm is given: the given one is used, check both",
+                     1e3 * fresh.value, 1e3 * given);
+}
+
 // A gauge length beats the length of the specimen; else the first of two counts.
 void take_size(HeaderSize fresh, std::vector<HeaderSize>& sizes, calib::RawTest& test,
                std::string& warning) {
@@ -97,7 +107,10 @@ void take_size(HeaderSize fresh, std::vector<HeaderSize>& sizes, calib::RawTest&
   const auto before = std::ranges::find_if(
       sizes, [&](const HeaderSize& taken) { return &dimension_of(taken.fact, test) == &size; });
   if (before == sizes.end()) {
-    if (size) return;  // given by the user
+    if (size) {  // given by the user
+      if (std::string far = far_from(*size, fresh); !far.empty()) warning = std::move(far);
+      return;
+    }
     size = fresh.value;
     sizes.push_back(std::move(fresh));
     return;

@@ -93,5 +93,25 @@ TEST(HeaderSizes, AreNotComparedWithThoseOfTheUser) {
   EXPECT_TRUE(test.warnings.empty());
 }
 
+// A correction is no slip of the unit, and a bare length may be that of the whole specimen.
+TEST(HeaderSizes, AreSaidWhereThoseOfTheUserAreTenTimesOff) {
+  ReadOptions options;
+  options.width = 4.0;
+  options.thickness = 2.2e-3;
+  options.gauge_length = 25e-3;
+  const calib::RawTest test =
+      sized("Width,4,mm\nThickness,2,mm\nLength,1000,mm\n" + two_rows, options);
+  EXPECT_EQ(test.width, 4.0);
+  EXPECT_EQ(test.warnings,
+            std::vector<std::string>{"line 1, Width: 4 mm here, and 4000 mm is given: the given "
+                                     "one is used, check both"});
+  EXPECT_EQ(
+      sized("Width,40,mm\nGauge length,2.5,mm\n" + two_rows, {.width = 4e-3, .gauge_length = 25e-3})
+          .warnings.size(),
+      2U);
+  EXPECT_EQ(sized("Width,4\n" + two_rows, {.width = 4e-3}).warnings,
+            std::vector<std::string>{"line 1, Width: no unit, taken as mm"});
+}
+
 }  // namespace
 }  // namespace havers::io
