@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 namespace havers::calib {
 namespace {
@@ -71,6 +72,13 @@ bool all_finite(const std::vector<double>& values) {
   return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
+// Noise about zero is no tension, and what a load cell shows after the break no compression: the
+// largest and the mean stress have to be negative together.
+bool is_compressed(const std::vector<double>& stress) {
+  const auto [low, high] = std::ranges::minmax(stress);
+  return -low > high && std::accumulate(stress.begin(), stress.end(), 0.0) < 0.0;
+}
+
 }  // namespace
 
 EngineeringCurve engineering_curve(const RawTest& raw, double machine_compliance) {
@@ -85,6 +93,12 @@ EngineeringCurve engineering_curve(const RawTest& raw, double machine_compliance
     curve.problems.push_back(fmt::format("{} rows are too few", raw.rows()));
   else if (!all_finite(curve.stress) || !all_finite(curve.strain) || !all_finite(raw.time))
     curve.problems.emplace_back("a number is not finite");
+  else if (is_compressed(curve.stress))
+    curve.problems.push_back(
+        fmt::format("the {} is negative, as in compression, down to {:.4g} MPa: tension has to be "
+                    "positive, change the sign in the file",
+                    raw.force.empty() || curve.area <= 0.0 ? "stress" : "force",
+                    std::ranges::min(curve.stress) * 1e-6));
   else if (std::ranges::max(curve.stress) <= 0.0)
     curve.problems.emplace_back("the specimen is never under tension");
   return curve;

@@ -1,6 +1,7 @@
 // Recovery of a known specimen from what a machine would record of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -249,12 +250,27 @@ TEST(ReduceTest, SaysWhyATestCannotBeReduced) {
   EXPECT_EQ(problem_of(raw), "a number is not finite");
 
   raw = good;
-  for (double& force : raw.force) force = -std::abs(force);
+  std::ranges::fill(raw.force, 0.0);
   EXPECT_EQ(problem_of(raw), "the specimen is never under tension");
 
   raw = good;
   for (double& strain : raw.strain) strain = -strain;
   EXPECT_EQ(problem_of(raw), "the stress does not grow with the strain");
+}
+
+// With or without noise about zero, which makes a little tension of it.
+TEST(ReduceTest, SaysThatTheForceIsNegative) {
+  for (const double noise : {0.0, 0.1}) {
+    RawTest raw = record({.force_noise = noise});
+    for (std::vector<double>* channel : {&raw.force, &raw.stress})
+      for (double& value : *channel) value = -value;
+    EXPECT_TRUE(problem_of(raw).starts_with("the force is negative, as in compression, down to -"))
+        << problem_of(raw);
+    raw.force.clear();
+    EXPECT_TRUE(
+        problem_of(raw).ends_with(" MPa: tension has to be positive, change the sign in the file"))
+        << problem_of(raw);
+  }
 }
 
 TEST(ReduceTest, SaysWhenThereAreTooFewRows) {
