@@ -86,7 +86,7 @@ bool name_or_number(Table& table, const std::string& key, std::string& name) {
 }
 
 /// [specimen.columns]: a column's name or number, and its unit: force = "Channel 3", force_unit =
-/// "500 N/V".
+/// "500 N/V". A unit alone is that of the column that is found by its name.
 template <class Table>
 void keys(Table& table, ReadOptions& options) {
   for (const Quantity quantity :
@@ -94,7 +94,10 @@ void keys(Table& table, ReadOptions& options) {
     ColumnHint hint;
     const bool given = name_or_number(table, to_string(quantity), hint.column);
     table.key(to_string(quantity) + "_unit", hint.unit);
-    if (given) options.columns[quantity] = hint;
+    if (given)
+      options.columns[quantity] = hint;
+    else if (!hint.unit.empty())
+      options.units[quantity] = hint.unit;
   }
 }
 

@@ -3,23 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <iterator>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "io/input_error.hpp"
+#include "io/machine/column_hints.hpp"
 #include "io/machine/excerpt.hpp"
 #include "io/machine/split_unit.hpp"
 #include "io/machine/vocabulary.hpp"
 
 namespace havers::io {
 namespace {
-
-// What a force or a strain is called while its factor is not known.
-Quantity in_volts(Quantity quantity) {
-  return quantity == Quantity::force ? Quantity::load_volts : Quantity::volts;
-}
 
 // Percent and mm/mm are units of too many things to stand for a strain.
 Quantity quantity_of_unit(const std::string& unit) {
@@ -56,32 +51,8 @@ Candidate classify(const Column& column) {
   return {quantity_of_unit(column.unit), by_unit};
 }
 
-// The user's word for a column: its name in the file, or its number from 1.
-std::optional<std::size_t> hinted_column(const std::string& hint,
-                                         const std::vector<Column>& columns) {
-  const auto found = std::ranges::find(columns, hint, &Column::name);
-  if (found != columns.end()) return static_cast<std::size_t>(found - columns.begin());
-  const NameAndUnit written = split_unit(hint);  // "force_kN" was split as the file was read
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    if (columns[i].name == written.name && columns[i].unit == written.unit) return i;
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(hint.data(), hint.data() + hint.size(), number);
-  const bool whole = error == std::errc{} && end == hint.data() + hint.size();
-  if (!whole || number < 1 || number > columns.size()) return std::nullopt;
-  return number - 1;
-}
-
 std::string place_of(const TestFile& file, const Table& table) {
   return fmt::format("{}:{}", file.file, table.first_line);
-}
-
-std::string list_of(const std::vector<Column>& columns) {
-  constexpr std::size_t most = 20;
-  std::string text;
-  for (const Column& column : std::span(columns).first(std::min(columns.size(), most)))
-    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", excerpt(column.name),
-                        column.unit.empty() ? "" : " (" + excerpt(column.unit) + ")");
-  return columns.size() > most ? text + ", ..." : text;
 }
 
 // What a number means where no unit is written.
@@ -110,23 +81,31 @@ std::string unknown_unit(const Column& column) {
                      excerpt(column.name));
 }
 
-std::string unit_hint_of(Quantity quantity) {
-  return fmt::format("say {}_unit = ... in [specimen.columns]", to_string(quantity));
+std::string unit_hint_of(Quantity quantity, const ReadOptions& options) {
+  return fmt::format("say {}_unit = ... in {}", to_string(quantity), hint_table(options));
 }
 
 // Factor to SI; the warnings say what was assumed.
-double factor(const Column& column, const std::string& where, calib::RawTest& test) {
+double factor(const Column& column, const std::string& where, const ReadOptions& options,
+              calib::RawTest& test) {
   const std::optional<Unit> unit = find_unit(column.unit);
   if (!unit && !column.unit.empty())
-    throw InputError(where, unknown_unit(column), unit_hint_of(column.quantity));
-  if (!unit || !fits(column.quantity, unit->dimension)) {
+    throw InputError(where, unknown_unit(column), unit_hint_of(column.quantity, options));
+  if (!unit) {
     const auto [to_si, name] = unwritten_unit(column.quantity);
     test.warnings.push_back(
         fmt::format("column \"{}\" has no unit, taken as {}", column.name, name));
     return to_si;
   }
-  if (column.quantity == Quantity::strain && unit->dimension == Dimension::length)
+  if (column.quantity == Quantity::strain && unit->dimension == Dimension::length) {
+    if (!test.gauge_length)
+      throw InputError(
+          where,
+          fmt::format("column \"{}\" is an elongation, and the gauge length is unknown",
+                      column.name),
+          "say gauge_length_mm");
     return unit->to_si / *test.gauge_length;
+  }
   return unit->to_si;
 }
 
@@ -135,32 +114,6 @@ bool is_usable(const Column& column, const calib::RawTest& test) {
   const std::optional<Unit> unit = find_unit(column.unit);
   return column.quantity != Quantity::strain || !unit || unit->dimension == Dimension::strain ||
          test.gauge_length.has_value();
-}
-
-using Chosen = std::map<Quantity, std::size_t>;
-
-Chosen take_hints(TestFile& file, const std::string& where, const ReadOptions& options) {
-  Chosen chosen;
-  for (const auto& [quantity, hint] : options.columns) {
-    const std::optional<std::size_t> column = hinted_column(hint.column, file.columns);
-    if (!column)
-      throw InputError(where, fmt::format(R"(there is no column "{}")", hint.column),
-                       "the columns are " + list_of(file.columns));
-    if (!hint.unit.empty()) file.columns[*column].unit = hint.unit;
-    const std::optional<Unit> unit = find_unit(hint.unit);
-    const bool volts = unit && unit->dimension == Dimension::voltage;
-    const Quantity held = volts ? in_volts(quantity) : quantity;
-    if (!hint.unit.empty() && (!unit || !fits(held, unit->dimension)))
-      throw InputError(
-          where, fmt::format("\"{}\" is not a known unit of {}", hint.unit, to_string(quantity)));
-    file.columns[*column].quantity = held;
-    chosen[held] = *column;
-  }
-  return chosen;
-}
-
-std::string_view hint_table(const ReadOptions& options) {
-  return options.logger ? "[specimen.gauge_columns]" : "[specimen.columns]";
 }
 
 // The key by which the user names a column of the quantity.
@@ -215,9 +168,9 @@ void name_doubts(TestFile& file, const ReadOptions& options, const Chosen& chose
 }
 
 // A column whose unit is not known is not used: an error where the load is lost by it.
-void name_unknown_units(TestFile& file, const std::string& where, bool logger,
+void name_unknown_units(TestFile& file, const std::string& where, const ReadOptions& options,
                         const Chosen& chosen) {
-  const bool loaded = logger || chosen.contains(Quantity::force) ||
+  const bool loaded = options.logger || chosen.contains(Quantity::force) ||
                       chosen.contains(Quantity::stress) || chosen.contains(Quantity::load_volts);
   for (const Column& column : file.columns) {
     const Quantity named = quantity_of_name(column.name);
@@ -225,9 +178,9 @@ void name_unknown_units(TestFile& file, const std::string& where, bool logger,
         chosen.contains(named) || column.quantity != Quantity::other)
       continue;
     if (!loaded && (named == Quantity::force || named == Quantity::stress))
-      throw InputError(where, unknown_unit(column), unit_hint_of(named));
+      throw InputError(where, unknown_unit(column), unit_hint_of(named, options));
     file.test.warnings.push_back(
-        fmt::format("{}: not used ({})", unknown_unit(column), unit_hint_of(named)));
+        fmt::format("{}: not used ({})", unknown_unit(column), unit_hint_of(named, options)));
   }
 }
 
@@ -273,14 +226,14 @@ void need_gauge(const TestFile& file, const std::string& where, const Chosen& ch
 std::vector<Channel> find_channels(TestFile& file, const Table& table, const ReadOptions& options) {
   const std::string where = place_of(file, table);
   std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < table.names.size(); ++i) {
+  for (std::size_t i = 0; i < table.names.size(); ++i)
     file.columns.push_back({table.names[i], table.units[i]});
-    candidates.push_back(classify(file.columns.back()));
-  }
+  take_units(file, where, options);
+  std::ranges::transform(file.columns, std::back_inserter(candidates), classify);
   Chosen chosen = take_hints(file, where, options);
   choose(file, candidates, options, chosen);
   name_doubts(file, options, chosen);
-  name_unknown_units(file, where, options.logger, chosen);
+  name_unknown_units(file, where, options, chosen);
   if (options.logger)
     need_gauge(file, where, chosen);
   else
@@ -288,7 +241,7 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   std::vector<Channel> channels;
   for (const auto& [quantity, column] : chosen)
     channels.push_back({quantity, table.first_column + column, column,
-                        factor(file.columns[column], where, file.test)});
+                        factor(file.columns[column], where, options, file.test)});
   return channels;
 }
 

@@ -42,6 +42,7 @@ struct ColumnHint {
 /// found by name, by unit and by content, in that order.
 struct ReadOptions {
   std::map<Quantity, ColumnHint> columns{};
+  std::map<Quantity, std::string> units{};  ///< Of columns without a hint, found by their names.
   std::string specimen{};   ///< Its name in a file of several, or its number from 1.
   bool logger = false;      ///< The file of a second logger: time and a gauge, no force.
   bool has_logger = false;  ///< A second logger's file tells what a volt of the load is.

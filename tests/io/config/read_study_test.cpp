@@ -34,6 +34,7 @@ specimen_in_file = "South"
 [specimen.columns]
 force = "Channel 3"
 force_unit = "500 N/V"
+extension_unit = "in"
 [specimen.gauge_columns]
 strain = "2"
 [reduction]
@@ -46,6 +47,7 @@ largest_noise = 0.1
   EXPECT_EQ(specimen.columns.specimen, "South");
   EXPECT_EQ(specimen.columns.columns.at(Quantity::force).column, "Channel 3");
   EXPECT_EQ(specimen.columns.columns.at(Quantity::force).unit, "500 N/V");
+  EXPECT_EQ(specimen.columns.units, (std::map<Quantity, std::string>{{Quantity::extension, "in"}}));
   EXPECT_FALSE(specimen.columns.logger);
   EXPECT_EQ(specimen.gauge_columns.columns.at(Quantity::strain).column, "2");
   EXPECT_TRUE(specimen.gauge_columns.logger);

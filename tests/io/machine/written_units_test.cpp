@@ -74,6 +74,43 @@ TEST(WrittenUnits, AreOverruledByTheUser) {
   EXPECT_DOUBLE_EQ(test_of("Time (s);force_kN", options).force.at(1), 2.0);
 }
 
+// As the sentences on unknown units say: force_unit alone, without force.
+TEST(WrittenUnits, AreOverruledByAUnitAlone) {
+  for (const char* names : {"Time (s);Load", "Time (s);Load (daX)", "Time (s);Load (N)"}) {
+    const calib::RawTest test = test_of(names, {.units = {{Quantity::force, "kN"}}});
+    EXPECT_DOUBLE_EQ(test.force.at(1), 2000.0) << names;
+    EXPECT_TRUE(test.warnings.empty()) << names;
+  }
+  EXPECT_DOUBLE_EQ(
+      test_of("Time (s);Load (V)", {.units = {{Quantity::force, "500 N/V"}}}).force.at(1), 1000.0);
+  EXPECT_EQ(refusal_of("Time (s);Load (N)", {.units = {{Quantity::strain, "%"}}}),
+            "no column's name speaks of strain, but strain_unit is given (say strain = ... in "
+            "[specimen.columns]; the columns are Time (s), Load (N))");
+  EXPECT_EQ(refusal_of("Time (s);Load (N)", {.units = {{Quantity::force, "mm"}}}),
+            "\"mm\" is not a known unit of force ()");
+}
+
+TEST(WrittenUnits, OfAColumnThatTheUserNamesAreThoseOfItsQuantity) {
+  const auto named = [](Quantity quantity, const char* column) {
+    return ReadOptions{{{quantity, {column, ""}}}};
+  };
+  EXPECT_EQ(refusal_of("Load (N);Extension (mm)", named(Quantity::force, "Extension")),
+            "column \"Extension\" is in mm, which is no unit of force (name another, or say "
+            "force_unit = ... in [specimen.columns])");
+  EXPECT_NE(refusal_of("Time (s);Load (V)", named(Quantity::force, "Load"))
+                .find("column \"Load\" is in volts"),
+            std::string::npos);
+  EXPECT_EQ(refusal_of("Load (N);Extension (mm)", named(Quantity::strain, "Extension")),
+            "column \"Extension\" is an elongation, and the gauge length is unknown (say "
+            "gauge_length_mm)");
+}
+
+TEST(WrittenUnits, ThatAreNotKnownInALoggerAreAskedForInItsTable) {
+  EXPECT_EQ(test_of("Time (s);Extension (mm);Strain (kX)", {.logger = true}).warnings.at(0),
+            "unit \"kX\" of column \"Strain\" is not known: not used (say strain_unit = ... in "
+            "[specimen.gauge_columns])");
+}
+
 TEST(WrittenUnits, AreNotSeenWhereThereIsNone) {
   for (const char* name :
        {"Tensile strain (Strain 1)", "Load (channel 2)", "Extension (Crosshead)", "Load (raw)",

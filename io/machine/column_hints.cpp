@@ -1,0 +1,106 @@
+#include "io/machine/column_hints.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <span>
+
+#include "io/input_error.hpp"
+#include "io/machine/excerpt.hpp"
+#include "io/machine/split_unit.hpp"
+#include "io/machine/vocabulary.hpp"
+
+namespace havers::io {
+namespace {
+
+// The user's word for a column: its name in the file, or its number from 1.
+std::optional<std::size_t> hinted_column(const std::string& hint,
+                                         const std::vector<Column>& columns) {
+  const auto found = std::ranges::find(columns, hint, &Column::name);
+  if (found != columns.end()) return static_cast<std::size_t>(found - columns.begin());
+  const NameAndUnit written = split_unit(hint);  // "force_kN" was split as the file was read
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].name == written.name && columns[i].unit == written.unit) return i;
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(hint.data(), hint.data() + hint.size(), number);
+  const bool whole = error == std::errc{} && end == hint.data() + hint.size();
+  if (!whole || number < 1 || number > columns.size()) return std::nullopt;
+  return number - 1;
+}
+
+// What a column in that unit holds: a force in volts waits for its factor. Nothing where the unit
+// is none of the quantity.
+std::optional<Quantity> held_in(const std::string& unit, Quantity quantity) {
+  const std::optional<Unit> known = find_unit(unit);
+  for (const Quantity held : {quantity, in_volts(quantity)})
+    if (known && fits(held, known->dimension)) return held;
+  return std::nullopt;
+}
+
+InputError wrong_unit(const std::string& where, const std::string& unit, Quantity quantity) {
+  return {where, fmt::format("\"{}\" is not a known unit of {}", unit, to_string(quantity))};
+}
+
+}  // namespace
+
+Quantity in_volts(Quantity quantity) {
+  return quantity == Quantity::force ? Quantity::load_volts : Quantity::volts;
+}
+
+std::string list_of(const std::vector<Column>& columns) {
+  constexpr std::size_t most = 20;
+  std::string text;
+  for (const Column& column : std::span(columns).first(std::min(columns.size(), most)))
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", excerpt(column.name),
+                        column.unit.empty() ? "" : " (" + excerpt(column.unit) + ")");
+  return columns.size() > most ? text + ", ..." : text;
+}
+
+std::string_view hint_table(const ReadOptions& options) {
+  return options.logger ? "[specimen.gauge_columns]" : "[specimen.columns]";
+}
+
+void take_units(TestFile& file, const std::string& where, const ReadOptions& options) {
+  for (const auto& [quantity, unit] : options.units) {
+    if (!held_in(unit, quantity)) throw wrong_unit(where, unit, quantity);
+    bool named = false;
+    for (Column& column : file.columns) {
+      if (quantity_of_name(column.name) != quantity) continue;
+      column.unit = unit;
+      named = true;
+    }
+    if (!named)
+      throw InputError(
+          where,
+          fmt::format("no column's name speaks of {0}, but {0}_unit is given", to_string(quantity)),
+          fmt::format("say {} = ... in {}; the columns are {}", to_string(quantity),
+                      hint_table(options), list_of(file.columns)));
+  }
+}
+
+Chosen take_hints(TestFile& file, const std::string& where, const ReadOptions& options) {
+  Chosen chosen;
+  for (const auto& [quantity, hint] : options.columns) {
+    const std::optional<std::size_t> found = hinted_column(hint.column, file.columns);
+    if (!found)
+      throw InputError(where, fmt::format(R"(there is no column "{}")", hint.column),
+                       "the columns are " + list_of(file.columns));
+    Column& column = file.columns[*found];
+    if (!hint.unit.empty()) column.unit = hint.unit;
+    const std::optional<Quantity> held = held_in(column.unit, quantity);
+    if (!held && !hint.unit.empty()) throw wrong_unit(where, hint.unit, quantity);
+    if (!held && find_unit(column.unit))
+      throw InputError(where,
+                       fmt::format("column \"{}\" is in {}, which is no unit of {}",
+                                   excerpt(column.name), excerpt(column.unit), to_string(quantity)),
+                       fmt::format("name another, or say {}_unit = ... in {}", to_string(quantity),
+                                   hint_table(options)));
+    column.quantity = held.value_or(quantity);
+    chosen[column.quantity] = *found;
+  }
+  return chosen;
+}
+
+}  // namespace havers::io

@@ -1,0 +1,34 @@
+// What the user says of a file's columns: which holds what, and in what unit.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/machine/read_test.hpp"
+
+namespace havers::io {
+
+/// The column of each quantity, from 0.
+using Chosen = std::map<Quantity, std::size_t>;
+
+/// What a force or a strain is called while its factor is not known.
+Quantity in_volts(Quantity quantity);
+
+/// The names and units of the columns, for a sentence.
+std::string list_of(const std::vector<Column>& columns);
+
+/// The table of a study in which the user speaks of the columns.
+std::string_view hint_table(const ReadOptions& options);
+
+/// Gives the columns that their names tell the user's units. @throws InputError when a unit is not
+/// one of its quantity, or no column has such a name.
+void take_units(TestFile& file, const std::string& where, const ReadOptions& options);
+
+/// Gives the columns that the user names their quantities and units. @throws InputError when there
+/// is no such column, or its unit is not one of the quantity.
+Chosen take_hints(TestFile& file, const std::string& where, const ReadOptions& options);
+
+}  // namespace havers::io
