@@ -10,7 +10,7 @@
 namespace havers::calib {
 namespace {
 
-using Complaints = std::vector<std::string>;
+using Complaints = std::vector<CalibrateOptions::Problem>;
 
 std::string names_to_choose_from() {
   std::string names;
@@ -19,20 +19,20 @@ std::string names_to_choose_from() {
   return names;
 }
 
-void check_name(const std::string& name, const std::string& where, Complaints& found) {
+void check_name(const std::string& name, const std::string& table, Complaints& found) {
   if (!find_parameter(name))
     found.push_back(
-        fmt::format("{} names \"{}\", must be one of {}", where, name, names_to_choose_from()));
+        {table, fmt::format("names \"{}\", must be one of {}", name, names_to_choose_from())});
 }
 
 void check_parameters(const CalibrateOptions& options, Complaints& found) {
   if (options.parameters.empty() && !options.automatic)
-    found.emplace_back("parameters is empty, must name at least one, or be \"auto\"");
+    found.push_back({"parameters", "is empty, must name at least one, or be \"auto\""});
   std::set<std::string> seen;
   for (const auto& name : options.parameters) {
     check_name(name, "parameters", found);
     if (!seen.insert(name).second)
-      found.push_back(fmt::format("parameters names \"{}\" twice", name));
+      found.push_back({"parameters", fmt::format("names \"{}\" twice", name)});
   }
 }
 
@@ -45,8 +45,9 @@ void check_rivals(const CalibrateOptions& options, Complaints& found) {
        {std::pair("ratio", "flank_MPa"), std::pair("head_tail_MPa", "resultant_MPa"),
         std::pair("resultant_MPa", "flank_MPa"), std::pair("aspect_ratio", "flank_MPa")})
     if (asked(one) && asked(other))
-      found.push_back(fmt::format("parameters names {} and {}, which set the same stress; keep one",
-                                  one, other));
+      found.push_back(
+          {"parameters",
+           fmt::format("names {} and {}, of which one undoes the other; keep one", one, other)});
 }
 
 void check_bounds(const CalibrateOptions& options, Complaints& found) {
@@ -54,13 +55,13 @@ void check_bounds(const CalibrateOptions& options, Complaints& found) {
     const auto [lower, upper] = bounds;
     check_name(name, "bounds", found);
     const auto* info = find_parameter(name);
+    const std::string key = "bounds." + name;
     if (!(lower < upper))
-      found.push_back(fmt::format("bounds of {} are [{}, {}], must rise", name, lower, upper));
+      found.push_back({key, fmt::format("is [{}, {}], must rise", lower, upper)});
     if (info && info->scale == Scale::logarithmic && !(lower > 0.0))
-      found.push_back(fmt::format("lower bound of {} is {}, must be > 0", name, lower));
+      found.push_back({key, fmt::format("starts at {}, must start above 0", lower)});
     if (name == "scatter" && !(lower >= 0.0 && upper < 2.0))
-      found.push_back(
-          fmt::format("bounds of scatter are [{}, {}], must lie in [0, 2)", lower, upper));
+      found.push_back({key, fmt::format("is [{}, {}], must lie in [0, 2)", lower, upper)});
   }
 }
 
@@ -68,11 +69,11 @@ void check_terms(const CalibrateOptions& options, Complaints& found) {
   std::vector<std::string> known;
   for (Eigen::Index q = 0; q < landmark_count; ++q)
     known.emplace_back(name_of(static_cast<Landmark>(q)));
-  if (options.terms.empty()) found.emplace_back("terms is empty, must name at least one");
+  if (options.terms.empty()) found.push_back({"options.terms", "is empty, must name at least one"});
   for (const auto& term : options.terms)
     if (std::ranges::find(known, term) == known.end())
-      found.push_back(
-          fmt::format("terms names \"{}\", must be one of {}", term, fmt::join(known, ", ")));
+      found.push_back({"options.terms", fmt::format("names \"{}\", must be one of {}", term,
+                                                    fmt::join(known, ", "))});
 }
 
 }  // namespace
@@ -85,11 +86,15 @@ Complaints CalibrateOptions::problems() const {
   check_terms(*this, found);
   for (const auto& [name, value] : level) check_name(name, "level", found);
   if (replicates < 2 && replicates != replicates_by_need)
-    found.push_back(
-        fmt::format("replicates = {}, must be ≥ 2: their spread weighs the residuals", replicates));
-  if (confirm < 0) found.push_back(fmt::format("confirm = {}, must be ≥ 0", confirm));
-  if (budget < 1) found.push_back(fmt::format("budget = {}, must be ≥ 1", budget));
-  if (threads < 0) found.push_back(fmt::format("threads = {}, must be ≥ 0", threads));
+    found.push_back({"options.replicates",
+                     fmt::format("is {}, must be 0 (as many as needed), or 2 or more: their spread "
+                                 "weighs the residuals",
+                                 replicates)});
+  if (confirm < 0)
+    found.push_back({"options.confirm", fmt::format("is {}, must be 0 or more", confirm)});
+  if (budget < 1)
+    found.push_back({"options.budget", fmt::format("is {}, must be 1 or more", budget)});
+  if (threads < 0) found.push_back({"threads", fmt::format("is {}, must be 0 or more", threads)});
   return found;
 }
 

@@ -63,8 +63,13 @@ struct CalibrateOptions {
   std::uint64_t seed = 1;  ///< Of the replicates' seeds and of the optimisers' random starts.
   int threads = 0;         ///< 0: as many as the machine has. Never changes a number.
 
-  /// What is wrong, a sentence each; empty when usable.
-  [[nodiscard]] std::vector<std::string> problems() const;
+  /// A complaint: the key of a study's [calibrate] it is about ("options.replicates"), what is
+  /// wrong.
+  struct Problem {
+    std::string key, what;
+  };
+  /// All that is wrong; empty when usable.
+  [[nodiscard]] std::vector<Problem> problems() const;
 };
 
 struct Study {

@@ -96,22 +96,26 @@ std::vector<std::vector<std::string>> list(const std::vector<SweepKey>& keys) {
 
 }  // namespace
 
-std::vector<std::string> SweepPlan::problems() const {
-  std::vector<std::string> all;
-  if (keys.empty()) all.emplace_back("names no keys to vary");
-  if (seeds < 1) all.push_back(fmt::format("asks for {} seeds, must be 1 or more", seeds));
+std::vector<SweepPlan::Problem> SweepPlan::problems() const {
+  std::vector<Problem> all;
+  const auto complain = [&](const char* key, std::string what) {
+    all.push_back({key, std::move(what)});
+  };
+  if (keys.empty()) complain("keys", "names no keys to vary");
+  if (seeds < 1) complain("seeds", fmt::format("is {}, must be 1 or more", seeds));
   if (is_sample(sampling) && points < 1)
-    all.push_back(fmt::format("asks for {} points, must be 1 or more", points));
+    complain("points", fmt::format("is {}, must be 1 or more", points));
   if (sampling == Sampling::sobol && keys.size() > 40)
-    all.emplace_back("has more keys than the 40 dimensions of the Sobol sequence");
+    complain("keys", "has more keys than the 40 dimensions of the Sobol sequence");
   for (const SweepKey& key : keys) {
-    if (key.values.empty()) all.push_back(fmt::format("gives {} no values", key.name));
+    if (key.values.empty()) complain("keys", fmt::format("gives {} no values", key.name));
     if (sampling == Sampling::list && key.values.size() != keys.front().values.size())
-      all.push_back(fmt::format("is a list, but {} has {} values and {} has {}", key.name,
-                                key.values.size(), keys.front().name, keys.front().values.size()));
+      complain("keys",
+               fmt::format("is a list, but {} has {} values and {} has {}", key.name,
+                           key.values.size(), keys.front().name, keys.front().values.size()));
     if (is_sample(sampling) &&
         !(key.values.size() == 2 && number_in(key.values.front()) < number_in(key.values.back())))
-      all.push_back(fmt::format("is a sample, but {} has no lower and upper bound", key.name));
+      complain("keys", fmt::format("is a sample, but {} has no lower and upper bound", key.name));
   }
   return all;
 }

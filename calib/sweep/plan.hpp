@@ -24,8 +24,12 @@ struct SweepPlan {
   int seeds = 20;          ///< Runs for each point, every run with a seed of its own.
   std::uint64_t seed = 1;  ///< Of the first run, and of the Latin hypercube.
 
-  /// What is wrong, each complaint a sentence without its subject; empty when it can be run.
-  [[nodiscard]] std::vector<std::string> problems() const;
+  /// A complaint: the key of [sweep] it is about, what is wrong.
+  struct Problem {
+    std::string key, what;
+  };
+  /// All that is wrong; empty when it can be run.
+  [[nodiscard]] std::vector<Problem> problems() const;
 };
 
 /// The values of every key, point by point, as TOML values. Bounds of a sample that are a factor

@@ -1,5 +1,8 @@
 #include "io/config/nearest.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -24,12 +27,28 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string nearest(std::string_view word, const std::set<std::string, std::less<>>& candidates) {
+std::string did_you_mean(std::string_view word,
+                         const std::set<std::string, std::less<>>& candidates) {
   const auto closer = [&](const std::string& a, const std::string& b) {
     return distance(word, a) < distance(word, b);
   };
-  const auto found = std::min_element(candidates.begin(), candidates.end(), closer);
-  return found == candidates.end() ? std::string{} : *found;
+  const auto found = std::ranges::min_element(candidates, closer);
+  if (found != candidates.end() &&
+      3 * distance(word, *found) <= 2 + std::max(word.size(), found->size()))
+    return fmt::format("did you mean {}?", *found);
+  const auto without_unit = [&](const std::string& key) {
+    return key.starts_with(std::string(word) + "_");
+  };
+  const auto longer = std::ranges::find_if(candidates, without_unit);
+  return longer == candidates.end() ? "" : fmt::format("did you mean {}?", *longer);
+}
+
+std::string nearest_or_all(std::string_view word,
+                           const std::set<std::string, std::less<>>& candidates) {
+  std::string hint = did_you_mean(word, candidates);
+  if (hint.empty() && !candidates.empty())
+    hint = fmt::format("known are {}", fmt::join(candidates, ", "));
+  return hint;
 }
 
 }  // namespace havers::io

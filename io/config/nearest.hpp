@@ -6,8 +6,14 @@
 
 namespace havers::io {
 
-/// The candidate with the fewest letters to insert, drop or replace; empty when there is
-/// none.
-std::string nearest(std::string_view word, const std::set<std::string, std::less<>>& candidates);
+/// "did you mean X?" of the candidate with the fewest letters to insert, drop or replace; none
+/// where these are more than about a third of the word, unless it lacks only the unit: "width" of
+/// "width_mm".
+std::string did_you_mean(std::string_view word,
+                         const std::set<std::string, std::less<>>& candidates);
+
+/// The same; "known are X, Y, Z" where none is near.
+std::string nearest_or_all(std::string_view word,
+                           const std::set<std::string, std::less<>>& candidates);
 
 }  // namespace havers::io

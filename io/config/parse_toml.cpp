@@ -17,7 +17,11 @@ toml::table parse_file(const std::filesystem::path& file) {
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
     throw InputError(fmt::format("{}:{}:{}", file.string(), at.line, at.column),
-                     fmt::format("is not TOML: {}", error.description()));
+                     fmt::format("is not TOML: {}", error.description()),
+                     file.extension() == ".toml"
+                         ? ""
+                         : "a study, scene or sweep is; havers import reads tests, havers porosity "
+                           "images");
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "io/config/file_kind.hpp"
 #include "io/config/scene_tables.hpp"
 
 namespace havers::io {
@@ -9,6 +10,7 @@ namespace havers::io {
 SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrides) {
   ConfigFile config(file, overrides);
   TableReader top = config.top();
+  require_kind(FileKind::scene, top, file);
   SceneFile read;
   read_scene_tables(top, read.scene);
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "calib/study/parameter.hpp"
+#include "io/config/file_kind.hpp"
 #include "io/config/nearest.hpp"
 #include "io/config/reduction_table.hpp"
 #include "io/config/scene_tables.hpp"
@@ -122,7 +123,7 @@ void read_parameters(TableReader& calibrate, calib::CalibrateOptions& options) {
   for (const std::string& name : names) {
     if (known.contains(name)) continue;
     calibrate.complain("parameters", fmt::format("names \"{}\", which cannot be calibrated", name),
-                       fmt::format("did you mean {}?", nearest(name, known)));
+                       nearest_or_all(name, known));
     all_known = false;
   }
   if (all_known) options.parameters = names;
@@ -133,8 +134,8 @@ void check_bounds(TableReader& bounds, std::string_view name, std::pair<double, 
                   const sim::Scene& model) {
   calib::CalibrateOptions alone;
   alone.bounds.emplace(name, value);
-  const std::vector<std::string> problems = alone.problems();
-  for (const std::string& problem : problems) bounds.complain(name, problem);
+  const std::vector<calib::CalibrateOptions::Problem> problems = alone.problems();
+  for (const auto& problem : problems) bounds.complain(name, problem.what);
   if (!problems.empty() || !model.problems().empty()) return;
   for (const double end : {value.first, value.second}) {
     sim::Scene scene = model;
@@ -151,7 +152,7 @@ void read_calibrate(TableReader calibrate, const sim::Scene& model,
   TableReader level = calibrate.table("level");
   TableReader settings = calibrate.table("options");
   keys(settings, options);
-  for (const std::string& problem : options.problems()) calibrate.complain("", problem);
+  for (const auto& problem : options.problems()) calibrate.complain(problem.key, problem.what);
 
   for (const calib::ParameterInfo& info : calib::all_parameters()) {
     std::pair<double, double> range;
@@ -204,8 +205,9 @@ calib::Specimen without_tests(const SpecimenFiles& files) {
   return specimen;
 }
 
-StudyFile read_tables(ConfigFile& config, Files files) {
+StudyFile read_tables(ConfigFile& config, const std::filesystem::path& file, Files files) {
   TableReader top = config.top();
+  require_kind(FileKind::study, top, file);
   StudyFile read;
   top.table("study").key("name", read.study.name);
   read.specimens = read_specimens(top, files);
@@ -235,7 +237,7 @@ StudyFile read_tables(ConfigFile& config, Files files) {
 
 StudyFile read_study(const std::filesystem::path& file, const Overrides& overrides, Files files) {
   ConfigFile config(file, overrides);
-  StudyFile read = read_tables(config, files);
+  StudyFile read = read_tables(config, file, files);
   config.finish();
   return read;
 }
@@ -243,7 +245,7 @@ StudyFile read_study(const std::filesystem::path& file, const Overrides& overrid
 StudyFile read_study(const std::filesystem::path& file, const Overrides& overrides,
                      std::vector<Problem>& problems) {
   ConfigFile config(file, overrides);
-  StudyFile read = read_tables(config, Files::must_exist);
+  StudyFile read = read_tables(config, file, Files::must_exist);
   problems = config.problems();
   return read;
 }

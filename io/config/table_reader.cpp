@@ -206,7 +206,7 @@ std::optional<std::size_t> TableReader::word_index(std::string_view name,
   const auto found = std::find(known.begin(), known.end(), text);
   if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
   complain(name, fmt::format("is \"{}\", must be one of: {}", text, fmt::join(known, ", ")),
-           fmt::format("did you mean {}?", nearest(text, {known.begin(), known.end()})));
+           did_you_mean(text, {known.begin(), known.end()}));
   return std::nullopt;
 }
 
@@ -279,8 +279,7 @@ std::vector<Problem> ConfigFile::problems() {
     for (auto&& [key, node] : *table) {
       const std::string name = join(path, key.str());
       if (!known.contains(key.str()))
-        complain({where(node, name), "is not a known key",
-                  fmt::format("did you mean {}?", nearest(key.str(), known))});
+        complain({where(node, name), "is not a known key", nearest_or_all(key.str(), known)});
       else if (!asked_.contains(name))
         continue;  // a value, judged where it was read
       else if (const toml::table* inner = node.as_table())

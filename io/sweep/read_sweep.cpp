@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "io/config/file_kind.hpp"
 #include "io/config/parse_toml.hpp"
 #include "io/config/scene_tables.hpp"
 #include "io/sweep/sweep_keys.hpp"
@@ -27,7 +28,7 @@ void read_plan(TableReader& top, calib::Sweep& sweep) {
   if (sweep.levels < 1 || sweep.levels > 2) table.complain("levels", "must be 1 or 2");
   for (auto& [name, values] : table.lists("keys"))
     sweep.plan.keys.push_back({name, std::move(values)});
-  for (const std::string& problem : sweep.plan.problems()) table.complain("keys", problem);
+  for (const auto& problem : sweep.plan.problems()) table.complain(problem.key, problem.what);
   for (const calib::SweepKey& key : sweep.plan.keys)
     if (key.name == "joints.seed" || key.name.starts_with("sweep."))
       table.complain("keys", fmt::format("{} cannot vary", key.name),
@@ -118,6 +119,7 @@ SweepFile read_sweep(const std::filesystem::path& file, const Overrides& overrid
                      std::optional<std::uint64_t> seed) {
   ConfigFile config(file, overrides);
   TableReader top = config.top();
+  require_kind(FileKind::sweep, top, file);
   SweepFile read{.sweep = {}, .inputs = {file}};
   calib::Sweep& sweep = read.sweep;
   read_plan(top, sweep);

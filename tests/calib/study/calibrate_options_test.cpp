@@ -26,19 +26,19 @@ TEST(CalibrateOptions, NameEveryProblemAtOnce) {
   options.threads = -1;
   const std::vector<std::string> words{"parameters names \"young_GPa\" twice",
                                        "parameters names \"yung_GPa\"",
-                                       "bounds of ratio are [2, 1]",
-                                       "lower bound of head_tail_MPa is 0",
-                                       "bounds of scatter are [0, 2.5]",
+                                       "bounds.ratio is [2, 1]",
+                                       "bounds.head_tail_MPa starts at 0",
+                                       "bounds.scatter is [0, 2.5]",
                                        "bounds names \"strength\"",
                                        "level names \"flank\"",
-                                       "replicates = 1",
-                                       "budget = 0",
-                                       "threads = -1"};
+                                       "options.replicates is 1",
+                                       "options.budget is 0",
+                                       "threads is -1"};
   const auto problems = options.problems();
   EXPECT_EQ(problems.size(), words.size());
   for (const auto& word : words)
-    EXPECT_TRUE(std::ranges::any_of(problems, [&](const std::string& text) {
-      return text.find(word) != std::string::npos;
+    EXPECT_TRUE(std::ranges::any_of(problems, [&](const CalibrateOptions::Problem& problem) {
+      return (problem.key + " " + problem.what).find(word) != std::string::npos;
     })) << word;
 }
 

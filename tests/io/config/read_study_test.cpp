@@ -194,14 +194,15 @@ TEST_F(ReadStudy, AsksTheOptionsOfTheCalibration) {
   calib::CalibrateOptions one_seed;
   one_seed.replicates = 1;
   ASSERT_EQ(one_seed.problems().size(), 1U);
-  EXPECT_THAT(complaints(one_specimen + "[calibrate.options]\nreplicates = 1\n"),
-              ElementsAre("study.toml:4: calibrate: " + one_seed.problems()[0]));
+  EXPECT_THAT(
+      complaints(one_specimen + "[calibrate.options]\nreplicates = 1\n"),
+      ElementsAre("study.toml:5: calibrate.options.replicates: " + one_seed.problems()[0].what));
 
   calib::CalibrateOptions falling;
   falling.bounds["ratio"] = {3.0, 1.0};
   ASSERT_EQ(falling.problems().size(), 1U);
   EXPECT_THAT(complaints(one_specimen + "[calibrate.bounds]\nratio = [3, 1]\n"),
-              ElementsAre("study.toml:5: calibrate.bounds.ratio: " + falling.problems()[0]));
+              ElementsAre("study.toml:5: calibrate.bounds.ratio: " + falling.problems()[0].what));
 }
 
 TEST_F(ReadStudy, NamesEveryFileThatAResultComesFrom) {

@@ -41,8 +41,7 @@ young_GPa = -1
               ElementsAre("study.toml:6: specimen.gauge: names g.csv, which is not there (paths "
                           "are relative to the folder "
                           "of this file)",
-                          "study.toml:12: specimen.use: is \"both\", must be one of: fit, validate "
-                          "(did you mean fit?)",
+                          "study.toml:12: specimen.use: is \"both\", must be one of: fit, validate",
                           "study.toml:8: specimen.id: is \"A1\", as that of an earlier specimen",
                           "study.toml:9: specimen.test: names B.csv, which is not there (paths are "
                           "relative to the folder of "
@@ -61,6 +60,14 @@ TEST_F(RefusedStudy, ReportsFaultyLawsAmongTheOthers) {
   EXPECT_THAT(complaints(one_specimen + "width_mm = 0\n[calibrate]\nlaws = \"laws.json\"\n"),
               ElementsAre("study.toml:4: specimen.width_mm: is 0, must be above 0",
                           "laws.json: is no file of laws (name the laws.json of a sweep)"));
+}
+
+TEST_F(RefusedStudy, IsNoSceneAndNoSweep) {
+  EXPECT_THAT(
+      complaints("[assembly]\nlayers = 8\n"),
+      ElementsAre("study.toml: is a scene, a study is expected (havers simulate takes it)"));
+  EXPECT_THAT(complaints("[sweep.keys]\n[joints]\nratio = 1.0\n"),
+              ElementsAre("study.toml: is a sweep, a study is expected (havers sweep takes it)"));
 }
 
 TEST_F(RefusedStudy, AsksForSpecimens) {
@@ -124,6 +131,18 @@ TEST_F(RefusedStudy, NamesImpossibleValuesWithLineAndRule) {
        "study.toml:5: calibrate.parameters: names \"yuong_GPa\", which cannot be calibrated (did "
        "you mean "
        "young_GPa?)"},
+      {one_specimen + "[calibrate]\nparameters = [\"aspect_ratio\", \"flank_MPa\"]",
+       "study.toml:5: calibrate.parameters: names aspect_ratio and flank_MPa, of which one undoes "
+       "the other; keep one"},
+      {one_specimen + "[calibrate.options]\nreplicates = -1",
+       "study.toml:5: calibrate.options.replicates: is -1, must be 0 (as many as needed), or 2 or "
+       "more: their spread weighs the residuals"},
+      {one_specimen + "[calibrate.options]\nsmooth = true\nbudget = 0",
+       "study.toml:6: calibrate.options.budget: is 0, must be 1 or more"},
+      {one_specimen + "width = 4",
+       "study.toml:4: specimen.width: is not a known key (did you mean width_mm?)"},
+      {one_specimen + "[study]\ntitle = 4",
+       "study.toml:5: study.title: is not a known key (known are name)"},
       {one_specimen + "[calibrate.bounds]\nyung_GPa = [1, 2]",
        "study.toml:5: calibrate.bounds.yung_GPa: is not a known key (did you mean young_GPa?)"},
       {one_specimen + "[calibrate.bounds]\nyoung_GPa = [1]",
@@ -131,8 +150,11 @@ TEST_F(RefusedStudy, NamesImpossibleValuesWithLineAndRule) {
        "30.0])"},
       {one_specimen + "[calibrate.level]\nratio = \"bone\"",
        "study.toml:5: calibrate.level.ratio: is \"bone\", must be one of: shared, orientation, "
-       "specimen (did "
-       "you mean shared?)"},
+       "specimen"},
+      {one_specimen + "[reduction]\nwindow_high = 0",
+       "study.toml:5: reduction.window_high: is 0, must be above window_low and at most 1"},
+      {one_specimen + "[reduction]\nwindow_low = 0.5",
+       "study.toml:5: reduction.window_low: is 0.5, must be 0 or more and below window_high"},
       {one_specimen + "[synthesize]\nforce_noise_N = -1",
        "study.toml:5: synthesize.force_noise_N: is -1, must be 0 or more"},
       {one_specimen + "[synthesize]\nsampling_s = 0",

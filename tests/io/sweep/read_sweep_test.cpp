@@ -114,7 +114,8 @@ TEST(ReadSweep, NamesWhatIsWrongWithThePlan) {
   const ScratchFolder folder;
   const auto file = folder.write("s.toml", "[sweep]\nseeds = 0\n");
   EXPECT_THAT(complaints_of(folder, [&] { read_sweep(file); }),
-              ElementsAre(HasSubstr("names no keys to vary"), HasSubstr("0 seeds")));
+              ElementsAre("s.toml:1: sweep.keys: names no keys to vary",
+                          "s.toml:2: sweep.seeds: is 0, must be 1 or more"));
 }
 
 TEST(ReadSweep, NamesKeysThatCannotVary) {
