@@ -1,9 +1,12 @@
 #include "io/images/cut_off.hpp"
 
 #include <fmt/format.h>
+#include <libdeflate.h>
 
+#include <fstream>
 #include <iterator>
 #include <set>
+#include <string>
 
 #include "io/images/file_bytes.hpp"
 #include "io/input_error.hpp"
@@ -36,7 +39,38 @@ bool is_cut_off_jpeg(const std::filesystem::path& file) {
   return scan == std::string::npos || end == std::string::npos || end < scan;
 }
 
+// A chunk is its length, its name, its data and a check sum; one whose name starts with a capital
+// cannot be done without, and the last is IEND.
+bool is_damaged_png(const std::filesystem::path& file) {
+  if (FileBytes(file).text(0, 8) != "\x89PNG\r\n\x1a\n") return false;
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const auto number_at = [&](std::size_t at) {
+    std::size_t number = 0;
+    for (const char byte : bytes.substr(at, 4))
+      number = number << 8U | static_cast<unsigned char>(byte);
+    return number;
+  };
+  for (std::size_t at = 8; at + 12 <= bytes.size();) {
+    const std::size_t length = number_at(at), sum = at + 8 + length;
+    if (sum + 4 > bytes.size()) return true;
+    const bool needed = (static_cast<unsigned char>(bytes[at + 4]) & 0x20U) == 0;
+    if (needed && libdeflate_crc32(0, &bytes[at + 4], length + 4) != number_at(sum)) return true;
+    if (bytes.compare(at + 4, 4, "IEND") == 0) return false;
+    at = sum + 4;
+  }
+  return true;
+}
+
 }  // namespace
+
+void check_is_whole(const std::filesystem::path& file) {
+  if (is_cut_off_jpeg(file))
+    throw io::InputError(file.string(), "is cut off: its end is missing",
+                         "copy or export it again");
+  if (is_damaged_png(file))
+    throw io::InputError(file.string(), "is cut off or damaged", "copy or export it again");
+}
 
 void check_all_was_read(const std::filesystem::path& file, std::size_t pages_read) {
   if (const std::size_t pages = pages_of_tiff(file); pages_read < pages)
@@ -45,9 +79,6 @@ void check_all_was_read(const std::filesystem::path& file, std::size_t pages_rea
         fmt::format("only {} of at least {} pages can be read: it is cut off or damaged",
                     pages_read, pages),
         "copy or export it again");
-  if (is_cut_off_jpeg(file))
-    throw io::InputError(file.string(), "is cut off: its end is missing",
-                         "copy or export it again");
 }
 
 }  // namespace havers::images

@@ -1,4 +1,5 @@
-// Files whose end is missing, which decoders read in part without a word. Private to io/images.
+// Files that are not whole, which decoders read in part without a word, or refuse in words of their
+// own. Private to io/images.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,10 @@
 
 namespace havers::images {
 
-/// @throws io::InputError when a TIFF has more pages than were read, or a JPEG no end marker.
+/// @throws io::InputError when a JPEG has no end marker, or a PNG is cut off or damaged.
+void check_is_whole(const std::filesystem::path& file);
+
+/// @throws io::InputError when a TIFF has more pages than were read.
 void check_all_was_read(const std::filesystem::path& file, std::size_t pages_read);
 
 }  // namespace havers::images

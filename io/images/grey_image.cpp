@@ -30,13 +30,13 @@ std::vector<cv::Mat> decoded(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".png")
+    if (cv::Mat image = read_png(file); !image.empty()) return {image};
+  check_is_whole(file);
   std::vector<cv::Mat> pages;
-  if (ending == ".tif" || ending == ".tiff") {
+  if (ending == ".tif" || ending == ".tiff")
     cv::imreadmulti(file.string(), pages, cv::IMREAD_UNCHANGED);
-    return pages;
-  }
-  if (ending == ".png") pages.push_back(read_png(file));
-  if (pages.empty() || pages.front().empty())
+  else
     pages = {cv::imread(file.string(), cv::IMREAD_UNCHANGED)};
   return pages;
 }
@@ -88,8 +88,9 @@ std::vector<cv::Mat> read_pages(const std::filesystem::path& file) {
   std::vector<cv::Mat> pages;
   try {
     pages = decoded(file);
-  } catch (const cv::Exception& error) {
-    throw io::InputError(file.string(), fmt::format("cannot be decoded: {}", error.err));
+  } catch (const cv::Exception&) {
+    throw io::InputError(file.string(), "cannot be decoded: it is damaged, or too large",
+                         "export it again, in parts where it has more than 2^30 pixels");
   }
   if (pages.empty() || pages.front().empty())
     throw io::InputError(file.string(), "is not a readable image",

@@ -1,7 +1,7 @@
 // Files that end too soon: refused, with their name, never measured in part.
 #include "io/images/cut_off.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <fstream>
 #include <map>
@@ -65,8 +65,23 @@ TEST_P(CutOff, AFileIsRefused) {
   const auto drawn = test::draw({.width = 300, .height = 260, .noise = 0.05, .blur = 0.7});
   const auto file = test::write(drawn.image, std::string("whole.") + GetParam());
   EXPECT_EQ(said_of_the_first(1.0, file), "");
+  testing::internal::CaptureStderr();
   for (const double share : {0.02, 0.3, 0.6, 0.9, 0.99})
     EXPECT_NE(said_of_the_first(share, file), "") << share;
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "libraries have no word of their own";
+}
+
+TEST(CutOffPng, ThatIsDamagedIsNamedInOneSentence) {
+  const auto drawn = test::draw({.width = 300, .height = 260, .noise = 0.05, .blur = 0.7});
+  const auto file = test::write(drawn.image, "damaged.png");
+  std::fstream bytes(file, std::ios::binary | std::ios::in | std::ios::out);
+  bytes.seekp(static_cast<std::streamoff>(std::filesystem::file_size(file) / 2));
+  bytes << "not what was there";
+  bytes.close();
+  testing::internal::CaptureStderr();
+  EXPECT_THAT(said_of_the_first(1.0, file),
+              testing::EndsWith("is cut off or damaged (copy or export it again)"));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(CutOffTiff, OfSeveralPagesIsRefused) {
