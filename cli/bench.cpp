@@ -12,7 +12,8 @@ namespace {
 
 constexpr const char* bench_examples =
     "  havers bench data_samples/scenes/bench.toml -o runs/bench\n"
-    "  havers bench scene.toml -o runs/bench --seeds 5 --set assembly.layers=10\n"
+    "  havers bench data_samples/scenes/bench.toml -o runs/bench --seeds 5 "
+    "--set assembly.layers=10\n"
     "  havers bench --stability -o runs/stability   # stiff and extreme scenes of known answer\n"
     "  havers bench --calibration -o runs/chains    # chains of optimisers on studies of known "
     "truth\n";

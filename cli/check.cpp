@@ -17,8 +17,8 @@ namespace havers::cli {
 namespace {
 
 constexpr const char* check_examples =
-    "  havers check study.toml\n"
-    "  havers check scene.toml --json\n"
+    "  havers check data_samples/bone_bars/study.toml\n"
+    "  havers check data_samples/scenes/impact.toml --json\n"
     "  havers check data_samples/paper/R5_rates.toml\n";
 
 // Looked for as text, so that a file with a syntax error is told apart as well.

@@ -21,9 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* fit_examples =
-    "  havers fit study.toml -o runs/first\n"
-    "  havers fit study.toml -o runs/first          # after Ctrl-C: goes on where it stopped\n"
-    "  havers fit study.toml -o runs/wide --set calibrate.options.replicates=16 --seed 2\n";
+    "  havers fit data_samples/bone_bars/study.toml -o runs/first\n"
+    "  havers fit data_samples/bone_bars/study.toml -o runs/first   # after Ctrl-C: goes on\n"
+    "  havers fit data_samples/bone_bars/study.toml -o runs/wide --seed 2 "
+    "--set calibrate.options.replicates=16\n";
 
 struct FitArguments {
   fs::path study, folder;

@@ -20,12 +20,13 @@ namespace havers::cli {
 namespace {
 
 constexpr const char* import_examples =
-    "  havers import A1.csv\n"
-    "  havers import *.csv --json\n"
-    "  havers import A1.csv --width-mm 4 --thickness-mm 2 --gauge-length-mm 25 -o runs/tests\n"
-    "  havers import A1.csv --gauge A1_logger.csv -o runs/A1    # a logger with its own clock\n"
-    "  havers import A1.csv --set columns.force=2 --set columns.force_unit=kN\n"
-    "  havers import A1.csv --set reduction.remove_toe=false\n";
+    "  havers import data_samples/bone_bars/A1.csv\n"
+    "  havers import data_samples/bone_bars/*.csv --json\n"
+    "  havers import my/A1.csv --width-mm 4 --thickness-mm 2 --gauge-length-mm 25 -o runs/tests\n"
+    "  havers import my/A1.csv --gauge my/A1_logger.csv -o runs/A1   # a logger with its own "
+    "clock\n"
+    "  havers import my/A1.csv --set columns.force=2 --set columns.force_unit=kN\n"
+    "  havers import my/A1.csv --set reduction.remove_toe=false\n";
 
 struct ImportArguments {
   std::vector<std::filesystem::path> files;

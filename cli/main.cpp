@@ -21,9 +21,10 @@ namespace {
 
 constexpr const char* main_examples =
     "Examples:\n"
-    "  havers fit study.toml -o runs/first\n"
-    "  havers simulate scene.toml -o runs/impact --set loading.strain_rate_per_s=500\n"
-    "  havers import A1.csv --json\n"
+    "  havers fit data_samples/bone_bars/study.toml -o runs/first\n"
+    "  havers simulate data_samples/scenes/impact.toml -o runs/impact "
+    "--set loading.strain_rate_per_s=500\n"
+    "  havers import data_samples/bone_bars/A1.csv --json\n"
     "havers COMMAND -h says more about a command.";
 
 std::string typed(int argc, char** argv) {

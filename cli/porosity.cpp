@@ -22,10 +22,11 @@ namespace havers::cli {
 namespace {
 
 constexpr const char* porosity_examples =
-    "  havers porosity section.png --pixel-size-um 5\n"
-    "  havers porosity A1_*.png --pixel-size-um 5 -o runs/sections   # with overlays and a page\n"
-    "  havers porosity ct.tif --density 30=0 --density 140=1200      # grey level = kg/m³\n"
-    "  havers porosity ct.tif --density 10,10,40,40=0 --density 10,80,40,40=800   # phantom\n";
+    "  havers porosity data_samples/bone_bars/A1_section.png --pixel-size-um 2\n"
+    "  havers porosity data_samples/bone_bars/*.png --pixel-size-um 2 -o runs/sections   # and a "
+    "page\n"
+    "  havers porosity my/ct.tif --density 30=0 --density 140=1200      # grey level = kg/m³\n"
+    "  havers porosity my/ct.tif --density 10,10,40,40=0 --density 10,80,40,40=800   # phantom\n";
 
 struct PorosityArguments {
   std::vector<std::filesystem::path> images;

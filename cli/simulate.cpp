@@ -16,9 +16,11 @@ namespace havers::cli {
 namespace {
 
 constexpr const char* simulate_examples =
-    "  havers simulate scene.toml -o runs/impact\n"
-    "  havers simulate scene.toml -o runs/seed7 --seed 7 --set joints.scatter=0.4\n"
-    "  havers simulate scene.toml -o runs/film --set output.snapshots=50   # for ParaView\n";
+    "  havers simulate data_samples/scenes/impact.toml -o runs/impact\n"
+    "  havers simulate data_samples/scenes/machine.toml -o runs/seed7 --seed 7 --set "
+    "joints.scatter=0.4\n"
+    "  havers simulate data_samples/scenes/impact.toml -o runs/film "
+    "--set output.snapshots=50   # for ParaView\n";
 
 struct SimulateArguments {
   std::filesystem::path scene, folder;

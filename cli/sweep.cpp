@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* sweep_examples =
-    "  havers sweep scatter.toml -o runs/scatter\n"
-    "  havers sweep scatter.toml -o runs/scatter      # after Ctrl-C: goes on where it stopped\n"
+    "  havers sweep data_samples/paper/R4_along.toml -o runs/along\n"
+    "  havers sweep data_samples/paper/R4_along.toml -o runs/along   # after Ctrl-C: goes on\n"
     "  havers sweep data_samples/paper/R*.toml -o runs/paper --title 'What the paper found'\n";
 
 struct SweepArguments {

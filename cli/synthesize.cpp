@@ -26,11 +26,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* synthesize_examples =
-    "  havers synthesize study.toml -o made --seed 7\n"
-    "  havers synthesize study.toml -o made --set model.material.young_GPa=15   # the truth; the "
-    "copy of\n"
-    "                                                       # study.toml in made/ keeps its "
-    "starting point\n";
+    "  havers synthesize data_samples/bone_bars/study.toml -o runs/made --seed 7\n"
+    "  havers synthesize data_samples/bone_bars/study.toml -o runs/stiff "
+    "--set model.material.young_GPa=15\n"
+    "      # sets the truth; the copy of study.toml in runs/stiff keeps its starting point\n";
 
 struct SynthesizeArguments {
   fs::path study, folder;
