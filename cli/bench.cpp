@@ -1,6 +1,8 @@
 // havers bench: which mode the flags ask for.
 #include "cli/bench.hpp"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <array>
 #include <memory>
@@ -34,16 +36,22 @@ constexpr std::array flags{
          bench_porosity},
 };
 
+int run_mode(const Flag& flag, const BenchArguments& arguments, const CommonOptions& common) {
+  refuse_settings(common, fmt::format("{} has settings of its own", flag.name));
+  if (!arguments.scene.empty())
+    note(common, fmt::format("{} is not run: {} has scenes of its own", arguments.scene.string(),
+                             flag.name));
+  return flag.run(arguments, common);
+}
+
 }  // namespace
 
 Command bench_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(app, common, "bench", "error against run time", bench_examples);
   const auto arguments = std::make_shared<BenchArguments>();
-  const auto mode = std::make_shared<BenchMode>(bench_scene);
+  const auto chosen = std::make_shared<const Flag*>(nullptr);
   parser->add_option("SCENE", arguments->scene, "scene file (TOML)");
-  parser->add_option("-o,--output", arguments->folder, "folder for the results")
-      ->required()
-      ->type_name("DIR");
+  add_output(*parser, arguments->folder, "folder for the results")->required();
   parser->add_option("--seeds", arguments->seeds, "runs of each setting (default: 3)")
       ->type_name("N")
       ->check(count());
@@ -58,8 +66,11 @@ Command bench_command(CLI::App& app, CommonOptions& common) {
       ->check(count(2));
   for (const Flag& flag : flags)
     parser->add_flag_callback(
-        flag.name, [mode, run = flag.run] { *mode = run; }, flag.help);
-  return {parser, [arguments, mode, &common] { return (*mode)(*arguments, common); }};
+        flag.name, [chosen, &flag] { *chosen = &flag; }, flag.help);
+  return {parser, [arguments, chosen, &common] {
+            return *chosen == nullptr ? bench_scene(*arguments, common)
+                                      : run_mode(**chosen, *arguments, common);
+          }};
 }
 
 }  // namespace havers::cli

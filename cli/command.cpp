@@ -8,6 +8,7 @@
 
 #include "cli/number_check.hpp"
 #include "cli/version.hpp"
+#include "io/input_error.hpp"
 #include "io/results/result_files.hpp"
 
 namespace havers::cli {
@@ -35,6 +36,21 @@ CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& n
   command->add_flag("--force", common.force, "write into a folder that already holds a run");
   command->set_version_flag("--version", version_text, "version and what is built in");
   return command;
+}
+
+CLI::Option* add_output(CLI::App& command, std::filesystem::path& folder, const std::string& help) {
+  const auto complaint = [](const std::string& text) -> std::string {
+    return text.empty() ? "is empty, must name a folder" : "";
+  };
+  return command.add_option("-o,--output", folder, help)
+      ->type_name("DIR")
+      ->check(CLI::Validator(complaint, ""));
+}
+
+void refuse_settings(const CommonOptions& common, const std::string& what) {
+  if (!common.set.empty())
+    throw io::InputError("--set " + common.set.front(), "sets nothing: " + what,
+                         "leave it out, -h shows the options that there are");
 }
 
 void note(const CommonOptions& common, const std::string& sentence) {

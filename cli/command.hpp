@@ -12,7 +12,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace havers::cli {
 
@@ -54,6 +55,12 @@ Command bench_command(CLI::App& app, CommonOptions& common);
 /// Adds a sub-command with the common options, a sentence of what it does, and examples under -h.
 CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& name,
                       const std::string& sentence, const std::string& examples);
+
+/// Adds -o,--output DIR, which names a folder.
+CLI::Option* add_output(CLI::App& command, std::filesystem::path& folder, const std::string& help);
+
+/// @throws io::InputError where --set is given to a command that has no settings to set.
+void refuse_settings(const CommonOptions& common, const std::string& what);
 
 /// A note for the user on stderr; silent with -q.
 void note(const CommonOptions& common, const std::string& sentence);

@@ -90,9 +90,7 @@ Command fit_command(CLI::App& app, CommonOptions& common) {
                                  "calibrate the model to a study's tests and report", fit_examples);
   const auto arguments = std::make_shared<FitArguments>();
   parser->add_option("STUDY", arguments->study, "study file (TOML)")->required();
-  parser->add_option("-o,--output", arguments->folder, "folder for the results")
-      ->required()
-      ->type_name("DIR");
+  add_output(*parser, arguments->folder, "folder for the results")->required();
   return {parser, [arguments, &common] { return run_fit(*arguments, common); }};
 }
 

@@ -243,8 +243,7 @@ Command import_command(CLI::App& app, CommonOptions& common) {
       ->add_option("--gauge", arguments->gauge,
                    "second logger's file of one test, with a clock of its own")
       ->type_name("FILE");
-  parser->add_option("-o,--output", arguments->folder, "folder for a page with a figure per file")
-      ->type_name("DIR");
+  add_output(*parser, arguments->folder, "folder for a page with a figure per file");
   parser->add_option("--width-mm", arguments->width_mm, "instead of the file's")
       ->check(above_zero());
   parser->add_option("--thickness-mm", arguments->thickness_mm, "instead of the file's")

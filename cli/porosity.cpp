@@ -173,6 +173,7 @@ int run_porosity(const PorosityArguments& arguments, const CommonOptions& common
     return done;
   }
   print_table(sections);
+  refuse_settings(common, "havers porosity reads no study");
   if (!arguments.folder.empty())
     fmt::print(
         "{}\n",
@@ -206,8 +207,7 @@ Command porosity_command(CLI::App& app, CommonOptions& common) {
   const auto arguments = std::make_shared<PorosityArguments>();
   io::SectionOptions& options = arguments->options;
   parser->add_option("IMAGE", arguments->images, "PNG, TIFF, JPEG, BMP or DICOM")->required();
-  parser->add_option("-o,--output", arguments->folder, "folder for overlays and a page")
-      ->type_name("DIR");
+  add_output(*parser, arguments->folder, "folder for overlays and a page");
   parser
       ->add_option("--pixel-size-um", arguments->pixel_size_um,
                    "size of a pixel; default: the file's own tag")

@@ -88,8 +88,9 @@ Command report_command(CLI::App& app, CommonOptions& common) {
       app, common, "report", "a fit's page again, or several fits side by side", report_examples);
   const auto arguments = std::make_shared<ReportArguments>();
   parser->add_option("RESULT", arguments->results, "folder of a fit, or its result.json")
+  refuse_settings(common, "havers report shows fits as they were");
       ->required();
-  parser->add_option("-o,--output", arguments->folder, "folder for the page")->type_name("DIR");
+  add_output(*parser, arguments->folder, "folder for the page");
   return {parser, [arguments, &common] { return run_report(*arguments, common); }};
 }
 

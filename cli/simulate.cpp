@@ -124,9 +124,7 @@ Command simulate_command(CLI::App& app, CommonOptions& common) {
       add_command(app, common, "simulate", "one run of the model", simulate_examples);
   const auto arguments = std::make_shared<SimulateArguments>();
   parser->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
-  parser->add_option("-o,--output", arguments->folder, "folder for the results")
-      ->required()
-      ->type_name("DIR");
+  add_output(*parser, arguments->folder, "folder for the results")->required();
   return {parser, [arguments, &common] { return run_simulate(*arguments, common); }};
 }
 

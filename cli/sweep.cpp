@@ -180,9 +180,7 @@ Command sweep_command(CLI::App& app, CommonOptions& common) {
                                  sweep_examples);
   const auto arguments = std::make_shared<SweepArguments>();
   parser->add_option("SWEEP", arguments->files, "sweep files (TOML)")->required();
-  parser->add_option("-o,--output", arguments->folder, "folder for the results")
-      ->required()
-      ->type_name("DIR");
+  add_output(*parser, arguments->folder, "folder for the results")->required();
   parser->add_option("--title", arguments->title, "of the page")->type_name("TEXT");
   return {parser, [arguments, &common] { return run_sweeps(*arguments, common); }};
 }

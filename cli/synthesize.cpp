@@ -245,9 +245,7 @@ Command synthesize_command(CLI::App& app, CommonOptions& common) {
                   "a study's files made by the model, with a known truth", synthesize_examples);
   const auto arguments = std::make_shared<SynthesizeArguments>();
   parser->add_option("STUDY", arguments->study, "study file (TOML)")->required();
-  parser->add_option("-o,--output", arguments->folder, "folder for the study")
-      ->required()
-      ->type_name("DIR");
+  add_output(*parser, arguments->folder, "folder for the study")->required();
   return {parser, [arguments, &common] { return run_synthesize(*arguments, common); }};
 }
 

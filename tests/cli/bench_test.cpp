@@ -34,7 +34,10 @@ TEST(Bench, NeedsASceneUnlessAFlagSaysOtherwise) {
 
 TEST(Bench, RunsTheStabilityScenesWithoutAScene) {
   const fs::path folder = own_folder();
-  const auto answer = run_havers(folder, "bench --stability -o out --json");
+  const auto answer = run_havers(folder, "bench scene.toml --stability -o out --json");
+  EXPECT_NE(answer.err.find("scene.toml is not run: --stability has scenes of its own"),
+            std::string::npos)
+      << answer.err;
   const auto result = nlohmann::json::parse(answer.out);
   EXPECT_GE(result["scenes"].size(), 40U);
   const bool good = std::ranges::all_of(

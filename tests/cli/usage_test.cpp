@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/cli/run_havers.hpp"
 
@@ -32,6 +33,46 @@ TEST(Usage, EveryCommandShowsExamplesAndExitCodes) {
     for (const char* option : {"--json", "-q", "-v", "--threads", "--seed", "--set", "--force",
                                "--version", "Exit codes"})
       EXPECT_NE(answer.out.find(option), std::string::npos) << command << " " << option;
+  }
+}
+
+// Those of the user's own are in "my/".
+TEST(Usage, FilesOfTheExamplesAreThere) {
+  const auto folder = own_folder();
+  const std::filesystem::path source = HAVERS_SOURCE_DIR;
+  for (const char* command : commands) {
+    std::istringstream words(run_havers(folder, std::string(command) + " -h").out);
+    for (std::string word; words >> word;) {
+      const bool is_file = word.ends_with(".toml") || word.ends_with(".csv") ||
+                           word.ends_with(".png") || word.ends_with(".tif");
+      if (!is_file || word == "study.toml" || word.starts_with("my/")) continue;
+      const bool is_pattern = word.find('*') != std::string::npos;
+      EXPECT_TRUE(
+          std::filesystem::exists(is_pattern ? (source / word).parent_path() : source / word))
+          << command << ": " << word;
+    }
+  }
+}
+
+// As a script gives it whose variable is not set.
+TEST(Usage, AnEmptyFolderForTheOutputIsRefused) {
+  const auto folder = own_folder();
+  for (const char* arguments : {"fit a.toml", "simulate a.toml", "import a.csv", "porosity a.png",
+                                "synthesize a.toml", "sweep a.toml", "bench a.toml", "report a"}) {
+    const auto answer = run_havers(folder, std::string(arguments) + " -o ''");
+    EXPECT_EQ(answer.exit_code, 2) << arguments;
+    EXPECT_TRUE(answer.err.starts_with("havers: --output: is empty, must name a folder"))
+        << arguments << answer.err;
+  }
+}
+
+TEST(Usage, SettingsThatSetNothingAreRefused) {
+  const auto folder = own_folder();
+  for (const char* arguments : {"porosity a.png", "bench --stability -o out"}) {
+    const auto answer = run_havers(folder, std::string(arguments) + " --set joints.scatter=0.4");
+    EXPECT_EQ(answer.exit_code, 2) << arguments;
+    EXPECT_TRUE(answer.err.starts_with("havers: --set joints.scatter=0.4: sets nothing: "))
+        << arguments << answer.err;
   }
 }
 
