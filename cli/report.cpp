@@ -2,8 +2,10 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/command.hpp"
 #include "cli/fit_files.hpp"
@@ -23,18 +25,33 @@ struct ReportArguments {
   fs::path folder;
 };
 
+// Fits of studies of one name are called by their folders.
+void tell_apart(std::vector<FinishedFit>& fits, const std::vector<fs::path>& folders) {
+  std::map<std::string, int> fits_of;
+  for (const FinishedFit& finished : fits) ++fits_of[finished.fit.study.name];
+  std::set<std::string> used;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    std::string& name = fits[i].fit.study.name;
+    if (fits_of[name] > 1)
+      name = fmt::format(
+          "{} ({})", name_of_its_own(fs::canonical(folders[i]).filename().string(), used), name);
+  }
+}
+
 std::vector<FinishedFit> read_all(const std::vector<fs::path>& results) {
   std::vector<FinishedFit> fits;
+  std::vector<fs::path> folders;
   std::vector<io::Problem> problems;
   for (const fs::path& path : results) {
     try {
-      fits.push_back(
-          read_fit(path.filename() == "result.json" ? fs::absolute(path).parent_path() : path));
+      folders.push_back(path.filename() == "result.json" ? fs::absolute(path).parent_path() : path);
+      fits.push_back(read_fit(folders.back()));
     } catch (const io::InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
   if (!problems.empty()) throw io::InputError(std::move(problems));
+  tell_apart(fits, folders);
   return fits;
 }
 
@@ -71,6 +88,7 @@ int run_report(const ReportArguments& arguments, const CommonOptions& common) {
   if (arguments.results.size() > 1 && arguments.folder.empty())
     throw io::InputError("havers report", "several results need a folder for their page",
                          "add -o DIR");
+  refuse_settings(common, "havers report shows fits as they were");
   const std::vector<FinishedFit> fits = read_all(arguments.results);
   const fs::path page = write_page(arguments, fits, common.force);
   if (common.json)
@@ -88,7 +106,6 @@ Command report_command(CLI::App& app, CommonOptions& common) {
       app, common, "report", "a fit's page again, or several fits side by side", report_examples);
   const auto arguments = std::make_shared<ReportArguments>();
   parser->add_option("RESULT", arguments->results, "folder of a fit, or its result.json")
-  refuse_settings(common, "havers report shows fits as they were");
       ->required();
   add_output(*parser, arguments->folder, "folder for the page");
   return {parser, [arguments, &common] { return run_report(*arguments, common); }};

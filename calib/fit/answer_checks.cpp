@@ -40,8 +40,8 @@ Check check_randomness(const CalibrationResult& result) {
                 r.common_gain)
           : "";
   const std::string numbers = fmt::format(
-      "{} fresh seeds per specimen move no parameter by more than {:.2g} standard errors, cost "
-      "{:.3g}; "
+      "{} fresh seeds per specimen move no parameter by more than {:.2g} standard errors, their "
+      "cost is {:.3g}; "
       "the replicates' chance makes {:.2g} % of the variance.{}",
       r.replicates, r.fresh_shift, r.fresh_cost, 100.0 * r.simulator_share, gain);
   if (r.fresh_shift <= 1.0 && r.simulator_share <= 0.5) return {name, Outcome::pass, numbers};

@@ -9,7 +9,8 @@
 namespace havers::calib {
 namespace {
 
-Check check_convergence(const Answer& answer) {
+// `cost` is the result's, as everywhere on its page.
+Check check_convergence(const Answer& answer, double cost) {
   constexpr double close_enough = 0.05;  // of ½χ²: a third of a standard deviation
   const std::string what = explain(answer.status);
   if (answer.status == CalibrationStatus::budget_spent)
@@ -28,7 +29,7 @@ Check check_convergence(const Answer& answer) {
                         "the simulated outcome smoother.",
                         answer.uncertainty.distance)};
   return {"converged", Outcome::pass,
-          fmt::format("The searches stopped at a minimum, cost {:.3g}.", answer.best.cost)};
+          fmt::format("The searches stopped at a minimum, cost {:.3g}.", cost)};
 }
 
 // Starts agree when they end at the same cost and, where they do, at the same point within its
@@ -117,7 +118,7 @@ Check check_failures(const CalibrationResult& result, long distinct) {
 std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
                               const CalibrationResult& result) {
   std::vector<Check> checks{check_brittle(problem, answer)};
-  checks.push_back(check_convergence(answer));
+  checks.push_back(check_convergence(answer, result.cost));
   checks.push_back(check_starts(answer));
   checks.push_back(check_bounds(result));
   checks.push_back(check_identifiable(problem, answer));
