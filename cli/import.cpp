@@ -155,14 +155,16 @@ nlohmann::json clocks_json(const calib::ClockFit& clocks) {
   return json;
 }
 
+// Every test in "files"; what is said of a single one is beside it too.
 nlohmann::json json_of(const std::vector<Imported>& tests) {
   nlohmann::json all = nlohmann::json::array();
   for (const Imported& test : tests) {
     all.push_back(io::import_json(test.file, test.reduction));
     if (test.clocks) all.back()["clocks"] = clocks_json(*test.clocks);
   }
-  if (all.size() == 1) return all.front();
-  return {{"files", all}};
+  nlohmann::json json = all.size() == 1 ? all.front() : nlohmann::json::object();
+  json["files"] = std::move(all);
+  return json;
 }
 
 // One figure per file; per specimen, with its number, where a file holds several.

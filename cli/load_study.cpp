@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "calib/experiment/join_logger.hpp"
@@ -132,6 +133,11 @@ void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStud
     if (!files.orientation)
       loaded.warnings.push_back(fmt::format(
           "specimen {} has no orientation_deg: 0 is taken, fibres along the load", files.id));
+    std::set<std::filesystem::path> sections;
+    for (const std::filesystem::path& section : files.sections)
+      if (!sections.insert(section).second)
+        loaded.warnings.push_back(fmt::format("specimen {} lists section {} again: it counts twice",
+                                              files.id, section.string()));
     const auto [earlier, fresh] = tests.try_emplace({files.test, files.columns.specimen}, files.id);
     if (!fresh)
       loaded.warnings.push_back(

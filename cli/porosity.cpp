@@ -60,9 +60,10 @@ io::DensityReference reference_of(const std::string& text) {
   else
     in >> known.grey;
   in >> comma >> known.density;
-  if (!in || comma != '=' || (is_phantom && (known.width < 1 || known.height < 1)))
+  if (!in || comma != '=' || known.density < 0.0 ||
+      (is_phantom && (known.width < 1 || known.height < 1)))
     throw io::InputError("--density " + text, "is not understood",
-                         "write GREY=DENSITY or X,Y,WIDTH,HEIGHT=DENSITY, in kg/m³");
+                         "write GREY=DENSITY or X,Y,WIDTH,HEIGHT=DENSITY, in kg/m³, 0 or more");
   return known;
 }
 
@@ -90,9 +91,13 @@ std::vector<Section> measure_all(const PorosityArguments& arguments) {
   });
   std::vector<Section> sections;
   std::vector<io::Problem> problems;
+  std::set<std::filesystem::path> seen;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     problems.insert(problems.end(), outcomes[i].problems.begin(), outcomes[i].problems.end());
+    if (!outcomes[i].problems.empty()) continue;
+    const bool fresh = seen.insert(std::filesystem::canonical(arguments.images[i])).second;
     for (io::SectionMeasurement& measured : outcomes[i].sections) {
+      if (!fresh) measured.porosity.warnings.emplace_back("is listed again: it counts twice");
       const double scatter = calib::scatter_of(calib::pool_sections({measured.porosity}), {});
       sections.push_back({arguments.images[i], std::move(measured), scatter});
     }
@@ -132,13 +137,15 @@ void print_table(const std::vector<Section>& sections) {
         100.0 * calib::missing_joints(mean));
 }
 
+// Every section in "sections"; what is said of a single one is beside it too.
 nlohmann::json json_of(const std::vector<Section>& sections) {
   nlohmann::json all = nlohmann::json::array();
   for (const Section& section : sections)
     all.push_back(io::porosity_json(section.measured.porosity, section.scatter));
-  if (all.size() == 1) return all.front();
-  const calib::SpecimenPorosity mean = mean_of(sections);
-  return {{"sections", all}, {"mean", io::mean_porosity_json(mean)}};
+  nlohmann::json json = all.size() == 1 ? all.front() : nlohmann::json::object();
+  json["sections"] = std::move(all);
+  json["mean"] = io::mean_porosity_json(mean_of(sections));
+  return json;
 }
 
 void write_page(const PorosityArguments& arguments, const std::vector<Section>& sections,
@@ -166,6 +173,7 @@ void write_page(const PorosityArguments& arguments, const std::vector<Section>& 
 
 int run_porosity(const PorosityArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
+  refuse_settings(common, "havers porosity reads no study");
   const std::vector<Section> sections = measure_all(arguments);
   if (!arguments.folder.empty()) write_page(arguments, sections, common, watch);
   if (common.json) {
@@ -173,7 +181,6 @@ int run_porosity(const PorosityArguments& arguments, const CommonOptions& common
     return done;
   }
   print_table(sections);
-  refuse_settings(common, "havers porosity reads no study");
   if (!arguments.folder.empty())
     fmt::print(
         "{}\n",

@@ -37,6 +37,19 @@ TEST(Import, GivesBackWhatSynthesizePutIn) {
   }
 }
 
+// "files" holds every test, however many; what a single one has stands beside it.
+TEST(Import, AnswersInOneShapeForAnyNumberOfFiles) {
+  const fs::path folder = folder_with_tests();
+  for (const std::string files : {"none.csv", "made/B0.csv", "made/B0.csv none.csv"}) {
+    const auto json = nlohmann::json::parse(run_havers(folder, "import " + files + " --json").out);
+    const std::size_t readable = files == "none.csv" ? 0 : 1;
+    ASSERT_EQ(json.at("files").size(), readable) << files;
+    if (readable == 1) {
+      EXPECT_EQ(json["files"][0]["strength_Pa"], json["strength_Pa"]);
+    }
+  }
+}
+
 TEST(Import, ShowsTheReadableFilesAndNamesTheOthers) {
   const fs::path folder = folder_with_tests();
   test::write_text(folder / "empty.csv", "");
