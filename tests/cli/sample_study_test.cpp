@@ -1,6 +1,8 @@
 // The sample study, as a newcomer runs it: the truth is beside it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_havers.hpp"
@@ -37,6 +39,11 @@ TEST(SampleStudy, FindsTheTruthAgainAndIsTrusted) {
     EXPECT_GE(parameter["interval_95"][1], expected);
   }
   EXPECT_EQ(result["specimens"].size(), 6U);
+  const std::string cost = fmt::format("cost {:.3g}.", result["cost"].get<double>());
+  EXPECT_TRUE(std::ranges::any_of(
+      result["verdict"],
+      [&](const auto& check) { return check["text"].template get<std::string>().ends_with(cost); }))
+      << "one cost under one name: " << cost;
 
   // The page again, and the calibrated model as a scene of its own.
   const std::string page = test::read_text(folder / "out/report.html");
@@ -46,8 +53,58 @@ TEST(SampleStudy, FindsTheTruthAgainAndIsTrusted) {
                   static_cast<double>(page.size()),
               1.0, 0.01);
   EXPECT_EQ(run_havers(folder, "report out out/result.json -o both").exit_code, 0);
-  EXPECT_GT(fs::file_size(folder / "both/report.html"), 10000U);
+  const std::string both = test::read_text(folder / "both/report.html");
+  for (const char* name : {"out (six bone bars)", "out_2 (six bone bars)"})
+    EXPECT_NE(both.find(name), std::string::npos) << "fits of one study are told apart";
+  const auto refused = run_havers(folder, "report out --set study.name=other");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("--set study.name=other: sets nothing"), std::string::npos);
   EXPECT_EQ(run_havers(folder, "simulate out/scene.toml -o again").exit_code, 0);
+}
+
+// The command of its README makes what is there.
+TEST(SampleStudy, IsWhatItsCommandMakes) {
+  const fs::path folder = own_folder();
+  const auto answer = run_havers(
+      folder, "synthesize '" + (bars / "study.toml").string() +
+                  "' -o made --seed 7 --set model.joints.head_tail_MPa=85 "
+                  "--set model.joints.ratio=1.2 --set model.material.young_GPa=16.5 --json");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const auto made = nlohmann::json::parse(answer.out)["specimens"];
+  const auto there = nlohmann::json::parse(test::read_text(bars / "truth.json"))["specimens"];
+  ASSERT_EQ(made.size(), there.size());
+  const auto rows = [](const fs::path& file) {
+    return std::ranges::count(test::read_text(file), '\n');
+  };
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    const auto id = made[i]["id"].get<std::string>();
+    SCOPED_TRACE(id);
+    for (const char* key : {"scatter", "strength_Pa", "failure_strain", "porosity", "window_sd"})
+      EXPECT_NEAR(made[i][key].get<double>() / there[i][key].get<double>(), 1.0, 1e-6) << key;
+    EXPECT_EQ(rows(folder / "made" / (id + ".csv")), rows(bars / (id + ".csv")));
+  }
+}
+
+// One image is all that there is, however often it is named.
+TEST(SampleStudy, SectionsThatAreListedTwiceAreDoubted) {
+  const std::string section = "'" + (bars / "A1_section.png").string() + "'";
+  const auto answer =
+      run_havers(own_folder(), "porosity " + section + " " + section + " --pixel-size-um 2 --json");
+  const auto json = nlohmann::json::parse(answer.out);
+  EXPECT_TRUE(json["sections"][0]["warnings"].empty());
+  EXPECT_EQ(json["sections"][1]["warnings"][0], "is listed again: it counts twice");
+
+  const fs::path folder = own_folder();
+  fs::copy(bars, folder / "bars");
+  std::string study = test::read_text(bars / "study.toml");
+  study.insert(study.find("\"A1_section.png\""), "\"./A1_section.png\", ");
+  test::write_text(folder / "bars/twice.toml", study);
+  const auto checked = run_havers(folder, "check bars/twice.toml");
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  EXPECT_NE(
+      checked.out.find("specimen A1 lists section bars/A1_section.png again: it counts twice"),
+      std::string::npos)
+      << checked.out;
 }
 
 TEST(SampleStudy, SectionsHaveThePorosityThatWasDrawn) {
@@ -59,6 +116,7 @@ TEST(SampleStudy, SectionsHaveThePorosityThatWasDrawn) {
                                      "' --pixel-size-um 2 --json");
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
     const auto section = nlohmann::json::parse(answer.out);
+    EXPECT_EQ(section["sections"][0]["porosity"], section["porosity"]);
     EXPECT_NEAR(section["porosity"].get<double>(), specimen["porosity"].get<double>(), 0.003) << id;
     EXPECT_NEAR(section["scatter"].get<double>() / specimen["scatter"].get<double>(), 1.0, 0.05)
         << id;
