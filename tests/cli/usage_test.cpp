@@ -76,6 +76,13 @@ TEST(Usage, SettingsThatSetNothingAreRefused) {
   }
 }
 
+TEST(Usage, KnownDensitiesAreZeroOrMore) {
+  const auto answer = run_havers(own_folder(), "porosity a.png --density 30=-5 --density 140=1200");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_TRUE(answer.err.starts_with("havers: --density 30=-5: is not understood (write "))
+      << answer.err;
+}
+
 TEST(Usage, VersionSaysWhatIsBuiltIn) {
   const auto answer = run_havers(own_folder(), "--version");
   EXPECT_EQ(answer.exit_code, 0);
