@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <libdeflate.h>
 
+#include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -39,6 +41,19 @@ bool is_cut_off_jpeg(const std::filesystem::path& file) {
   return scan == std::string::npos || end == std::string::npos || end < scan;
 }
 
+// Without compression its size follows from its header: rows of whole words, behind the place that
+// is named; a negative height counts from the top.
+bool is_cut_off_bmp(const std::filesystem::path& file) {
+  FileBytes bytes(file);
+  if (bytes.text(0, 2) != "BM") return false;
+  bytes.set_big_endian(false);
+  if (bytes.number(14, 4) < 40 || bytes.number(30, 4) != 0) return false;
+  const Offset row = (bytes.number(18, 4) * bytes.number(28, 2) + 31) / 32 * 4;
+  const std::int64_t height = static_cast<std::int32_t>(bytes.number(22, 4));
+  const auto rows = static_cast<Offset>(std::abs(height));
+  return std::filesystem::file_size(file) < bytes.number(10, 4) + row * rows;
+}
+
 // A chunk is its length, its name, its data and a check sum; one whose name starts with a capital
 // cannot be done without, and the last is IEND.
 bool is_damaged_png(const std::filesystem::path& file) {
@@ -65,7 +80,7 @@ bool is_damaged_png(const std::filesystem::path& file) {
 }  // namespace
 
 void check_is_whole(const std::filesystem::path& file) {
-  if (is_cut_off_jpeg(file))
+  if (is_cut_off_jpeg(file) || is_cut_off_bmp(file))
     throw io::InputError(file.string(), "is cut off: its end is missing",
                          "copy or export it again");
   if (is_damaged_png(file))

@@ -7,7 +7,7 @@
 
 namespace havers::images {
 
-/// @throws io::InputError when a JPEG has no end marker, or a PNG is cut off or damaged.
+/// @throws io::InputError when a JPEG or BMP has no end, or a PNG is cut off or damaged.
 void check_is_whole(const std::filesystem::path& file);
 
 /// @throws io::InputError when a TIFF has more pages than were read.
