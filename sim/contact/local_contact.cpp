@@ -22,7 +22,8 @@ constexpr double rounding = 1e-12;
 constexpr int sets_at_once = 3;  // that follow from each other, before a better one is looked for
 constexpr int sets_of_a_cycle = 20;       // after which it is none, or too long to look at
 constexpr std::size_t most_combined = 5;  // joints whose states are combined in every way
-// Where more are loose, a start that is far from the answer takes longer than none.
+// Where more are loose, a start that is far from the answer takes longer than none, and springs
+// hold nothing in the time there is.
 constexpr std::size_t few_joints = 100;
 constexpr int searches = 6;  // by sweeps, before the release path is taken
 constexpr int sweeps_of_search = 200;
@@ -230,7 +231,7 @@ LocalContactResult solve_local_contact(const LocalContact& problem,
                                        const std::vector<JointState>& states, int max_iterations) {
   if (states.empty()) return {.converged = true, .y = {}, .states = {}, .iterations = 0};
   LocalContactResult result = solve_as_it_is(problem, states, max_iterations);
-  if (result.converged) return result;
+  if (result.converged || states.size() > few_joints) return result;
   LocalContactResult held = solve_with_springs(problem, states, max_iterations);
   held.iterations += result.iterations;
   if (held.converged) return held;

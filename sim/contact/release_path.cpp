@@ -28,7 +28,9 @@ struct Branch {
   double force_tolerance = 0.0;  // [N/m]
 };
 
-constexpr int most_changes_of_a_joint = 100;  // after which the path leads nowhere
+// So many changes for every joint, and the path leads nowhere: those that arrive take fewer, but
+// for a few, whose answer is found otherwise too.
+constexpr int most_changes_of_a_joint = 5;
 
 // Of the answers on the way, and of the last one where it is not solved for anew.
 constexpr double accuracy_on_the_way = 1e-11, accuracy_of_answer = 1e-13;

@@ -127,7 +127,8 @@ std::vector<char> BreakingRun::apart() const {
   return apart;
 }
 
-// What keeps the law to the tolerance, found in another way if need be.
+// What keeps the law to the tolerance, found in another way if need be; not converged where none
+// does.
 LocalContactResult BreakingRun::or_better(LocalContactResult result) {
   double residual = law_residual_of(contact_, result.y);
   const auto unless_solved = [&](const auto& solve) {
@@ -142,6 +143,7 @@ LocalContactResult BreakingRun::or_better(LocalContactResult result) {
   unless_solved(
       [&] { return solve_local_contact(contact_, result.states, scene_.solver.max_iterations); });
   unless_solved([&] { return combine_states(contact_, result.states); });
+  result.converged = result.converged && residual <= scene_.solver.tolerance;
   return result;
 }
 
@@ -226,6 +228,7 @@ void BreakingRun::refine() {
         or_better({.converged = true,
                    .y = answer_of_states(system_, {y_, contact_.r0 + contact_.S * y_}),
                    .states = system_.states()});
+    if (!found.converged) break;
     system_.set(found.states);
     y_ = found.y;
     reference_ = intact_->stretch(gaps());
@@ -275,7 +278,7 @@ VectorXd BreakingRun::displacements(double strain) const {
   return strain * intact_->stretch(gaps()).displacements;
 }
 
-// What events computed is checked against the refined answer, ½ qᵀĀq = ½ (F W ε + r·u) too.
+// What events computed is checked against the refined answer, ½ qᵀKq = ½ (F W ε + r·u) too.
 void BreakingRun::finish(double strain, double energy_scale, Simulation& simulation) {
   const double scale = intact_->answer().reactions.norm();
   refine();

@@ -39,7 +39,7 @@ class IntactStructure {
   [[nodiscard]] const UnitAnswer& answer() const { return answer_; }
   /// With given gaps at the joints. [m]
   [[nodiscard]] UnitAnswer stretch(const Eigen::VectorXd& gaps) const;
-  /// ½ qᵀĀq, of the bodies and of what holds loose ones. [J/m]
+  /// ½ qᵀKq. [J/m]
   [[nodiscard]] double energy(const Eigen::VectorXd& q) const;
   /// Bodies with a node at one of the ends.
   [[nodiscard]] const std::vector<int>& held_bodies() const { return held_bodies_; }
