@@ -129,19 +129,6 @@ TEST(BreakingSequence, IsNotTrustedWhereABreakAddsEnergyToTheStrength) {
   EXPECT_THAT(wedged.why_not_trusted(), testing::HasSubstr("energy stored"));
 }
 
-// Seeds that leave a long piece on its last joint: it swings far, with next to no strain of its
-// own.
-TEST(BreakingSequence, KeepsItsEnergyWhereAPieceSwings) {
-  for (const std::uint64_t seed : {1U, 6U, 11U}) {
-    Scene scene;
-    scene.solver.regime = Regime::quasi_static;
-    scene.joints.seed = seed;
-    const Simulation simulation = simulate(scene);
-    EXPECT_LE(simulation.energy_defect, 1e-10) << seed;
-    EXPECT_TRUE(simulation.trusted()) << seed;
-  }
-}
-
 // Joints between bodies that bonded joints connect to an end: contact of all others is left out.
 std::vector<std::size_t> carried_joints(const Assembly& assembly,
                                         const std::vector<JointOutcome>& joints) {

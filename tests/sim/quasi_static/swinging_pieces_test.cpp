@@ -1,0 +1,48 @@
+// Quasi-static runs at whose end pieces swing by much more than the specimen stretches.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "sim/simulate.hpp"
+#include "sim/simulation.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+// Seeds that leave a long piece on its last joint: it swings far, with next to no strain of its
+// own.
+TEST(SwingingPieces, KeepTheEnergyBalance) {
+  for (const std::uint64_t seed : {1U, 6U, 11U}) {
+    Scene scene;
+    scene.solver.regime = Regime::quasi_static;
+    scene.joints.seed = seed;
+    const Simulation simulation = simulate(scene);
+    EXPECT_LE(simulation.energy_defect, 1e-10) << seed;
+    EXPECT_TRUE(simulation.trusted()) << seed;
+  }
+}
+
+// Weak flanks and missing joints: more than a hundred loose joints between layers of which many
+// swing, and an event after the strength whose contact has no answer that is found.
+TEST(SwingingPieces, LeaveARunTrustedWhereLayersComeLoose) {
+  struct Wall {
+    double scatter;
+    std::uint64_t seed;
+  };
+  for (const Wall& wall : {Wall{0.2, 4}, Wall{1.0, 1}}) {
+    Scene scene = test::small_scene(0.0, 12, 8);
+    scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 3.0);
+    scene.joints.missing = 0.02;
+    scene.joints.scatter = wall.scatter;
+    scene.joints.seed = wall.seed;
+    const Simulation simulation = simulate(scene);
+    EXPECT_EQ(simulation.why_not_trusted(), "") << wall.seed;
+    EXPECT_EQ(simulation.without_contact_to_strength, 0) << wall.seed;
+    EXPECT_LE(simulation.energy_defect, 1e-9) << wall.seed;
+    EXPECT_GT(simulation.broken_joints, 100) << wall.seed;
+  }
+}
+
+}  // namespace
+}  // namespace havers::sim
