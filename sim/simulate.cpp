@@ -74,7 +74,7 @@ std::vector<LeftOut> left_out(const Scene& scene, const Simulation& simulation) 
     if (end_fraction_used(scene) > scene.loading.end_fraction)
       list.push_back(
           {fmt::format("the avalanche below {:g} of the strength", end_fraction_used(scene)),
-           "it happens at one strain, and none of such thresholds was seen to stop below"});
+           "none with such thresholds was seen to become stronger thereafter"});
     return list;
   }
   if (simulation.leapt_strain > 0.0)
