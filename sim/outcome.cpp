@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace havers::sim {
@@ -32,21 +33,15 @@ bool has_failed(Simulation& simulation, double end_fraction) {
   return last.broken_joints > 0 && last.stress_right < limit && last.stress_left < limit;
 }
 
-namespace {
-
-// Stress at a strain, by linear interpolation in the loading part of the curve.
-double stress_at(const std::vector<CurvePoint>& curve, double strain) {
-  for (std::size_t i = 1; i < curve.size(); ++i) {
-    if (curve[i].strain < strain) continue;
-    const CurvePoint &a = curve[i - 1], &b = curve[i];
-    const double width = b.strain - a.strain;
-    const double w = width > 0.0 ? (strain - a.strain) / width : 1.0;
-    return (1.0 - w) * a.stress_right + w * b.stress_right;
-  }
-  return curve.back().stress_right;
+std::optional<double> stress_at(const std::vector<CurvePoint>& curve, double strain) {
+  const auto next = std::ranges::find_if(
+      curve, [strain](const CurvePoint& point) { return point.strain >= strain; });
+  if (next == curve.end()) return std::nullopt;
+  const CurvePoint before = next == curve.begin() ? CurvePoint{} : *std::prev(next);
+  const double width = next->strain - before.strain;
+  const double w = width > 0.0 ? (strain - before.strain) / width : 1.0;
+  return (1.0 - w) * before.stress_right + w * next->stress_right;
 }
-
-}  // namespace
 
 void summarise(Simulation& simulation) {
   const std::vector<CurvePoint>& curve = simulation.curve;
@@ -64,7 +59,7 @@ void summarise(Simulation& simulation) {
       simulation.first_break_strain = joint.broken_at_strain;
   const double end = std::isnan(simulation.first_break_strain) ? curve.back().strain
                                                                : simulation.first_break_strain;
-  simulation.modulus = end > 0.0 ? stress_at(curve, 0.5 * end) / (0.5 * end) : 0.0;
+  simulation.modulus = end > 0.0 ? stress_at(curve, 0.5 * end).value_or(0.0) / (0.5 * end) : 0.0;
 }
 
 }  // namespace havers::sim

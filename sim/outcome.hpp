@@ -1,6 +1,9 @@
 // What both regimes do alike: the start and the end of a simulation.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "sim/simulation.hpp"
 
 namespace havers::sim {
@@ -15,6 +18,10 @@ std::vector<JointOutcome> initial_outcomes(const std::vector<Threshold>& thresho
 /// Whether both sides have dropped below the end fraction of the strength after a break. Keeps the
 /// strength so far.
 bool has_failed(Simulation& simulation, double end_fraction);
+
+/// Stress at the right side where the curve first reaches a strain, linear from row to row and from
+/// the origin to the first; none beyond the largest strain. [Pa]
+std::optional<double> stress_at(const std::vector<CurvePoint>& curve, double strain);
 
 /// Strength, failure strain, modulus, first break and counts from the curve and the joints.
 void summarise(Simulation& simulation);

@@ -1,16 +1,14 @@
 #include "calib/experiment/channel_noise.hpp"
 
+#include <gsl/gsl_statistics_double.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
 namespace havers::calib {
 double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+  return values.empty() ? 0.0 : gsl_stats_median(values.data(), 1, values.size());
 }
 
 // (X7) Second differences of white noise have six times its variance. The median is deaf to breaks

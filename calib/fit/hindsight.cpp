@@ -2,6 +2,7 @@
 // and what would tell more.
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -61,10 +62,8 @@ std::vector<std::string> directions_of(const FitProblem& problem, const Answer& 
 }
 
 void set_correlation(const Answer& answer, CalibrationResult& result) {
-  const auto& jacobian = answer.slopes.jacobian;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::MatrixXd follow =
-      svd.solve(Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.rows()));
+      answer.slopes.jacobian.completeOrthogonalDecomposition().pseudoInverse();
   const Eigen::MatrixXd covariance = follow * follow.transpose();
   for (Index i = 0; i < covariance.rows(); ++i) {
     auto& row = result.correlation.emplace_back();

@@ -1,6 +1,6 @@
 #include "calib/fit/randomness.hpp"
 
-#include <Eigen/SVD>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -42,10 +42,8 @@ VectorXd variance_of_mean(const FitProblem& problem, const Answer& answer) {
 }  // namespace
 
 Randomness randomness_of(SimulationBatch& batch, const FitProblem& problem, const Answer& answer) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(answer.slopes.jacobian,
-                                              Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const auto rows = answer.slopes.jacobian.rows();
-  const Eigen::MatrixXd follow = svd.solve(Eigen::MatrixXd::Identity(rows, rows));
+  const Eigen::MatrixXd follow =
+      answer.slopes.jacobian.completeOrthogonalDecomposition().pseudoInverse();
   Randomness result{.replicates = answer.replicates};
   result.replicates_needed = replicates_needed(problem, answer.weights);
   result.common_gain = answer.slopes.paired > 0.0 ? answer.slopes.independent / answer.slopes.paired

@@ -2,7 +2,7 @@
 
 #include <gsl/gsl_cdf.h>
 
-#include <Eigen/SVD>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,8 +11,6 @@
 
 namespace havers::calib {
 namespace {
-
-using Svd = Eigen::JacobiSVD<Eigen::MatrixXd>;
 
 /// Part of each residual's variance that the replicates' spread makes, and how well that is known:
 /// from the replicates of all specimens of an orientation.
@@ -62,8 +60,9 @@ double distance_to_minimum(const FitProblem& problem, const Evaluation& at, cons
     if (!at_bound(problem.unknowns[static_cast<std::size_t>(active[i])], at.point[active[i]]))
       movable.push_back(static_cast<Eigen::Index>(i));
   if (movable.empty()) return 0.0;
-  const Svd svd(jacobian(Eigen::all, movable), Eigen::ComputeThinU);
-  return 0.5 * (svd.matrixU().leftCols(svd.rank()).transpose() * at.residuals).squaredNorm();
+  const Eigen::MatrixXd columns = jacobian(Eigen::all, movable);
+  return 0.5 *
+         (columns * columns.completeOrthogonalDecomposition().solve(at.residuals)).squaredNorm();
 }
 
 }  // namespace
@@ -76,10 +75,8 @@ bool at_bound(const Unknown& unknown, double position) {
 Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, const Evaluation& at,
                            const Active& active, const Eigen::MatrixXd& slopes) {
   const Eigen::MatrixXd jacobian = slopes.leftCols(static_cast<Eigen::Index>(active.size()));
-  const Svd svd(jacobian, Eigen::ComputeThinU | Eigen::ComputeThinV);
   // Row k of the pseudo-inverse says how unknown k follows each residual, which has unit variance.
-  const Eigen::MatrixXd follow =
-      svd.solve(Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.rows()));
+  const Eigen::MatrixXd follow = jacobian.completeOrthogonalDecomposition().pseudoInverse();
   const Landmarks freedom = landmarks_present(problem) - parameters_spent(slopes);
   const Replicates replicates = replicates_of(problem, weights, at);
 

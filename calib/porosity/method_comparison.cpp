@@ -1,5 +1,7 @@
 #include "calib/porosity/method_comparison.hpp"
 
+#include <gsl/gsl_statistics_double.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -7,12 +9,6 @@
 
 namespace havers::calib {
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 MethodSummary summary_of(PorosityMethod method, const std::vector<PorosityTrial>& trials) {
   MethodSummary summary{.method = method,
@@ -28,7 +24,7 @@ MethodSummary summary_of(PorosityMethod method, const std::vector<PorosityTrial>
     cpu += trial.readings.at(static_cast<std::size_t>(method)).cpu;
   }
   summary.worst_error = *std::max_element(errors.begin(), errors.end());
-  summary.median_error = median(std::move(errors));
+  summary.median_error = gsl_stats_median(errors.data(), 1, errors.size());
   summary.cpu_per_pixel = cpu / pixels;
   return summary;
 }

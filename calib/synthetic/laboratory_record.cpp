@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "sim/outcome.hpp"
+
 namespace havers::calib {
 namespace {
 
@@ -40,32 +42,6 @@ double strain_of_gauge(double specimen, double toe) {
   return gauge;
 }
 
-// Stress of a curve at growing strains. A crosshead never goes back: where the curve does, what
-// comes before its strain exceeds all earlier ones is passed over.
-class Pulled {
- public:
-  explicit Pulled(const std::vector<sim::CurvePoint>& curve) : curve_(curve) {}
-
-  /// Whether the curve has ended before this strain: the specimen has parted.
-  bool parted(double strain) {
-    while (next_ < curve_.size() && curve_[next_].strain < strain) ++next_;
-    return next_ == curve_.size();
-  }
-
-  /// Precondition: not parted at this strain.
-  [[nodiscard]] double stress(double strain) const {
-    const sim::CurvePoint& after = curve_[next_];
-    const sim::CurvePoint before = next_ > 0 ? curve_[next_ - 1] : sim::CurvePoint{};
-    if (after.strain <= before.strain) return after.stress_right;
-    const double part = (strain - before.strain) / (after.strain - before.strain);
-    return before.stress_right + part * (after.stress_right - before.stress_right);
-  }
-
- private:
-  const std::vector<sim::CurvePoint>& curve_;
-  std::size_t next_ = 0;
-};
-
 }  // namespace
 
 double strain_rate(const Bar& bar, const Laboratory& laboratory) {
@@ -88,21 +64,21 @@ RawTest record_test(const sim::Simulation& simulation, const Bar& bar, const Lab
   const auto gain = gauss_pair(seed, 0, Draw::gain);
   const double force_gain = 1.0 + laboratory.gain_error * gain.x;
   const double strain_gain = 1.0 + laboratory.gain_error * gain.y;
-  Pulled pulled(simulation.curve);
   for (int row = 0, after_break = 0; after_break < laboratory.rows_after_break; ++row) {
     const double time = row * laboratory.sampling;
     const double since_start = strain_rate(bar, laboratory) * time;
     const double strain = strain_of_specimen(start + since_start, laboratory.toe_strain);
-    const bool parted = pulled.parted(strain);
+    const auto stress = sim::stress_at(simulation.curve, strain);
     const auto noise = gauss_pair(seed, static_cast<std::uint64_t>(row), Draw::noise);
-    // (Y3) Parted, the halves carry nothing and the gauge springs back.
+    // (Y3) A crosshead never goes back: the curve is followed where it first reaches a strain.
+    // Parted, the halves carry nothing and the gauge springs back.
     test.time.push_back(time);
     test.extension.push_back(laboratory.crosshead_rate * time);
-    test.force.push_back((parted ? 0.0 : force_gain * bar.area() * pulled.stress(strain)) +
+    test.force.push_back(force_gain * bar.area() * stress.value_or(0.0) +
                          laboratory.force_noise * noise.x);
-    test.strain.push_back(strain_gain * (parted ? -start : since_start) +
+    test.strain.push_back(strain_gain * (stress ? since_start : -start) +
                           laboratory.strain_noise * noise.y);
-    if (parted) ++after_break;
+    if (!stress) ++after_break;
   }
   return test;
 }

@@ -1,12 +1,14 @@
 #include "sim/bench/work_precision.hpp"
 
 #include <fmt/format.h>
+#include <gsl/gsl_statistics_double.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "sim/outcome.hpp"
 #include "sim/simulate.hpp"
 
 namespace havers::sim {
@@ -59,23 +61,13 @@ double relative_error(const VectorXd& forces, const VectorXd& reference) {
   return (forces - reference).norm() / reference.norm();
 }
 
-double stress_on(const std::vector<CurvePoint>& curve, double strain) {
-  const auto next =
-      std::lower_bound(curve.begin(), curve.end(), strain,
-                       [](const CurvePoint& point, double value) { return point.strain < value; });
-  if (next == curve.begin() || next == curve.end())
-    return next == curve.end() ? 0.0 : next->stress_right;
-  const CurvePoint &a = *(next - 1), &b = *next;
-  const double w = b.strain > a.strain ? (strain - a.strain) / (b.strain - a.strain) : 1.0;
-  return (1.0 - w) * a.stress_right + w * b.stress_right;
-}
-
 double curve_error(const Simulation& run, const Simulation& reference) {
   constexpr int points = 200;
   double squares = 0.0;
   for (int i = 1; i <= points; ++i) {
     const double strain = reference.failure_strain * i / points;
-    const double difference = stress_on(run.curve, strain) - stress_on(reference.curve, strain);
+    const double difference = stress_at(run.curve, strain).value_or(0.0) -
+                              stress_at(reference.curve, strain).value_or(0.0);
     squares += difference * difference;
   }
   return std::sqrt(squares / points) / reference.strength;
@@ -91,8 +83,8 @@ BenchSpread spread(std::vector<double> values) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty()) return {not_known, not_known, not_known};
   std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return {0.5 * (values[(n - 1) / 2] + values[n / 2]), values.front(), values.back()};
+  return {gsl_stats_median_from_sorted_data(values.data(), 1, values.size()), values.front(),
+          values.back()};
 }
 
 // A number of every run, as a spread.

@@ -59,6 +59,16 @@ TEST(Summarise, TakesTheWholeCurveWhenNothingBroke) {
   EXPECT_DOUBLE_EQ(simulation.modulus, 10e9);
 }
 
+TEST(StressAt, FollowsTheCurveFromTheOriginToWhereItFirstReachesAStrain) {
+  const std::vector<CurvePoint> curve{row(0.002, 20.0, 0.0), row(0.002, 10.0, 0.0),
+                                      row(0.001, 5.0, 0.0), row(0.004, 35.0, 0.0)};
+  EXPECT_DOUBLE_EQ(stress_at(curve, 0.001).value(), 10.0);
+  EXPECT_DOUBLE_EQ(stress_at(curve, 0.002).value(), 20.0) << "before the break";
+  EXPECT_DOUBLE_EQ(stress_at(curve, 0.003).value(), 25.0) << "beyond where it went back";
+  EXPECT_DOUBLE_EQ(stress_at(curve, 0.004).value(), 35.0);
+  EXPECT_FALSE(stress_at(curve, 0.005));
+}
+
 TEST(LateralContraction, IsLargerInPlaneStrain) {
   Material material;
   material.poisson = 0.25;
