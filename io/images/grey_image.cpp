@@ -11,6 +11,7 @@
 
 #include "io/images/cut_off.hpp"
 #include "io/images/png.hpp"
+#include "io/images/silence.hpp"
 #include "io/input_error.hpp"
 
 namespace havers::images {
@@ -33,6 +34,7 @@ std::vector<cv::Mat> decoded(const std::filesystem::path& file) {
   if (ending == ".png")
     if (cv::Mat image = read_png(file); !image.empty()) return {image};
   check_is_whole(file);
+  const Silence silence;
   std::vector<cv::Mat> pages;
   if (ending == ".tif" || ending == ".tiff")
     cv::imreadmulti(file.string(), pages, cv::IMREAD_UNCHANGED);

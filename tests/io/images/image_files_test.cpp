@@ -51,6 +51,21 @@ TEST(ImageFile, OfSixteenBitsKeepsThem) {
   }
 }
 
+TEST(ImageFile, ThatNoLibraryReadsIsRefusedInOurWordsAlone) {
+  const std::string png_of_width_0(
+      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\0\0\0\0\x0a\x08\0\0\0\0\xbf\x7b\x00\xa8"
+      "\0\0\0\0IEND\xae\x42\x60\x82",
+      45);
+  testing::internal::CaptureStderr();
+  for (const auto& [name, text] :
+       {std::pair<std::string, std::string>{"width_0.png", png_of_width_0},
+        {"cut_off.pgm", "P5\n100 100\n255\nabc"},
+        {"no_size.pgm", "P5\n100 x\n255\nabc"},
+        {"no_header.bmp", "BM" + std::string(60, 'a')}})
+    expect_contains(complaint(write_text(name, text)), "is not a readable image");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(ImageFile, OfFloatsMustHoldNumbers) {
   const auto drawn = test::draw({.blur = 1.0});
   cv::Mat floats;
