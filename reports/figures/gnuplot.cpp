@@ -16,6 +16,8 @@ namespace {
 // Look of every figure. Colours of Okabe and Ito, told apart by the colour-blind and, with line and
 // point types, in grey.
 constexpr std::string_view preamble = R"(
+set encoding utf8
+set minussign
 set border 3 lc rgb '#444444' lw 1
 set tics nomirror out scale 0.6 textcolor rgb '#222222'
 set grid lc rgb '#e4e4e4' lw 0.6 lt 1

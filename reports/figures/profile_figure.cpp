@@ -11,7 +11,7 @@ namespace {
 std::string profile_panel(const calib::Profile& profile, std::size_t number) {
   return data_block(fmt::format("profile{}", number), {profile.value, profile.rise}) +
          fmt::format(
-             "set xlabel '{}' noenhanced offset 0,0.6\nset ylabel 'rise of the cost'\n"
+             "set xlabel '{}' noenhanced offset 0,0.6\nset ylabel 'Rise of the cost'\n"
              "plot {:.6g} with lines lw 1.2 dt 2 lc rgb grey notitle, $profile{} using 1:2 with "
              "linespoints pt 7 ps 0.8 lw 1.8 lc rgb blue notitle\n",
              plain(profile.parameter), profile.level, number);
@@ -48,8 +48,8 @@ Figure waterfall_figure(const calib::CalibrationResult& result, const std::strin
   figure.commands = data_block("starts", {rank, result.starts}) +
                     data_block("ends", {rank, result.ends}) + panel(0.2, 0.96) +
                     R"(
-set xlabel 'start, lowest cost first' offset 0,0.5
-set ylabel 'cost'
+set xlabel 'Start, lowest cost first' offset 0,0.5
+set ylabel 'Cost'
 set logscale y
 set xtics 1
 set key inside left top

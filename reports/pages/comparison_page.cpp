@@ -36,7 +36,7 @@ mstch::array parameter_rows(const std::vector<FitReport>& fits) {
     mstch::array cells;
     for (const FitReport& fit : fits) cells.emplace_back(cell(fit, name));
     rows.emplace_back(
-        mstch::map{{"name", text(unit.empty() ? name : fmt::format("{} [{}]", name, unit))},
+        mstch::map{{"name", text(unit.empty() ? name : fmt::format("{} ({})", name, unit))},
                    {"cells", mstch::node{cells}}});
   }
   return rows;

@@ -100,12 +100,17 @@ mstch::array section_items(const FitReport& report, const std::string& id) {
   return items;
 }
 
+// What is left of a logarithm of 1.
+double without_rounding(double logarithm) {
+  return std::abs(logarithm) < 1e-12 ? 0.0 : logarithm;
+}
+
 mstch::array term_rows(const calib::SpecimenResult& specimen) {
   mstch::array rows;
   for (const calib::TermResult& term : specimen.terms)
     rows.emplace_back(mstch::map{{"term", text(term.term)},
                                  {"measured", text(number(term.measured))},
-                                 {"simulated", text(number(term.simulated))},
+                                 {"simulated", text(number(without_rounding(term.simulated)))},
                                  {"sd", text(number(term.sd, 2))},
                                  {"residual", text(number(term.residual, 2))},
                                  {"share", text(number(term.share / in::percent, 2))}});
