@@ -2,7 +2,6 @@
 
 #include <Random123/philox.h>
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_statistics_double.h>
 
 #include <algorithm>
 #include <cassert>
@@ -76,7 +75,9 @@ double head_tail_strength(const Scene& scene) {
     if (assembly.joints[j].kind == JointKind::head_tail && !is_missing(given[j]))
       strengths.push_back(given[j].normal / assembly.joints[j].length);
   if (strengths.empty()) return scene.joints.head_tail;
-  return gsl_stats_median(strengths.data(), 1, strengths.size());
+  const auto median = strengths.begin() + static_cast<std::ptrdiff_t>(strengths.size() / 2);
+  std::nth_element(strengths.begin(), median, strengths.end());
+  return *median;
 }
 
 Threshold mean_threshold(const Scene& scene, const Joint& joint) {
