@@ -60,8 +60,9 @@ bool steps_over_failure(const Simulation& run) {
 std::string Simulation::why_not_trusted() const {
   if (status != SimulationStatus::broken && status != SimulationStatus::strain_limit)
     return explain(status);
-  if (std::isnan(step_error)) return "the error of the chosen time step is not known";
-  if (step_error > largest_step_error)
+  if (step_error && std::isnan(*step_error))
+    return "the error of the chosen time step is not known";
+  if (step_error && *step_error > largest_step_error)
     return "halving the time step still changes the failure strain";
   if (steps_over_failure(*this))
     return "a time step is longer than a tenth of the time to failure; a shorter step_s shows more";

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,8 +69,9 @@ struct Simulation {
   double first_break_strain = 0.0;  ///< NaN when nothing broke. [-]
   int broken_joints = 0;
 
-  double step_error = 0.0;  ///< Change of the failure strain by the last halving of a chosen step;
-                            ///< NaN when it was never halved. [-]
+  /// Change of the failure strain by the last halving of a chosen step, NaN when it was never
+  /// halved; 0 in the quasi-static limit, none where the step was given. [-]
+  std::optional<double> step_error = 0.0;
   double leapt_strain = 0.0;    ///< What was stretched without steps, before the first break. [-]
   int steps = 0;                ///< Time steps, or events of the quasi-static sequence.
   long iterations = 0;          ///< Of the contact solver, all steps together.

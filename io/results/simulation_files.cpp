@@ -24,7 +24,7 @@ nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& s
       {"regime", json_of(regime)},
       {"regime_ground", simulation.regime_ground},
       {"step_s", number(simulation.step)},
-      {"step_error", number(simulation.step_error)},
+      {"step_error", simulation.step_error ? number(*simulation.step_error) : nullptr},
       {"strength_Pa", number(simulation.strength)},
       {"failure_strain", number(simulation.failure_strain)},
       {"modulus_Pa", number(simulation.modulus)},

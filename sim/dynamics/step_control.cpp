@@ -28,10 +28,10 @@ bool has_ended(const Simulation& run) {
 
 std::string ground_of(const Simulation& run) {
   const std::string halved =
-      std::isnan(run.step_error)
+      std::isnan(*run.step_error)
           ? ""
           : fmt::format(": halving to it changed the failure strain by {:.2g} %",
-                        100.0 * run.step_error);
+                        100.0 * *run.step_error);
   return fmt::format("; the step of {:.3g} ns is chosen{}", 1e9 * run.step, halved);
 }
 
@@ -54,7 +54,7 @@ Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer) {
     run = run_in_steps(scene, stepping, observer);
     summarise(run);
     run.step_error = std::abs(run.failure_strain - before) / run.failure_strain;
-    agreed = run.step_error < 0.5 * scene.solver.step_accuracy ? agreed + 1 : 0;
+    agreed = *run.step_error < 0.5 * scene.solver.step_accuracy ? agreed + 1 : 0;
     if (!has_ended(run) || agreed == 2) break;
     if (halving > 0 && 2 * run.steps > most_steps) break;
     before = run.failure_strain;

@@ -1,5 +1,7 @@
 #include "sim/dynamics/time_stepping.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 
@@ -233,8 +235,14 @@ CurvePoint DynamicRun::point() const {
 }  // namespace
 
 Simulation simulate_dynamic(const Scene& scene, const Observer& observer) {
-  return scene.solver.step ? run_in_steps(scene, {*scene.solver.step}, observer)
-                           : run_in_chosen_steps(scene, observer);
+  if (!scene.solver.step) return run_in_chosen_steps(scene, observer);
+  Simulation run = run_in_steps(scene, {*scene.solver.step}, observer);
+  run.step_error.reset();
+  run.regime_ground = fmt::format(
+      "; the step of {:.3g} ns is given, and its error is not known: a run without step_s chooses "
+      "its own and says it",
+      1e9 * run.step);
+  return run;
 }
 
 Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Observer& observer) {

@@ -273,5 +273,18 @@ TEST(Simulation, IsNotTrustedUnlessItsChecksHold) {
   EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("not known"));
 }
 
+TEST(Simulate, SaysThatTheErrorOfAGivenStepIsNotKnown) {
+  Scene scene;
+  scene.assembly.layers = scene.assembly.fibres = 2;
+  scene.loading.strain_rate = 1000.0;
+  scene.solver.step = 1e-8;
+  const Simulation run = simulate(scene);
+  EXPECT_EQ(run.step_error, std::nullopt);
+  EXPECT_THAT(run.regime_ground, HasSubstr("its error is not known"));
+  scene.solver.step.reset();
+  scene.solver.regime = Regime::quasi_static;
+  EXPECT_EQ(simulate(scene).step_error, 0.0);
+}
+
 }  // namespace
 }  // namespace havers::sim
