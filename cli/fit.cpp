@@ -45,10 +45,11 @@ bool was_stopped(const fs::path& folder) {
 calib::CalibrationResult watched_fit(const calib::Study& study, calib::EvaluationStore& store,
                                      const CommonOptions& common) {
   ProgressLine line(common);
-  return calib::calibrate(study, &store, [&line](const calib::CalibrationProgress& progress) {
+  const auto watch = [&line](const calib::CalibrationProgress& progress) {
     if (line.due()) line.show(progress_text(progress));
     return !interrupted();
-  });
+  };
+  return calib::calibrate(study, &store, watch, interrupted);
 }
 
 int run_fit(const FitArguments& arguments, const CommonOptions& common) {

@@ -1,16 +1,18 @@
 #include "cli/interrupt.hpp"
 
+#include <atomic>
 #include <csignal>
 
 namespace havers::cli {
 namespace {
 
-// A signal handler may touch nothing but such a flag.
-volatile std::sig_atomic_t asked_to_stop =
-    0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+// A signal handler may touch nothing but such a flag, and all threads ask for it.
+std::atomic<bool> asked_to_stop =
+    false;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 void ask_to_stop(int signal) {
-  asked_to_stop = 1;
+  asked_to_stop = true;
   std::signal(signal, SIG_DFL);
 }
 
@@ -22,7 +24,7 @@ void catch_interrupts() {
 }
 
 bool interrupted() {
-  return asked_to_stop != 0;
+  return asked_to_stop;
 }
 
 }  // namespace havers::cli

@@ -6,7 +6,7 @@ namespace havers::cli {
 /// From now on SIGINT and SIGTERM set a flag that observers ask for.
 void catch_interrupts();
 
-/// Whether the user asked to stop.
+/// Whether the user asked to stop. From any thread.
 bool interrupted();
 
 }  // namespace havers::cli

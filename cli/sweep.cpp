@@ -62,11 +62,11 @@ std::vector<Done> read_all(const SweepArguments& arguments, const CommonOptions&
 bool run_all(std::vector<Done>& all, calib::EvaluationStore& store, const CommonOptions& common) {
   ProgressLine line(common);
   for (Done& one : all) {
-    one.result = calib::run_sweep(
-        one.sweep, &store, common.threads, [&](std::size_t done, std::size_t runs) {
-          if (line.due()) line.show(fmt::format("{}: {} of {} runs", one.stem, done, runs));
-          return !interrupted();
-        });
+    const auto watch = [&](std::size_t done, std::size_t runs) {
+      if (line.due()) line.show(fmt::format("{}: {} of {} runs", one.stem, done, runs));
+      return !interrupted();
+    };
+    one.result = calib::run_sweep(one.sweep, &store, common.threads, watch, interrupted);
     if (one.result.cancelled) return false;
   }
   return true;

@@ -251,9 +251,9 @@ CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
   const FitProblem problem = make_problem(study);
   SimulationBatch batch(simulator, store, study.calibrate.threads);
   Trail trail(problem, batch, observer);
-  const Answer answer = solve(problem, trail);
+  Answer answer = solve(problem, trail);
 
-  CalibrationResult result{.status = answer.status, .stages = answer.stages, .scene = study.model};
+  CalibrationResult result{.stages = answer.stages, .scene = study.model};
   result.parameters = parameters_of(problem, answer);
   result.specimens = specimens_of(problem, batch, answer);
   result.left_out = left_out_of(problem, batch, answer);
@@ -262,6 +262,8 @@ CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
   result.cost = cost_of(result.specimens, answer.best.cost);
   std::ranges::copy(answer.weights.specimen, result.specimen_effect.begin());
   add_hindsight(problem, batch, answer, result);
+  if (batch.stopped()) answer.status = CalibrationStatus::cancelled;
+  result.status = answer.status;
   result.evaluations = batch.asked();
   result.simulated = batch.simulated();
   result.failed_simulations = batch.failed();

@@ -206,8 +206,10 @@ struct CalibrationProgress {
 };
 using CalibrationObserver = std::function<bool(const CalibrationProgress&)>;
 
-/// Calibrates a study. `store` remembers simulations between runs; null: none.
+/// Calibrates a study. `store` remembers simulations between runs; null: none. `stop_asked` is
+/// asked inside the simulations, by all threads; true ends them, and the fit as `cancelled`.
 CalibrationResult calibrate(const Study& study, EvaluationStore* store = nullptr,
-                            const CalibrationObserver& observer = {});
+                            const CalibrationObserver& observer = {},
+                            const std::function<bool()>& stop_asked = {});
 
 }  // namespace havers::calib

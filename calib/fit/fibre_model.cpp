@@ -12,7 +12,8 @@ constexpr std::size_t rows_kept = 1000;
 
 }  // namespace
 
-Response response_of(const sim::Simulation& run) {
+std::optional<Response> response_of(const sim::Simulation& run) {
+  if (run.status == sim::SimulationStatus::cancelled) return std::nullopt;
   Response response;
   response.failed = !run.trusted();
   response.broke = run.status == sim::SimulationStatus::broken;
@@ -31,17 +32,25 @@ Response response_of(const sim::Simulation& run) {
   return response;
 }
 
-Simulator fibre_model() {
-  return {.run = [](const sim::Scene& scene) { return response_of(sim::simulate(scene)); },
-          .quasi_static =
-              [](const sim::Scene& scene) {
-                return sim::choose_regime(scene).regime == sim::Regime::quasi_static;
-              }};
+sim::Observer stopped_by(const std::function<bool()>& stop_asked) {
+  if (!stop_asked) return {};
+  return [stop_asked](const sim::Progress&) { return !stop_asked(); };
+}
+
+Simulator fibre_model(const std::function<bool()>& stop_asked) {
+  return {
+      .run = [observer = stopped_by(stop_asked)](
+                 const sim::Scene& scene) { return response_of(sim::simulate(scene, observer)); },
+      .quasi_static =
+          [](const sim::Scene& scene) {
+            return sim::choose_regime(scene).regime == sim::Regime::quasi_static;
+          }};
 }
 
 CalibrationResult calibrate(const Study& study, EvaluationStore* store,
-                            const CalibrationObserver& observer) {
-  return calibrate_with(fibre_model(), study, store, observer);
+                            const CalibrationObserver& observer,
+                            const std::function<bool()>& stop_asked) {
+  return calibrate_with(fibre_model(stop_asked), study, store, observer);
 }
 
 }  // namespace havers::calib

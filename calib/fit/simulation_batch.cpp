@@ -14,21 +14,22 @@ namespace {
 
 // A simulator that throws, or answers with numbers that are none, has failed; the fit goes on
 // without it.
-Response run_safely(const Simulator& simulator, const sim::Scene& scene) {
-  Response response;
+std::optional<Response> run_safely(const Simulator& simulator, const sim::Scene& scene) {
+  std::optional<Response> answer;
   try {
-    response = simulator.run(scene);
+    answer = simulator.run(scene);
   } catch (const std::exception& error) {
-    response.why = error.what();
-    return response;
+    return Response{.why = error.what()};
   }
+  if (!answer) return answer;
+  Response& response = *answer;
   const auto usable = [](double x) { return x > 0.0 && x < 1e30; };
   if (!response.failed &&
       !(usable(response.modulus) && usable(response.strength) && usable(response.failure_strain))) {
     response.failed = true;
     response.why = "modulus, strength or failure strain is not a positive number";
   }
-  return response;
+  return answer;
 }
 
 NormalForm form_of(const Simulator& simulator, const sim::Scene& scene) {
@@ -40,7 +41,7 @@ NormalForm form_of(const Simulator& simulator, const sim::Scene& scene) {
 struct SimulationBatch::Work {
   std::string key;
   const sim::Scene* scene = nullptr;
-  Response response{};
+  std::optional<Response> response{};
   bool simulated = false;
 };
 
@@ -50,15 +51,13 @@ SimulationBatch::SimulationBatch(Simulator simulator, EvaluationStore* store, in
 void SimulationBatch::settle(std::vector<Work>& work) {
   const auto settle_one = [&](std::size_t i) {
     auto& [key, scene, response, simulated] = work[i];
-    if (store_) {
-      if (auto found = store_->find(key)) {
-        response = std::move(*found);
-        return;
-      }
-    }
+    if (stopped_) return;
+    if (store_) response = store_->find(key);
+    if (response) return;
     response = run_safely(simulator_, *scene);
-    simulated = true;
-    if (store_) store_->save(key, response);
+    simulated = response.has_value();
+    if (!response) stopped_ = true;
+    if (store_ && response) store_->save(key, *response);
   };
   tbb::task_arena arena(threads_ > 0 ? threads_ : tbb::task_arena::automatic);
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, work.size(), settle_one); });
@@ -82,14 +81,18 @@ std::vector<Response> SimulationBatch::run(const std::vector<sim::Scene>& scenes
 
   asked_ += static_cast<long>(scenes.size());
   for (auto& [key, scene, response, simulated] : missing) {
+    if (!response) continue;
     simulated_ += simulated ? 1 : 0;
-    failed_ += response.failed ? 1 : 0;
-    memory_.emplace(std::move(key), std::move(response));
+    failed_ += response->failed ? 1 : 0;
+    memory_.emplace(std::move(key), std::move(*response));
   }
   std::vector<Response> answers;
   answers.reserve(scenes.size());
-  for (std::size_t i = 0; i < scenes.size(); ++i)
-    answers.push_back(rescaled(memory_.at(keys[i]), forms[i]));
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const auto found = memory_.find(keys[i]);
+    answers.push_back(found == memory_.end() ? Response{.why = "stopped before it was simulated"}
+                                             : rescaled(found->second, forms[i]));
+  }
   return answers;
 }
 

@@ -1,34 +1,39 @@
 // Many simulations at once: the one place where a calibration asks for them.
 #pragma once
 
+#include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "calib/fit/evaluation_store.hpp"
-#include "sim/scene.hpp"
-
-namespace havers::sim {
-struct Simulation;
-}
+#include "sim/simulation.hpp"
 
 namespace havers::calib {
 
 /// The model, as a calibration sees it. Both functions are called from several threads.
 struct Simulator {
-  std::function<Response(const sim::Scene&)> run;
+  std::function<std::optional<Response>(const sim::Scene&)> run;  ///< Nothing where it was stopped.
   std::function<bool(const sim::Scene&)> quasi_static;  ///< Whether (F3) holds for a scene.
 };
 
-/// havers' own simulator.
-Simulator fibre_model();
+/// havers' own simulator. `stop_asked` is asked after each step or break of every run, by all
+/// threads; true ends the run. Empty: nothing stops it.
+Simulator fibre_model(const std::function<bool()>& stop_asked = {});
 
-/// What is kept of a run of it.
-Response response_of(const sim::Simulation& run);
+/// What stops a run of it.
+sim::Observer stopped_by(const std::function<bool()>& stop_asked);
+
+/// What is kept of a run of it: nothing where it was cancelled.
+std::optional<Response> response_of(const sim::Simulation& run);
 
 /// A simulator with a memory. The answers come in the order asked, the same for any number of
 /// threads, and each simulation runs once, whoever asks and however often.
+///
+/// Once the simulator has stopped a run, no other begins. What was not simulated then is answered
+/// as failed, but neither stored nor counted.
 class SimulationBatch {
  public:
   /// @param store    remembers simulations between runs; null: none.
@@ -44,6 +49,7 @@ class SimulationBatch {
   [[nodiscard]] long simulated() const { return simulated_; }
   [[nodiscard]] long failed() const { return failed_; }  ///< Of the distinct ones.
   [[nodiscard]] long distinct() const { return static_cast<long>(memory_.size()); }
+  [[nodiscard]] bool stopped() const { return stopped_; }  ///< By the simulator.
 
  private:
   struct Work;
@@ -54,6 +60,7 @@ class SimulationBatch {
   int threads_;
   std::unordered_map<std::string, Response> memory_;
   long asked_ = 0, simulated_ = 0, failed_ = 0;
+  std::atomic<bool> stopped_ = false;
 };
 
 }  // namespace havers::calib

@@ -13,6 +13,8 @@ std::vector<Evaluation> Trail::evaluate(const std::vector<Point>& points) {
   if (stopped()) return std::vector<Evaluation>(points.size());
 
   auto evaluations = predict(problem_, batch_, points, replicates_);
+  // Of a point whose replicates were not all simulated nothing is known.
+  if (batch_.stopped()) return std::vector<Evaluation>(points.size());
   for (auto& evaluation : evaluations) {
     score(problem_, weights_, evaluation);
     note(evaluation);

@@ -42,9 +42,9 @@ class Trail {
   [[nodiscard]] int replicates() const { return replicates_; }
   [[nodiscard]] int points() const { return points_; }
   [[nodiscard]] double wall_seconds() const;  ///< Since the search began. [s]
-  [[nodiscard]] bool cancelled() const { return cancelled_; }
+  [[nodiscard]] bool cancelled() const { return cancelled_ || batch_.stopped(); }
   [[nodiscard]] bool budget_spent() const { return budget_spent_; }
-  [[nodiscard]] bool stopped() const { return cancelled_ || (budget_spent_ && !budget_lifted_); }
+  [[nodiscard]] bool stopped() const { return cancelled() || (budget_spent_ && !budget_lifted_); }
 
  private:
   void note(const Evaluation& evaluation);

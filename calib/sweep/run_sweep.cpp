@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <optional>
 
 #include "calib/fit/normal_form.hpp"
 #include "calib/fit/simulation_batch.hpp"
@@ -18,6 +19,9 @@ constexpr std::size_t chunk = 32;
 // The fibre model, which leaves the pattern of every scene's broken joints in a map.
 class PatternedModel {
  public:
+  explicit PatternedModel(const std::function<bool()>& stop_asked)
+      : observer_(stopped_by(stop_asked)) {}
+
   Simulator simulator() {
     return {.run = [this](const sim::Scene& scene) { return run(scene); },
             .quasi_static = fibre_model().quasi_static};
@@ -28,8 +32,8 @@ class PatternedModel {
   }
 
  private:
-  Response run(const sim::Scene& scene) {
-    const sim::Simulation simulation = sim::simulate(scene);
+  std::optional<Response> run(const sim::Scene& scene) {
+    const sim::Simulation simulation = sim::simulate(scene, observer_);
     const Pattern pattern =
         pattern_of(sim::build_assembly(scene.assembly, scene.loading.lateral), simulation.joints);
     const std::scoped_lock lock(mutex_);
@@ -37,6 +41,7 @@ class PatternedModel {
     return response_of(simulation);
   }
 
+  sim::Observer observer_;
   std::mutex mutex_;
   std::map<std::string, Pattern> patterns_;
 };
@@ -44,10 +49,12 @@ class PatternedModel {
 // Runs levels of points, as long as the observer wants to.
 class Runner {
  public:
-  Runner(const Sweep& sweep, EvaluationStore* store, int threads, const SweepObserver& observer)
+  Runner(const Sweep& sweep, EvaluationStore* store, int threads, const SweepObserver& observer,
+         const std::function<bool()>& stop_asked)
       : sweep_(sweep),
         observer_(observer),
-        batch_(sweep.patterns ? model_.simulator() : fibre_model(),
+        model_(stop_asked),
+        batch_(sweep.patterns ? model_.simulator() : fibre_model(stop_asked),
                sweep.patterns ? nullptr : store, threads),
         seeds_(static_cast<std::size_t>(sweep.plan.seeds)),
         all_(sweep.points.size() * seeds_ * static_cast<std::size_t>(sweep.levels)) {}
@@ -67,6 +74,8 @@ class Runner {
       const std::vector<sim::Scene> some(scenes.begin() + static_cast<std::ptrdiff_t>(at),
                                          scenes.begin() + static_cast<std::ptrdiff_t>(end));
       const std::vector<Response> responses = batch_.run(some);
+      result.cancelled = batch_.stopped();
+      if (result.cancelled) break;
       const std::vector<std::string> keys = batch_.keys(some);
       for (std::size_t i = 0; i < some.size(); ++i)
         keep(responses[i], keys[i], result.runs[offset + at + i]);
@@ -127,10 +136,10 @@ sim::Scene scale_above(const sim::Scene& scene, const PointSummary& below) {
 }
 
 SweepResult run_sweep(const Sweep& sweep, EvaluationStore* store, int threads,
-                      const SweepObserver& observer) {
+                      const SweepObserver& observer, const std::function<bool()>& stop_asked) {
   SweepResult result;
   result.points = sweep.points;
-  Runner runner(sweep, store, threads, observer);
+  Runner runner(sweep, store, threads, observer, stop_asked);
   std::size_t first = 0;
   for (int level = 1; level <= sweep.levels && !result.cancelled; ++level) {
     if (level > 1) {

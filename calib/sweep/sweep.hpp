@@ -52,9 +52,11 @@ struct SweepResult {
 using SweepObserver = std::function<bool(std::size_t done, std::size_t all)>;
 
 /// Runs a sweep. Stopped and started again with the same store, it goes on where it was.
+/// `stop_asked` is asked inside the simulations, by all threads; true ends them, and the sweep as
+/// `cancelled`.
 /// Precondition: the plan has no problems and no scene has any.
 SweepResult run_sweep(const Sweep& sweep, EvaluationStore* store, int threads,
-                      const SweepObserver& observer);
+                      const SweepObserver& observer, const std::function<bool()>& stop_asked = {});
 
 /// The scene of the scale above (W7): what held a whole assembly is now one of its joints.
 sim::Scene scale_above(const sim::Scene& scene, const PointSummary& below);

@@ -196,6 +196,35 @@ TEST(Calibrate, StopsWhenToldToAndGoesOnFromTheStore) {
   EXPECT_LT(resumed.simulated, whole.simulated);
 }
 
+// Ctrl-C may come inside any simulation, those of the hindsight among them.
+TEST(Calibrate, StopsInsideAnySimulationAndGoesOnFromTheStore) {
+  auto study = test::synthetic_study({0.0, 90.0});
+  study.calibrate.replicates = 4;
+  long runs = 0, last = std::numeric_limits<long>::max();
+  auto simulator = test::ClosedForm{}.simulator();
+  simulator.run = [&](const sim::Scene& scene) -> std::optional<Response> {
+    if (++runs >= last) return std::nullopt;
+    return test::ClosedForm{}(scene);
+  };
+  const auto whole = calibrate_with(simulator, study);
+  const long all = whole.simulated;
+  for (long stop = 1; stop <= all; stop += stop < all - 8 ? 7 : 1) {
+    test::MemoryStore store;
+    runs = 0;
+    last = stop;
+    const auto stopped = calibrate_with(simulator, study, &store);
+    EXPECT_EQ(stopped.status, CalibrationStatus::cancelled) << stop;
+    EXPECT_EQ(stopped.simulated, stop - 1);
+    EXPECT_EQ(stopped.failed_simulations, 0) << stop;
+    EXPECT_EQ(runs, stop);  // none began after it
+    last = std::numeric_limits<long>::max();
+    const auto resumed = calibrate_with(simulator, study, &store);
+    EXPECT_EQ(resumed.simulated, all - stop + 1);
+    EXPECT_EQ(resumed.cost, whole.cost) << stop;
+    EXPECT_EQ(resumed.parameters[0].interval_95, whole.parameters[0].interval_95) << stop;
+  }
+}
+
 TEST(Calibrate, TellsTheObserverTheBestPointInItsUnits) {
   CalibrationProgress last;
   const auto result = calibrate_with(test::ClosedForm{}.simulator(),

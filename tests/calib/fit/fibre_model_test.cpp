@@ -29,8 +29,8 @@ TEST(FibreModel, GivesInNormalFormWhatItGivesPlain) {
     ASSERT_TRUE(model.quasi_static(scene));
     const auto form = normal_form(scene, true);
     ASSERT_TRUE(form.scaled);
-    const auto plain = model.run(scene);
-    const auto scaled = rescaled(model.run(form.scene), form);
+    const auto plain = model.run(scene).value();
+    const auto scaled = rescaled(model.run(form.scene).value(), form);
     ASSERT_FALSE(plain.failed) << plain.why;
     EXPECT_EQ(scaled.broke, plain.broke);
     EXPECT_NEAR(scaled.modulus, plain.modulus, 1e-9 * plain.modulus);
@@ -46,6 +46,17 @@ TEST(FibreModel, IsNotScaledWhereTheLoadingIsFast) {
   auto scene = small_scene(0.0);
   scene.loading.strain_rate = 1000.0;
   EXPECT_FALSE(fibre_model().quasi_static(scene));
+}
+
+TEST(FibreModel, StopsInsideARunInStepsAndInTheLimit) {
+  for (const double rate : {1e-4, 1000.0}) {
+    auto scene = small_scene(0.0);
+    scene.loading.strain_rate = rate;
+    int asked = 0;
+    EXPECT_FALSE(fibre_model([&] { return ++asked == 3; }).run(scene));
+    EXPECT_EQ(asked, 3);
+    EXPECT_TRUE(fibre_model([] { return false; }).run(scene));
+  }
 }
 
 }  // namespace

@@ -73,5 +73,32 @@ TEST(SimulationBatch, CountsASimulatorThatThrowsOrGivesNoNumberAsFailed) {
   EXPECT_EQ(batch.failed(), 2);
 }
 
+// Seed 2 is stopped: 1 is kept, 3 never begins.
+TEST(SimulationBatch, NeitherKeepsNorCountsASimulationThatWasStopped) {
+  test::MemoryStore store;
+  int runs = 0;
+  auto simulator = test::ClosedForm{}.simulator();
+  simulator.run = [&](const sim::Scene& scene) -> std::optional<Response> {
+    ++runs;
+    if (scene.joints.seed == 2) return std::nullopt;
+    return test::ClosedForm{}(scene);
+  };
+  SimulationBatch batch(simulator, &store, 1);
+  const auto scenes = scenes_with_seeds({1, 2, 3});
+  const auto answers = batch.run(scenes);
+  EXPECT_TRUE(batch.stopped());
+  EXPECT_FALSE(answers[0].failed);
+  EXPECT_TRUE(answers[1].failed);
+  EXPECT_TRUE(answers[2].failed);
+  EXPECT_EQ(runs, 2);
+  EXPECT_EQ(batch.simulated(), 1);
+  EXPECT_EQ(batch.failed(), 0);
+  EXPECT_EQ(batch.distinct(), 1);
+  const auto keys = batch.keys(scenes);
+  EXPECT_TRUE(store.find(keys[0]));
+  EXPECT_FALSE(store.find(keys[1]));
+  EXPECT_FALSE(store.find(keys[2]));
+}
+
 }  // namespace
 }  // namespace havers::calib

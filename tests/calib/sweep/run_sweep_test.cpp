@@ -67,6 +67,23 @@ TEST(RunSweep, GoesOnWithWhatTheStoreKeeps) {
   EXPECT_EQ(again.simulated, 0);
 }
 
+TEST(RunSweep, StopsInsideASimulationAndKeepsThoseBefore) {
+  for (const bool patterns : {false, true}) {
+    Sweep sweep = small_sweep();
+    sweep.patterns = patterns;
+    MemoryStore store;
+    int asked = 0;
+    const SweepResult stopped = run_sweep(sweep, &store, 1, {}, [&] { return ++asked == 60; });
+    EXPECT_TRUE(stopped.cancelled);
+    EXPECT_EQ(asked, 60);
+    EXPECT_EQ(stopped.failed, 0);
+    EXPECT_GT(stopped.simulated, 0);
+    const SweepResult again = run_sweep(sweep, &store, 1, {});
+    EXPECT_EQ(again.failed, 0);
+    EXPECT_EQ(again.simulated, patterns ? 12 : 12 - stopped.simulated);
+  }
+}
+
 TEST(RunSweep, TellsTheObserverHowFarItIs) {
   std::size_t last = 0;
   run_sweep(small_sweep(), nullptr, 1, [&](std::size_t done, std::size_t all) {
