@@ -101,6 +101,7 @@ void read_porosity(TableReader table, calib::PorosityOptions& porosity) {
   require_not_negative(table, "modulus_exponent", porosity.modulus_exponent);
   require(porosity.linear_offset >= 0.0 && porosity.linear_offset < 2.0, table, "linear_offset",
           porosity.linear_offset, "at least 0 and below 2");
+  require_not_negative(table, "linear_slope", porosity.linear_slope);
 }
 
 // Only known names are kept, so that what is judged later complains of something else.

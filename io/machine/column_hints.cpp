@@ -30,17 +30,36 @@ std::optional<std::size_t> hinted_column(const std::string& hint,
   return number - 1;
 }
 
-// What a column in that unit holds: a force in volts waits for its factor. Nothing where the unit
-// is none of the quantity.
+// What a column in that unit holds: a force or a strain in volts waits for its factor. Nothing
+// where the unit is none of the quantity.
 std::optional<Quantity> held_in(const std::string& unit, Quantity quantity) {
   const std::optional<Unit> known = find_unit(unit);
-  for (const Quantity held : {quantity, in_volts(quantity)})
-    if (known && fits(held, known->dimension)) return held;
+  if (!known) return std::nullopt;
+  if (fits(quantity, known->dimension)) return quantity;
+  const bool by_factor = quantity == Quantity::force || quantity == Quantity::strain;
+  if (by_factor && known->dimension == Dimension::voltage) return in_volts(quantity);
   return std::nullopt;
 }
 
+// Those that are met most; more are known.
+std::string_view usual_units(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::time:
+      return "s, ms, min or h";
+    case Quantity::force:
+      return "N, kN, lbf, kgf, V, or a factor such as 500 N/V";
+    case Quantity::extension:
+      return "mm, um, m or in";
+    case Quantity::strain:
+      return "%, mm/mm, ustrain, mm, V, or a factor such as 0.01 mm/V";
+    default:
+      return "MPa, Pa, GPa or psi";
+  }
+}
+
 InputError wrong_unit(const std::string& where, const std::string& unit, Quantity quantity) {
-  return {where, fmt::format("\"{}\" is not a known unit of {}", unit, to_string(quantity))};
+  return {where, fmt::format("\"{}\" is not a known unit of {}", unit, to_string(quantity)),
+          fmt::format("{}_unit may be {}", to_string(quantity), usual_units(quantity))};
 }
 
 }  // namespace

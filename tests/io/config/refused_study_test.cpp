@@ -127,6 +127,8 @@ TEST_F(RefusedStudy, NamesImpossibleValuesWithLineAndRule) {
        "study.toml:5: porosity.modulus_exponent: is -1, must be 0 or more"},
       {one_specimen + "[porosity]\nlinear_offset = 2",
        "study.toml:5: porosity.linear_offset: is 2, must be at least 0 and below 2"},
+      {one_specimen + "[porosity]\nlinear_slope = -1",
+       "study.toml:5: porosity.linear_slope: is -1, must be 0 or more"},
       {one_specimen + "[calibrate]\nparameters = [\"yuong_GPa\"]",
        "study.toml:5: calibrate.parameters: names \"yuong_GPa\", which cannot be calibrated (did "
        "you mean "

@@ -159,8 +159,10 @@ TEST(InputFaults, NamesAColumnThatIsNotThere) {
   EXPECT_EQ(complaint_of(header, {{{Quantity::force, {"Kraft", ""}}}}),
             "test.csv:2: there is no column \"Kraft\" (the columns are Time (s), Load (N), "
             "Extension (mm))");
-  EXPECT_EQ(complaint_of(header, {{{Quantity::force, {"2", "mm"}}}}),
-            "test.csv:2: \"mm\" is not a known unit of force");
+  EXPECT_EQ(
+      complaint_of(header, {{{Quantity::force, {"2", "mm"}}}}),
+      "test.csv:2: \"mm\" is not a known unit of force (force_unit may be N, kN, lbf, kgf, V, or "
+      "a factor such as 500 N/V)");
 }
 
 TEST(InputFaults, CollectsAFewAndThenStops) {

@@ -86,8 +86,21 @@ TEST(WrittenUnits, AreOverruledByAUnitAlone) {
   EXPECT_EQ(refusal_of("Time (s);Load (N)", {.units = {{Quantity::strain, "%"}}}),
             "no column's name speaks of strain, but strain_unit is given (say strain = ... in "
             "[specimen.columns]; the columns are Time (s), Load (N))");
-  EXPECT_EQ(refusal_of("Time (s);Load (N)", {.units = {{Quantity::force, "mm"}}}),
-            "\"mm\" is not a known unit of force ()");
+  EXPECT_EQ(
+      refusal_of("Time (s);Load (N)", {.units = {{Quantity::force, "mm"}}}),
+      "\"mm\" is not a known unit of force (force_unit may be N, kN, lbf, kgf, V, or a factor "
+      "such as 500 N/V)");
+}
+
+// Only a force and a strain have a factor to wait for.
+TEST(WrittenUnits, InVoltsAreOfForceAndStrainAlone) {
+  const char* const names = "Time (s);Load (N);Extension (mm)";
+  const std::string refusal =
+      "\"V\" is not a known unit of time (time_unit may be s, ms, min or h)";
+  EXPECT_EQ(refusal_of(names, {.units = {{Quantity::time, "V"}}}), refusal);
+  EXPECT_EQ(refusal_of(names, {{{Quantity::time, {"1", "V"}}}}), refusal);
+  EXPECT_EQ(refusal_of(names, {.units = {{Quantity::extension, "V"}}}),
+            "\"V\" is not a known unit of extension (extension_unit may be mm, um, m or in)");
 }
 
 TEST(WrittenUnits, OfAColumnThatTheUserNamesAreThoseOfItsQuantity) {
