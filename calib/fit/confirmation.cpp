@@ -31,6 +31,7 @@ std::vector<RunPair> pairs_of(const FitProblem& problem, const Answer& answer) {
     pair.moving = pair.still;
     pair.moving.loading.strain_rate *= sim::quasi_static_below / choice.inertia_number;
     pair.moving.solver.regime = sim::Regime::dynamic;
+    pair.moving.solver.leave_out = problem.study.model.solver.leave_out;
     pair.transit =
         sim::quasi_static_below * pair.still.joints.head_tail / pair.still.material.young;
     pair.names = {.specimen = problem.study.specimens[s].id,

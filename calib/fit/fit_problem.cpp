@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "calib/fit/replicate_spread.hpp"
+#include "sim/quasi_static/breaking_sequence.hpp"
+#include "sim/simulate.hpp"
 
 namespace havers::calib {
 namespace {
@@ -16,6 +18,17 @@ constexpr double scatter_step = 0.05;
 bool searched(const FitProblem& problem, std::string_view name) {
   return std::ranges::any_of(problem.unknowns,
                              [&](const Unknown& u) { return u.info->name == name; });
+}
+
+// The post-peak drop is seen by a run that goes on until the stress has fallen; in the quasi-static
+// limit the rest of an avalanche is left out otherwise.
+void follow_fall(const std::vector<std::string>& terms, sim::Scene& scene) {
+  if (std::ranges::find(terms, name_of(post_peak)) == terms.end()) return;
+  const bool in_limit = sim::choose_regime(scene).regime == sim::Regime::quasi_static;
+  const double end = in_limit ? sim::end_fraction_used(scene) : scene.loading.end_fraction;
+  if (end <= fallen_part) return;
+  scene.loading.end_fraction = fallen_part;
+  if (in_limit) scene.solver.leave_out = false;
 }
 
 sim::Scene scene_at(const FitProblem& problem, const Point& point, std::size_t specimen) {
@@ -33,6 +46,7 @@ sim::Scene scene_at(const FitProblem& problem, const Point& point, std::size_t s
     if (const auto value = value_at(problem.unknowns, point, info, specimen))
       apply(scene, info.name, *value);
   scene.material.young *= model.modulus_factor;
+  follow_fall(problem.study.calibrate.terms, scene);
   return scene;
 }
 

@@ -26,7 +26,8 @@ FitProblem make_problem(const Study& study);
 /// How many fitted specimens have each landmark.
 Landmarks landmarks_present(const FitProblem& problem);
 
-/// The scenes of a specimen at a point, one per replicate.
+/// The scenes of a specimen at a point, one per replicate. Where the post-peak drop is a term of
+/// the study, they go on until the stress has fallen.
 std::vector<sim::Scene> replicate_scenes(const FitProblem& problem, const Point& point,
                                          std::size_t specimen, int replicates);
 

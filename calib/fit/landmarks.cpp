@@ -11,7 +11,6 @@ namespace {
 // A noisy curve is longer than the line through it: its rows are averaged down to about so many.
 constexpr std::size_t blocks = 64;
 constexpr int heights = 7;      // at 1/8 ... 7/8 of the arc length
-constexpr double fallen = 0.5;  // of the strength: the specimen has parted
 constexpr double least = 1e-3;  // of the energy of a straight curve, so that a logarithm exists
 
 /// A curve up to its peak as part of strain and stress there; it ends in (1, 1).
@@ -67,7 +66,7 @@ double area(const Normalised& curve) {
 double strain_of_fall(std::span<const double> strain, std::span<const double> stress,
                       std::size_t peak) {
   std::size_t i = peak;
-  while (i + 1 < stress.size() && stress[i] > fallen * stress[peak]) ++i;
+  while (i + 1 < stress.size() && stress[i] > fallen_part * stress[peak]) ++i;
   return std::max(strain[i] / strain[peak] - 1.0, 0.0);
 }
 

@@ -19,13 +19,16 @@ enum Landmark : Eigen::Index {
   post_peak,  ///< Strain in which the stress falls to half, over ε_max.
 };
 inline constexpr Eigen::Index landmark_count = 6;
+/// Part of the strength to which the stress falls in the post-peak drop. [-]
+inline constexpr double fallen_part = 0.5;
 using Landmarks = Eigen::Array<double, landmark_count, 1>;
 
 /// "modulus", "strength", "failure strain", "pre-peak curve", "energy", "post-peak drop".
 std::string_view name_of(Landmark landmark);
 
 /// Landmarks of the curve alone: pre_peak, energy and post_peak; the others are 0. All 0 where
-/// there is no curve. Strain [-] and stress [Pa] row by row, the peak being the largest stress.
+/// there is no curve. Strain [-] and stress [Pa] row by row, the peak being the largest stress. The
+/// end of a curve counts as its fall.
 Landmarks shape_of(std::span<const double> strain, std::span<const double> stress);
 
 }  // namespace havers::calib

@@ -1,0 +1,65 @@
+// What a study asks of its simulations.
+#include "calib/fit/fit_problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/scenes.hpp"
+#include "tests/support/studies.hpp"
+
+namespace havers::calib {
+namespace {
+
+// 8 x 5 fibres at 45 degrees: avalanches of such walls may stop below where a run ends otherwise.
+Study one_oblique_bar() {
+  Study study;
+  study.model.assembly.layers = 8;
+  study.model.assembly.fibres = 5;
+  study.model.joints.scatter = 0.8;
+  study.calibrate.parameters = {"head_tail_MPa"};
+  Specimen& specimen = study.specimens.emplace_back();
+  specimen.id = "A1";
+  specimen.orientation = 45.0 * test::degree;
+  specimen.test = test::straight_test(13e9, 20e6);
+  specimen.test.strain_rate = 1e-4;
+  return study;
+}
+
+std::vector<sim::Scene> scenes_of(const Study& study) {
+  const FitProblem problem = make_problem(study);
+  return replicate_scenes(problem, start_point(problem.unknowns), 0, 16);
+}
+
+TEST(FitProblem, FollowsAFallToHalfWhereThePostPeakDropCounts) {
+  Study study = one_oblique_bar();
+  const auto usual = scenes_of(study);
+  study.calibrate.terms.emplace_back("post-peak drop");
+  const auto followed = scenes_of(study);
+  int later = 0;
+  for (std::size_t i = 0; i < usual.size(); ++i) {
+    const auto model = fibre_model();
+    const auto ended = model.run(usual[i]).value(), fell = model.run(followed[i]).value();
+    ASSERT_FALSE(fell.failed) << fell.why;
+    EXPECT_LE(fell.stress.back(), 0.5 * fell.strength);
+    EXPECT_NEAR(fell.strength, ended.strength, 1e-9 * ended.strength);
+    EXPECT_NEAR(fell.failure_strain, ended.failure_strain, 1e-9 * ended.failure_strain);
+    const double drop = landmarks_of(fell)[post_peak];
+    EXPECT_GE(drop, landmarks_of(ended)[post_peak] - 1e-12);
+    later += drop > landmarks_of(ended)[post_peak] + 0.01 ? 1 : 0;
+  }
+  EXPECT_GT(later, 0);
+}
+
+// In time a run ends by its end fraction alone, and without what it leaves out it takes long.
+TEST(FitProblem, LeavesOutInTimeWhatItDoesOtherwise) {
+  Study study = one_oblique_bar();
+  study.specimens[0].test.strain_rate = 1000.0;
+  study.calibrate.terms.emplace_back("post-peak drop");
+  study.model.loading.end_fraction = 0.7;
+  EXPECT_EQ(scenes_of(study)[0].loading.end_fraction, 0.5);
+  EXPECT_TRUE(scenes_of(study)[0].solver.leave_out);
+  study.model.loading.end_fraction = 0.3;
+  EXPECT_EQ(scenes_of(study)[0].loading.end_fraction, 0.3);
+}
+
+}  // namespace
+}  // namespace havers::calib
