@@ -97,8 +97,8 @@ struct Simulation {
 /// What a caller may watch while a simulation runs.
 struct Progress {
   const CurvePoint& point;
-  std::size_t row;  ///< Of the curve, from 0.
-  const std::vector<JointOutcome>& joints;
+  std::size_t row;                                    ///< Of the curve, from 0.
+  std::function<std::vector<JointOutcome>()> joints;  ///< In the order of Assembly::joints.
   /// x and y of every node; in the quasi-static limit a solve, which the run itself does without.
   /// [m]
   std::function<Eigen::VectorXd()> displacements;

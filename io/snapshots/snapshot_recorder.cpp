@@ -25,7 +25,7 @@ void SnapshotRecorder::record(const sim::Progress& progress) {
   }
   time_ = progress.point.time;
   if (count_ == 0 || shown_++ % stride_ != 0) return;
-  held_.push_back({progress.row, progress.displacements(), progress.joints});
+  held_.push_back({progress.row, progress.displacements(), progress.joints()});
   if (held_.size() < 2 * count_ + 1) return;
   drop_every_second(held_);
   stride_ *= 2;

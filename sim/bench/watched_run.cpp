@@ -34,18 +34,22 @@ class Watcher {
     time_ = progress.point.time;
     const double strain = progress.point.strain;
     const bool intact = progress.point.broken_joints == 0;
-    if (run_->bonded_forces.size() == 0 &&
-        (intact || strain_ >= bonded_strain_ || strain_ == 0.0)) {
-      const VectorXd forces = forces_of(progress.joints);
+    const bool bonded = run_->bonded_forces.size() == 0 &&
+                        (intact || strain_ >= bonded_strain_ || strain_ == 0.0);
+    if (!bonded && progress.point.broken_joints == broken_) return;
+    broken_ = progress.point.broken_joints;
+    const std::vector<JointOutcome> joints = progress.joints();
+    if (bonded) {
+      const VectorXd forces = forces_of(joints);
       if (strain >= bonded_strain_) take_bonded(strain, forces);
       before_ = forces;
       strain_ = strain;
     }
-    for (std::size_t j = 0; j < progress.joints.size(); ++j) {
-      const JointOutcome& joint = progress.joints[j];
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      const JointOutcome& joint = joints[j];
       if (!joint.broken || is_missing(joint.threshold) || seen(j)) continue;
       run_->order.push_back(static_cast<int>(j));
-      run_->forces_at_break.push_back(forces_of(progress.joints));
+      run_->forces_at_break.push_back(forces_of(joints));
     }
   }
 
@@ -58,6 +62,7 @@ class Watcher {
     seen_.clear();
     before_.resize(0);
     strain_ = 0.0;
+    broken_ = 0;
   }
 
   // Before the first row everything is 0.
@@ -75,6 +80,7 @@ class Watcher {
   }
 
   double bonded_strain_, strain_ = 0.0, time_ = 0.0;
+  int broken_ = 0;
   VectorXd before_;
   std::vector<char> seen_;
   WatchedRun* run_;

@@ -265,8 +265,9 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
       simulation.status = SimulationStatus::not_converged;
       break;
     }
-    if (observer && !observer({simulation.curve.back(), simulation.curve.size() - 1, run.joints,
-                               [&run] { return run.displacements(); }})) {
+    if (observer &&
+        !observer({simulation.curve.back(), simulation.curve.size() - 1,
+                   [&run] { return run.joints; }, [&run] { return run.displacements(); }})) {
       simulation.status = SimulationStatus::cancelled;
       break;
     }

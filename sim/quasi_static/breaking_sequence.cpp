@@ -40,8 +40,9 @@ double energy_gain(const std::vector<CurvePoint>& curve) {
 
 bool goes_on(const Observer& observer, const BreakingRun& run, const Simulation& simulation) {
   const CurvePoint& now = simulation.curve.back();
-  return !observer || observer({now, simulation.curve.size() - 1, run.outcomes(now.strain),
-                                [&] { return run.displacements(now.strain); }});
+  return !observer ||
+         observer({now, simulation.curve.size() - 1, [&] { return run.outcomes(now.strain); },
+                   [&] { return run.displacements(now.strain); }});
 }
 
 Simulation break_event_by_event(const Scene& scene,

@@ -172,7 +172,7 @@ TEST(Simulate, ShowsTheObserverDisplacementsOfEveryNode) {
     const Simulation simulation = simulate(scene, [&](const Progress& progress) {
       const Eigen::VectorXd displacements = progress.displacements();
       EXPECT_EQ(displacements.size(), dofs);
-      EXPECT_EQ(progress.joints.size(), assembly.joints.size());
+      EXPECT_EQ(progress.joints().size(), assembly.joints.size());
       if (displacements.size() != dofs) return false;
       EXPECT_NEAR(displacements(2 * assembly.right.front()), progress.point.strain * assembly.width,
                   1e-12 * assembly.width);

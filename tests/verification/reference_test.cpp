@@ -99,8 +99,9 @@ TEST_P(QuasiStaticReference, BreaksTheSameTwoJointsFirst) {
   std::vector<int> breaks;  // rows of the reference, in the order of breaking
   std::vector<char> broken(row_of.size(), 0);
   const Simulation simulation = simulate(scene, [&](const Progress& progress) {
+    const std::vector<JointOutcome> joints = progress.joints();
     for (std::size_t j = 0; j < broken.size(); ++j)
-      if (progress.joints[j].broken && broken[j] == 0) {
+      if (joints[j].broken && broken[j] == 0) {
         broken[j] = 1;
         breaks.push_back(row_of[j]);
       }
