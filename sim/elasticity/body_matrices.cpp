@@ -3,12 +3,32 @@
 #include "sim/elasticity/triangle.hpp"
 
 namespace havers::sim {
+namespace {
+
+// Two translations and the turn about the nodes' mean.
+Eigen::MatrixX3d own_motions(const Assembly& assembly, const Body& body) {
+  const auto node = [&](int i) {
+    return assembly.nodes[static_cast<std::size_t>(body.first_node + i)];
+  };
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (int i = 0; i < body.nodes; ++i) mean += node(i) / body.nodes;
+  Eigen::MatrixX3d motions(2 * body.nodes, 3);
+  for (int i = 0; i < body.nodes; ++i) {
+    const Eigen::Vector2d arm = node(i) - mean;
+    motions.row(2 * i) << 1.0, 0.0, -arm.y();
+    motions.row(2 * i + 1) << 0.0, 1.0, arm.x();
+  }
+  motions.colwise().normalize();
+  return motions;
+}
+
+}  // namespace
 
 BodyMatrices body_matrices(const Assembly& assembly, const Body& body, const Material& material) {
   const Eigen::Matrix3d D =
       young_of_layer(material, body.layer) * plane_elasticity(material.poisson, material.plane);
   BodyMatrices matrices{Eigen::MatrixXd::Zero(2 * body.nodes, 2 * body.nodes),
-                        Eigen::VectorXd::Zero(2 * body.nodes)};
+                        Eigen::VectorXd::Zero(2 * body.nodes), own_motions(assembly, body)};
   for (int t = body.first_triangle; t < body.first_triangle + body.triangles; ++t) {
     const std::array<int, 3>& nodes = assembly.triangles[static_cast<std::size_t>(t)];
     Corners corners;

@@ -11,6 +11,7 @@ namespace havers::sim {
 struct BodyMatrices {
   Eigen::MatrixXd stiffness;  ///< K, symmetric ≥ 0. [N/m²]
   Eigen::VectorXd mass;       ///< M, row-lumped. [kg/m]
+  Eigen::MatrixX3d motions;   ///< Orthonormal: of the body as a whole, without strain. [-]
 };
 
 BodyMatrices body_matrices(const Assembly& assembly, const Body& body, const Material& material);

@@ -39,22 +39,6 @@ Shift quasi_static_shift(const Assembly& assembly) {
   return {1e-13 / (size * size), 1.0};
 }
 
-// Where a piece swings, rounding of its motion as a whole would count for more than its strain.
-Eigen::VectorXd without_own_motions(Eigen::VectorXd q, const Assembly& assembly) {
-  for (const Body& body : assembly.bodies) {
-    Eigen::Matrix2Xd x(2, body.nodes);
-    for (Eigen::Index i = 0; i < body.nodes; ++i)
-      x.col(i) = assembly.nodes[static_cast<std::size_t>(body.first_node + i)];
-    Eigen::Map<Eigen::Matrix2Xd> u(q.data() + 2 * body.first_node, 2, body.nodes);
-    x.colwise() -= Eigen::Vector2d(x.rowwise().mean());
-    u.colwise() -= Eigen::Vector2d(u.rowwise().mean());
-    Eigen::Matrix2Xd turned(2, body.nodes);
-    turned << -x.row(1), x.row(0);
-    u -= turned.cwiseProduct(u).sum() / turned.squaredNorm() * turned;
-  }
-  return q;
-}
-
 Material unit_material(const Material& material) {
   Material unit = material;
   unit.young = 1.0;
@@ -119,8 +103,7 @@ UnitAnswer IntactStructure::stretch(const Eigen::VectorXd& gaps) const {
 }
 
 double IntactStructure::energy(const Eigen::VectorXd& q) const {
-  const Eigen::VectorXd strained = without_own_motions(q, assembly_);
-  return 0.5 * strained.dot(bodies_.stiffness_times(strained));
+  return 0.5 * q.dot(bodies_.stiffness_times(q));
 }
 
 SharedJump IntactStructure::jump(int joint) const {

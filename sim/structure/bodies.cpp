@@ -151,12 +151,16 @@ void Bodies::scatter(const MatrixXd& columns, const BodyClass& group, VectorXd& 
 }
 
 // K only knows differences between nodes: those to a body's first node lose no digits to its path.
+// Of what rounding leaves, no force is on the body as a whole: it would do work on that path.
 VectorXd Bodies::stiffness_times(const VectorXd& q) const {
   VectorXd y(dofs());
   for (const BodyClass& group : classes_) {
     MatrixXd moved = gather(q, group);
     for (Index row = moved.rows() - 1; row >= 0; --row) moved.row(row) -= moved.row(row % 2);
-    scatter(group.op.matrices.stiffness * moved, group, y);
+    const auto& [stiffness, mass, motions] = group.op.matrices;
+    MatrixXd forces = stiffness * moved;
+    forces -= motions * (motions.transpose() * forces);
+    scatter(forces, group, y);
   }
   return y;
 }

@@ -1,7 +1,7 @@
 #include "sim/structure/body_operator.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <utility>
@@ -23,9 +23,16 @@ std::vector<Index> free_dofs(const std::vector<char>& held) {
   return free;
 }
 
-// K only knows differences between nodes: what it takes to nothing moves the body as a whole.
-MatrixXd own_motions(const MatrixXd& stiffness) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(stiffness).eigenvectors().leftCols(3);
+// Of a body's motions as a whole those that the boundary leaves to it.
+MatrixXd motions_left(const MatrixXd& motions, const std::vector<char>& held) {
+  std::vector<Index> fixed;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (held[i] != 0) fixed.push_back(static_cast<Index>(i));
+  if (fixed.empty()) return motions;
+  Eigen::FullPivLU<MatrixXd> of_fixed(motions(fixed, Eigen::all));
+  of_fixed.setThreshold(1e-10);
+  if (of_fixed.dimensionOfKernel() == 0) return MatrixXd(motions.rows(), 0);
+  return motions * of_fixed.kernel();
 }
 
 // Splits the free displacements by the ports: δ = B⁺ p + Q c, and finds what no displacement can do
@@ -81,14 +88,14 @@ BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
   body.rigid = body.inertia = MatrixXd(p, 0);
   body.held = free.size() != held.size();
   body.at_rest = shift.alpha * matrices.mass.maxCoeff() < inertia_trace * A.diagonal().maxCoeff();
-  if (body.at_rest && !body.held) {
-    const MatrixXd motions = own_motions(matrices.stiffness);
+  const MatrixXd motions = motions_left(matrices.motions, held);
+  if (body.at_rest && motions.cols() > 0) {
     const Eigen::ColPivHouseholderQR<MatrixXd> at_ports(ports * motions);
     body.rigid = MatrixXd(at_ports.householderQ()).leftCols(at_ports.rank());
     const MatrixXd moved = motions * at_ports.solve(body.rigid);
     // T moves the ports like that, but the interior lags behind its own inertia.
-    const MatrixXd inertia = shift.alpha * (matrices.mass.asDiagonal() * moved);
-    body.inertia = T.transpose() * (inertia - body.shifted * (G * inertia));
+    const MatrixXd inertia = (shift.alpha * (matrices.mass.asDiagonal() * moved))(free, Eigen::all);
+    body.inertia = T.transpose() * (inertia - A * (G * inertia));
   }
   body.matrices = std::move(matrices);
   body.ports = std::move(ports);

@@ -18,21 +18,17 @@ TEST(Stability, HasFortyScenesOfDistinctNames) {
   EXPECT_EQ(names.size(), scenes.size());
 }
 
-// Scenes for which the simulator has no answer yet, and says so.
-const std::set<std::string> known_failures{"fibres at 0.01°, stepped"};
-
 TEST(Stability, EverySceneIsSolvedOrRefusedAsItMust) {
   std::vector<StabilityResult> results;
   for (const StabilityScene& scene : stability_scenes()) {
     const StabilityResult result = run_stability_scene(scene);
     EXPECT_NE(result.outcome, StabilityOutcome::wrong) << result.name << ": " << result.reason;
     EXPECT_EQ(result.outcome == StabilityOutcome::refused, scene.refused) << result.name;
-    EXPECT_EQ(result.as_it_must, !known_failures.contains(result.name))
-        << result.name << ": " << result.reason;
+    EXPECT_TRUE(result.as_it_must) << result.name << ": " << result.reason;
     EXPECT_EQ(result.reason.empty(), result.outcome == StabilityOutcome::solved) << result.name;
     results.push_back(result);
   }
-  EXPECT_EQ(summary(results).substr(0, 2), std::to_string(results.size() - known_failures.size()));
+  EXPECT_EQ(summary(results).substr(0, 2), std::to_string(results.size()));
 }
 
 TEST(Stability, CallsAMissedAnswerWrong) {
