@@ -62,7 +62,7 @@ int bench_scene(const BenchArguments& arguments, const CommonOptions& common) {
     fmt::print("{}\n",
                (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
   }
-  return study.complete ? done : answer_is_no;
+  return study.complete && reference_is_trusted(study) ? done : answer_is_no;
 }
 
 }  // namespace havers::cli

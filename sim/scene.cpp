@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -164,6 +165,22 @@ void check_solver(const SolverOptions& solver, Checker& checker) {
                   "at least 1");
 }
 
+// Hours, and a curve that fills the memory.
+constexpr double most_steps = 1e7;
+
+// To the strain σ₁/E, about where the specimen fails.
+void check_number_of_steps(const Scene& scene, Checker& checker) {
+  if (!scene.solver.step || scene.solver.regime == Regime::quasi_static) return;
+  const double strain =
+      std::min(scene.loading.max_strain, scene.joints.head_tail / scene.material.young);
+  const double steps = strain / (scene.loading.strain_rate * *scene.solver.step);
+  if (steps > most_steps)
+    checker.say("solver.step_s",
+                fmt::format("is {:g}: a strain of {:.2g} is {:.2g} steps away", *scene.solver.step,
+                            strain, steps),
+                "leave step_s out, and the step is chosen");
+}
+
 // Needs a scene that is otherwise sound: it lays the assembly to count its joints.
 void check_thresholds(const Scene& scene, Checker& checker) {
   const std::vector<Threshold>& given = scene.joints.thresholds;
@@ -196,6 +213,7 @@ std::vector<Scene::Problem> Scene::problems() const {
   check_joints(joints, checker);
   check_loading(loading, checker);
   check_solver(solver, checker);
+  if (checker.found().empty()) check_number_of_steps(*this, checker);
   if (checker.found().empty() && !joints.thresholds.empty()) check_thresholds(*this, checker);
   return checker.found();
 }

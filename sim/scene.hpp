@@ -76,7 +76,7 @@ struct Loading {
   double strain_rate = 1000.0;  ///< ε̇. [1/s]
   Lateral lateral = Lateral::periodic;
   Start start = Start::uniform;
-  double max_strain = 0.05;  ///< The run ends here at the latest. [-]
+  double max_strain = 0.05;  ///< The run ends with the row that reaches it. [-]
   double end_fraction =
       0.3;  ///< It ends when both sides carry less than this part of the strength. [-]
 };

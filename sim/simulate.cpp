@@ -10,6 +10,7 @@
 #include "sim/joint/thresholds.hpp"
 #include "sim/outcome.hpp"
 #include "sim/quasi_static/breaking_sequence.hpp"
+#include "sim/quasi_static/intact_structure.hpp"
 #include "sim/simulation.hpp"
 
 namespace havers::sim {
@@ -68,9 +69,17 @@ std::vector<LeftOut> left_out(const Scene& scene, const Simulation& simulation) 
     list.push_back({"contact of pieces that no bonded joint connects to an end",
                     "they carry nothing, and without inertia their position is not determined"});
   }
+  if (simulation.regime == Regime::quasi_static ||
+      scene.solver.contact != ContactMethod::gauss_seidel)
+    list.push_back(
+        {"the friction problem of joints inside their cone",
+         "they hold, which is a linear condition; contact = \"gauss_seidel\" asks each"});
   if (!scene.solver.leave_out) return list;
   list.push_back({"one operator for each body", "equal bodies share theirs"});
   if (simulation.regime == Regime::quasi_static) {
+    if (intact_structure(scene)->stress_is_known())
+      list.push_back({"rounding in the joint forces of the intact specimen",
+                      "its stress is uniform, and a solve finds that to 1e-6 or better"});
     if (end_fraction_used(scene) > scene.loading.end_fraction)
       list.push_back(
           {fmt::format("the avalanche below {:g} of the strength", end_fraction_used(scene)),
@@ -81,8 +90,6 @@ std::vector<LeftOut> left_out(const Scene& scene, const Simulation& simulation) 
     list.push_back({fmt::format("time steps up to a strain of {:.4g}", simulation.leapt_strain),
                     "until the first break the motion is uniform and known"});
   if (scene.solver.contact == ContactMethod::gauss_seidel) return list;
-  list.push_back({"the friction problem of joints inside their cone",
-                  "they hold, which is a linear condition"});
   list.push_back(
       {"contact of joints that opened", "checked each step, and taken up again when they close"});
   return list;

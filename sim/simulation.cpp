@@ -39,15 +39,14 @@ std::string explain(SimulationStatus status) {
 }
 
 namespace {
-// A chosen step that could not be halved often enough is said; beyond this it is no answer. [-]
+// Change of the failure strain by the last halving of a chosen step that is still trusted. [-]
 constexpr double largest_step_error = 1e-2;
-// [-]
-constexpr double largest_energy_defect = 1e-10;
-// Pieces that swing by a hundred times what the specimen stretches leave fewer digits to forces.
-constexpr double largest_energy_defect_of_events = 1e-9;
-constexpr double largest_energy_gain = 1e-2;  // and of the stress as well [-]
-// A given step shows no error of its own; one of so much of the time to failure sees no more of
-// what happens on the way than the end. [-]
+// Relative defect of (M4) in time steps, and in the quasi-static limit, where pieces that swing by
+// a hundred times what the specimen stretches leave fewer digits to forces. [-]
+constexpr double largest_energy_defect = 1e-10, largest_energy_defect_of_events = 1e-9;
+// What a break may add to the energy stored, of that at the strength. [-]
+constexpr double largest_energy_gain = 1e-2;
+// Of the time to failure: a longer given step sees no more of the way than its end. [-]
 constexpr double longest_step = 0.1;
 
 bool steps_over_failure(const Simulation& run) {

@@ -34,8 +34,7 @@ class Watcher {
     time_ = progress.point.time;
     const double strain = progress.point.strain;
     const bool intact = progress.point.broken_joints == 0;
-    const bool bonded = run_->bonded_forces.size() == 0 &&
-                        (intact || strain_ >= bonded_strain_ || strain_ == 0.0);
+    const bool bonded = run_->bonded_forces.size() == 0 && intact;
     if (!bonded && progress.point.broken_joints == broken_) return;
     broken_ = progress.point.broken_joints;
     const std::vector<JointOutcome> joints = progress.joints();
@@ -86,6 +85,14 @@ class Watcher {
   WatchedRun* run_;
 };
 
+// The limit shows no row before the first break; until then forces are proportional to the strain.
+VectorXd bonded_forces_in_limit(const Scene& scene, double strain) {
+  if (scene.joints.missing > 0.0 ||
+      std::any_of(scene.joints.thresholds.begin(), scene.joints.thresholds.end(), is_missing))
+    return {};
+  return scene.material.young * strain * intact_structure(scene)->answer().reactions;
+}
+
 double plane_factor(const Material& material) {
   return material.plane == Plane::strain ? 1.0 / (1.0 - material.poisson * material.poisson) : 1.0;
 }
@@ -106,6 +113,8 @@ WatchedRun watch(const Scene& scene, const WatchOptions& options, const KeepGoin
   });
   run.wall = seconds();
   run.cpu = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+  if (run.simulation.regime == Regime::quasi_static)
+    run.bonded_forces = bonded_forces_in_limit(scene, options.bonded_strain);
   return run;
 }
 
@@ -119,7 +128,7 @@ double bonded_modulus(const Scene& scene) {
   return mean * material.young * plane_factor(material);
 }
 
-VectorXd uniform_stress_forces(const Scene& scene, double strain) {
+VectorXd bonded_forces_at(const Scene& scene, double strain) {
   const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
   VectorXd forces = uniform_stress_forces(assembly, strain * bonded_modulus(scene));
   if (scene.assembly.orientation != 0.0) return forces;
@@ -133,7 +142,7 @@ VectorXd uniform_stress_forces(const Scene& scene, double strain) {
 }
 
 double first_break_by_uniform_stress(const Scene& scene) {
-  const VectorXd forces = uniform_stress_forces(scene, 1.0);
+  const VectorXd forces = bonded_forces_at(scene, 1.0);
   const std::vector<Threshold> thresholds =
       draw_thresholds(scene, build_assembly(scene.assembly, scene.loading.lateral));
   const double noise = forces.size() > 0 ? 1e-12 * forces.cwiseAbs().maxCoeff() : 0.0;

@@ -15,9 +15,9 @@ using KeepGoing = std::function<bool()>;
 /// Forces are R_N and R_T of every joint.
 struct WatchedRun {
   Simulation simulation;
-  Eigen::VectorXd
-      bonded_forces;       ///< At the strain asked for; empty when a joint broke before. [N/m]
-  std::vector<int> order;  ///< Joints in the order of breaking.
+  Eigen::VectorXd bonded_forces;  ///< At the strain asked for; empty when a joint broke before, or,
+                                  ///< in the quasi-static limit, was missing. [N/m]
+  std::vector<int> order;                        ///< Joints in the order of breaking.
   std::vector<Eigen::VectorXd> forces_at_break;  ///< After the row of each break. [N/m]
   double wall = 0.0, cpu = 0.0;                  ///< [s]
   bool out_of_time = false;                      ///< Stopped at the limit.
@@ -37,7 +37,7 @@ WatchedRun watch(const Scene& scene, const WatchOptions& options, const KeepGoin
 double bonded_modulus(const Scene& scene);
 
 /// Forces of all joints: the stress of each layer is uniform (M1). [N/m]
-Eigen::VectorXd uniform_stress_forces(const Scene& scene, double strain);
+Eigen::VectorXd bonded_forces_at(const Scene& scene, double strain);
 
 /// Strain at which a joint first meets its cone under these; infinite when none ever does. [-]
 double first_break_by_uniform_stress(const Scene& scene);

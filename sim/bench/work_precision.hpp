@@ -59,7 +59,7 @@ struct WorkPrecision {
   std::string reference_ground;  ///< What the errors are measured against, in a sentence.
   double bonded_strain = 0.0;    ///< Where forces before the first break are compared. [-]
   std::vector<std::uint64_t> seeds;
-  std::vector<BenchRow> rows;
+  std::vector<BenchRow> rows;  ///< The first is the reference.
   std::vector<CheapestSetting> cheapest;
 };
 
@@ -77,6 +77,9 @@ std::vector<BenchSetting> bench_settings(const Scene& scene);
 /// Precondition: scene.problems() is empty.
 WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
                                const BenchObserver& observer = {});
+
+/// Whether all runs that errors are measured against are to be trusted.
+bool reference_is_trusted(const WorkPrecision& study);
 
 /// The outcome in a sentence.
 std::string summary(const WorkPrecision& study);

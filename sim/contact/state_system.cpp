@@ -140,17 +140,17 @@ bool StateSystem::border_factor() {
 }
 
 // What the gaps lack by what the equations lack, one value for each row.
-VectorXd StateSystem::corrected_by(const VectorXd& missing) {
+VectorXd StateSystem::corrected_by(const VectorXd& lack) {
   const auto n = static_cast<Index>(factorised_.size());
   const auto k = static_cast<Index>(borders_.size());
   VectorXd load(n), border_load(k);
-  for (Index j = 0; j < n; ++j) load(j) = missing(factorised_[static_cast<std::size_t>(j)].row);
+  for (Index j = 0; j < n; ++j) load(j) = lack(factorised_[static_cast<std::size_t>(j)].row);
   for (Index i = 0; i < k; ++i) {
     const Border& border = borders_[static_cast<std::size_t>(i)];
-    border_load(i) = border.slope ? missing(border.row) : 0.0;
+    border_load(i) = border.slope ? lack(border.row) : 0.0;
     if (!border.has_unknown) load(place_[static_cast<std::size_t>(border.row)]) = 0.0;
   }
-  VectorXd known = from_factor(load), change = VectorXd::Zero(missing.size());
+  VectorXd known = from_factor(load), change = VectorXd::Zero(lack.size());
   VectorXd added;
   if (k > 0) {
     added = complement_.solve(border_load - border_rows_ * known);
@@ -166,7 +166,7 @@ VectorXd StateSystem::corrected_by(const VectorXd& missing) {
 }
 
 // What the reactions lack in the equations, one value for each row.
-MatrixXd StateSystem::missing(const MatrixXd& r, const MatrixXd& cohesion) const {
+MatrixXd StateSystem::lacking(const MatrixXd& r, const MatrixXd& cohesion) const {
   MatrixXd b = MatrixXd::Zero(r.rows(), r.cols());
   for (const auto& [row, slope] : equations_) {
     b.row(row) = -r.row(row);
@@ -186,11 +186,11 @@ StateSolution StateSystem::solve_from(StateSolution known, const MatrixXd& r0, c
                                       const MatrixXd& cohesion, double accuracy) {
   equations_ = equations_of_states();
   if (!border_factor()) factorise();
-  const double load = missing(r0, cohesion).norm();
+  const double load = lacking(r0, cohesion).norm();
   StateSolution found = known;
   correct(found, held, cohesion, load, accuracy);
   if (borders_.empty()) return found;
-  const double lacks = missing(found.r, cohesion).norm();
+  const double lacks = lacking(found.r, cohesion).norm();
   if (lacks <= tolerated * found.r.norm() + rounding_of_gaps * scale() * found.y.norm())
     return found;
   factorise();
@@ -210,7 +210,7 @@ void StateSystem::correct(StateSolution& solution, const MatrixXd& held, const M
   }
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= corrections && !equations_.empty(); ++i) {
-    const MatrixXd b = missing(solution.r, cohesion);
+    const MatrixXd b = lacking(solution.r, cohesion);
     const double size = b.norm();
     if (size <= accuracy * load || size > shrinkage * before) break;
     before = size;

@@ -64,8 +64,8 @@ class StateSystem {
   [[nodiscard]] double scale() const;
   [[nodiscard]] double coefficient(const Equation& equation, Eigen::Index unknown) const;
   [[nodiscard]] const Eigen::VectorXd& column(Eigen::Index row);
-  [[nodiscard]] Eigen::VectorXd corrected_by(const Eigen::VectorXd& missing);
-  [[nodiscard]] Eigen::MatrixXd missing(const Eigen::MatrixXd& r,
+  [[nodiscard]] Eigen::VectorXd corrected_by(const Eigen::VectorXd& lack);
+  [[nodiscard]] Eigen::MatrixXd lacking(const Eigen::MatrixXd& r,
                                         const Eigen::MatrixXd& cohesion) const;
   void correct(StateSolution& solution, const Eigen::MatrixXd& held,
                const Eigen::MatrixXd& cohesion, double load, double accuracy);

@@ -14,7 +14,7 @@ namespace havers::sim {
 namespace {
 
 constexpr int most_halvings = 10;
-// Of a run that follows the second one, without which there is no error: seconds to a minute.
+// Of a third or later run. Two always run: their difference is the error.
 constexpr int most_steps = 4000;
 
 // From rest the motion is a shock, and without leaving out every step is taken.
@@ -26,12 +26,13 @@ bool has_ended(const Simulation& run) {
   return run.status == SimulationStatus::broken || run.status == SimulationStatus::strain_limit;
 }
 
-std::string ground_of(const Simulation& run) {
-  const std::string halved =
-      std::isnan(*run.step_error)
-          ? ""
-          : fmt::format(": halving to it changed the failure strain by {:.2g} %",
-                        100.0 * *run.step_error);
+std::string ground_of(const Simulation& run, double accuracy) {
+  std::string halved;
+  if (!std::isnan(*run.step_error))
+    halved = fmt::format(": halving to it changed the failure strain by {:.2g} %",
+                         100.0 * *run.step_error);
+  if (*run.step_error > accuracy)
+    halved += fmt::format(", more than the {:g} % asked for", 100.0 * accuracy);
   return fmt::format("; the step of {:.3g} ns is chosen{}", 1e9 * run.step, halved);
 }
 
@@ -60,7 +61,7 @@ Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer) {
     before = run.failure_strain;
     stepping.step *= 0.5;
   }
-  run.regime_ground = ground_of(run);
+  run.regime_ground = ground_of(run, scene.solver.step_accuracy);
   return run;
 }
 

@@ -177,7 +177,7 @@ bool BreakingRun::settle() {
   force_ = reference_.force +
            of_loose(intact_->answer().reactions).dot(moved) / intact_->assembly().width;
   // Where a piece swings freely, its gaps change so much that digits are lost.
-  if (careful_ || missing(reactions_).norm() > refined * intact_->answer().reactions.norm()) {
+  if (careful_ || lacking(reactions_).norm() > refined * intact_->answer().reactions.norm()) {
     refine();
     reactions_ = reference_.reactions;
     force_ = reference_.force;
@@ -206,7 +206,7 @@ VectorXd BreakingRun::of_loose(const VectorXd& of_all) const {
 }
 
 // What the loose joints' own problem lacks of their reactions.
-VectorXd BreakingRun::missing(const VectorXd& reactions) const {
+VectorXd BreakingRun::lacking(const VectorXd& reactions) const {
   return of_loose(reactions) - (contact_.r0 + contact_.S * y_);
 }
 
@@ -224,9 +224,9 @@ void BreakingRun::refine() {
   const double scale = intact_->answer().reactions.norm();
   reference_ = intact_->stretch(gaps());
   for (int i = 0; i < most_refinements; ++i) {
-    const VectorXd lacking = missing(reference_.reactions);
-    if (lacking.norm() <= refined * scale) break;
-    contact_.r0 += lacking;
+    const VectorXd lack = lacking(reference_.reactions);
+    if (lack.norm() <= refined * scale) break;
+    contact_.r0 += lack;
     const LocalContactResult found =
         or_better({.converged = true,
                    .y = answer_of_states(system_, {y_, contact_.r0 + contact_.S * y_}),

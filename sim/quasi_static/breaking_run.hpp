@@ -48,7 +48,7 @@ class BreakingRun {
   [[nodiscard]] Eigen::VectorXd gaps() const;
   [[nodiscard]] Eigen::VectorXd reactions_to(const Eigen::VectorXd& y) const;
   [[nodiscard]] Eigen::VectorXd of_loose(const Eigen::VectorXd& of_all) const;
-  [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& reactions) const;
+  [[nodiscard]] Eigen::VectorXd lacking(const Eigen::VectorXd& reactions) const;
   void refine();
   LocalContactResult or_better(LocalContactResult result);
 

@@ -26,7 +26,7 @@ Eigen::VectorXd uniform_stress_forces(const Assembly& assembly, double stress);
 class IntactStructure {
  public:
   IntactStructure(const AssemblyOptions& options, const Loading& loading, const Material& material,
-                  bool share);
+                  bool leave_out);
   IntactStructure(const IntactStructure&) = delete;
   IntactStructure& operator=(const IntactStructure&) = delete;
   ~IntactStructure();
@@ -34,9 +34,11 @@ class IntactStructure {
   [[nodiscard]] const Assembly& assembly() const { return assembly_; }
   [[nodiscard]] const Bodies& bodies() const { return bodies_; }
   [[nodiscard]] const Structure& structure() const { return structure_; }
-  /// No gaps: where layers are alike the uniform stress (M1). Its residual is that of a solve, or
-  /// how far a solve misses it where self-stress is not determined (M10).
+  /// No gaps. Its residual is that of a solve, or how far a solve misses the uniform stress where
+  /// layers are alike and self-stress is not determined (M10).
   [[nodiscard]] const UnitAnswer& answer() const { return answer_; }
+  /// Whether the uniform stress (M1), which a solve misses by rounding, stands in for it.
+  [[nodiscard]] bool stress_is_known() const { return stress_is_known_; }
   /// With given gaps at the joints. [m]
   [[nodiscard]] UnitAnswer stretch(const Eigen::VectorXd& gaps) const;
   /// ½ qᵀKq. [J/m]
@@ -67,6 +69,7 @@ class IntactStructure {
   Bodies bodies_;
   Structure structure_;
   UnitAnswer answer_;
+  bool stress_is_known_ = false;
   Eigen::VectorXd lost_;  // forces of the uniform stress that a solve does not find [N/m]
   std::vector<int> held_bodies_;
   mutable std::mutex mutex_;

@@ -49,7 +49,7 @@ void compare(const sim::Scene& scene, double strain, double size, const std::str
   const std::string problem = fmt::format("{}, h c/L = {:g}", name, size);
   const DirectAnswer direct = solve_directly(wall);
   const VectorXd exact = strain < sim::first_break_by_uniform_stress(scene)
-                             ? sim::uniform_stress_forces(scene, strain)
+                             ? sim::bonded_forces_at(scene, strain)
                              : direct.result.reactions;
   print_row(problem, fmt::format("havers, residual {:.0e}", direct.result.residual), direct.cpu,
             relative_error(direct.result.reactions, exact),

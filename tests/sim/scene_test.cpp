@@ -50,6 +50,19 @@ TEST(Scene, IsSoundByDefault) {
 }
 
 // A box around a long row that is turned holds the square of its fibres.
+TEST(Scene, RefusesAStepThatLeadsNowhere) {
+  Scene scene;
+  scene.loading.strain_rate = 1e-3;
+  scene.solver.step = 2e-8;
+  ASSERT_EQ(scene.problems().size(), 1U);
+  EXPECT_EQ(scene.problems().front().what, "is 2e-08: a strain of 0.0038 is 1.9e+08 steps away");
+  scene.solver.regime = Regime::quasi_static;  // without steps
+  EXPECT_TRUE(scene.problems().empty());
+  scene.solver.regime = Regime::dynamic;
+  scene.loading.strain_rate = 1e3;
+  EXPECT_TRUE(scene.problems().empty());
+}
+
 TEST(Scene, RefusesAGridThatIsMuchLargerThanTheSpecimen) {
   Scene scene;
   scene.assembly.layers = 1;

@@ -33,9 +33,22 @@ TEST(WatchedRun, TakesTheForcesAtTheStrainAskedFor) {
   const Scene scene = test::dynamic_scene(30.0);
   const double strain = 0.4 * first_break_by_uniform_stress(scene);
   const WatchedRun run = watch(scene, {.bonded_strain = strain}, {});
-  const Eigen::VectorXd expected = uniform_stress_forces(scene, strain);
+  const Eigen::VectorXd expected = bonded_forces_at(scene, strain);
   ASSERT_EQ(run.bonded_forces.size(), expected.size());
   EXPECT_LT((run.bonded_forces - expected).norm(), 1e-9 * expected.norm());
+}
+
+TEST(WatchedRun, TakesTheForcesOfTheLimitFromTheIntactSpecimen) {
+  for (const bool leave_out : {true, false}) {
+    Scene scene = test::small_scene(30.0);
+    scene.solver.leave_out = leave_out;
+    const Eigen::VectorXd expected = bonded_forces_at(scene, 1e-3);
+    const WatchedRun run = watch(scene, {.bonded_strain = 1e-3}, {});
+    ASSERT_EQ(run.bonded_forces.size(), expected.size());
+    EXPECT_LT((run.bonded_forces - expected).norm(), 1e-9 * expected.norm());
+    scene.joints.missing = 0.1;
+    EXPECT_EQ(watch(scene, {.bonded_strain = 1e-3}, {}).bonded_forces.size(), 0);
+  }
 }
 
 TEST(WatchedRun, ListsTheBreaksInTheirOrder) {

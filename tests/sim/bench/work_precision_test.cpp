@@ -27,6 +27,7 @@ TEST(WorkPrecision, FindsTheReferenceWithoutErrorAndTheDirectSolverExactBeforeTh
   const BenchRow& reference = study.rows.front();
   EXPECT_LT(reference.errors.bonded_forces.high, 1e-9);  // against the closed form
   EXPECT_EQ(reference.errors.failure_strain.high, 0.0);
+  EXPECT_TRUE(reference_is_trusted(study));
   for (const BenchRow& row : study.rows) {
     EXPECT_EQ(row.runs, 2);
     if (row.setting.step == 0.0) continue;  // leaps over the strain of the comparison
@@ -49,11 +50,32 @@ TEST(WorkPrecision, NamesTheCheapestSettingThatReachesATarget) {
     EXPECT_EQ(row.setting.refinement, study.reference.refinement);
     EXPECT_EQ(row.trusted, row.runs);
   }
+  EXPECT_TRUE(reference_is_trusted(study));
+  for (const BenchRow& row : study.rows)
+    if (row.setting.regime == Regime::quasi_static) {
+      EXPECT_LT(row.errors.bonded_forces.high, 1e-9);
+    }
   // The limit itself is exact.
   const auto strength =
       std::find_if(study.cheapest.begin(), study.cheapest.end(),
                    [](const auto& c) { return c.quantity == "strength" && c.target == 1e-4; });
   ASSERT_GE(strength->row, 0);
+}
+
+TEST(WorkPrecision, TakesForItsReferenceTheFinestRun) {
+  Scene scene = tiny(Regime::dynamic);
+  scene.loading.strain_rate = 1000.0;
+  scene.solver.step.reset();
+  WorkPrecision study = compare_settings(scene, {.seeds = 1});
+  Scene chosen = scene;
+  EXPECT_LE(study.reference.step, simulate(chosen).step / 4.0);
+  for (const BenchRow& row : study.rows)
+    if (row.setting.step > 0.0) {
+      EXPECT_LE(study.reference.step, row.setting.step);
+    }
+  study.rows.front().trusted = 0;
+  EXPECT_FALSE(reference_is_trusted(study));
+  EXPECT_EQ(summary(study), "The reference is not to be trusted: 0 of 1 runs ended well.");
 }
 
 TEST(WorkPrecision, EndsWhenAskedTo) {
