@@ -179,6 +179,7 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   loaded.study = std::move(read.study);
   loaded.study.specimens.clear();
   loaded.inputs = std::move(read.inputs);
+  loaded.warnings = std::move(read.warnings);
   doubt_specimens(read.specimens, loaded);
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     take_specimen(read.specimens[i], std::move(outcomes[i]), loaded);

@@ -9,9 +9,20 @@
 namespace havers::calib {
 namespace {
 
-bool searched(const CalibrateOptions& options, const ParameterInfo& info) {
-  return (options.automatic && info.automatic) ||
-         std::ranges::find(options.parameters, info.name) != options.parameters.end();
+// Sections or porosity tell at least one specimen's scatter.
+bool scatter_is_measured(const Study& study) {
+  return study.porosity.to_scatter != ToScatter::none &&
+         std::ranges::any_of(study.specimens, [](const Specimen& specimen) {
+           return specimen.porosity || !specimen.sections.empty();
+         });
+}
+
+// "auto" tries what nothing else tells.
+bool searched(const Study& study, const ParameterInfo& info) {
+  const CalibrateOptions& options = study.calibrate;
+  if (options.automatic)
+    return info.automatic && !(info.name == "scatter" && scatter_is_measured(study));
+  return std::ranges::find(options.parameters, info.name) != options.parameters.end();
 }
 
 Level level_of(const CalibrateOptions& options, const ParameterInfo& info) {
@@ -68,7 +79,7 @@ double from_search(const ParameterInfo& info, double position) {
 std::vector<Unknown> unknowns_of(const Study& study) {
   std::vector<Unknown> unknowns;
   for (const auto& info : all_parameters())
-    if (searched(study.calibrate, info)) add_groups(study, info, unknowns);
+    if (searched(study, info)) add_groups(study, info, unknowns);
   return unknowns;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -166,6 +167,44 @@ void read_calibrate(TableReader calibrate, const sim::Scene& model,
   }
 }
 
+// What a fit looks for would take the place of what a specimen's sections tell.
+void check_scatter(TableReader calibrate, const StudyFile& read) {
+  const auto& names = read.study.calibrate.parameters;
+  const auto measured = std::ranges::find_if(read.specimens, [](const SpecimenFiles& specimen) {
+    return specimen.porosity || !specimen.sections.empty();
+  });
+  if (read.study.porosity.to_scatter == calib::ToScatter::none ||
+      std::ranges::find(names, "scatter") == names.end() || measured == read.specimens.end())
+    return;
+  calibrate.complain(
+      "parameters",
+      fmt::format("names \"scatter\", which specimen {} has from its porosity", measured->id),
+      "set porosity.to_scatter = \"none\" to fit it, or leave it out of the parameters");
+}
+
+bool is_fitted(const calib::CalibrateOptions& options, const calib::ParameterInfo& info) {
+  return options.automatic
+             ? info.automatic
+             : std::ranges::find(options.parameters, info.name) != options.parameters.end();
+}
+
+// Keys that may well stand there, of a scene pasted whole or of another choice of parameters.
+std::vector<std::string> idle_keys(TableReader top, const calib::Study& study) {
+  std::vector<std::string> warnings;
+  for (const calib::ParameterInfo& info : calib::all_parameters())
+    for (const char* table : {"bounds", "level"})
+      if (!is_fitted(study.calibrate, info) && top.table("calibrate").table(table).has(info.name))
+        warnings.push_back(fmt::format("calibrate.{}.{} changes nothing: {} is not fitted", table,
+                                       info.name, info.name));
+  if (study.model.assembly.orientation != 0.0)
+    warnings.emplace_back(
+        "model.assembly.orientation_deg changes nothing: every specimen has its own");
+  int snapshots = 0;
+  if (top.table("model").table("output").key("snapshots", snapshots) && snapshots != 0)
+    warnings.emplace_back("model.output.snapshots changes nothing: a fit writes none");
+  return warnings;
+}
+
 void read_laws_file(TableReader calibrate, std::vector<calib::SweepLaw>& laws) {
   std::filesystem::path file;
   if (!calibrate.key("laws", file) || !calibrate.require_file("laws", file)) return;
@@ -221,15 +260,15 @@ StudyFile read_tables(ConfigFile& config, const std::filesystem::path& file, Fil
     joints.complain("thresholds_file",
                     "is of one assembly; a study draws thresholds for each specimen",
                     "leave it out; a scene for havers simulate may name it");
-  int snapshots = 0;  // accepted, so that a scene can be pasted whole; a fit writes none
-  model.table("output").key("snapshots", snapshots);
 
   read_porosity(top.table("porosity"), read.study.porosity);
   read_calibrate(top.table("calibrate"), read.study.model, read.study.calibrate);
+  check_scatter(top.table("calibrate"), read);
   read_laws_file(top.table("calibrate"), read.study.laws);
   read_synthesize(top.table("synthesize"), read.synthesize);
   read_reduction(top.table("reduction"), read.reduction);
   read_sections(top.table("sections"), read.sections);
+  read.warnings = idle_keys(top, read.study);
   read.inputs = config.inputs();
   return read;
 }

@@ -79,5 +79,20 @@ TEST(Unknowns, GiveAHeldOutSpecimenItsGroupWhereverItIsListed) {
   EXPECT_NEAR(*value_at(unknowns, point, info, 3), 20.0, 1e-12);
 }
 
+TEST(Unknowns, OfAutoLeaveTheScatterToWhatPorosityTells) {
+  Study study;
+  study.specimens.push_back({.id = "A"});
+  study.calibrate.automatic = true;
+  const auto tries_scatter = [&] {
+    return std::ranges::any_of(unknowns_of(study),
+                               [](const Unknown& unknown) { return unknown.label == "scatter"; });
+  };
+  EXPECT_TRUE(tries_scatter());
+  study.specimens[0].porosity = 0.05;
+  EXPECT_FALSE(tries_scatter());
+  study.porosity.to_scatter = ToScatter::none;
+  EXPECT_TRUE(tries_scatter());
+}
+
 }  // namespace
 }  // namespace havers::calib

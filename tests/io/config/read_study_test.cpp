@@ -94,7 +94,7 @@ linear_offset = 0.1
 linear_slope = 2.0
 modulus_exponent = 3.0
 [calibrate]
-parameters = ["young_GPa", "scatter"]
+parameters = ["young_GPa", "friction"]
 [calibrate.bounds]
 young_GPa = [5.0, 30]
 [calibrate.level]
@@ -151,7 +151,7 @@ section_pixels = 256
   EXPECT_EQ(file.study.porosity.modulus_exponent, 3.0);
 
   const calib::CalibrateOptions& calibrate = file.study.calibrate;
-  EXPECT_THAT(calibrate.parameters, ElementsAre("young_GPa", "scatter"));
+  EXPECT_THAT(calibrate.parameters, ElementsAre("young_GPa", "friction"));
   EXPECT_FALSE(calibrate.automatic);
   EXPECT_THAT(calibrate.bounds, ElementsAre(Pair("young_GPa", Pair(5.0, 30.0))));
   EXPECT_THAT(calibrate.level, ElementsAre(Pair("young_GPa", calib::Level::orientation)));
@@ -178,6 +178,29 @@ TEST_F(ReadStudy, TakesAutoAsTheChoiceOfParameters) {
       ElementsAre(
           "study.toml:5: calibrate.parameters: is \"all\", must be a list of names (or \"auto\": "
           "what the specimens inform)"));
+}
+
+TEST_F(ReadStudy, WarnsOfKeysThatChangeNothing) {
+  const std::string study = one_specimen + R"([model.assembly]
+orientation_deg = 45
+[model.output]
+snapshots = 3
+[calibrate]
+parameters = ["young_GPa"]
+[calibrate.bounds]
+young_GPa = [5, 30]
+ratio = [1, 2]
+[calibrate.level]
+friction = "specimen"
+)";
+  EXPECT_THAT(read(study).warnings,
+              ElementsAre("calibrate.bounds.ratio changes nothing: ratio is not fitted",
+                          "calibrate.level.friction changes nothing: friction is not fitted",
+                          "model.assembly.orientation_deg changes nothing: every specimen has its "
+                          "own",
+                          "model.output.snapshots changes nothing: a fit writes none"));
+  EXPECT_THAT(read(study, {"calibrate.parameters=auto"}).warnings, testing::SizeIs(3));
+  EXPECT_THAT(read(one_specimen + "[model.output]\nsnapshots = 0\n").warnings, IsEmpty());
 }
 
 TEST_F(ReadStudy, LetsTheCommandLineOverrideTheFile) {

@@ -79,6 +79,24 @@ TEST_F(RefusedStudy, AsksForSpecimens) {
       ElementsAre("study.toml:1: specimen: is a table, must be tables (write [[specimen]])"));
 }
 
+TEST_F(RefusedStudy, FitsNoScatterThatPorosityGives) {
+  const std::string fits_scatter = "[calibrate]\nparameters = [\"ratio\", \"scatter\"]\n";
+  const std::string sentence =
+      "calibrate.parameters: names \"scatter\", which specimen A1 has from its porosity (set "
+      "porosity.to_scatter = \"none\" to fit it, or leave it out of the parameters)";
+  for (const char* measured : {"porosity = 0.05\n", "sections = [\"s.png\"]\n"}) {
+    EXPECT_THAT(complaints(one_specimen + measured + fits_scatter),
+                ElementsAre("study.toml:6: " + sentence));
+    EXPECT_THAT(complaints(one_specimen + measured + "[porosity]\nto_scatter = \"linear\"\n" +
+                           fits_scatter),
+                ElementsAre("study.toml:8: " + sentence));
+    EXPECT_THAT(
+        complaints(one_specimen + measured + "[porosity]\nto_scatter = \"none\"\n" + fits_scatter),
+        ElementsAre());
+  }
+  EXPECT_THAT(complaints(one_specimen + fits_scatter), ElementsAre());
+}
+
 // Joints are as many as a specimen's orientation makes them, and a scene that a fit leaves would
 // name a file beside it that is not there.
 TEST_F(RefusedStudy, DrawsItsThresholds) {
