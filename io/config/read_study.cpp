@@ -92,6 +92,8 @@ std::vector<SpecimenFiles> read_specimens(TableReader& top, Files files) {
     check_specimen(table, specimen);
     if (files == Files::must_exist) check_files(table, specimen);
   }
+  if (!tables.empty() && std::ranges::count(specimens, calib::Use::fit, &SpecimenFiles::use) == 0)
+    top.complain("specimen", "none has use = \"fit\"", "a fit needs at least one that it may use");
   for (std::size_t i = 0; i < tables.size(); ++i) check_file_names(tables[i], specimens[i].id, ids);
   return specimens;
 }

@@ -79,6 +79,13 @@ TEST_F(RefusedStudy, AsksForSpecimens) {
       ElementsAre("study.toml:1: specimen: is a table, must be tables (write [[specimen]])"));
 }
 
+TEST_F(RefusedStudy, NeedsASpecimenToFit) {
+  EXPECT_THAT(
+      complaints(one_specimen + "use = \"validate\"\n"),
+      ElementsAre("study.toml:1: specimen: none has use = \"fit\" (a fit needs at least one "
+                  "that it may use)"));
+}
+
 TEST_F(RefusedStudy, FitsNoScatterThatPorosityGives) {
   const std::string fits_scatter = "[calibrate]\nparameters = [\"ratio\", \"scatter\"]\n";
   const std::string sentence =
