@@ -75,7 +75,8 @@ Check check_bounds(const CalibrationResult& result) {
       names +=
           fmt::format("{}{} = {:.4g} of [{:.4g}, {:.4g}]", names.empty() ? "" : ", ",
                       parameter.name, parameter.value, parameter.bounds[0], parameter.bounds[1]);
-  if (names.empty()) return {"inside bounds", Outcome::pass, "No parameter lies at a bound."};
+  if (names.empty())
+    return {"inside bounds", Outcome::pass, "No fitted parameter lies at a bound."};
   return {"inside bounds", Outcome::fail,
           fmt::format("At a bound: {}. Widen calibrate.bounds if the value beyond makes sense; if "
                       "not, the model "
@@ -83,18 +84,27 @@ Check check_bounds(const CalibrationResult& result) {
                       names)};
 }
 
+// What an unknown that was left out is in the answer, by its value there.
+std::string where_left(const Unknown& unknown, double position) {
+  const char* const ground = at_bound(unknown, position) ? ", a bound"
+                             : position != unknown.start ? ""
+                             : unknown.info->of_porosity ? ", the value of [porosity]"
+                                                         : ", the value of [model]";
+  return fmt::format("{:.4g}{}", from_search(*unknown.info, position), ground);
+}
+
 Check check_identifiable(const FitProblem& problem, const Answer& answer) {
   if (answer.left.empty())
     return {"identifiable", Outcome::pass, "The specimens inform every parameter asked for."};
   std::string text;
-  for (const auto& [unknown, because] : answer.left)
-    text += fmt::format("{} is left out: {}. ",
-                        problem.unknowns[static_cast<std::size_t>(unknown)].label, because);
+  for (const auto& [index, because] : answer.left) {
+    const Unknown& unknown = problem.unknowns[static_cast<std::size_t>(index)];
+    text += fmt::format("{} is left out: {}. It stays at {}. ", unknown.label, because,
+                        where_left(unknown, answer.best.point[index]));
+  }
   const bool asked = !problem.study.calibrate.automatic;
   return {"identifiable", asked ? Outcome::warn : Outcome::pass,
-          text +
-              "It keeps the value of [model] and has no interval; specimens at another orientation "
-              "may tell it." +
+          text + "What is left out has no interval; specimens at another orientation may tell it." +
               (asked ? " The intervals of the others hold wherever the specimens allow it to be."
                      : "")};
 }

@@ -1,9 +1,10 @@
 // Every check of the verdict says yes and no where it should, in words.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <set>
 
+#include "calib/fit/answer.hpp"
 #include "calib/fit/answer_checks.hpp"
 #include "calib/fit/calibrate.hpp"
 #include "tests/support/studies.hpp"
@@ -89,6 +90,27 @@ TEST(Verdict, SaysWhatIsLeftOut) {
   const auto check = check_of(test::fit(test::synthetic_study({0.0})), "identifiable");
   EXPECT_EQ(check.outcome, Outcome::warn);
   EXPECT_TRUE(says(check, "ratio is left out"));
+  EXPECT_TRUE(says(check, ", the value of [model]. What is left out")) << check.text;
+}
+
+// One parameter, of which the study's value cannot be, and which its own noise hides.
+TEST(Verdict, SaysWhereAParameterStaysThatIsLeftOut) {
+  Study study = test::synthetic_study({0.0});
+  study.calibrate.parameters = {"scatter"};
+  const FitProblem problem{.study = study, .unknowns = unknowns_of(study)};
+  Answer answer;
+  answer.left = {{0, "practically unidentifiable; kept where the fit found it"}};
+  CalibrationResult result;
+  const auto stays_at = [&](double scatter) {
+    answer.best.point = Point::Constant(1, scatter);
+    result.verdict = verdict_of(problem, answer, result);
+    return check_of(result, "identifiable").text;
+  };
+  const std::string rest = " What is left out has no interval; ";
+  EXPECT_THAT(stays_at(0.01), testing::HasSubstr("found it. It stays at 0.01, a bound." + rest));
+  EXPECT_THAT(stays_at(0.5), testing::HasSubstr("found it. It stays at 0.5." + rest));
+  EXPECT_THAT(stays_at(problem.unknowns[0].start), testing::HasSubstr(", the value of [model]."));
+  EXPECT_TRUE(says(check_of(result, "inside bounds"), "No fitted parameter"));
 }
 
 TEST(Verdict, SaysThatTwoSpecimensDoNotShowTheirSpread) {
