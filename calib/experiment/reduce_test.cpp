@@ -74,9 +74,12 @@ std::string take_modulus(MeasuredTest& test, const ReductionOptions& options, Mo
   fit = fit_modulus(std::span(test.strain).first(loading), std::span(test.stress).first(loading),
                     test.strength, options);
   if (!fit.line.fitted)
-    return fmt::format("too few rows between {:.4g} and {:.4g} MPa for a modulus",
-                       options.window_low * test.strength * MPa,
-                       options.window_high * test.strength * MPa);
+    return fmt::format(
+        "too few rows between {:.4g} and {:.4g} MPa for a modulus: "
+        "reduction.window_low and window_high put these at {:g} and {:g} of the "
+        "strength",
+        options.window_low * test.strength * MPa, options.window_high * test.strength * MPa,
+        options.window_low, options.window_high);
   if (fit.line.slope <= 0.0) return "the stress does not grow with the strain";
   test.modulus = fit.line.slope;
   test.modulus_standard_error = fit.line.slope_standard_error;

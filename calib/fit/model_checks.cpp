@@ -21,6 +21,11 @@ Check nothing_compared(const char* check) {
   return {check, Outcome::fail, "No simulation to compare with: nothing can be said."};
 }
 
+// No test is good enough for a smaller one.
+std::string chance_text(double p) {
+  return p < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p);
+}
+
 /// Between-group and within-group squares of standardised residuals of one landmark.
 struct Grouped {
   double between = 0.0, within = 0.0, specimens = 0.0;
@@ -108,16 +113,16 @@ Check check_orientations(const FitProblem& problem, const Answer& answer) {
   if (stiffness < significance)
     return {
         name, Outcome::fail,
-        fmt::format("The modulus differs between orientations more than specimens do (p = {:.1g}); "
+        fmt::format("The modulus differs between orientations more than specimens do ({}); "
                     "fibres of one "
                     "modulus, bonded, do not. Set [calibrate.level] young_GPa = \"orientation\".",
-                    stiffness)};
+                    chance_text(stiffness))};
   if (breaking < significance)
     return {name, Outcome::fail,
             fmt::format("The strength's residuals differ between orientations more than specimens "
-                        "do (p = {:.1g}): "
+                        "do ({}): "
                         "the model is rejected as it stands. See which orientation is off.",
-                        breaking)};
+                        chance_text(breaking))};
   return {name, Outcome::pass,
           fmt::format("Residuals do not differ between orientations (p = {:.2f} for the modulus, "
                       "{:.2f} for the "
@@ -141,9 +146,8 @@ std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer
   }
   const double freedom = terms - static_cast<double>(answer.active.size());
   if (freedom < 1.0) return "";
-  return fmt::format(
-      " Were they alike, chi² would be {:.3g} on {:g} degrees of freedom (p = {:.2g}).", sum,
-      freedom, gsl_cdf_chisq_Q(sum, freedom));
+  return fmt::format(" Were they alike, chi² would be {:.3g} on {:g} degrees of freedom ({}).", sum,
+                     freedom, chance_text(gsl_cdf_chisq_Q(sum, freedom)));
 }
 
 }  // namespace

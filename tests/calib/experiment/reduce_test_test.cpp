@@ -276,7 +276,8 @@ TEST(ReduceTest, SaysThatTheForceIsNegative) {
 TEST(ReduceTest, SaysWhenThereAreTooFewRows) {
   EXPECT_EQ(problem_of(record({.strain_rate = 1e-2, .rows_after_break = 4})), "9 rows are too few");
   EXPECT_EQ(problem_of(record({.strain_rate = 1e-2})),
-            "too few rows between 6 and 24 MPa for a modulus");
+            "too few rows between 6 and 24 MPa for a modulus: reduction.window_low and "
+            "window_high put these at 0.1 and 0.4 of the strength");
 }
 
 }  // namespace
