@@ -26,7 +26,7 @@ constexpr double close_enough = 0.02;
 constexpr double contradicts = 1.92;
 
 // The first of the study's start and the middle of the bounds where the simulations answer.
-bool begin(const FitProblem& problem, Trail& trail, int replicates) {
+bool find_a_start(const FitProblem& problem, Trail& trail, int replicates) {
   trail.set_replicates(replicates);
   const auto both =
       predict(problem, trail.batch(),
@@ -109,7 +109,7 @@ bool mend_left_out(Trail& trail, const Eigen::MatrixXd& jacobian, Answer& answer
   return false;
 }
 
-bool settled(const Landmarks& before, const Landmarks& now) {
+bool weights_agree(const Landmarks& before, const Landmarks& now) {
   return ((now - before).abs() <= 0.05 * now + 1e-4).all();
 }
 
@@ -139,17 +139,20 @@ void reweigh(Trail& trail, const Landmarks& effect) {
                 trail.best());
 }
 
-// All replicates from here on, at the best point of the scouts; as many as asked for or needed.
-bool settle_down(const FitProblem& problem, Trail& trail, Answer& answer) {
-  if (problem.study.calibrate.replicates == replicates_by_need) {
-    Landmarks effect = Landmarks::Zero();
-    const auto slopes = differentiate(trail, trail.best(), answer.active, slope_step);
-    if (!slopes.failed)
-      effect = specimen_effect(problem, trail.weights(), trail.best(), slopes.jacobian);
-    reweigh(trail, effect);
-    answer.replicates = replicates_needed(problem, trail.weights());
-  }
-  trail.set_replicates(answer.replicates);
+// As many as were asked for, or as the weights where the scouts ended say are needed.
+void choose_replicates(const FitProblem& problem, Trail& trail, Answer& answer) {
+  if (problem.study.calibrate.replicates != replicates_by_need) return;
+  Landmarks effect = Landmarks::Zero();
+  const auto slopes = differentiate(trail, trail.best(), answer.active, slope_step);
+  if (!slopes.failed)
+    effect = specimen_effect(problem, trail.weights(), trail.best(), slopes.jacobian);
+  reweigh(trail, effect);
+  answer.replicates = replicates_needed(problem, trail.weights());
+}
+
+// From here on, at the best point of the scouts; false where they fail there.
+bool take_all_replicates(const FitProblem& problem, Trail& trail, int replicates) {
+  trail.set_replicates(replicates);
   auto here = predict(problem, trail.batch(), {trail.best().point}, trail.replicates()).front();
   if (here.failed) return false;
   trail.restart(trail.weights(), std::move(here));
@@ -158,7 +161,7 @@ bool settle_down(const FitProblem& problem, Trail& trail, Answer& answer) {
 
 // Search, weigh anew, search again, until weights and answer agree. The first weights come from
 // where the scouts ended: without them the first search would chase what is a specimen's own.
-void refine(Trail& trail, Answer& answer) {
+void alternate_search_and_weights(Trail& trail, Answer& answer) {
   Landmarks effect = Landmarks::Zero();
   bool rough = !trail.problem().study.calibrate.smooth, polished = false;
   const auto first = differentiate(trail, trail.best(), answer.active, slope_step);
@@ -182,11 +185,13 @@ void refine(Trail& trail, Answer& answer) {
     const auto error =
         uncertainty_of(trail.problem(), trail.weights(), trail.best(), answer.active, all);
     rough = error.distance >= close_enough && !polished;
-    if (!rough && settled(before, effect) && !mend_left_out(trail, slopes.jacobian, answer)) return;
+    if (!rough && weights_agree(before, effect) && !mend_left_out(trail, slopes.jacobian, answer))
+      return;
   }
 }
 
-void look_back(Trail& trail, Answer& answer) {
+// How well the answer is known: slopes, intervals, what was left out, profiles. No budget ends it.
+void assess_answer(Trail& trail, Answer& answer) {
   answer.best = trail.best();
   answer.weights = trail.weights();
   if (trail.cancelled() || answer.active.empty()) return;
@@ -225,7 +230,8 @@ Answer solve(const FitProblem& problem, Trail& trail) {
     answer.status = CalibrationStatus::nothing_to_fit;
     return answer;
   }
-  if (!begin(problem, trail, std::min(scouting_replicates, all)) && !begin(problem, trail, all))
+  if (!find_a_start(problem, trail, std::min(scouting_replicates, all)) &&
+      !find_a_start(problem, trail, all))
     return answer;
 
   for (std::size_t k = 0; k < problem.unknowns.size(); ++k)
@@ -237,9 +243,11 @@ Answer solve(const FitProblem& problem, Trail& trail) {
     answer.starts = std::move(starts);
     answer.ends = std::move(ends);
     answer.stages = std::move(logs);
-    if (settle_down(problem, trail, answer)) refine(trail, answer);
+    choose_replicates(problem, trail, answer);
+    if (take_all_replicates(problem, trail, answer.replicates))
+      alternate_search_and_weights(trail, answer);
   }
-  look_back(trail, answer);
+  assess_answer(trail, answer);
   answer.status = status_of(trail, answer);
   return answer;
 }

@@ -62,14 +62,15 @@ struct CurveBand {
 
 /// One term of the objective for one specimen: a landmark (F4), its weight and what it costs.
 struct TermResult {
-  std::string term;         ///< name_of(Landmark).
-  double measured = 0.0;    ///< Landmark of the test.
-  double simulated = 0.0;   ///< Mean over the replicates.
-  double machine = 0.0;     ///< Standard deviations by source (F6): of the measurement,
-  double replicates = 0.0;  ///< of one draw of the model against a mean of n,
-  double scatter = 0.0;     ///< by the error of the specimen's scatter,
-  double specimens = 0.0;   ///< between specimens beyond all that.
-  double sd = 0.0;          ///< All together.
+  std::string term;        ///< name_of(Landmark).
+  double measured = 0.0;   ///< Landmark of the test. [-]
+  double simulated = 0.0;  ///< Mean over the replicates. [-]
+  // Standard deviations by source (F6). [-]
+  double machine = 0.0;     ///< Of the measurement.
+  double replicates = 0.0;  ///< Of one draw of the model against a mean of n.
+  double scatter = 0.0;     ///< By the error of the specimen's scatter.
+  double specimens = 0.0;   ///< Between specimens, beyond all that.
+  double sd = 0.0;          ///< Of all together.
   double residual = 0.0;    ///< (simulated − measured)/sd; 0 where a bound is not contradicted.
   double share = 0.0;       ///< Of the cost ½ Σ residual² of all fitted specimens. [-]
 };
@@ -82,7 +83,7 @@ struct ReplicateResult {
   double modulus = 0.0;                                  ///< [Pa]
   double strength = 0.0;                                 ///< [Pa]
   double failure_strain = 0.0;                           ///< [-]
-  double pre_peak = 0.0, energy = 0.0, post_peak = 0.0;  ///< Landmarks of the curve (F4).
+  double pre_peak = 0.0, energy = 0.0, post_peak = 0.0;  ///< Landmarks of the curve (F4). [-]
 };
 
 /// How a parameter would move without a specimen.

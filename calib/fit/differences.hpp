@@ -22,9 +22,7 @@ struct Differences {
 
 /// @param at    a copy: the trail's best point, where the slopes are often asked for, may change
 ///              while they are made.
-/// @param step  in the scale of the search; large enough to see through the replicates' noise,
-/// which makes the
-///              residuals only piecewise smooth. Cut at the bounds.
+/// @param step  in the scale of the search, as slope_step; cut at the bounds.
 Differences differentiate(Trail& trail, Evaluation at, const Active& active, double step);
 
 }  // namespace havers::calib

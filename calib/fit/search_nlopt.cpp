@@ -10,8 +10,8 @@ namespace {
 constexpr double cost_of_failure = 1e30;
 // A change of ½χ² that no test could tell; of a wide search's coarser one even less.
 constexpr double polish_cost_tolerance = 1e-3, wide_cost_tolerance = 2e-2;
-constexpr int max_points = 200, max_polish_points = 12, max_global_points = 40;  // the last two
-                                                                                 // for each unknown
+constexpr int max_points = 200;
+constexpr int max_polish_points = 12, max_global_points = 40;  // for each unknown
 
 struct Objective {
   Trail& trail;
