@@ -76,8 +76,13 @@ reports::FitReport FinishedFit::report() const {
           tests};
 }
 
-FinishedFit read_fit(const fs::path& folder) {
-  FinishedFit finished{.fit = io::read_fit_folder(folder), .overlays = {}, .tests = {}};
+fs::path folder_of_fit(const fs::path& result) {
+  return fs::is_directory(result) ? result : fs::absolute(result).parent_path();
+}
+
+FinishedFit read_fit(const fs::path& result) {
+  FinishedFit finished{.fit = io::read_fit_folder(result), .overlays = {}, .tests = {}};
+  const fs::path folder = folder_of_fit(result);
   for (const calib::SpecimenResult& specimen : finished.fit.result.specimens) {
     const std::string& id = specimen.id;
     for (std::size_t i = 0; fs::exists(folder / overlay_file(id, i)); ++i)

@@ -23,7 +23,10 @@ struct FinishedFit {
   [[nodiscard]] reports::FitReport report() const;
 };
 
-/// @throws io::InputError when the folder holds no finished fit.
-FinishedFit read_fit(const std::filesystem::path& folder);
+/// The folder of a fit that is named by itself or by its result.json.
+std::filesystem::path folder_of_fit(const std::filesystem::path& result);
+
+/// @throws io::InputError when that is no finished fit.
+FinishedFit read_fit(const std::filesystem::path& result);
 
 }  // namespace havers::cli

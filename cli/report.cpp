@@ -44,8 +44,8 @@ std::vector<FinishedFit> read_all(const std::vector<fs::path>& results) {
   std::vector<io::Problem> problems;
   for (const fs::path& path : results) {
     try {
-      folders.push_back(path.filename() == "result.json" ? fs::absolute(path).parent_path() : path);
-      fits.push_back(read_fit(folders.back()));
+      fits.push_back(read_fit(path));
+      folders.push_back(folder_of_fit(path));
     } catch (const io::InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -66,11 +66,8 @@ std::string page_of(const std::vector<FinishedFit>& fits) {
 // One result: beside it, in place of the old page. Several: into a folder of their own.
 fs::path write_page(const ReportArguments& arguments, const std::vector<FinishedFit>& fits,
                     bool force) {
-  const fs::path& first = arguments.results.front();
   if (arguments.folder.empty()) {
-    const fs::path page =
-        (first.filename() == "result.json" ? fs::absolute(first).parent_path() : first) /
-        "report.html";
+    const fs::path page = folder_of_fit(arguments.results.front()) / "report.html";
     io::write_file(page, page_of(fits));
     take_note(page.parent_path(), page.filename().string());
     return fs::absolute(page).lexically_normal();

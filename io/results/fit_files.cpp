@@ -38,7 +38,7 @@ calib::CurveBand read_band(const std::filesystem::path& file) {
 nlohmann::json read_json(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream)
-    throw InputError(file.string(), "is not there", "a folder written by havers fit has one");
+    throw InputError(file.string(), "is not there", "name a fit's folder or its result.json");
   nlohmann::json json = nlohmann::json::parse(stream);
   if (!json.is_object() || !json.contains("verdict") || !json.contains("study"))
     throw InputError(file.string(), "is not the result of a fit",
@@ -95,14 +95,20 @@ void write_measured(const std::filesystem::path& file, const calib::MeasuredTest
   write_file(file, csv_text(measured_columns, {test.strain, test.stress}));
 }
 
-FitFolder read_fit_folder(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "result.json";
+FitFolder read_fit_folder(const std::filesystem::path& folder_or_result) {
+  const bool is_folder = std::filesystem::is_directory(folder_or_result);
+  const std::filesystem::path file =
+      is_folder ? folder_or_result / "result.json" : folder_or_result;
+  const std::filesystem::path folder = file.parent_path();
   FitFolder fit;
   try {
     fit = fit_of(read_json(file));
   } catch (const nlohmann::json::exception& error) {
     throw InputError(file.string(), fmt::format("cannot be understood: {}", error.what()));
   }
+  if (!fit.result.specimens.empty() && !std::filesystem::exists(folder / "curves"))
+    throw InputError(file.string(), "has no curves beside it",
+                     "leave it in the fit's folder, or copy curves with it");
   for (calib::SpecimenResult& specimen : fit.result.specimens) read_curves(folder, specimen);
   for (calib::Specimen& specimen : fit.study.specimens) {
     const auto found =

@@ -79,6 +79,8 @@ struct FitFolder {
   calib::CalibrationResult result;
   Provenance provenance;
 };
-FitFolder read_fit_folder(const std::filesystem::path& folder);
+/// Of a fit's folder or its result.json, whatever its name, with curves/ beside it.
+/// @throws InputError where these are not there, or not of a fit.
+FitFolder read_fit_folder(const std::filesystem::path& folder_or_result);
 
 }  // namespace havers::io

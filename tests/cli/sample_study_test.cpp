@@ -56,6 +56,14 @@ TEST(SampleStudy, FindsTheTruthAgainAndIsTrusted) {
   const std::string both = test::read_text(folder / "both/report.html");
   for (const char* name : {"out (six bone bars)", "out_2 (six bone bars)"})
     EXPECT_NE(both.find(name), std::string::npos) << "fits of one study are told apart";
+  fs::copy_file(folder / "out/result.json", folder / "out/A.json");
+  fs::copy_file(folder / "out/result.json", folder / "alone.json");
+  EXPECT_EQ(run_havers(folder, "report out/A.json -o copy").exit_code, 0);
+  const auto alone = run_havers(folder, "report alone.json -o none");
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_EQ(alone.err,
+            "havers: alone.json: has no curves beside it (leave it in the fit's folder, or copy "
+            "curves with it)\n");
   const auto refused = run_havers(folder, "report out --set study.name=other");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.err.find("--set study.name=other: sets nothing"), std::string::npos);

@@ -152,7 +152,7 @@ std::string refusal(const test::ScratchFolder& folder) {
 TEST(FitFolder, SaysWhatIsWrongWithAFolder) {
   const test::ScratchFolder folder;
   EXPECT_THAT(refusal(folder),
-              HasSubstr("result.json: is not there (a folder written by havers fit has one)"));
+              HasSubstr("result.json: is not there (name a fit's folder or its result.json)"));
   folder.write("result.json", "{ \"verdict\": ");
   EXPECT_THAT(refusal(folder), HasSubstr("result.json: cannot be understood: "));
   folder.write("result.json", R"({"status": "broken"})");
