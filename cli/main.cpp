@@ -3,17 +3,21 @@
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/version.hpp"
+#include "io/config/nearest.hpp"
 #include "io/input_error.hpp"
 
 namespace havers::cli {
@@ -37,11 +41,32 @@ std::string typed(int argc, char** argv) {
   return text;
 }
 
+// The first word or option that nothing knows, with what may be meant; empty where all are known.
+std::string unknown_word(const CLI::App& app) {
+  const std::vector<CLI::App*> commands = app.get_subcommands();
+  const CLI::App& used = commands.empty() ? app : *commands.front();
+  const std::vector<std::string> rest = used.remaining();
+  const auto is_option = [](const std::string& word) { return word.starts_with("-"); };
+  const auto option = std::ranges::find_if(rest, is_option);
+  std::set<std::string, std::less<>> known;
+  if (option != rest.end()) {
+    for (const CLI::Option* one : used.get_options())
+      for (const std::string& name : one->get_lnames()) known.insert("--" + name);
+    const std::string hint = io::did_you_mean(option->substr(0, option->find('=')), known);
+    return fmt::format("{} is no option of {}{}", *option, used.get_name(),
+                       hint.empty() ? "" : ", " + hint);
+  }
+  if (rest.empty() || !commands.empty()) return "";
+  for (const CLI::App* command : app.get_subcommands({})) known.insert(command->get_name());
+  return fmt::format("{} is no command, {}", rest.front(), io::nearest_or_all(rest.front(), known));
+}
+
 // CLI11 answers -h and --version through exceptions too; those are successes.
 int answer(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);
+  const std::string unknown = unknown_word(app);
   fmt::print(stderr, "havers: {} (havers -h and havers COMMAND -h show how it is used)\n",
-             error.what());
+             unknown.empty() ? error.what() : unknown);
   return bad_input;
 }
 

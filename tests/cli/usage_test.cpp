@@ -105,6 +105,25 @@ TEST(Usage, MistakesInTheCommandLineAreOneLineAndExitTwo) {
   }
 }
 
+TEST(Usage, WordsThatNothingKnowsAreNamedWithTheNearest) {
+  const auto folder = own_folder();
+  const std::string usage = " (havers -h and havers COMMAND -h show how it is used)\n";
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"simulat x", "simulat is no command, did you mean simulate?"},
+      {"frob",
+       "frob is no command, known are bench, check, fit, import, porosity, report, simulate, "
+       "sweep, synthesize"},
+      {"check a.toml --sed 3", "--sed is no option of check, did you mean --seed?"},
+      {"fit a.toml --outptu=b", "--outptu=b is no option of fit, did you mean --output?"},
+      {"--verison", "--verison is no option of havers, did you mean --version?"},
+      {"check a.toml --frobnicate", "--frobnicate is no option of check"}};
+  for (const auto& [arguments, sentence] : wrong) {
+    const auto answer = run_havers(folder, arguments);
+    EXPECT_EQ(answer.exit_code, 2);
+    EXPECT_EQ(answer.err, "havers: " + sentence + usage);
+  }
+}
+
 TEST(Usage, NumbersThatCannotBeAreNamedWithTheRule) {
   const auto folder = own_folder();
   const std::string usage = " (havers -h and havers COMMAND -h show how it is used)\n";
