@@ -42,11 +42,11 @@ CLI::Validator count(int most) {
 
 CLI::Validator seed_number() {
   const auto complaint = [](const std::string& text) -> std::string {
-    std::uint64_t value = 0;
+    std::int64_t value = 0;  // as far as a study's and a scene's seed go, in TOML
     const char* const end = text.data() + text.size();
     const auto read = std::from_chars(text.data(), end, value);
-    const bool good = read.ec == std::errc{} && read.ptr == end;
-    return good ? "" : fmt::format("is {}, must be a whole number from 0 to 2^64 - 1", text);
+    const bool good = read.ec == std::errc{} && read.ptr == end && value >= 0;
+    return good ? "" : fmt::format("is {}, must be a whole number from 0 to 2^63 - 1", text);
   };
   return {complaint, "NUMBER"};
 }

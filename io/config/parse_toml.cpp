@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <string_view>
 #include <utility>
 
 #include "io/input_error.hpp"
@@ -25,6 +27,13 @@ toml::table parse_file(const std::filesystem::path& file) {
   }
 }
 
+// TOML's whole numbers have 64 bits with their sign.
+bool has_too_many_digits(std::string_view text) {
+  std::int64_t number = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  return read.ec == std::errc::result_out_of_range && read.ptr == text.data() + text.size();
+}
+
 // "joints.scatter=0.3" as a table; its nodes name "--set joints.scatter" as their source.
 toml::table parse_override(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -37,8 +46,11 @@ toml::table parse_override(const std::string& text) {
   } catch (const toml::parse_error&) {
     // Not a TOML value, so perhaps a bare word: the shell has eaten its quotes, if it ever had any.
   }
+  const std::string value = text.substr(equals + 1);
+  if (has_too_many_digits(value))
+    throw InputError(source, fmt::format("is {}, must be at most 2^63 - 1", value));
   try {
-    return toml::parse(fmt::format("{} = '{}'", key, text.substr(equals + 1)), source);
+    return toml::parse(fmt::format("{} = '{}'", key, value), source);
   } catch (const toml::parse_error& error) {
     throw InputError(source, fmt::format("is not TOML: {}", error.description()),
                      "write --set joints.scatter=0.3");

@@ -230,6 +230,10 @@ TEST_F(ReadScene, BlamesTheCommandLineForWhatItOverrides) {
                   "--set joints.scatter: is 3, must be at least 0 and below 2 (the length of the "
                   "interval of threshold factors)",
                   "--set joints.frction: is not a known key (did you mean friction?)"));
+  EXPECT_THAT(complaints("", {"joints.seed=18446744073709551615"}),
+              ElementsAre("--set joints.seed: is 18446744073709551615, must be at most 2^63 - "
+                          "1"));
+  EXPECT_THAT(complaints("", {"joints.seed=9223372036854775807"}), ElementsAre());
   EXPECT_THAT(complaints("", {"joints.scatter", "=3"}),
               ElementsAre("--set joints.scatter: has no value (write --set joints.scatter=0.3)",
                           HasSubstr("--set : is not TOML")));
