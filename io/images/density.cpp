@@ -1,6 +1,7 @@
 #include "io/images/density.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "io/images/masks.hpp"
 #include "io/input_error.hpp"
@@ -10,6 +11,7 @@ namespace havers::images {
 void add_density(const cv::Mat& whole, const cv::Mat& bone_grey, const PoreMap& map,
                  const std::vector<io::DensityReference>& references,
                  calib::SectionPorosity& section) {
+  section.density_residual = std::numeric_limits<double>::quiet_NaN();
   if (references.empty()) return;
   const cv::Rect image({}, whole.size());
   std::vector<double> grey, density;

@@ -20,7 +20,7 @@ namespace {
 void check_file(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file))
     throw io::InputError(file.string(), "there is no such file",
-                         "check the path; it is relative to the study");
+                         "check the path; a study's are relative to its folder");
   if (std::filesystem::is_directory(file))
     throw io::InputError(file.string(), "is a folder, not an image", "name the images in it");
   if (std::filesystem::file_size(file) == 0)
@@ -129,7 +129,8 @@ cv::Mat to_grey(const cv::Mat& image, const std::string& name) {
   }
 }
 
-cv::Mat read_mask(const std::filesystem::path& file, cv::Size size) {
+cv::Mat read_mask(const std::filesystem::path& file, cv::Size size,
+                  std::vector<std::string>& warnings) {
   cv::Mat mask = read_pages(file).front();
   if (mask.size() != size)
     throw io::InputError(file.string(),
@@ -142,6 +143,12 @@ cv::Mat read_mask(const std::filesystem::path& file, cv::Size size) {
   cv::minMaxLoc(mask, nullptr, &highest);
   if (highest == 0.0)
     throw io::InputError(file.string(), "the mask marks nothing", "paint the bone white");
+  const double grey = cv::countNonZero((mask > 0.1 * highest) & (mask < 0.9 * highest));
+  if (const double part = grey / size.area(); part > 0.05)  // more than the blur of its edges
+    warnings.push_back(fmt::format(
+        "{:.0f} % of the mask {} are neither black nor white: what is brighter than half of its "
+        "brightest is taken for bone",
+        100.0 * part, file.string()));
   return mask > 0.5 * highest;
 }
 

@@ -18,8 +18,10 @@ std::vector<cv::Mat> read_pages(const std::filesystem::path& file);
 cv::Mat to_grey(const cv::Mat& image, const std::string& name);
 
 /// Reads a mask of the given size: 255 where the file is brighter than half its own range.
+/// Much grey in it is a warning.
 /// @throws io::InputError when it cannot be read, is of another size, or marks nothing.
-cv::Mat read_mask(const std::filesystem::path& file, cv::Size size);
+cv::Mat read_mask(const std::filesystem::path& file, cv::Size size,
+                  std::vector<std::string>& warnings);
 
 /// Size of a copy whose longer side is at most `side` pixels.
 cv::Size fitted(cv::Size size, int side);

@@ -135,8 +135,9 @@ std::string method_of(io::Threshold threshold) {
   return "half-maximum after flat field, corrected for blur";
 }
 
-Regions regions_of(const cv::Mat& whole, const io::SectionOptions& options) {
-  if (options.mask) return divide(whole, read_mask(*options.mask, whole.size()), options.pores);
+Regions regions_of(const cv::Mat& whole, const io::SectionOptions& options, Warnings& warnings) {
+  if (options.mask)
+    return divide(whole, read_mask(*options.mask, whole.size(), warnings), options.pores);
   if (options.fills_image)
     return divide(whole, cv::Mat(whole.size(), CV_8U, cv::Scalar(255)), options.pores);
   return divide(whole, options.pores);
@@ -146,7 +147,8 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
                                     const io::SectionOptions& options) {
   const cv::Mat whole = to_grey(image, name);
   image.release();
-  Regions regions = regions_of(whole, options);
+  Warnings warnings;
+  Regions regions = regions_of(whole, options, warnings);
   const cv::Mat grey = whole(regions.box);
   Depth depth{.levels = bone_levels(grey, regions)};
   cv::Mat bone = find_bone(grey, regions, depth);
@@ -164,10 +166,10 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
   measured.porosity.file = name;
   measured.porosity.method = method_of(options.threshold);
   add_density(whole, grey, map, options.density, measured.porosity);
-  Warnings& warnings = measured.porosity.warnings;
   warn_of_bone(map, regions.outlined, whole.size(), options, warnings);
   warn_of_side(map, !regions.outlined || map.dark == regions.dark_pores, options.pores, warnings);
   warn_of_objects(map, measured.porosity, warnings);
+  measured.porosity.warnings = std::move(warnings);
   if (!options.pictures) return measured;
   measured.overlay_png = draw_overlay(whole, map, regions.box);
   measured.histogram = histogram_of(depth, map);

@@ -104,7 +104,10 @@ TEST(ImageFile, WithAnImplausiblePixelSizeIsMeasuredIfThatIsMeant) {
 }
 
 TEST(ImageFile, ThatIsMissingIsNamed) {
-  expect_contains(complaint("nowhere/section.png"), "nowhere/section.png: there is no such file");
+  expect_contains(
+      complaint("nowhere/section.png"),
+      "nowhere/section.png: there is no such file (check the path; a study's are relative to "
+      "its folder)");
 }
 
 TEST(ImageFile, ThatIsAFolderIsNamed) {
@@ -128,6 +131,25 @@ TEST(ImageFile, OfOneGreyLevelIsNamed) {
 TEST(ImageFile, WithAnImplausiblePixelSizeIsNamed) {
   for (const double size : {0.05e-6, 201e-6, -1e-6, 0.0})
     expect_contains(complaint("unread.png", {.pixel_size = size}), "is outside 0.1 to 200 µm");
+}
+
+// As when the section itself is given for its mask.
+TEST(Mask, ThatIsGreyIsDoubted) {
+  const cv::Mat section = test::draw({}).image;
+  const auto image = test::write(section, "whole.png");
+  const cv::Mat sharp = section > 128;
+  cv::Mat blurred;
+  cv::GaussianBlur(sharp, blurred, {}, 1.0);
+  for (const auto& [mask, doubted] : {std::pair(section, true), std::pair(blurred, false)}) {
+    const auto warnings =
+        measure_sections(image, {.mask = test::write(mask, "mask.png")}).front().porosity.warnings;
+    EXPECT_EQ(std::ranges::any_of(warnings,
+                                  [](const std::string& warning) {
+                                    return warning.find("neither black nor white") !=
+                                           std::string::npos;
+                                  }),
+              doubted);
+  }
 }
 
 TEST(Mask, ThatIsWrongIsNamed) {

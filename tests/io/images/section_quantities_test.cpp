@@ -76,6 +76,8 @@ TEST(SectionQuantities, ReadsDensityFromMaterialsOfKnownOne) {
   const DensityReference between{.grey = 127.5, .density = 980.0};
   const auto measured = quantities(drawn, "residual.png", {.density = {air, bone, between}});
   EXPECT_NEAR(measured.density_residual, std::sqrt(200.0), 1e-6);
+  const auto without = quantities(drawn, "no_reference.png", {});
+  EXPECT_TRUE(std::isnan(without.density) && std::isnan(without.density_residual));
 }
 
 }  // namespace
