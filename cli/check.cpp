@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -21,6 +22,12 @@ constexpr const char* check_examples =
     "  havers check data_samples/scenes/impact.toml --json\n"
     "  havers check data_samples/paper/R5_rates.toml\n";
 
+enum class Kind { scene, study, sweep };
+
+std::string_view name_of(Kind kind) {
+  return std::array{"scene", "study", "sweep"}.at(static_cast<std::size_t>(kind));
+}
+
 // Looked for as text, so that a file with a syntax error is told apart as well.
 bool has_table(const std::filesystem::path& file, std::string_view table) {
   std::ifstream in(file);
@@ -29,35 +36,45 @@ bool has_table(const std::filesystem::path& file, std::string_view table) {
   return false;
 }
 
-// Only a study has specimens.
-bool is_study(const std::filesystem::path& file) {
-  return has_table(file, "[[specimen]]") || has_table(file, "[study]");
+// Only a study has specimens; every key of a scene has a default, so that nothing is one.
+Kind kind_of(const std::filesystem::path& file) {
+  if (has_table(file, "[[specimen]]") || has_table(file, "[study]")) return Kind::study;
+  return has_table(file, "[sweep") ? Kind::sweep : Kind::scene;
 }
 
 struct Findings {
+  Kind kind{};
   std::vector<io::Problem> problems;
   std::vector<std::string> warnings;
 };
 
 Findings look_at(const std::filesystem::path& file, const io::Overrides& overrides) {
+  Findings findings{.kind = kind_of(file), .problems = {}, .warnings = {}};
   try {
-    if (is_study(file)) return {.problems = {}, .warnings = load_study(file, overrides).warnings};
-    if (has_table(file, "[sweep"))
-      io::read_sweep(file, overrides);
-    else
-      io::read_scene(file, overrides);
-    return {};
+    switch (findings.kind) {
+      case Kind::study:
+        findings.warnings = load_study(file, overrides).warnings;
+        break;
+      case Kind::sweep:
+        io::read_sweep(file, overrides);
+        break;
+      case Kind::scene:
+        io::read_scene(file, overrides);
+    }
   } catch (const io::InputError& error) {
-    return {.problems = error.problems(), .warnings = {}};
+    findings.problems = error.problems();
   }
+  return findings;
 }
 
 void print_json(const std::filesystem::path& file, const Findings& findings) {
   nlohmann::json problems = nlohmann::json::array();
   for (const io::Problem& problem : findings.problems)
     problems.push_back({{"where", problem.where}, {"what", problem.what}, {"hint", problem.hint}});
-  const nlohmann::json all{
-      {"file", file.string()}, {"problems", problems}, {"warnings", findings.warnings}};
+  const nlohmann::json all{{"file", file.string()},
+                           {"kind", name_of(findings.kind)},
+                           {"problems", problems},
+                           {"warnings", findings.warnings}};
   fmt::print("{}", io::json_text(all));
 }
 
@@ -69,7 +86,7 @@ int run_check(const std::filesystem::path& file, const CommonOptions& common) {
   }
   if (!findings.problems.empty()) throw io::InputError(findings.problems);
   for (const std::string& warning : findings.warnings) fmt::print("note: {}\n", warning);
-  fmt::print("no problems\n");
+  fmt::print("no problems in this {}\n", name_of(findings.kind));
   return done;
 }
 

@@ -192,8 +192,10 @@ bool TableReader::key(std::string_view name, std::vector<std::filesystem::path>&
 
 bool TableReader::require_file(std::string_view name, const std::filesystem::path& file) {
   const bool there = std::filesystem::is_regular_file(file);
+  const bool named = file.has_filename();  // beside() has added nothing else to the folder
   if (there) file_->inputs_.push_back(file);
-  if (!there)
+  if (!named) complain(name, "is empty, must name a file");
+  if (named && !there)
     complain(name, fmt::format("names {}, which is not there", file.string()),
              "paths are relative to the folder of this file");
   return there;

@@ -74,7 +74,7 @@ TEST(Check, SaysWhatAStudyLeavesOutAndTakesTwice) {
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("specimen B0 has no orientation_deg"));
   EXPECT_THAT(answer.out, HasSubstr("specimens B0 and B90 have the same test"));
-  EXPECT_EQ(run_havers(folder, "check made/study.toml").out, "no problems\n");
+  EXPECT_EQ(run_havers(folder, "check made/study.toml").out, "no problems in this study\n");
 
   const auto made = run_havers(folder, "synthesize made/doubtful.toml -o again");
   EXPECT_EQ(made.exit_code, 2);

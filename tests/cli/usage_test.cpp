@@ -193,7 +193,11 @@ TEST(Check, SaysNoProblemsOrAllOfThem) {
                    "[assembly]\nlayer = 3\nfibres = \"many\"\n[joints]\nscatter = 2.5\n");
   auto answer = run_havers(folder, "check good.toml");
   EXPECT_EQ(answer.exit_code, 0);
-  EXPECT_EQ(answer.out, "no problems\n");
+  EXPECT_EQ(answer.out, "no problems in this scene\n");
+  test::write_text(folder / "empty.toml", "");
+  EXPECT_EQ(run_havers(folder, "check empty.toml").out, "no problems in this scene\n");
+  answer = run_havers(folder, "check empty.toml --json");
+  EXPECT_EQ(nlohmann::json::parse(answer.out).at("kind"), "scene");
 
   answer = run_havers(folder, "check bad.toml");
   EXPECT_EQ(answer.exit_code, 2);

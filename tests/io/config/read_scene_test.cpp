@@ -239,6 +239,11 @@ TEST_F(ReadScene, BlamesTheCommandLineForWhatItOverrides) {
                           HasSubstr("--set : is not TOML")));
 }
 
+TEST_F(ReadScene, NeedsANameOfAFile) {
+  EXPECT_THAT(complaints("[joints]\nthresholds_file = \"\"\n"),
+              ElementsAre("scene.toml:2: joints.thresholds_file: is empty, must name a file"));
+}
+
 TEST_F(ReadScene, ReadsThresholdsBesideIt) {
   folder.write("sub/joints.csv", "f_T,joint,f_N\n4,1,3\n2,0,1\n");
   const std::string text = "[assembly]\nlayers = 1\nfibres = 1\n[joints]\nthresholds_file = \"sub/";
