@@ -64,9 +64,10 @@ Check check_confirmation(const CalibrationResult& result) {
     wave = std::max(wave, one.peak_in_time / one.strength_in_time - 1.0);
   }
   if (result.confirmations.empty())
-    return {name, Outcome::pass,
-            "Not asked for, or simulated in time anyhow: calibrate.options.confirm = 3 simulates "
-            "three replicates step by step in time."};
+    return {
+        name, Outcome::pass,
+        "Not checked: not asked for, or simulated in time anyhow; calibrate.options.confirm = 3 "
+        "simulates three replicates step by step in time."};
   if (compared == 0)
     return {name, Outcome::warn, "Every simulation in time failed: the limit stands unconfirmed."};
   const std::string text = fmt::format(

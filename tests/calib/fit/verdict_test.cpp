@@ -7,6 +7,7 @@
 #include "calib/fit/answer.hpp"
 #include "calib/fit/answer_checks.hpp"
 #include "calib/fit/calibrate.hpp"
+#include "calib/fit/model_checks.hpp"
 #include "tests/support/studies.hpp"
 
 namespace havers::calib {
@@ -141,7 +142,11 @@ TEST(Verdict, CountsFailedSimulations) {
 TEST(Verdict, SaysThatAHeldOutSpecimenIsOff) {
   auto study = test::synthetic_study(test::three_orientations);
   study.specimens[0].use = Use::validate;
-  EXPECT_EQ(check_of(test::fit(study), "held-out specimens").outcome, Outcome::pass);
+  const auto fitted = test::fit(study);
+  EXPECT_EQ(check_of(fitted, "held-out specimens").outcome, Outcome::pass);
+  EXPECT_FALSE(says(check_of(fitted, "held-out specimens"), "Not checked"));
+  EXPECT_TRUE(says(check_of(fitted, "confirmed in time"), "Not checked: "));
+  EXPECT_TRUE(says(check_validation({}), "Not checked: "));
   study.specimens[0].test = test::straight_test(14e9, 90e6);
   const auto check = check_of(test::fit(study), "held-out specimens");
   EXPECT_EQ(check.outcome, Outcome::fail);
