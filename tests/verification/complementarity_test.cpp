@@ -2,14 +2,16 @@
 // combination of states tried (stick, slip either way, open). Status for status.
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <random>
 
 #include "sim/contact/active_set.hpp"
 #include "sim/contact/gauss_seidel.hpp"
 #include "tests/sim/contact/enumerated_contact.hpp"
+#include "tests/sim/structure/dense_structure.hpp"
 #include "tests/support/bonded_wall.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace havers::sim {
 namespace {
@@ -18,26 +20,18 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// r = S (u − u_free), S = W⁻¹ and W = H Ā⁻¹ Hᵀ.
-LocalContact dense_problem(const test::WallStep& wall, double h) {
-  const Index n = wall.bodies.dofs();
-  MatrixXd A(n, n);
-  for (Index i = 0; i < n; ++i) A.col(i) = wall.bodies.stiffness_times(VectorXd::Unit(n, i));
-  A.diagonal() += wall.bodies.mass() / (h * h);
+// r = S (u − u_free), S = (C A⁻¹ Cᵀ)⁻¹ without the ties, which hold whatever the joints do.
+LocalContact dense_problem(const test::WallStep& wall, const Material& material, double h) {
+  const test::DenseStructure dense(wall.assembly, material, {1.0 / (h * h), 1.0});
   std::vector<Index> free;
-  for (Index i = 0; i < n; ++i)
-    if (wall.bodies.held()[static_cast<std::size_t>(i)] == 0) free.push_back(i);
-  const auto rows = static_cast<Index>(2 * wall.step.laws.size());
-  MatrixXd H(rows, static_cast<Index>(free.size()));
-  VectorXd g(H.cols());
-  for (Index k = 0; k < H.cols(); ++k) {
-    const Index dof = free[static_cast<std::size_t>(k)];
-    H.col(k) = joint_gaps(wall.bodies, VectorXd::Unit(n, dof));
-    g(k) = wall.step.forces(dof);
-  }
-  const MatrixXd inverse = MatrixXd(A(free, free)).inverse();
-  const MatrixXd S = MatrixXd(H * inverse * H.transpose()).inverse();
-  return {S, -(S * (H * (inverse * g))), VectorXd::Zero(rows), wall.step.laws};
+  for (std::size_t i = 0; i < dense.held.size(); ++i)
+    if (dense.held[i] == 0) free.push_back(static_cast<Index>(i));
+  const auto joints = static_cast<Index>(2 * wall.step.laws.size());
+  const MatrixXd C = dense.C(Eigen::all, free);
+  const Eigen::LDLT<MatrixXd> A(MatrixXd(dense.A(free, free)));
+  const MatrixXd S = MatrixXd(C * A.solve(C.transpose())).inverse();  // of joints and ties
+  const VectorXd r0 = -S * (C * A.solve(VectorXd(wall.step.forces(free))));
+  return {S.topLeftCorner(joints, joints), r0.head(joints), VectorXd::Zero(joints), wall.step.laws};
 }
 
 // Random forces on a stretched wall, every second joint broken before.
@@ -65,21 +59,36 @@ Status status_of(const Local& gap, double size) {
 
 struct Wall {
   int layers, fibres;
+  double degrees;
+  Lateral lateral;
 };
 
-class SmallWall : public testing::TestWithParam<std::tuple<Wall, unsigned>> {};
-INSTANTIATE_TEST_SUITE_P(WallAndLoad, SmallWall,
-                         testing::Combine(testing::Values(Wall{2, 1}, Wall{1, 4}, Wall{1, 7},
-                                                          Wall{2, 2}),
-                                          testing::Range(1U, 9U)));
+class SmallWall : public testing::TestWithParam<std::tuple<Wall, double, unsigned>> {};
+INSTANTIATE_TEST_SUITE_P(
+    WallStepAndLoad, SmallWall,
+    testing::Combine(
+        testing::Values(Wall{2, 1, 0.0, Lateral::free}, Wall{1, 4, 0.0, Lateral::free},
+                        Wall{2, 1, 0.0, Lateral::periodic}, Wall{2, 2, 0.0, Lateral::periodic},
+                        Wall{1, 2, 30.0, Lateral::free}, Wall{1, 2, 30.0, Lateral::periodic},
+                        Wall{1, 2, 90.0, Lateral::free}, Wall{1, 2, 90.0, Lateral::periodic}),
+        testing::Values(1e-2, 0.3, 1.0, 10.0), testing::Range(1U, 4U)));
+
+// Turned fibres are short, so that few joints are left of them.
+Scene scene_of(const Wall& size) {
+  Scene scene = test::wall(size.layers, size.fibres, size.lateral);
+  scene.assembly.orientation = size.degrees * test::degree;
+  if (size.degrees != 0.0) scene.assembly.fibre_height = 0.5 * scene.assembly.fibre_length;
+  return scene;
+}
 
 TEST_P(SmallWall, IsSolvedAsByEnumerationStatusForStatus) {
-  const auto [size, seed] = GetParam();
-  const Scene scene = test::wall(size.layers, size.fibres, Lateral::free);
-  const double h = test::step_of(scene, 0.3);
+  const auto [size, length, seed] = GetParam();
+  const Scene scene = scene_of(size);
+  const double h = test::step_of(scene, length);
   test::WallStep wall(scene, 0.0042, h);
+  ASSERT_LE(wall.step.laws.size(), 8U);
   disturb(wall, seed);
-  LocalContact problem = dense_problem(wall, h);
+  LocalContact problem = dense_problem(wall, scene.material, h);
   const double force = problem.r0.lpNorm<Eigen::Infinity>();
   const double gap = force / problem.S.diagonal().maxCoeff();
   problem.S *= gap / force;  // in units of 1, as the enumeration expects
@@ -91,6 +100,7 @@ TEST_P(SmallWall, IsSolvedAsByEnumerationStatusForStatus) {
   ActiveSetSolver active_set(wall.bodies, 10000);
   GaussSeidelSolver gauss_seidel(wall.bodies, 1e-10, 100000);
   for (JointSolver* solver : std::initializer_list<JointSolver*>{&active_set, &gauss_seidel}) {
+    if (solver == &gauss_seidel && length > 1.0) continue;  // it is for short steps
     const JointStepResult result = solver->solve(wall.step);
     ASSERT_TRUE(result.converged);
     const VectorXd found = result.gaps / gap;

@@ -1,0 +1,101 @@
+// What a run leaves out and how closely its solver is held change its cost, not its answer.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "sim/simulation.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+std::vector<std::size_t> broken_list(const Simulation& run) {
+  std::vector<std::size_t> list;
+  for (std::size_t j = 0; j < run.joints.size(); ++j)
+    if (run.joints[j].broken) list.push_back(j);
+  return list;
+}
+
+// Curves as far as both go.
+void expect_same_curve(const Simulation& one, const Simulation& other) {
+  for (std::size_t i = 0; i < std::min(one.curve.size(), other.curve.size()); ++i) {
+    const CurvePoint &a = one.curve[i], &b = other.curve[i];
+    EXPECT_NEAR(a.strain, b.strain, 1e-9 * one.failure_strain) << "row " << i;
+    EXPECT_NEAR(a.stress_right, b.stress_right, 1e-9 * one.strength) << "row " << i;
+    EXPECT_NEAR(a.stress_left, b.stress_left, 1e-9 * one.strength) << "row " << i;
+    EXPECT_EQ(a.broken_joints, b.broken_joints) << "row " << i;
+  }
+  EXPECT_NEAR(one.strength / other.strength, 1.0, 1e-9);
+  EXPECT_NEAR(one.failure_strain / other.failure_strain, 1.0, 1e-9);
+}
+
+class SameRun : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Orientation, SameRun, testing::Values(0.0, 45.0));
+
+TEST_P(SameRun, InTimeWhenNothingIsLeftOut) {
+  for (const double step : {2e-9, 2e-8}) {
+    Scene scene = test::dynamic_scene(GetParam(), step);
+    const Simulation quick = simulate(scene);
+    scene.solver.leave_out = false;
+    const Simulation all = simulate(scene);
+    EXPECT_GT(quick.broken_joints, 0);
+    EXPECT_GT(quick.left_out.size(), all.left_out.size());
+    EXPECT_EQ(quick.curve.size(), all.curve.size());
+    EXPECT_EQ(broken_list(quick), broken_list(all));
+    expect_same_curve(quick, all);
+  }
+}
+
+// A run that leaves out the end of its avalanche has broken what the whole one had by then.
+TEST_P(SameRun, InTheQuasiStaticLimitAsFarAsItGoes) {
+  for (const double scatter : {0.2, 1.0}) {
+    Scene scene = test::small_scene(GetParam(), 8, 5);
+    scene.joints.scatter = scatter;
+    const Simulation quick = simulate(scene);
+    scene.solver.leave_out = false;
+    std::vector<std::size_t> by_then;
+    const Simulation all = simulate(scene, [&](const Progress& progress) {
+      if (progress.row + 1 > quick.curve.size()) return true;
+      Simulation now;
+      now.joints = progress.joints();
+      by_then = broken_list(now);
+      return true;
+    });
+    EXPECT_LT(quick.curve.size(), all.curve.size());
+    EXPECT_EQ(broken_list(quick), by_then);
+    expect_same_curve(quick, all);
+  }
+}
+
+// The direct solver is as exact whatever is asked for; sweeps end at the tolerance.
+TEST_P(SameRun, HoweverTightTheTolerance) {
+  struct Way {
+    ContactMethod method;
+    double step, rate, loosest;
+  };
+  for (const Way& way : {Way{ContactMethod::active_set, 2e-9, 1e4, 1e-5},
+                         Way{ContactMethod::active_set, 2e-8, 1e3, 1e-5},
+                         Way{ContactMethod::gauss_seidel, 2e-9, 1e4, 1e-8}}) {
+    Scene scene = test::dynamic_scene(GetParam(), way.step);
+    scene.assembly.layers = 4;
+    scene.assembly.fibres = 3;
+    scene.loading.strain_rate = way.rate;
+    scene.solver.contact = way.method;
+    scene.solver.max_iterations = 100000;
+    scene.solver.tolerance = way.loosest;
+    const Simulation loose = simulate(scene);
+    EXPECT_GT(loose.broken_joints, 0);
+    for (const double part : {1e-3, 1e-6}) {
+      scene.solver.tolerance = std::max(1e-11, part * way.loosest);
+      const Simulation tight = simulate(scene);
+      EXPECT_TRUE(tight.trusted()) << tight.why_not_trusted();
+      EXPECT_EQ(broken_list(loose), broken_list(tight));
+      EXPECT_NEAR(loose.strength / tight.strength, 1.0, 1e-5);
+      EXPECT_EQ(loose.failure_strain, tight.failure_strain);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace havers::sim
