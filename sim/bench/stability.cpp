@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/bench/watched_run.hpp"
+#include "sim/joint/thresholds.hpp"
 
 namespace havers::sim {
 namespace {
@@ -43,6 +45,19 @@ double first_break_error(const Scene& scene, const Simulation& run) {
   if (run.broken_joints == 0) return must_break ? 1.0 : 0.0;
   const double late = run.first_break_strain - expected;
   return std::max({0.0, -late, late - lag}) / run.first_break_strain;
+}
+
+// A row of fibres in the quasi-static limit is a chain: as strong as its weakest joint.
+double strength_error(const Scene& scene, const Simulation& run) {
+  const AssemblyOptions& row = scene.assembly;
+  if (run.regime != Regime::quasi_static || row.layers != 1 || row.orientation != 0.0 ||
+      run.broken_joints == 0)
+    return 0.0;
+  double weakest = std::numeric_limits<double>::infinity();
+  for (const Threshold& threshold :
+       draw_thresholds(scene, build_assembly(row, scene.loading.lateral)))
+    weakest = std::min(weakest, threshold.normal);
+  return std::abs(run.strength * row.fibre_height / weakest - 1.0);
 }
 
 bool all_finite(const Simulation& run) {
@@ -104,7 +119,8 @@ StabilityResult run_stability_scene(const StabilityScene& scene,
   result.residual = run.worst_residual;
   result.energy_defect = run.energy_defect;
   result.penetration = run.worst_penetration / scene.scene.assembly.fibre_length;
-  result.error = std::max(stress_error(scene.scene, run), first_break_error(scene.scene, run));
+  result.error = std::max({stress_error(scene.scene, run), first_break_error(scene.scene, run),
+                           strength_error(scene.scene, run)});
   result.reason = what_is_wrong(result, finite);
   if (!run.trusted()) {
     result.outcome = finite ? StabilityOutcome::failed : StabilityOutcome::wrong;

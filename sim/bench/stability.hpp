@@ -17,7 +17,8 @@ struct StabilityScene {
 };
 
 /// At least forty. The closed forms they are judged by hold for the bonded specimen, in both
-/// regimes: σ = E(ε + τε̇) (M1), and the strain at which that stress first breaks a joint.
+/// regimes: σ = E(ε + τε̇) (M1), and the strain at which that stress first breaks a joint. A row of
+/// fibres in the quasi-static limit is also as strong as its weakest joint.
 std::vector<StabilityScene> stability_scenes();
 
 enum class StabilityOutcome {
@@ -38,7 +39,7 @@ struct StabilityResult {
   double residual = 0.0;       ///< (M11). [-]
   double energy_defect = 0.0;  ///< (M4). [-]
   double penetration = 0.0;    ///< Relative to the fibre length. [-]
-  double error = 0.0;          ///< Relative, of modulus and first break. [-]
+  double error = 0.0;          ///< Relative, of modulus, first break and a row's strength. [-]
   double wall = 0.0;           ///< [s]
 };
 
