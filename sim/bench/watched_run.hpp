@@ -17,7 +17,7 @@ struct WatchedRun {
   Simulation simulation;
   Eigen::VectorXd bonded_forces;  ///< At the strain asked for; empty when a joint broke before, or,
                                   ///< in the quasi-static limit, was missing. [N/m]
-  std::vector<int> order;                        ///< Joints in the order of breaking.
+  std::vector<int> order;         ///< Joints in the order of breaking.
   std::vector<Eigen::VectorXd> forces_at_break;  ///< After the row of each break. [N/m]
   double wall = 0.0, cpu = 0.0;                  ///< [s]
   bool out_of_time = false;                      ///< Stopped at the limit.
