@@ -206,6 +206,10 @@ bool is_missing(const Threshold& threshold) {
   return threshold.normal == 0.0 && threshold.tangent == 0.0;
 }
 
+bool some_are_missing(const JointOptions& joints) {
+  return joints.missing > 0.0 || std::ranges::any_of(joints.thresholds, is_missing);
+}
+
 std::vector<Scene::Problem> Scene::problems() const {
   Checker checker;
   check_assembly(assembly, checker);

@@ -68,6 +68,9 @@ struct JointOptions {
   std::vector<Threshold> thresholds;  ///< One per joint instead of a draw; empty: draw.
 };
 
+/// Whether joints are, or may be, missing from the start.
+bool some_are_missing(const JointOptions& joints);
+
 enum class Lateral { periodic, free };
 enum class Start { uniform, rest };
 

@@ -87,9 +87,7 @@ class Watcher {
 
 // The limit shows no row before the first break; until then forces are proportional to the strain.
 VectorXd bonded_forces_in_limit(const Scene& scene, double strain) {
-  if (scene.joints.missing > 0.0 ||
-      std::any_of(scene.joints.thresholds.begin(), scene.joints.thresholds.end(), is_missing))
-    return {};
+  if (some_are_missing(scene.joints)) return {};
   return scene.material.young * strain * intact_structure(scene)->answer().reactions;
 }
 

@@ -56,7 +56,7 @@ BenchSetting reference_setting(const Scene& scene, const std::vector<WatchedRun>
   return reference;
 }
 
-bool is_chosen(const BenchSetting& setting) {
+bool has_chosen_steps(const BenchSetting& setting) {
   return setting.regime == Regime::dynamic && setting.step == 0.0;
 }
 
@@ -105,9 +105,8 @@ BenchSpread over(const std::vector<WatchedRun>& runs, const Number& number) {
 
 // The reference of the forces before the first break is known in closed form, but for a shock.
 void take_exact_forces(const Scene& scene, double strain, std::vector<WatchedRun>& references) {
-  if (scene.loading.start == Start::rest || scene.material.viscosity > 0.0) return;
-  if (scene.material.layer_contrast != 1.0 || scene.joints.missing > 0.0 ||
-      std::any_of(scene.joints.thresholds.begin(), scene.joints.thresholds.end(), is_missing))
+  if (scene.loading.start == Start::rest || scene.material.viscosity > 0.0 ||
+      scene.material.layer_contrast != 1.0 || some_are_missing(scene.joints))
     return;
   for (WatchedRun& reference : references)
     reference.bonded_forces = bonded_forces_at(scene, strain);
@@ -254,38 +253,33 @@ std::vector<BenchSetting> bench_settings(const Scene& scene) {
 
 WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
                                const BenchObserver& observer) {
-  WorkPrecision study;
-  study.reference_ground = is_quasi_static(scene)
-                               ? "the exact breaking sequence of the quasi-static limit"
-                               : "the finest step, solved directly";
-  study.bonded_strain = 0.4 * first_break_by_uniform_stress(scene);
+  WorkPrecision study{.bonded_strain = 0.4 * first_break_by_uniform_stress(scene)};
   for (int i = 0; i < options.seeds; ++i)
     study.seeds.push_back(scene.joints.seed + static_cast<std::uint64_t>(i));
 
   Bench bench(scene, observer, study);
   const std::vector<BenchSetting> settings = bench_settings(scene);
-  const auto chosen = std::ranges::find_if(settings, is_chosen);
+  const auto chosen = std::ranges::find_if(settings, has_chosen_steps);
   std::vector<WatchedRun> in_chosen_steps;
   if (chosen != settings.end()) in_chosen_steps = bench.run(*chosen, options.time_limit);
   study.reference = reference_setting(scene, in_chosen_steps);
+  study.reference_ground = study.reference.regime == Regime::quasi_static
+                               ? "the exact breaking sequence of the quasi-static limit"
+                               : "the finest step, solved directly";
   std::vector<WatchedRun> references = bench.run(study.reference, 1e9);
   if (bench.stopped()) return study;
-  const std::vector<WatchedRun> first_row = references;
+  const std::vector<WatchedRun> as_run = references;
   take_exact_forces(scene, study.bonded_strain, references);
-  study.rows.push_back(row_of(study.reference, first_row, references));
+  study.rows.push_back(row_of(study.reference, as_run, references));
   for (const BenchSetting& setting : settings) {
     const std::vector<WatchedRun> runs =
-        is_chosen(setting) ? in_chosen_steps : bench.run(setting, options.time_limit);
+        has_chosen_steps(setting) ? in_chosen_steps : bench.run(setting, options.time_limit);
     if (bench.stopped()) break;
     study.rows.push_back(row_of(setting, runs, references));
   }
   study.complete = !bench.stopped();
   name_cheapest(study);
   return study;
-}
-
-bool reference_is_trusted(const WorkPrecision& study) {
-  return !study.rows.empty() && study.rows.front().trusted == study.rows.front().runs;
 }
 
 std::string summary(const WorkPrecision& study) {
