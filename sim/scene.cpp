@@ -166,7 +166,7 @@ void check_solver(const SolverOptions& solver, Checker& checker) {
 }
 
 // Hours, and a curve that fills the memory.
-constexpr double most_steps = 1e7;
+constexpr double most_steps_to_failure = 1e7;
 
 // To the strain σ₁/E, about where the specimen fails.
 void check_number_of_steps(const Scene& scene, Checker& checker) {
@@ -174,7 +174,7 @@ void check_number_of_steps(const Scene& scene, Checker& checker) {
   const double strain =
       std::min(scene.loading.max_strain, scene.joints.head_tail / scene.material.young);
   const double steps = strain / (scene.loading.strain_rate * *scene.solver.step);
-  if (steps > most_steps)
+  if (steps > most_steps_to_failure)
     checker.say("solver.step_s",
                 fmt::format("is {:g}: a strain of {:.2g} is {:.2g} steps away", *scene.solver.step,
                             strain, steps),

@@ -67,7 +67,8 @@ Check check_confirmation(const CalibrationResult& result) {
     return {
         name, Outcome::pass,
         "Not checked: not asked for, or simulated in time anyhow; calibrate.options.confirm = 3 "
-        "simulates three replicates step by step in time."};
+        "simulates three replicates step by step in time.",
+        false};
   if (compared == 0)
     return {name, Outcome::warn, "Every simulation in time failed: the limit stands unconfirmed."};
   const std::string text = fmt::format(

@@ -118,6 +118,7 @@ struct Check {
   std::string check;
   Outcome outcome = Outcome::fail;
   std::string text;
+  bool done = true;  ///< false: there was nothing to check, which passes.
 };
 
 /// One stage of the search, for the report.

@@ -186,7 +186,8 @@ Check check_validation(const CalibrationResult& result) {
     off += fmt::format("{}{} ({})", off.empty() ? "" : ", ", specimen.id, how);
   }
   if (held_out == 0)
-    return {name, Outcome::pass, "Not checked: none was kept for validation (use = \"validate\")."};
+    return {name, Outcome::pass, "Not checked: none was kept for validation (use = \"validate\").",
+            false};
   if (off.empty())
     return {
         name, Outcome::pass,

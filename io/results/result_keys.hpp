@@ -137,6 +137,7 @@ void keys(Table& table, calib::Check& check) {
   table.key("check", check.check);
   table.key("outcome", check.outcome);
   table.key("text", check.text);
+  table.key("done", check.done);
 }
 
 template <class Table>

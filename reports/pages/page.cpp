@@ -12,8 +12,9 @@
 namespace havers::reports {
 namespace {
 
-std::string mark_of(calib::Outcome outcome) {
-  switch (outcome) {
+std::string mark_of(const calib::Check& check) {
+  if (!check.done) return "–";
+  switch (check.outcome) {
     case calib::Outcome::pass:
       return "✓";
     case calib::Outcome::warn:
@@ -68,10 +69,11 @@ mstch::node text_section(const std::vector<std::string>& sentences) {
 mstch::node check_section(const std::vector<calib::Check>& checks) {
   mstch::array items;
   for (const calib::Check& check : checks)
-    items.emplace_back(mstch::map{{"outcome", text(to_string(check.outcome))},
-                                  {"mark", text(mark_of(check.outcome))},
-                                  {"check", text(check.check)},
-                                  {"text", text(check.text)}});
+    items.emplace_back(
+        mstch::map{{"outcome", text(check.done ? to_string(check.outcome) : "not done")},
+                   {"mark", text(mark_of(check))},
+                   {"check", text(check.check)},
+                   {"text", text(check.text)}});
   return section(std::move(items));
 }
 

@@ -8,7 +8,8 @@ namespace {
 // Two translations and the turn about the nodes' mean.
 Eigen::MatrixX3d own_motions(const Assembly& assembly, const Body& body) {
   const auto node = [&](int i) {
-    return assembly.nodes[static_cast<std::size_t>(body.first_node + i)];
+    const int index = body.first_node + i;
+    return assembly.nodes[static_cast<std::size_t>(index)];
   };
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (int i = 0; i < body.nodes; ++i) mean += node(i) / body.nodes;

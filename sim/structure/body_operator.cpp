@@ -31,7 +31,7 @@ MatrixXd motions_left(const MatrixXd& motions, const std::vector<char>& held) {
   if (fixed.empty()) return motions;
   Eigen::FullPivLU<MatrixXd> of_fixed(motions(fixed, Eigen::all));
   of_fixed.setThreshold(1e-10);
-  if (of_fixed.dimensionOfKernel() == 0) return MatrixXd(motions.rows(), 0);
+  if (of_fixed.dimensionOfKernel() == 0) return motions.leftCols(0);
   return motions * of_fixed.kernel();
 }
 

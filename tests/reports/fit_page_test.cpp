@@ -19,6 +19,16 @@ TEST(FitPage, GivesTheVerdictBeforeAnyNumber) {
   EXPECT_LT(page.find("goodness of fit"), page.find("13.123 ± 0.087"));
 }
 
+TEST(FitPage, TicksNoCheckThatWasNotDone) {
+  auto sample = test::fit_sample();
+  for (const bool done : {true, false}) {
+    sample.result.verdict = {{"held-out specimens", calib::Outcome::pass, "none was kept", done}};
+    const std::string page = fit_page({sample.study, sample.result, {}, {}, 1.0});
+    EXPECT_EQ(contains(page, "✓"), done);
+    EXPECT_EQ(contains(page, "– not done"), !done);
+  }
+}
+
 TEST(FitPage, ShowsEverySpecimenParameterCheckAndStage) {
   const auto sample = test::fit_sample();
   const std::string page =

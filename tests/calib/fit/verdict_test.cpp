@@ -147,6 +147,8 @@ TEST(Verdict, SaysThatAHeldOutSpecimenIsOff) {
   EXPECT_FALSE(says(check_of(fitted, "held-out specimens"), "Not checked"));
   EXPECT_TRUE(says(check_of(fitted, "confirmed in time"), "Not checked: "));
   EXPECT_TRUE(says(check_validation({}), "Not checked: "));
+  EXPECT_FALSE(check_validation({}).done);
+  EXPECT_TRUE(check_of(fitted, "held-out specimens").done);
   study.specimens[0].test = test::straight_test(14e9, 90e6);
   const auto check = check_of(test::fit(study), "held-out specimens");
   EXPECT_EQ(check.outcome, Outcome::fail);

@@ -104,7 +104,8 @@ TEST(CalibrationJson, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(json["trusted"], fit.result.trusted());
   EXPECT_EQ(json["verdict"][3], (nlohmann::json{{"check", "failed simulations"},
                                                 {"outcome", "warn"},
-                                                {"text", "12 of 4128 simulations failed"}}));
+                                                {"text", "12 of 4128 simulations failed"},
+                                                {"done", true}}));
   const nlohmann::json& parameter = json["parameters"][2];
   for (const char* key : {"name", "value", "unit", "standard_error", "interval_95", "bounds",
                           "at_bound", "identifiable", "left_out_because"})

@@ -38,7 +38,7 @@ sim::Scene unusual_scene() {
                    .max_strain = 0.031,
                    .end_fraction = 0.29};
   scene.solver = {.regime = sim::Regime::dynamic,
-                  .step = 1.7e-8,
+                  .step = 1.7e-6,
                   .contact = sim::ContactMethod::active_set,
                   .tolerance = 3e-9,
                   .max_iterations = 321,
