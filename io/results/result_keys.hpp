@@ -6,7 +6,6 @@
 #include "io/results/result_files.hpp"
 
 namespace havers::io {
-
 template <class Table>
 void keys(Table& table, sim::Scene& scene) {
   table.key("assembly", scene.assembly);
