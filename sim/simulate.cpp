@@ -10,7 +10,6 @@
 #include "sim/joint/thresholds.hpp"
 #include "sim/outcome.hpp"
 #include "sim/quasi_static/breaking_sequence.hpp"
-#include "sim/quasi_static/intact_structure.hpp"
 #include "sim/simulation.hpp"
 
 namespace havers::sim {
@@ -41,8 +40,8 @@ RegimeChoice choose_regime(const Scene& scene) {
 
 namespace {
 
-// Section 7: what this run did without.
-std::vector<LeftOut> left_out(const Scene& scene, const Simulation& simulation) {
+// Section 7: what the scene and its regime do without; a run adds its own omissions.
+std::vector<LeftOut> left_out_by_choice(const Scene& scene, const Simulation& simulation) {
   std::vector<LeftOut> list;
   if (scene.material.viscosity == 0.0) list.push_back({"viscosity", "viscosity_s is 0"});
   if (scene.joints.friction < least_friction)
@@ -54,10 +53,6 @@ std::vector<LeftOut> left_out(const Scene& scene, const Simulation& simulation) 
     list.push_back({fmt::format("{} half fibre{} at the specimen's sides", simulation.dropped,
                                 simulation.dropped == 1 ? "" : "s"),
                     "less than 1e-6 of one is inside, and its neighbours fill the place"});
-  if (simulation.events_without_contact > 0)
-    list.push_back({fmt::format("contact of broken joints in {} of {} events",
-                                simulation.events_without_contact, simulation.steps),
-                    "no set of sticking, sliding and open joints was found that obeys friction"});
   if (simulation.regime == Regime::quasi_static) {
     if (scene.material.viscosity > 0.0)
       list.push_back({"viscosity", "the quasi-static limit that was asked for has no rates"});
@@ -66,32 +61,14 @@ std::vector<LeftOut> left_out(const Scene& scene, const Simulation& simulation) 
     if (scene.solver.step || scene.solver.contact == ContactMethod::gauss_seidel)
       list.push_back({"step_s and contact", "the quasi-static limit has no steps"});
     list.push_back({"inertia and time steps", simulation.regime_ground});
-    list.push_back({"contact of pieces that no bonded joint connects to an end",
-                    "they carry nothing, and without inertia their position is not determined"});
   }
   if (simulation.regime == Regime::quasi_static ||
       scene.solver.contact != ContactMethod::gauss_seidel)
     list.push_back(
         {"the friction problem of joints inside their cone",
          "they hold, which is a linear condition; contact = \"gauss_seidel\" asks each"});
-  if (!scene.solver.leave_out) return list;
-  list.push_back({"one operator for each body", "equal bodies share theirs"});
-  if (simulation.regime == Regime::quasi_static) {
-    if (intact_structure(scene)->stress_is_known())
-      list.push_back({"rounding in the joint forces of the intact specimen",
-                      "its stress is uniform, and a solve finds that to 1e-6 or better"});
-    if (end_fraction_used(scene) > scene.loading.end_fraction)
-      list.push_back(
-          {fmt::format("the avalanche below {:g} of the strength", end_fraction_used(scene)),
-           "none with such thresholds was seen to become stronger thereafter"});
-    return list;
-  }
-  if (simulation.leapt_strain > 0.0)
-    list.push_back({fmt::format("time steps up to a strain of {:.4g}", simulation.leapt_strain),
-                    "until the first break the motion is uniform and known"});
-  if (scene.solver.contact == ContactMethod::gauss_seidel) return list;
-  list.push_back(
-      {"contact of joints that opened", "checked each step, and taken up again when they close"});
+  if (scene.solver.leave_out)
+    list.push_back({"one operator for each body", "equal bodies share theirs"});
   return list;
 }
 
@@ -106,7 +83,8 @@ Simulation simulate(const Scene& scene, const Observer& observer) {
   simulation.regime_ground = choice.ground + simulation.regime_ground;
   simulation.tolerance = scene.solver.tolerance;
   summarise(simulation);
-  simulation.left_out = left_out(scene, simulation);
+  const std::vector<LeftOut> list = left_out_by_choice(scene, simulation);
+  simulation.left_out.insert(simulation.left_out.begin(), list.begin(), list.end());
   return simulation;
 }
 

@@ -21,6 +21,16 @@ Local at(const VectorXd& values, int joint) {
   return values.segment<2>(2 * static_cast<Index>(joint));
 }
 
+// Broken joints that have just broken, or press.
+int bearing(const JointStep& step) {
+  int count = 0;
+  for (int joint = 0; joint < static_cast<int>(step.broken.size()); ++joint)
+    if (step.broken[static_cast<std::size_t>(joint)] != 0 &&
+        at(step.reactions, joint).norm() > least_borne * step.force_scale)
+      ++count;
+  return count;
+}
+
 }  // namespace
 
 ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, int max_iterations, bool detach_open)
@@ -111,27 +121,24 @@ bool ActiveSetSolver::reattach_closed(const JointStepResult& result) {
   return true;
 }
 
+// Either way may find the set that the other misses.
 JointStepResult ActiveSetSolver::solve(const JointStep& step) {
   // Sweeps lead nowhere where inertia is but a trace.
-  const std::vector<BodyClass>& classes = bodies_->classes();
-  const bool at_rest = std::any_of(classes.begin(), classes.end(),
-                                   [](const BodyClass& bodies) { return bodies.op.at_rest; });
-  int bearing = 0;  // broken joints that have just broken, or press
-  for (int joint = 0; joint < static_cast<int>(step.broken.size()); ++joint)
-    if (step.broken[static_cast<std::size_t>(joint)] != 0 &&
-        at(step.reactions, joint).norm() > least_borne * step.force_scale)
-      ++bearing;
-  const bool many = detach_open_ && !at_rest && bearing >= worth_searching;
-  JointStepResult result = many ? search_.solve(step) : solve_loose(step);
-  if (result.converged) return result;
-  // Either way may find the set that the other misses.
-  JointStepResult other = many ? solve_loose(step) : search_.solve(step);
-  other.iterations += result.iterations;
-  if (other.converged) return other;
-  JointStepResult combined = solve_loose(step, true);
-  combined.iterations += other.iterations;
-  if (combined.converged || many) return combined;
-  result.iterations = combined.iterations;
+  const bool at_rest = std::ranges::any_of(
+      bodies_->classes(), [](const BodyClass& bodies) { return bodies.op.at_rest; });
+  const bool search_first = detach_open_ && !at_rest && bearing(step) >= worth_searching;
+  JointStepResult result;
+  long iterations = 0;
+  const auto unless_solved = [&](const auto& solve) {
+    if (result.converged) return;
+    result = solve();
+    iterations += result.iterations;
+  };
+  if (search_first) unless_solved([&] { return search_.solve(step); });
+  unless_solved([&] { return solve_loose(step, false); });
+  if (!search_first) unless_solved([&] { return search_.solve(step); });
+  unless_solved([&] { return solve_loose(step, true); });
+  result.iterations = iterations;
   return result;
 }
 

@@ -24,7 +24,7 @@ class ActiveSetSolver : public JointSolver {
   [[nodiscard]] bool detached(int joint) const {
     return structure_.held()[static_cast<std::size_t>(joint)] == Held::not_at_all;
   }
-  JointStepResult solve_loose(const JointStep& step, bool combine = false);
+  JointStepResult solve_loose(const JointStep& step, bool combine);
   [[nodiscard]] Eigen::VectorXd jumps(const JointStep& step) const;
   bool settle_loose(const JointStep& step, const Eigen::VectorXd& bonded_reactions, bool combine,
                     JointStepResult& result, Eigen::VectorXd& y) const;

@@ -169,8 +169,8 @@ void DynamicRun::break_joints(const JointStepResult& result) {
   }
   step_.states = result.states;
   step_.gaps = result.gaps;
-  for (std::size_t j = 0; j < joints.size();
-       ++j)  // a bonded joint has no gap: no drift from rounding
+  // A bonded joint has no gap: no drift from rounding.
+  for (std::size_t j = 0; j < joints.size(); ++j)
     if (!joints[j].broken) step_.gaps.segment<2>(static_cast<Index>(2 * j)).setZero();
 }
 
@@ -232,6 +232,18 @@ CurvePoint DynamicRun::point() const {
           .dissipated = energy_.joints + energy_.viscous};
 }
 
+// Section 7.
+std::vector<LeftOut> left_out_in_time(const Scene& scene, const Simulation& simulation) {
+  std::vector<LeftOut> list;
+  if (simulation.leapt_strain > 0.0)
+    list.push_back({fmt::format("time steps up to a strain of {:.4g}", simulation.leapt_strain),
+                    "until the first break the motion is uniform and known"});
+  if (scene.solver.leave_out && scene.solver.contact != ContactMethod::gauss_seidel)
+    list.push_back(
+        {"contact of joints that opened", "checked each step, and taken up again when they close"});
+  return list;
+}
+
 }  // namespace
 
 Simulation simulate_dynamic(const Scene& scene, const Observer& observer) {
@@ -285,6 +297,7 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
   simulation.worst_residual = run.worst_residual;
   simulation.worst_penetration = run.worst_penetration;
   simulation.dropped = assembly.dropped;
+  simulation.left_out = left_out_in_time(scene, simulation);
   return simulation;
 }
 

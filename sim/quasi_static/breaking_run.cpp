@@ -37,18 +37,18 @@ BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructu
     : scene_(scene),
       careful_(careful),
       intact_(std::move(intact)),
+      joints_(initial_outcomes(draw_thresholds(scene, intact_->assembly()))),
       loose_(intact_->structure(), [this](int joint) { return intact_->jump(joint); }),
       reference_{{}, intact_->answer().reactions, intact_->answer().force, 0.0},
       reactions_(reference_.reactions),
       force_(reference_.force),
-      noise_(1e-10 * intact_->answer().reactions.lpNorm<Eigen::Infinity>()),
-      joints(initial_outcomes(draw_thresholds(scene, intact_->assembly()))) {}
+      noise_(1e-10 * intact_->answer().reactions.lpNorm<Eigen::Infinity>()) {}
 
 // ε = f_N μ_c / (|r_T| − μ_c r_N), section 6.
 double BreakingRun::meets_cone_at(std::size_t joint) const {
   constexpr double never = std::numeric_limits<double>::infinity();
-  if (joints[joint].broken) return never;
-  const JointLaw law = intact_law(joints[joint].threshold);
+  if (joints_[joint].broken) return never;
+  const JointLaw law = intact_law(joints_[joint].threshold);
   const Local r = reactions_.segment<2>(static_cast<Index>(2 * joint));
   const double denominator = std::abs(r.y()) - law.friction * r.x();
   if (denominator <= noise_ * std::max(1.0, law.friction)) return never;
@@ -57,29 +57,41 @@ double BreakingRun::meets_cone_at(std::size_t joint) const {
 
 double BreakingRun::next_event() const {
   double first = std::numeric_limits<double>::infinity();
-  for (std::size_t j = 0; j < joints.size(); ++j) first = std::min(first, meets_cone_at(j));
+  for (std::size_t j = 0; j < joints_.size(); ++j) first = std::min(first, meets_cone_at(j));
   return first;
-}
-
-void BreakingRun::break_joints(double event, double strain) {
-  std::vector<std::size_t> breaking;
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    if (meets_cone_at(j) <= event * (1.0 + together)) breaking.push_back(j);
-  take_note_of_penetration(strain);
-  for (const std::size_t j : breaking) {
-    joints[j].broken = true;
-    joints[j].broken_at_strain = strain;
-    ++broken;
-  }
-  loosen(breaking);
 }
 
 bool BreakingRun::take_missing() {
   std::vector<std::size_t> missing;
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    if (joints[j].broken) missing.push_back(j);
-  if (!missing.empty()) loosen(missing);
-  return !missing.empty();
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    if (joints_[j].broken) missing.push_back(j);
+  if (missing.empty()) return true;
+  loosen(missing);
+  return settle();
+}
+
+void BreakingRun::stretch(double strain) {
+  if (strain <= strain_) return;
+  dissipated_ -= 0.5 * scene_.material.young * joint_work_ * (strain * strain - strain_ * strain_);
+  strain_ = strain;
+}
+
+bool BreakingRun::break_joints(double event) {
+  std::vector<std::size_t> breaking;
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    if (meets_cone_at(j) <= event * (1.0 + together)) breaking.push_back(j);
+  take_note_of_penetration();
+  for (const std::size_t j : breaking) {
+    joints_[j].broken = true;
+    joints_[j].broken_at_strain = strain_;
+    ++broken_;
+  }
+  const double stored = point().elastic;
+  largest_energy_ = std::max(largest_energy_, stored);
+  loosen(breaking);
+  const bool solved = settle();
+  dissipated_ += stored - point().elastic;
+  return solved;
 }
 
 void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {
@@ -113,8 +125,8 @@ std::vector<char> BreakingRun::apart() const {
   const std::size_t end = assembly.bodies.size();  // stands for both ends
   DisjointSets pieces(end + 1);
   for (const int body : intact_->held_bodies()) pieces.unite(end, static_cast<std::size_t>(body));
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    if (!joints[j].broken)
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    if (!joints_[j].broken)
       pieces.unite(static_cast<std::size_t>(assembly.joints[j].body_a),
                    static_cast<std::size_t>(assembly.joints[j].body_b));
 
@@ -136,7 +148,7 @@ LocalContactResult BreakingRun::or_better(LocalContactResult result) {
   const auto unless_solved = [&](const auto& solve) {
     if (result.converged && residual <= scene_.solver.tolerance) return;
     LocalContactResult other = solve();
-    iterations += other.iterations;
+    iterations_ += other.iterations;
     const double of_other = law_residual_of(contact_, other.y);
     if (result.converged && !(other.converged && of_other < residual)) return;
     result = std::move(other);
@@ -161,10 +173,10 @@ bool BreakingRun::settle() {
   known.y.col(0).head(y_.size()) = y_;
   known.r.col(0) = of_loose(reactions_);
   LocalContactResult result = follow_release(system_, extra_, known);
-  iterations += result.iterations;
+  iterations_ += result.iterations;
   result = or_better(std::move(result));
   if (!result.converged) {  // an answer without contact, counted and reported, instead of none
-    ++without_contact;
+    ++without_contact_;
     contact_.apart.assign(loose_.size(), 1);
     result =
         solve_local_contact(contact_, std::vector<JointState>(loose_.size(), JointState::open), 1);
@@ -211,7 +223,7 @@ VectorXd BreakingRun::lacking(const VectorXd& reactions) const {
 }
 
 VectorXd BreakingRun::gaps() const {
-  VectorXd gaps = VectorXd::Zero(2 * static_cast<Index>(joints.size()));
+  VectorXd gaps = VectorXd::Zero(2 * static_cast<Index>(joints_.size()));
   for (std::size_t i = 0; i < loose_.size(); ++i)
     gaps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) =
         y_.segment<2>(2 * static_cast<Index>(i));
@@ -237,10 +249,6 @@ void BreakingRun::refine() {
     reference_ = intact_->stretch(gaps());
   }
   y_at_reference_ = y_;
-}
-
-void BreakingRun::stretch(double from, double to) {
-  dissipated -= 0.5 * scene_.material.young * joint_work_ * (to * to - from * from);
 }
 
 }  // namespace havers::sim

@@ -13,37 +13,40 @@
 
 namespace havers::sim {
 
-/// The structure as it is between two events. Its answer is proportional to the strain: it is known
-/// from ε = 1.
+/// The structure as it is between two events, at one strain. Its answer is proportional to that: it
+/// is known from ε = 1.
 class BreakingRun {
  public:
   /// @param careful  refines every answer: influences of joints on each other have few digits
   /// where cracks are wide
   BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact, bool careful);
 
-  /// Strain at which the next joints meet their cones; infinite when none ever will.
-  [[nodiscard]] double next_event() const;
-  /// Breaks all joints that have met their cones at `event`; `strain` is that of the specimen by
-  /// then.
-  void break_joints(double event, double strain);
-  /// Takes away the joints that are missing from the start; whether there are any.
+  /// Takes away the joints that are missing from the start; false when no answer without them was
+  /// found.
   bool take_missing();
-  /// Solves the changed structure for ε = 1, broken joints pressed together included (M7).
-  bool settle();
+  /// Strain at which the next joints meet their cones; infinite when none ever will. It may be less
+  /// than the present one.
+  [[nodiscard]] double next_event() const;
+  /// Stretches on to a strain, never back; joints that slide rub while it grows.
+  void stretch(double strain);
+  /// Breaks all joints that have met their cones at an event, at the strain there is, and settles
+  /// what is left; false when its contact has no solution that is found.
+  bool break_joints(double event);
 
-  /// Accounts for the friction of joints that slide while the strain grows.
-  void stretch(double from, double to);
-  [[nodiscard]] CurvePoint point(double strain) const;
+  [[nodiscard]] CurvePoint point() const;
   /// The joints, with what they bear and how far they are open by now.
-  [[nodiscard]] std::vector<JointOutcome> outcomes(double strain) const;
-  [[nodiscard]] Eigen::VectorXd displacements(double strain) const;
+  [[nodiscard]] std::vector<JointOutcome> outcomes() const;
+  [[nodiscard]] Eigen::VectorXd displacements() const;
+  /// Events so far whose contact found no solution.
+  [[nodiscard]] int without_contact() const { return without_contact_; }
   /// Fills in the last row's joints and displacements, and the checks.
-  void finish(double strain, double energy_scale, Simulation& simulation);
+  void finish(Simulation& simulation);
 
  private:
-  void take_note_of_penetration(double strain);
+  void take_note_of_penetration();
   [[nodiscard]] double meets_cone_at(std::size_t joint) const;
   void loosen(const std::vector<std::size_t>& breaking);
+  bool settle();
   [[nodiscard]] std::vector<char> apart() const;
   [[nodiscard]] Eigen::VectorXd gaps() const;
   [[nodiscard]] Eigen::VectorXd reactions_to(const Eigen::VectorXd& y) const;
@@ -55,6 +58,14 @@ class BreakingRun {
   const Scene& scene_;
   bool careful_;
   std::shared_ptr<const IntactStructure> intact_;
+  std::vector<JointOutcome> joints_;
+  double strain_ = 0.0;
+  double dissipated_ = 0.0;      // [J/m]
+  double largest_energy_ = 0.0;  // stored before an event, likewise
+  int broken_ = 0;
+  int without_contact_ = 0;
+  long iterations_ = 0;
+
   LooseJoints loose_;
   std::vector<IntactStructure::Column> columns_;  // of the loose joints; none where they are many
   LocalContact contact_;                          // of the loose joints
@@ -70,13 +81,6 @@ class BreakingRun {
   double worst_residual_ = 0.0;     // of the law, over all answers, for E = 1 [N/m]
   double worst_penetration_ = 0.0;  // likewise, of the specimen [m]
   double noise_;                    // what rounding leaves on an unloaded joint is not a load
-
- public:
-  std::vector<JointOutcome> joints;
-  double dissipated = 0.0;  // [J/m]
-  long iterations = 0;
-  int broken = 0;
-  int without_contact = 0;  // events whose contact found no solution
 };
 
 }  // namespace havers::sim

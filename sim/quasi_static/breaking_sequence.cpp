@@ -1,5 +1,7 @@
 #include "sim/quasi_static/breaking_sequence.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -39,10 +41,54 @@ double energy_gain(const std::vector<CurvePoint>& curve) {
 }
 
 bool goes_on(const Observer& observer, const BreakingRun& run, const Simulation& simulation) {
-  const CurvePoint& now = simulation.curve.back();
   return !observer ||
-         observer({now, simulation.curve.size() - 1, [&] { return run.outcomes(now.strain); },
-                   [&] { return run.displacements(now.strain); }});
+         observer({simulation.curve.back(), simulation.curve.size() - 1,
+                   [&] { return run.outcomes(); }, [&] { return run.displacements(); }});
+}
+
+// From break to break, until the run ends.
+SimulationStatus follow(const Scene& scene, BreakingRun& run, const Observer& observer,
+                        Simulation& simulation) {
+  const double end_fraction = end_fraction_used(scene);
+  simulation.curve.push_back(run.point());
+  for (;;) {
+    const double event = run.next_event();
+    run.stretch(std::min(event, scene.loading.max_strain));
+    simulation.curve.push_back(run.point());
+    if (event > scene.loading.max_strain) return SimulationStatus::strain_limit;
+    const double stress = simulation.curve.back().stress_right;
+    if (!std::isfinite(stress)) return SimulationStatus::not_finite;
+    has_failed(simulation, end_fraction);  // takes note of the strength
+    if (stress >= simulation.strength)
+      simulation.without_contact_to_strength = run.without_contact();
+
+    const bool solved = run.break_joints(event);
+    simulation.curve.push_back(run.point());
+    ++simulation.steps;
+    if (!solved) return SimulationStatus::not_converged;
+    if (!goes_on(observer, run, simulation)) return SimulationStatus::cancelled;
+    if (has_failed(simulation, end_fraction)) return SimulationStatus::broken;
+  }
+}
+
+// Section 7.
+std::vector<LeftOut> left_out_in_the_limit(const Scene& scene, const IntactStructure& intact,
+                                           const Simulation& simulation) {
+  std::vector<LeftOut> list{
+      {"contact of pieces that no bonded joint connects to an end",
+       "they carry nothing, and without inertia their position is not determined"}};
+  if (simulation.events_without_contact > 0)
+    list.push_back({fmt::format("contact of broken joints in {} of {} events",
+                                simulation.events_without_contact, simulation.steps),
+                    "no set of sticking, sliding and open joints was found that obeys friction"});
+  if (intact.stress_is_known())
+    list.push_back({"rounding in the joint forces of the intact specimen",
+                    "its stress is uniform, and a solve finds that to 1e-6 or better"});
+  if (end_fraction_used(scene) > scene.loading.end_fraction)
+    list.push_back(
+        {fmt::format("the avalanche below {:g} of the strength", end_fraction_used(scene)),
+         "none with such thresholds was seen to become stronger thereafter"});
+  return list;
 }
 
 Simulation break_event_by_event(const Scene& scene,
@@ -53,55 +99,11 @@ Simulation break_event_by_event(const Scene& scene,
   simulation.dropped = intact->assembly().dropped;
   if (!intact->structure().ok()) return simulation;
   BreakingRun run(scene, intact, careful);
-  if (run.take_missing() && !run.settle()) return simulation;
-  simulation.curve.push_back(run.point(0.0));
-  double strain = 0.0, largest_energy = 0.0;
-  const double end_fraction = end_fraction_used(scene);
-
-  for (;;) {
-    const double event = run.next_event();
-    if (event > scene.loading.max_strain) {
-      run.stretch(strain, scene.loading.max_strain);
-      strain = scene.loading.max_strain;
-      simulation.curve.push_back(run.point(strain));
-      simulation.status = SimulationStatus::strain_limit;
-      break;
-    }
-    if (event > strain) run.stretch(strain, event);
-    strain = std::max(strain, event);
-    const CurvePoint before = run.point(strain);
-    simulation.curve.push_back(before);
-    has_failed(simulation, end_fraction);  // takes note of the strength
-    if (!std::isfinite(before.stress_right)) {
-      simulation.status = SimulationStatus::not_finite;
-      break;
-    }
-    if (before.stress_right >= simulation.strength)
-      simulation.without_contact_to_strength = run.without_contact;
-    largest_energy = std::max(largest_energy, before.elastic);
-
-    run.break_joints(event, strain);
-    const bool solved = run.settle();
-    run.dissipated += before.elastic - run.point(strain).elastic;
-    simulation.curve.push_back(run.point(strain));
-    ++simulation.steps;
-    if (!solved) {
-      simulation.status = SimulationStatus::not_converged;
-      break;
-    }
-    if (!goes_on(observer, run, simulation)) {
-      simulation.status = SimulationStatus::cancelled;
-      break;
-    }
-    if (has_failed(simulation, end_fraction)) {
-      simulation.status = SimulationStatus::broken;
-      break;
-    }
-  }
-  largest_energy = std::max(largest_energy, simulation.curve.back().elastic);
-  run.finish(strain, largest_energy, simulation);
+  if (!run.take_missing()) return simulation;
+  simulation.status = follow(scene, run, observer, simulation);
+  run.finish(simulation);
   simulation.energy_gain = energy_gain(simulation.curve);
-  simulation.events_without_contact = run.without_contact;
+  simulation.left_out = left_out_in_the_limit(scene, *intact, simulation);
   return simulation;
 }
 
