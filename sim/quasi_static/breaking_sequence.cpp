@@ -47,8 +47,8 @@ bool goes_on(const Observer& observer, const BreakingRun& run, const Simulation&
 }
 
 // From break to break, until the run ends.
-SimulationStatus follow(const Scene& scene, BreakingRun& run, const Observer& observer,
-                        Simulation& simulation) {
+SimulationStatus follow_events(const Scene& scene, BreakingRun& run, const Observer& observer,
+                               Simulation& simulation) {
   const double end_fraction = end_fraction_used(scene);
   simulation.curve.push_back(run.point());
   for (;;) {
@@ -100,7 +100,7 @@ Simulation break_event_by_event(const Scene& scene,
   if (!intact->structure().ok()) return simulation;
   BreakingRun run(scene, intact, careful);
   if (!run.take_missing()) return simulation;
-  simulation.status = follow(scene, run, observer, simulation);
+  simulation.status = follow_events(scene, run, observer, simulation);
   run.finish(simulation);
   simulation.energy_gain = energy_gain(simulation.curve);
   simulation.left_out = left_out_in_the_limit(scene, *intact, simulation);

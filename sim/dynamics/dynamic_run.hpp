@@ -1,0 +1,65 @@
+// A run in time steps as it changes from step to step.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "sim/contact/joint_step.hpp"
+#include "sim/dynamics/energy.hpp"
+#include "sim/simulation.hpp"
+
+namespace havers::sim {
+
+/// The specimen in motion, at the end of a step of constant length (M3).
+class DynamicRun {
+ public:
+  /// @param step  h [s]
+  DynamicRun(const Scene& scene, const Assembly& assembly, double step);
+
+  /// One step on; false when the joints' problem was not solved.
+  bool advance();
+  /// After two steps of uniform motion, whose reactions change linearly: on to one step before the
+  /// first break. Returns the strain leapt over. [-]
+  double leap();
+
+  [[nodiscard]] CurvePoint point() const;
+  [[nodiscard]] const std::vector<JointOutcome>& outcomes() const { return joints_; }
+  [[nodiscard]] const Eigen::VectorXd& displacements() const { return motion_.q; }
+  [[nodiscard]] int steps() const { return steps_; }
+  [[nodiscard]] bool finite() const { return motion_.q.allFinite() && motion_.v.allFinite(); }
+  /// Fills in the last row's joints and displacements, and the checks.
+  void finish(Simulation& simulation) const;
+
+ private:
+  void start();
+  void prepare();
+  void move(const JointStepResult& result);
+  void account(const JointStepResult& result, const Motion& before);
+  void break_joints(const JointStepResult& result);
+  [[nodiscard]] double time() const { return leapt_ + steps_ * h_; }
+  [[nodiscard]] double strain() const {
+    const double rate = scene_.loading.strain_rate;
+    return rate * leapt_ + rate * steps_ * h_;
+  }
+  [[nodiscard]] double time_to_first_break() const;
+
+  const Scene& scene_;
+  const Assembly& assembly_;
+  double h_;
+  Bodies bodies_;
+  std::unique_ptr<JointSolver> solver_;
+  Motion motion_;
+  std::vector<JointOutcome> joints_;
+  JointStep step_;
+  EnergyBalance energy_;
+  Eigen::VectorXd slope_;                        // change of the reactions in the last step [N/m]
+  double acceleration_force_ = 0.0;              // norm of M dv/h in the last step [N/m]
+  double leapt_ = 0.0;                           // time that passed without steps [s]
+  double force_right_ = 0.0, force_left_ = 0.0;  // of the machine on the specimen, along x [N/m]
+  double worst_residual_ = 0.0;                  // (M11) [-]
+  double worst_penetration_ = 0.0;               // [m]
+  long iterations_ = 0;
+  int steps_ = 0, broken_ = 0, missing_ = 0;
+};
+
+}  // namespace havers::sim
