@@ -28,7 +28,8 @@ constexpr int most_refinements = 5;
 
 // A tolerance below what rounding leaves is no reason to do without contact.
 constexpr double least_tolerance = 1e-8;
-constexpr double nothing_borne = 1e-9;  // of the intact specimen's force, where nothing bears any
+// Of the intact specimen's force: where nothing bears any, and more than what is broken can bear.
+constexpr double nothing_borne = 1e-9, too_much = 2.0;
 
 }  // namespace
 
@@ -197,7 +198,7 @@ bool BreakingRun::settle() {
   joint_work_ = of_loose(reactions_).dot(y_);
   worst_residual_ = std::max(worst_residual_, law_missed(contact_, of_loose(reactions_), y_));
   if (std::abs(force_) <= nothing_borne * intact_->answer().force) force_ = joint_work_ = 0.0;
-  return result.converged;
+  return result.converged && std::abs(force_) <= too_much * intact_->answer().force;
 }
 
 // What gaps of the loose joints change in the reactions of all.
