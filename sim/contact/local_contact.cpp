@@ -19,6 +19,9 @@ using Eigen::VectorXd;
 using States = std::vector<JointState>;
 
 constexpr double rounding = 1e-12;
+// Residual of the law above which states that agree with their answer are none: nothing holds a
+// piece.
+constexpr double nearly_met = 1e-8;
 constexpr int sets_at_once = 3;  // that follow from each other, before a better one is looked for
 constexpr int sets_of_a_cycle = 20;       // after which it is none, or too long to look at
 constexpr std::size_t most_combined = 5;  // joints whose states are combined in every way
@@ -202,27 +205,31 @@ LocalContactResult solve_as_it_is(const LocalContact& problem, States states, in
   return result;
 }
 
-// (C10). Joints held by springs where the last answer has left them, until these bear nothing.
+// (C10). Joints held by springs where the last answer has left them, until these bear nothing, or
+// no less than what rounding leaves on a piece that hangs on nothing.
 LocalContactResult solve_with_springs(const LocalContact& problem, const States& states,
                                       int max_iterations) {
-  LocalContactResult result;
+  LocalContactResult best;
+  double least = nearly_met;
   int spent = 0;
   for (const double part : springs) {
     const double stiffness = part * problem.S.diagonal().maxCoeff();
     LocalContact held = problem;
     held.S.diagonal().array() += stiffness;
-    result.states = states;
-    for (int i = 0; i < times_moved; ++i) {
+    LocalContactResult result{.states = states};
+    for (int i = 0; i < times_moved && least > law_is_met; ++i) {
       result = solve_as_it_is(held, std::move(result.states), max_iterations);
       spent += result.iterations;
-      result.iterations = spent;
       if (!result.converged) break;
-      result.converged = law_residual_of(problem, result.y) <= law_is_met;
-      if (result.converged) return result;
+      const double residual = law_residual_of(problem, result.y);
       held.r0 = problem.r0 - stiffness * result.y;
+      if (residual > least) continue;
+      least = residual;
+      best = result;
     }
   }
-  return result;
+  best.iterations = spent;
+  return best;
 }
 
 }  // namespace
@@ -231,7 +238,8 @@ LocalContactResult solve_local_contact(const LocalContact& problem,
                                        const std::vector<JointState>& states, int max_iterations) {
   if (states.empty()) return {.converged = true, .y = {}, .states = {}, .iterations = 0};
   LocalContactResult result = solve_as_it_is(problem, states, max_iterations);
-  if (result.converged || states.size() > few_joints) return result;
+  const bool solved = result.converged && law_residual_of(problem, result.y) <= nearly_met;
+  if (solved || states.size() > few_joints) return result;
   LocalContactResult held = solve_with_springs(problem, states, max_iterations);
   held.iterations += result.iterations;
   if (held.converged) return held;

@@ -24,8 +24,10 @@ std::vector<LeftOut> left_out_in_time(const Scene& scene, const Simulation& simu
 // From step to step, until the run ends.
 SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, bool leap,
                                 const Observer& observer, Simulation& simulation) {
+  constexpr double but_for_rounding = 1.0 - 1e-9;
+  const double end = but_for_rounding * scene.loading.max_strain;
   simulation.curve.push_back(run.point());
-  while (simulation.curve.back().strain < scene.loading.max_strain) {
+  while (simulation.curve.back().strain < end) {
     const bool solved = run.advance();
     if (!run.finite()) return SimulationStatus::not_finite;
     simulation.curve.push_back(run.point());

@@ -44,6 +44,24 @@ TEST(SwingingPieces, LeaveARunTrustedWhereLayersComeLoose) {
   }
 }
 
+// A fibre on its last joint turns between neighbours that hardly rub: its equations have no digits
+// left, and springs that let go of it leave a force of 1e-9.
+TEST(SwingingPieces, AreHeldByTheirNeighboursWithNextToNoFriction) {
+  Scene scene = test::small_scene(0.0, 3, 8);
+  scene.assembly.fibre_length = 12.0 * scene.assembly.fibre_height;
+  scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 6.0);
+  scene.joints.scatter = 0.3;
+  scene.joints.friction = 0.05;
+  scene.loading.max_strain = 1.0;
+  for (scene.joints.seed = 1; scene.joints.seed <= 40; ++scene.joints.seed) {
+    const Simulation simulation = simulate(scene);
+    EXPECT_EQ(simulation.status, SimulationStatus::broken) << scene.joints.seed;
+    EXPECT_EQ(simulation.events_without_contact, 0) << scene.joints.seed;
+    EXPECT_LE(simulation.worst_residual, 1e-8) << scene.joints.seed;
+    EXPECT_LE(simulation.energy_defect, 1e-7) << scene.joints.seed;
+  }
+}
+
 // What rounding leaves is more than that: the run says so, and its answer stays the same.
 TEST(SwingingPieces, KeepTheirContactsWhateverTheTolerance) {
   Scene scene;
