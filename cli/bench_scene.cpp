@@ -1,6 +1,7 @@
 // havers bench SCENE: one scene by several solvers, tolerances, steps and meshes.
 #include <fmt/core.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/bench.hpp"
@@ -8,6 +9,7 @@
 #include "cli/output_folder.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/provenance.hpp"
+#include "io/config/words.hpp"
 #include "io/input_error.hpp"
 #include "io/results/bench_files.hpp"
 #include "reports/bench_pages.hpp"
@@ -24,14 +26,32 @@ sim::WorkPrecision watched(const sim::Scene& scene, const BenchArguments& argume
   });
 }
 
+std::string step_text(const sim::BenchSetting& setting) {
+  if (sim::has_chosen_steps(setting)) return "chosen";
+  return setting.step ? fmt::format("{:.4g}", *setting.step * 1e9) : "-";
+}
+
+void print_row(const sim::BenchRow& row, bool reference) {
+  const sim::BenchSetting& setting = row.setting;
+  fmt::print("{:<14}{:<14}{:>9g}{:>11}{:>12}{:>11}", io::word(setting.regime),
+             io::word(setting.contact), setting.tolerance, step_text(setting), setting.refinement,
+             setting.leave_out);
+  for (const sim::BenchSpread& error :
+       {row.errors.bonded_forces, row.errors.strength, row.errors.failure_strain, row.errors.curve})
+    fmt::print("{:>10}", std::isfinite(error.median) ? fmt::format("{:.1e}", error.median) : "-");
+  fmt::print("{:>10.2g}{:>10.2g}{:>12.0f}{}{}\n", row.wall.median, row.cpu.median,
+             row.iterations.median, reference ? "  reference" : "",
+             row.trusted < row.runs ? "  not trusted" : "");
+}
+
 void print_summary(const sim::WorkPrecision& study) {
-  fmt::print("{}\n\n{:<46}{:>14}{:>10}{:>10}{:>10}\n", summary(study), "relative errors",
-             "joint forces", "strength", "strain", "CPU (s)");
-  for (const sim::BenchRow& row : study.rows)
-    fmt::print("{:<46}{:>14.1e}{:>10.1e}{:>10.1e}{:>10.2g}{}\n", to_string(row.setting),
-               row.errors.bonded_forces.median, row.errors.strength.median,
-               row.errors.failure_strain.median, row.cpu.median,
-               row.trusted < row.runs ? "  not trusted" : "");
+  fmt::print(
+      "{}\n\n{:<14}{:<14}{:>9}{:>11}{:>12}{:>11}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>12}\n",
+      summary(study), "regime", "contact", "tolerance", "step (ns)", "refinement", "leave out",
+      "forces", "strength", "strain", "curve", "wall (s)", "CPU (s)", "iterations");
+  for (const sim::BenchRow& row : study.rows) print_row(row, &row == &study.rows.front());
+  fmt::print("Errors of joint forces, strength, failure strain and curve are relative.\n");
+  if (study.omissions) fmt::print("{}\n", explain(*study.omissions));
 }
 
 }  // namespace

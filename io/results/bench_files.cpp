@@ -16,13 +16,26 @@ nlohmann::json provenance_object(Provenance provenance) {
 }
 namespace {
 
-// The columns of a row: median over the seeds, with the extremes of what the figure shows.
-std::vector<std::pair<std::string, double>> row_numbers(const sim::BenchRow& row) {
-  std::vector<std::pair<std::string, double>> list;
-  const auto add_range = [&](const std::string& name, const sim::BenchSpread& spread) {
-    list.insert(
-        list.end(),
-        {{name, spread.median}, {name + "_low", spread.low}, {name + "_high", spread.high}});
+// Names with values, in the order of the columns; JSON and CSV have the same.
+using Cells = std::vector<std::pair<std::string, nlohmann::json>>;
+
+Cells setting_cells(const sim::BenchSetting& setting) {
+  return {{"regime", word(setting.regime)},
+          {"contact", word(setting.contact)},
+          {"tolerance", setting.tolerance},
+          {"step_s", setting.step ? nlohmann::json(*setting.step) : nlohmann::json()},
+          {"refinement", setting.refinement},
+          {"leave_out", setting.leave_out}};
+}
+
+// What a row is computed with; its numbers, the median over the seeds, with the extremes of what
+// the figure shows.
+Cells row_cells(const sim::BenchRow& row) {
+  Cells cells = setting_cells(row.setting);
+  const auto add_range = [&](const std::string& name, sim::BenchSpread spread) {
+    cells.insert(cells.end(), {{name, json_of(spread.median)},
+                               {name + "_low", json_of(spread.low)},
+                               {name + "_high", json_of(spread.high)}});
   };
   add_range("joint_force_error", row.errors.bonded_forces);
   add_range("last_common_break_force_error", row.errors.forces);
@@ -31,26 +44,35 @@ std::vector<std::pair<std::string, double>> row_numbers(const sim::BenchRow& row
   add_range("curve_error", row.errors.curve);
   add_range("wall_s", row.wall);
   add_range("cpu_s", row.cpu);
-  list.insert(list.end(), {{"steps", row.steps.median},
-                           {"iterations", row.iterations.median},
-                           {"common_breaks", row.same_breaks.median},
-                           {"runs", row.runs},
-                           {"trusted_runs", row.trusted},
-                           {"runs_out_of_time", row.out_of_time}});
-  return list;
+  const auto add = [&](const char* name, double value) {
+    cells.emplace_back(name, json_of(value));
+  };
+  add("steps", row.steps.median);
+  add("iterations", row.iterations.median);
+  add("common_breaks", row.same_breaks.median);
+  add("runs", row.runs);
+  add("trusted_runs", row.trusted);
+  add("runs_out_of_time", row.out_of_time);
+  return cells;
 }
 
-nlohmann::json setting_json(const sim::BenchSetting& setting) {
-  return {{"text", to_string(setting)},       {"regime", word(setting.regime)},
-          {"contact", word(setting.contact)}, {"tolerance", setting.tolerance},
-          {"step_s", setting.step},           {"refinement", setting.refinement},
-          {"leave_out", setting.leave_out}};
-}
-
-nlohmann::json row_json(const sim::BenchRow& row) {
-  nlohmann::json object = setting_json(row.setting);
-  for (auto& [name, value] : row_numbers(row)) object[name] = json_of(value);
+nlohmann::json object_of(const sim::BenchSetting& setting, const Cells& cells) {
+  nlohmann::json object{{"text", to_string(setting)}};
+  for (const auto& [name, value] : cells) object[name] = value;
   return object;
+}
+
+nlohmann::json omissions_json(const std::optional<sim::Omissions>& omissions) {
+  if (!omissions) return nullptr;
+  return {{"setting", to_string(omissions->setting)},
+          {"largest_change", omissions->change},
+          {"cpu_ratio", omissions->cpu_ratio}};
+}
+
+std::string csv_cell(const nlohmann::json& value) {
+  if (value.is_null()) return {};
+  if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
+  return value.is_string() ? value.get<std::string>() : csv_number(value.get<double>());
 }
 
 nlohmann::json summaries_of(
@@ -70,22 +92,22 @@ nlohmann::json summaries_of(
 nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPrecision& study,
                                    const Provenance& provenance) {
   nlohmann::json rows = nlohmann::json::array(), cheapest = nlohmann::json::array();
-  for (const sim::BenchRow& row : study.rows) rows.push_back(row_json(row));
+  for (const sim::BenchRow& row : study.rows)
+    rows.push_back(object_of(row.setting, row_cells(row)));
   for (const sim::CheapestSetting& entry : study.cheapest)
     cheapest.push_back(
         {{"quantity", entry.quantity},
          {"error_below", entry.target},
-         {"setting", entry.row < 0
-                         ? nlohmann::json()
-                         : nlohmann::json(to_string(
-                               study.rows[static_cast<std::size_t>(entry.row)].setting))}});
+         {"setting", entry.row ? nlohmann::json(to_string(study.rows[*entry.row].setting))
+                               : nlohmann::json()}});
   return {{"complete", study.complete},
           {"summary", summary(study)},
-          {"reference", setting_json(study.reference)},
+          {"reference", object_of(study.reference, setting_cells(study.reference))},
           {"reference_ground", study.reference_ground},
           {"joint_forces_at_strain", study.bonded_strain},
           {"seeds", study.seeds},
           {"cheapest", cheapest},
+          {"omissions", omissions_json(study.omissions)},
           {"rows", rows},
           {"scene", scene_json(scene)},
           {"provenance", provenance_object(provenance)}};
@@ -113,9 +135,9 @@ std::string work_precision_csv(const sim::WorkPrecision& study) {
   std::string text;
   for (const sim::BenchRow& row : study.rows) {
     std::string header = "setting", line = fmt::format("\"{}\"", to_string(row.setting));
-    for (const auto& [name, value] : row_numbers(row)) {
+    for (const auto& [name, value] : row_cells(row)) {
       header.append(",").append(name);
-      line.append(",").append(csv_number(value));
+      line.append(",").append(csv_cell(value));
     }
     if (text.empty()) text = header + "\n";
     text += line + "\n";

@@ -45,14 +45,12 @@ mstch::map work_row(const sim::BenchRow& row, bool reference) {
 mstch::array cheapest_rows(const sim::WorkPrecision& study) {
   mstch::array rows;
   for (const sim::CheapestSetting& cheapest : study.cheapest) {
-    const bool found = cheapest.row >= 0;
-    const sim::BenchRow* row =
-        found ? &study.rows[static_cast<std::size_t>(cheapest.row)] : nullptr;
+    const sim::BenchRow* row = cheapest.row ? &study.rows[*cheapest.row] : nullptr;
     rows.emplace_back(
         mstch::map{{"quantity", text(cheapest.quantity)},
                    {"target", text(fmt::format("{:g}", cheapest.target))},
-                   {"setting", text(found ? to_string(row->setting) : "no setting reaches it")},
-                   {"cpu", text(found ? number(row->cpu.median, 3) : "–")}});
+                   {"setting", text(row ? to_string(row->setting) : "no setting reaches it")},
+                   {"cpu", text(row ? number(row->cpu.median, 3) : "–")}});
   }
   return rows;
 }

@@ -116,6 +116,22 @@ WatchedRun watch(const Scene& scene, const WatchOptions& options, const KeepGoin
   return run;
 }
 
+std::size_t same_breaks(const WatchedRun& run, const WatchedRun& reference) {
+  const std::vector<int>& a = run.order;
+  const std::vector<int>& b = reference.order;
+  const auto parting = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  return static_cast<std::size_t>(parting.first - a.begin());
+}
+
+double force_error(const WatchedRun& run, const WatchedRun& reference) {
+  const std::size_t n = same_breaks(run, reference);
+  if (n == 0) return std::numeric_limits<double>::quiet_NaN();
+  double largest = reference.bonded_forces.norm();
+  for (std::size_t i = 0; i < n; ++i)
+    largest = std::max(largest, reference.forces_at_break[i].norm());
+  return (run.forces_at_break[n - 1] - reference.forces_at_break[n - 1]).norm() / largest;
+}
+
 double bonded_modulus(const Scene& scene) {
   const auto& [assembly, material, joints, loading, solver] = scene;
   const bool along = assembly.orientation == 0.0;

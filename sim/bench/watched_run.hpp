@@ -30,6 +30,13 @@ struct WatchOptions {
 
 WatchedRun watch(const Scene& scene, const WatchOptions& options, const KeepGoing& keep_going);
 
+/// Joints that break in the reference's order before the two runs part.
+std::size_t same_breaks(const WatchedRun& run, const WatchedRun& reference);
+
+/// Error of all joint forces after the last of these breaks, relative to the largest the reference
+/// has had until then, as the last break may take all load away; NaN without such a break. [-]
+double force_error(const WatchedRun& run, const WatchedRun& reference);
+
 // Closed forms of the bonded specimen. Where layers are not alike they hold if these lie along the
 // load, or across it without lateral contraction.
 

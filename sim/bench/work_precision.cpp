@@ -17,47 +17,15 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-constexpr int finest = 4;  // refinement of the last mesh that is tried
-
-bool is_quasi_static(const Scene& scene) {
-  return choose_regime(scene).regime == Regime::quasi_static;
-}
-
-double base_step(const Scene& scene) {
-  if (is_quasi_static(scene))  // a hundredth of the way to the first break
-    return 1e-2 * first_break_by_uniform_stress(scene) / scene.loading.strain_rate;
-  return scene.solver.step.value_or(0.25 * scene.assembly.fibre_length /
-                                    wave_speed(scene.material));
-}
-
-Scene with_setting(const BenchSetting& setting, Scene scene) {
-  scene.solver.regime = setting.regime;
-  scene.solver.contact = setting.contact;
-  scene.solver.tolerance = setting.tolerance;
-  scene.solver.step.reset();
-  if (setting.step > 0.0) scene.solver.step = setting.step;
-  scene.solver.leave_out = setting.leave_out;
-  scene.assembly.refinement = setting.refinement;
-  return scene;
-}
 
 // The finest run: steps of a 64th of the longest, and of a quarter of those that runs have chosen.
 BenchSetting reference_setting(const Scene& scene, const std::vector<WatchedRun>& chosen) {
-  BenchSetting reference{.regime = choose_regime(scene).regime,
-                         .tolerance = scene.solver.tolerance,
-                         .refinement = scene.assembly.refinement};
-  if (is_quasi_static(scene)) {
-    reference.leave_out = false;
-    return reference;
-  }
-  reference.step = base_step(scene) / 64.0;
-  for (const WatchedRun& run : chosen)
-    reference.step = std::min(reference.step, run.simulation.step / 4.0);
+  BenchSetting reference = direct_setting(scene);
+  if (reference.regime == Regime::quasi_static) return without_omissions(reference);
+  double step = longest_step(scene) / 64.0;
+  for (const WatchedRun& run : chosen) step = std::min(step, run.simulation.step / 4.0);
+  reference.step = step;
   return reference;
-}
-
-bool has_chosen_steps(const BenchSetting& setting) {
-  return setting.regime == Regime::dynamic && setting.step == 0.0;
 }
 
 double relative_error(double value, double reference) {
@@ -73,18 +41,12 @@ double curve_error(const Simulation& run, const Simulation& reference) {
   constexpr int points = 200;
   double squares = 0.0;
   for (int i = 1; i <= points; ++i) {
-    const double strain = reference.failure_strain * i / points;
+    const double strain = reference.failure_strain * (i - 0.5) / points;  // not where it falls
     const double difference = stress_at(run.curve, strain).value_or(0.0) -
                               stress_at(reference.curve, strain).value_or(0.0);
     squares += difference * difference;
   }
   return std::sqrt(squares / points) / reference.strength;
-}
-
-std::size_t same_breaks(const WatchedRun& run, const WatchedRun& reference) {
-  const auto& [a, b] = std::pair(run.order, reference.order);
-  const auto parting = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
-  return static_cast<std::size_t>(parting.first - a.begin());
 }
 
 BenchSpread spread(std::vector<double> values) {
@@ -128,13 +90,7 @@ BenchErrors errors_of(const std::vector<WatchedRun>& runs,
                                   return relative_error(runs[i].bonded_forces,
                                                         references[i].bonded_forces);
                                 }),
-          .forces = over(runs,
-                         [&](std::size_t i) {
-                           const std::size_t n = same_breaks(runs[i], references[i]);
-                           return n == 0 ? not_known
-                                         : relative_error(runs[i].forces_at_break[n - 1],
-                                                          references[i].forces_at_break[n - 1]);
-                         }),
+          .forces = over(runs, [&](std::size_t i) { return force_error(runs[i], references[i]); }),
           .strength = if_ended([](const Simulation& run, const Simulation& reference) {
             return relative_error(run.strength, reference.strength);
           }),
@@ -163,6 +119,26 @@ BenchRow row_of(const BenchSetting& setting, const std::vector<WatchedRun>& runs
   return row;
 }
 
+double largest(const BenchErrors& errors) {
+  double most = not_known;
+  for (const BenchSpread& error :
+       {errors.bonded_forces, errors.forces, errors.strength, errors.failure_strain, errors.curve})
+    most = std::fmax(most, error.high);  // what is not known does not count
+  return most;
+}
+
+// Of the last row and the one before it, where they are alike but for what they leave out.
+std::optional<Omissions> omissions_of(const std::vector<BenchRow>& rows,
+                                      const std::vector<WatchedRun>& runs,
+                                      const std::vector<WatchedRun>& runs_before) {
+  const BenchRow &row = rows.back(), &before = rows[rows.size() - 2];
+  if (row.setting == before.setting || without_omissions(row.setting) != before.setting) return {};
+  if (row.trusted < row.runs || before.trusted < before.runs) return {};
+  return Omissions{.setting = row.setting,
+                   .change = largest(errors_of(runs, runs_before)),
+                   .cpu_ratio = before.cpu.median / row.cpu.median};
+}
+
 void name_cheapest(WorkPrecision& study) {
   using Quantity = std::pair<const char*, BenchSpread BenchErrors::*>;
   const std::array quantities{Quantity{"joint forces", &BenchErrors::bonded_forces},
@@ -175,9 +151,8 @@ void name_cheapest(WorkPrecision& study) {
         const BenchRow& row = study.rows[i];
         if (row.setting.refinement != study.reference.refinement) continue;
         if (row.trusted < row.runs || !((row.errors.*error).median <= target)) continue;
-        if (cheapest.row < 0 ||
-            row.cpu.median < study.rows[static_cast<std::size_t>(cheapest.row)].cpu.median)
-          cheapest.row = static_cast<int>(i);
+        if (!cheapest.row || row.cpu.median < study.rows[*cheapest.row].cpu.median)
+          cheapest.row = i;
       }
       study.cheapest.push_back(cheapest);
     }
@@ -216,41 +191,6 @@ class Bench {
 
 }  // namespace
 
-std::string to_string(const BenchSetting& setting) {
-  const std::string mesh = fmt::format("{} T3", 8 * setting.refinement * setting.refinement);
-  if (setting.regime == Regime::quasi_static)
-    return fmt::format("quasi-static{}, {}", setting.leave_out ? "" : ", nothing left out", mesh);
-  const std::string step =
-      setting.step > 0.0 ? fmt::format("h = {:.3g} ns", setting.step * 1e9) : "h chosen";
-  if (setting.contact == ContactMethod::gauss_seidel)
-    return fmt::format("Gauss-Seidel {:g}, {}, {}", setting.tolerance, step, mesh);
-  return fmt::format("active set, {}, {}", step, mesh);
-}
-
-std::vector<BenchSetting> bench_settings(const Scene& scene) {
-  std::vector<BenchSetting> settings;
-  const double h = base_step(scene);
-  const int mesh = scene.assembly.refinement;
-  if (is_quasi_static(scene))
-    settings.push_back({.regime = Regime::quasi_static, .refinement = mesh});
-  for (const double factor : {1.0, 0.25, 1.0 / 16.0})
-    settings.push_back({.step = factor * h, .refinement = mesh});
-  if (!is_quasi_static(scene)) {
-    settings.push_back({.refinement = mesh});
-    for (const double tolerance : {1e-4, 1e-6, 1e-8})
-      for (const double factor : {1.0, 0.25})
-        settings.push_back({.contact = ContactMethod::gauss_seidel,
-                            .tolerance = tolerance,
-                            .step = factor * h,
-                            .refinement = mesh});
-  }
-  for (int finer = 2 * mesh; finer <= finest; finer *= 2)
-    settings.push_back({.regime = choose_regime(scene).regime,
-                        .step = is_quasi_static(scene) ? 0.0 : h,
-                        .refinement = finer});
-  return settings;
-}
-
 WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
                                const BenchObserver& observer) {
   WorkPrecision study{.bonded_strain = 0.4 * first_break_by_uniform_stress(scene)};
@@ -268,14 +208,16 @@ WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
                                : "the finest step, solved directly";
   std::vector<WatchedRun> references = bench.run(study.reference, 1e9);
   if (bench.stopped()) return study;
-  const std::vector<WatchedRun> as_run = references;
+  std::vector<WatchedRun> before = references;
   take_exact_forces(scene, study.bonded_strain, references);
-  study.rows.push_back(row_of(study.reference, as_run, references));
+  study.rows.push_back(row_of(study.reference, before, references));
   for (const BenchSetting& setting : settings) {
-    const std::vector<WatchedRun> runs =
+    std::vector<WatchedRun> runs =
         has_chosen_steps(setting) ? in_chosen_steps : bench.run(setting, options.time_limit);
     if (bench.stopped()) break;
     study.rows.push_back(row_of(setting, runs, references));
+    if (const auto omissions = omissions_of(study.rows, runs, before)) study.omissions = omissions;
+    before = std::move(runs);
   }
   study.complete = !bench.stopped();
   name_cheapest(study);
@@ -288,13 +230,19 @@ std::string summary(const WorkPrecision& study) {
     return fmt::format("The reference is not to be trusted: {} of {} runs ended well.",
                        study.rows.front().trusted, study.rows.front().runs);
   for (const CheapestSetting& cheapest : study.cheapest) {
-    if (cheapest.quantity != "failure strain" || cheapest.target != 1e-3 || cheapest.row < 0)
-      continue;
-    const BenchRow& row = study.rows[static_cast<std::size_t>(cheapest.row)];
+    if (cheapest.quantity != "failure strain" || cheapest.target != 1e-3 || !cheapest.row) continue;
+    const BenchRow& row = study.rows[*cheapest.row];
     return fmt::format("Cheapest for a failure strain to 0.1 %: {}, {:.2g} s of CPU time.",
                        to_string(row.setting), row.cpu.median);
   }
   return "No setting but the reference gives the failure strain to 0.1 %.";
+}
+
+std::string explain(const Omissions& omissions) {
+  return fmt::format(
+      "With nothing left out the answer differs by {:.1e} at most and takes {:.2g} times the CPU "
+      "time: {}.",
+      omissions.change, omissions.cpu_ratio, to_string(omissions.setting));
 }
 
 }  // namespace havers::sim

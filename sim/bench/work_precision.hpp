@@ -5,22 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "sim/bench/bench_setting.hpp"
 #include "sim/bench/watched_run.hpp"
 
 namespace havers::sim {
-
-/// One way to compute the scene.
-struct BenchSetting {
-  Regime regime = Regime::dynamic;
-  ContactMethod contact = ContactMethod::active_set;
-  double tolerance = 1e-8;  ///< Of the contact solver. [-]
-  double step = 0.0;        ///< h; 0: chosen by the program, or none in the quasi-static limit. [s]
-  int refinement = 1;
-  bool leave_out = true;
-};
-
-/// "active set, h = 20 ns, 8 T3": the setting in words.
-std::string to_string(const BenchSetting& setting);
 
 /// Median and extremes over the seeds.
 struct BenchSpread {
@@ -48,10 +36,20 @@ struct BenchRow {
 
 /// The setting of least CPU time whose median error is below a target.
 struct CheapestSetting {
-  std::string quantity;  ///< "joint forces", "strength", "failure strain"
-  double target = 0.0;   ///< [-]
-  int row = -1;          ///< −1: no setting reaches it.
+  std::string quantity;                 ///< "joint forces", "strength", "failure strain"
+  double target = 0.0;                  ///< [-]
+  std::optional<std::size_t> row = {};  ///< None: no setting reaches it.
 };
+
+/// What leaving out changes and spares, from runs that differ in nothing else.
+struct Omissions {
+  BenchSetting setting;    ///< That leaves out.
+  double change = 0.0;     ///< Largest of all errors against the runs that leave out nothing. [-]
+  double cpu_ratio = 0.0;  ///< Median CPU time of those, relative to that of the others. [-]
+};
+
+/// In a sentence.
+std::string explain(const Omissions& omissions);
 
 struct WorkPrecision {
   bool complete = false;  ///< false: stopped before the last run.
@@ -61,6 +59,7 @@ struct WorkPrecision {
   std::vector<std::uint64_t> seeds;
   std::vector<BenchRow> rows;  ///< The first is the reference.
   std::vector<CheapestSetting> cheapest;
+  std::optional<Omissions> omissions;  ///< None where a run of either kind is not to be trusted.
 };
 
 struct BenchOptions {
@@ -70,9 +69,6 @@ struct BenchOptions {
 
 /// Told what comes next; returning false ends the comparison with what there is.
 using BenchObserver = std::function<bool(const std::string& next)>;
-
-/// What a scene is computed with, around its own step or, where it has none, L/(4c).
-std::vector<BenchSetting> bench_settings(const Scene& scene);
 
 /// Precondition: scene.problems() is empty.
 WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,

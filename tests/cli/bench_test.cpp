@@ -12,6 +12,10 @@ namespace fs = std::filesystem;
 using test::own_folder;
 using test::run_havers;
 
+std::string header_of(const std::string& table) {
+  return table.substr(0, table.find('\n'));
+}
+
 TEST(Bench, LeavesPageFigureTableAndResult) {
   const fs::path folder = own_folder();
   test::write_text(folder / "scene.toml", test::small_scene());
@@ -23,6 +27,14 @@ TEST(Bench, LeavesPageFigureTableAndResult) {
   const std::string table = test::read_text(folder / "out/bench.csv");
   EXPECT_EQ(std::ranges::count(table, '\n'), static_cast<long>(result["rows"].size()) + 1);
   EXPECT_TRUE(answer.out.starts_with(result["summary"].get<std::string>())) << answer.out;
+  for (const auto& [name, value] : result["rows"][0].items())
+    EXPECT_NE(("," + header_of(table) + ",").find("," + (name == "text" ? "setting" : name) + ","),
+              std::string::npos)
+        << name;
+  for (const char* column :
+       {"regime", "contact", "tolerance", "step (ns)", "refinement", "leave out", "dynamic",
+        "quasi-static", "active-set", "With nothing left out the answer differs by"})
+    EXPECT_NE(answer.out.find(column), std::string::npos) << column;
 }
 
 TEST(Bench, NeedsASceneUnlessAFlagSaysOtherwise) {

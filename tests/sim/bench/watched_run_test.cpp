@@ -51,6 +51,21 @@ TEST(WatchedRun, TakesTheForcesOfTheLimitFromTheIntactSpecimen) {
   }
 }
 
+TEST(WatchedRun, IsComparedAsFarAsItBreaksLikeItsReference) {
+  WatchedRun reference;
+  reference.order = {7, 3, 5};
+  reference.forces_at_break = {Eigen::Vector2d(3.0, 4.0), Eigen::Vector2d(1e-12, 0.0),
+                               Eigen::Vector2d(9.0, 9.0)};
+  WatchedRun run = reference;
+  run.order = {7, 3, 2};
+  run.forces_at_break[1].x() = 0.0;
+  EXPECT_EQ(same_breaks(run, reference), 2U);
+  EXPECT_NEAR(force_error(run, reference), 1e-12 / 5.0, 1e-20);  // the load has gone
+  run.order.front() = 1;
+  EXPECT_EQ(same_breaks(run, reference), 0U);
+  EXPECT_TRUE(std::isnan(force_error(run, reference)));
+}
+
 TEST(WatchedRun, ListsTheBreaksInTheirOrder) {
   const Scene scene = test::dynamic_scene();
   const WatchedRun run = watch(scene, {}, {});

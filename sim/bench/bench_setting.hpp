@@ -1,0 +1,44 @@
+// The ways to compute one scene that a bench compares.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/scene.hpp"
+
+namespace havers::sim {
+
+/// One way to compute the scene.
+struct BenchSetting {
+  Regime regime = Regime::dynamic;
+  ContactMethod contact = ContactMethod::active_set;
+  double tolerance = 1e-8;          ///< Of the contact solver. [-]
+  std::optional<double> step = {};  ///< h; none in the quasi-static limit or where the program
+                                    ///< chooses it. [s]
+  int refinement = 1;
+  bool leave_out = true;
+
+  bool operator==(const BenchSetting&) const = default;
+};
+
+/// "active set, h = 20 ns, 8 T3": the setting in words.
+std::string to_string(const BenchSetting& setting);
+
+bool has_chosen_steps(const BenchSetting& setting);
+
+BenchSetting without_omissions(BenchSetting setting);
+
+/// The scene's own mesh and tolerance, solved directly: in the limit, or in chosen steps.
+BenchSetting direct_setting(const Scene& scene);
+
+Scene with_setting(const BenchSetting& setting, Scene scene);
+
+/// h that others are parts of: the scene's own or, where it has none, L/(4c); in the quasi-static
+/// limit a hundredth of the way to the first break. [s]
+double longest_step(const Scene& scene);
+
+/// What a scene is computed with.
+std::vector<BenchSetting> bench_settings(const Scene& scene);
+
+}  // namespace havers::sim
