@@ -14,59 +14,67 @@ namespace {
 // Less is rounding; it is drawn on the lower edge.
 constexpr double smallest_error = 1e-15;
 
+// Point types are gnuplot's of full points; one less is the hollow one.
 struct Series {
-  std::string_view title, style;
-  bool (*holds)(const sim::BenchSetting& setting, const sim::BenchSetting& reference);
+  std::string_view title, look;
+  int point;
+  bool (*holds)(const sim::BenchSetting& setting);
 };
 
 bool steps_in_time(const sim::BenchSetting& s, sim::ContactMethod method) {
-  return s.regime == sim::Regime::dynamic && s.contact == method;
+  return s.regime == sim::Regime::dynamic && s.contact == method && s.leave_out;
 }
 
-constexpr std::array<Series, 4> all_series{{
-    {"active set", "pt 7 ps 1 lc rgb blue",
-     [](const auto& s, const auto& r) {
-       return steps_in_time(s, sim::ContactMethod::active_set) && s.refinement == r.refinement;
-     }},
-    {"Gauss-Seidel", "pt 9 ps 1.1 lc rgb red",
-     [](const auto& s, const auto&) { return steps_in_time(s, sim::ContactMethod::gauss_seidel); }},
-    {"quasi-static", "pt 5 ps 1 lc rgb green",
-     [](const auto& s, const auto& r) {
-       return s.regime == sim::Regime::quasi_static && s.refinement == r.refinement;
-     }},
-    {"finer mesh", "pt 12 ps 1.2 lc rgb purple",
-     [](const auto& s, const auto& r) { return s.refinement != r.refinement; }},
+constexpr std::array<Series, 5> all_series{{
+    {"active set", "ps 1 lc rgb blue", 7,
+     [](const auto& s) { return steps_in_time(s, sim::ContactMethod::active_set); }},
+    {"nothing left out", "ps 1.1 lc rgb orange", 11, [](const auto& s) { return !s.leave_out; }},
+    {"Gauss-Seidel", "ps 1.1 lc rgb red", 9,
+     [](const auto& s) { return steps_in_time(s, sim::ContactMethod::gauss_seidel); }},
+    {"quasi-static", "ps 1 lc rgb green", 5,
+     [](const auto& s) { return s.regime == sim::Regime::quasi_static && s.leave_out; }},
+    {"finer mesh", "ps 1.2 lc rgb purple", 13, nullptr},
 }};
+
+bool belongs(const sim::BenchSetting& setting, const sim::BenchSetting& reference,
+             const Series& series) {
+  const bool finer = setting.refinement != reference.refinement;
+  return series.holds == nullptr ? finer : !finer && series.holds(setting);
+}
 
 double drawn(double error) {
   return std::max(error, smallest_error);
 }
 
-// Rows of one series: CPU time and error, median, least and largest of each. The reference is left
-// out: its error is 0 by definition.
-std::string series_data(const sim::WorkPrecision& study, const Series& series,
-                        sim::BenchSpread sim::BenchErrors::*error) {
-  std::string lines;
-  for (std::size_t i = 1; i < study.rows.size(); ++i) {
-    const sim::BenchRow& row = study.rows[i];
-    const sim::BenchSpread& e = row.errors.*error;
-    if (!series.holds(row.setting, study.reference) || !std::isfinite(e.median)) continue;
-    lines += fmt::format("{:.4g} {:.4g} {:.4g} {:.4g} {:.4g} {:.4g}\n", row.cpu.median,
-                         drawn(e.median), row.cpu.low, row.cpu.high, drawn(e.low), drawn(e.high));
-  }
-  return lines;
+// CPU time and error, median, least and largest of each; nothing where the error is not known.
+std::string line_of(const sim::BenchSpread& cpu, const sim::BenchSpread& error) {
+  if (!std::isfinite(error.median)) return {};
+  return fmt::format("{:.4g} {:.4g} {:.4g} {:.4g} {:.4g} {:.4g}\n", cpu.median, drawn(error.median),
+                     cpu.low, cpu.high, drawn(error.low), drawn(error.high));
 }
 
 std::string work_panel(const sim::WorkPrecision& study, const std::string& name,
                        sim::BenchSpread sim::BenchErrors::*error) {
   std::string data, plots;
-  for (std::size_t i = 0; i < all_series.size(); ++i) {
-    const std::string lines = series_data(study, all_series.at(i), error);
-    if (lines.empty()) continue;
-    data += fmt::format("${}{} << EOD\n{}EOD\n", name, i, lines);
-    plots += fmt::format("{}${}{} using 1:2:3:4:5:6 with xyerrorbars lw 1.2 {} title '{}'",
-                         plots.empty() ? "plot " : ", ", name, i, all_series.at(i).style,
-                         all_series.at(i).title);
+  for (const Series& series : all_series) {
+    std::array<std::string, 2> lines;                      // not all runs to be trusted; all
+    for (std::size_t i = 1; i < study.rows.size(); ++i) {  // the reference has no error
+      const sim::BenchRow& row = study.rows[i];
+      if (belongs(row.setting, study.reference, series))
+        lines.at(row.trusted == row.runs ? 1 : 0) += line_of(row.cpu, row.errors.*error);
+    }
+    std::string_view title = series.title;
+    for (const int full : {1, 0}) {
+      const std::string& points = lines.at(static_cast<std::size_t>(full));
+      if (points.empty()) continue;
+      const std::string block = fmt::format("${}{}", name, std::ranges::count(data, '$'));
+      data += fmt::format("{} << EOD\n{}EOD\n", block, points);
+      plots +=
+          fmt::format("{}{} using 1:2:3:4:5:6 with xyerrorbars lw 1.2 pt {} {} {}",
+                      plots.empty() ? "plot " : ", ", block, series.point - 1 + full, series.look,
+                      title.empty() ? "notitle" : fmt::format("title '{}'", title));
+      title = {};
+    }
   }
   return plots.empty() ? std::string() : data + plots + "\n";
 }
@@ -81,12 +89,13 @@ std::string work_precision_svg(const sim::WorkPrecision& study) {
   const std::string strain = work_panel(study, "strain", &sim::BenchErrors::failure_strain);
   if (!forces.empty() && !strain.empty())
     figure.commands =
-        "set multiplot\nset logscale xy\nset format y '10^{%L}'\nset offsets graph 0.06,graph "
+        "set multiplot\nset logscale xy\nset format y '10^{%L}'\nset format x '%g'\nset offsets "
+        "graph 0.06,graph "
         "0.06,graph 0.06,graph 0.06\n" +
-        panel(0.56, 0.95) + "set ylabel 'Error of joint forces' offset 1.5,0\n" + forces +
-        panel(0.09, 0.48) +
+        panel(0.55, 0.915) + "set ylabel 'Relative error of joint forces' offset 0.8,0\n" + forces +
+        panel(0.09, 0.47) +
         "set xlabel 'CPU time of a run (s)' offset 0,0.5\n"
-        "set ylabel 'Error of the failure strain' offset 1.5,0\nunset key\n" +
+        "set ylabel 'Relative error of failure strain' offset 0.8,0\nunset key\n" +
         strain + "unset multiplot\n";
   return draw(figure);
 }

@@ -12,7 +12,16 @@ namespace {
 
 // Two digits are plenty for an error.
 std::string error_text(double error) {
-  return std::isfinite(error) ? fmt::format("{:.1e}", error) : "–";
+  return number(error, 2);
+}
+
+std::string whole_text(double median) {
+  return fmt::format("{:.0f}", median);
+}
+
+std::string setting_text(const sim::BenchSetting& setting) {
+  std::string words = typeset(to_string(setting));
+  return words.replace(words.rfind(' '), 1, "\u00a0");  // "8 T3" stays on a line
 }
 
 std::string spread_text(const sim::BenchSpread& spread) {
@@ -27,19 +36,19 @@ mstch::map work_row(const sim::BenchRow& row, bool reference) {
       : row.out_of_time > 0
           ? fmt::format("{} of {} stopped at the time limit", row.out_of_time, row.runs)
           : fmt::format("{} of {} not to be trusted", row.runs - row.trusted, row.runs);
-  return {{"setting", text(to_string(row.setting) + (reference ? " (reference)" : ""))},
+  return {{"setting", text(setting_text(row.setting) + (reference ? " (reference)" : ""))},
           {"state", text(state)},
           {"forces", text(error_text(row.errors.bonded_forces.median))},
           {"forces_end", text(error_text(row.errors.forces.median))},
-          {"breaks", text(number(row.same_breaks.median, 3))},
+          {"breaks", text(whole_text(row.same_breaks.median))},
           {"strength", text(error_text(row.errors.strength.median))},
           {"failure_strain", text(error_text(row.errors.failure_strain.median))},
           {"failure_range", text(spread_text(row.errors.failure_strain))},
           {"curve", text(error_text(row.errors.curve.median))},
           {"wall", text(number(row.wall.median, 3))},
           {"cpu", text(number(row.cpu.median, 3))},
-          {"steps", text(number(row.steps.median, 4))},
-          {"iterations", text(number(row.iterations.median, 4))}};
+          {"steps", text(whole_text(row.steps.median))},
+          {"iterations", text(whole_text(row.iterations.median))}};
 }
 
 mstch::array cheapest_rows(const sim::WorkPrecision& study) {
@@ -49,7 +58,7 @@ mstch::array cheapest_rows(const sim::WorkPrecision& study) {
     rows.emplace_back(
         mstch::map{{"quantity", text(cheapest.quantity)},
                    {"target", text(fmt::format("{:g}", cheapest.target))},
-                   {"setting", text(row ? to_string(row->setting) : "no setting reaches it")},
+                   {"setting", text(row ? setting_text(row->setting) : "no setting reaches it")},
                    {"cpu", text(row ? number(row->cpu.median, 3) : "–")}});
   }
   return rows;
@@ -58,15 +67,15 @@ mstch::array cheapest_rows(const sim::WorkPrecision& study) {
 mstch::map stability_row(const sim::StabilityResult& result) {
   const bool ran = result.outcome != sim::StabilityOutcome::refused;
   const auto if_ran = [&](double value) { return text(ran ? error_text(value) : "–"); };
-  return {{"name", text(result.name)},
+  return {{"name", text(typeset(result.name))},
           {"grade", text(result.as_it_must ? "pass" : "fail")},
           {"outcome", text(to_string(result.outcome))},
-          {"reason", text(result.reason)},
+          {"reason", text(typeset(result.reason))},
           {"error", if_ran(result.error)},
           {"residual", if_ran(result.residual)},
           {"energy", if_ran(result.energy_defect)},
           {"penetration", if_ran(result.penetration)},
-          {"wall", text(ran ? number(result.wall, 2) : "–")}};
+          {"wall", text(ran ? number(1e3 * result.wall, 2) : "–")}};
 }
 
 }  // namespace
@@ -77,16 +86,17 @@ std::string work_precision_page(const WorkPrecisionReport& report) {
   for (const sim::BenchRow& row : study.rows) rows.emplace_back(work_row(row, rows.empty()));
   return render_page(
       "havers bench: error against run time", "bench",
-      {{"sentence", text(summary(study))},
+      {{"sentence", text(typeset(summary(study)))},
        {"detail",
-        text(fmt::format("{} × {} fibres, {}. Errors are relative to {}, {}, of the same seed.",
+        text(fmt::format("{} × {} fibres, {}. Errors are relative to {}, of the same seed: {}.",
                          report.scene.assembly.fibres, report.scene.assembly.layers,
                          count(static_cast<long>(study.seeds.size()), "seed"),
-                         study.reference_ground, to_string(study.reference)))},
-       {"grade", text(study.complete ? "good" : "bad")},
+                         study.reference_ground, setting_text(study.reference)))},
+       {"grade", text(study.complete && reference_is_trusted(study) ? "good" : "bad")},
        {"figure", text(work_precision_svg(study))},
        {"strain", text(quantity(study.bonded_strain / in::percent, "%", 3))},
        {"cheapest", mstch::node{cheapest_rows(study)}},
+       {"omissions", text(study.omissions ? typeset(explain(*study.omissions)) : "")},
        {"rows", mstch::node{rows}}},
       report.provenance);
 }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <system_error>
 
 namespace havers::reports {
 namespace {
@@ -53,6 +55,25 @@ std::string number(double value, int digits) {
   if (exponent >= -4 && exponent < 6) return fixed(value, std::max(0, digits - 1 - exponent));
   const std::string text = fmt::format("{:.{}e}", value, digits - 1);
   return with_minus(text.substr(0, text.find('e'))) + " × 10" + superscript(exponent);
+}
+
+std::string typeset(std::string_view text) {
+  std::string result;
+  std::size_t done = 0;
+  for (std::size_t e = text.find('e', 1); e < text.size(); e = text.find('e', e + 1)) {
+    const bool plus = text.substr(e + 1).starts_with('+');
+    int exponent = 0;
+    const auto [end, error] =
+        std::from_chars(&text[e] + (plus ? 2 : 1), text.data() + text.size(), exponent);
+    const std::size_t begin = text.find_last_not_of("0123456789.", e - 1) + 1;
+    if (error != std::errc() || begin == e) continue;
+    const std::string_view mantissa = text.substr(begin, e - begin);
+    result += text.substr(done, begin - done);
+    result += mantissa == "1" ? "10" : fmt::format("{} × 10", mantissa);
+    result += superscript(exponent);
+    done = static_cast<std::size_t>(end - text.data());
+  }
+  return result.append(text.substr(done));
 }
 
 std::string setting(double value, std::string_view unit) {

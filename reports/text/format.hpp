@@ -19,6 +19,10 @@ inline constexpr double GPa = 1e9;   ///< [Pa]
 /// `digits` significant digits: "38.21", "0.004100", "3.21 × 10⁻¹⁴"; "–" when not finite.
 std::string number(double value, int digits = 4);
 
+/// A sentence whose numbers are written as a computer does, written as a reader does: "1e-06" is
+/// "10⁻⁶", "6.1e-09" is "6.1 × 10⁻⁹".
+std::string typeset(std::string_view text);
+
 /// A number somebody chose, as they would write it: "13", "0.33", "1e-08".
 std::string setting(double value, std::string_view unit = {});
 

@@ -84,7 +84,7 @@ void add_steps_and_materials(Scenes& scenes) {
   scenes.push_back({"layers in series, every second 0.001 as stiff", quasi_static(in_series)});
   Scene auxetic = wall();
   auxetic.material.poisson = -0.9;
-  add_both(scenes, "Poisson's ratio -0.9", auxetic);
+  add_both(scenes, "Poisson's ratio −0.9", auxetic);
   for (const double viscosity : {1e-12, 1e-3}) {
     Scene scene = dynamic(1.0, wall());
     scene.material.viscosity = viscosity;

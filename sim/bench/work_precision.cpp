@@ -240,7 +240,7 @@ std::string summary(const WorkPrecision& study) {
 
 std::string explain(const Omissions& omissions) {
   return fmt::format(
-      "With nothing left out the answer differs by {:.1e} at most and takes {:.2g} times the CPU "
+      "With nothing left out the answer differs by {:.1e} at most and takes {:.1f} times the CPU "
       "time: {}.",
       omissions.change, omissions.cpu_ratio, to_string(omissions.setting));
 }

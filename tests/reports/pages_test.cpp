@@ -116,6 +116,44 @@ TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
   EXPECT_TRUE(contains(porosity_page(report), "of the joints away"));
 }
 
+sim::WorkPrecision work_precision_sample() {
+  const auto row = [](sim::BenchSetting setting, double error, int trusted) {
+    sim::BenchRow made{.setting = setting, .runs = 1, .trusted = trusted};
+    made.wall = made.cpu = {0.2, 0.1, 0.3};
+    made.errors = {.bonded_forces = {error, error, error},
+                   .failure_strain = {error, 0.5 * error, 2.0 * error}};
+    made.steps = made.iterations = {1'234'567.0, 0.0, 0.0};
+    return made;
+  };
+  const sim::BenchSetting reference{.step = 1e-11};
+  sim::WorkPrecision study{.complete = true, .reference = reference};
+  study.rows = {row(reference, 0.0, 1), row({.step = 2e-8}, 3e-6, 1),
+                row({.contact = sim::ContactMethod::gauss_seidel, .step = 2e-8}, 3e-5, 0)};
+  study.omissions = sim::Omissions{{.step = 2e-8}, 1.3e-13, 1.7};
+  return study;
+}
+
+TEST(WorkPrecisionPage, WritesNumbersAsAReaderDoes) {
+  const sim::WorkPrecision study = work_precision_sample();
+  const sim::Scene scene;
+  const std::string page = work_precision_page({scene, study, {{"seed", "1"}}});
+  expect_sound(page);
+  EXPECT_TRUE(contains(page, "Gauss-Seidel 10⁻⁸, h = 20 ns, 8\u00a0T3"));
+  EXPECT_TRUE(contains(page, "h = 10 ps"));
+  EXPECT_TRUE(contains(page, "3.0 × 10⁻⁶ (1.5 × 10⁻⁶ to 6.0 × 10⁻⁶)"));
+  EXPECT_TRUE(contains(page, ">1234567<"));
+  EXPECT_TRUE(contains(page, "differs by 1.3 × 10⁻¹³ at most and takes 1.7 times the CPU time"));
+  EXPECT_TRUE(contains(page, "1 of 1 not to be trusted"));
+  EXPECT_FALSE(contains(page, "e-0"));
+}
+
+TEST(WorkPrecisionPage, IsNotGreenWithoutAReference) {
+  sim::WorkPrecision study = work_precision_sample();
+  EXPECT_TRUE(contains(work_precision_page({{}, study, {}}), "verdict good"));
+  study.rows.front().trusted = 0;
+  EXPECT_TRUE(contains(work_precision_page({{}, study, {}}), "verdict bad"));
+}
+
 calib::PorosityTrial trial_of(const std::string& hardship, double truth, double ours) {
   calib::PorosityTrial trial{.hardship = hardship, .pixels = 1e6, .truth = truth};
   trial.readings = {{{0.5, 1e-3}, {0.4, 2e-3}, {0.3, 1e-2}, {ours, 3e-2}}};

@@ -34,6 +34,13 @@ TEST(Number, IsADashWhereNothingIsKnown) {
   EXPECT_EQ(interval(nan, 2.0), "–");
 }
 
+TEST(Typeset, WritesPowersOfTenInASentence) {
+  EXPECT_EQ(typeset("Gauss-Seidel 1e-06, h = 5 ns"), "Gauss-Seidel 10⁻⁶, h = 5 ns");
+  EXPECT_EQ(typeset("off by 6.1e-09 at 2e+12 Pa"), "off by 6.1 × 10⁻⁹ at 2 × 10¹² Pa");
+  EXPECT_EQ(typeset("the ends: 3 e, 3e"), "the ends: 3 e, 3e");
+  EXPECT_EQ(typeset(""), "");
+}
+
 TEST(Setting, IsWrittenAsItWasChosen) {
   EXPECT_EQ(setting(0.33), "0.33");
   EXPECT_EQ(setting(13.0, "GPa"), "13\u00a0GPa");

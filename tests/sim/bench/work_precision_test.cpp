@@ -107,6 +107,22 @@ TEST(WorkPrecision, EndsWhenAskedTo) {
   EXPECT_EQ(summary(study), "Stopped before every setting was run.");
 }
 
+TEST(BenchSetting, RefinesTheMeshAtTheLongestAndTheShortestStep) {
+  const Scene scene = tiny(Regime::dynamic);
+  double longest = 0.0, shortest = longest_step(scene);
+  std::vector<double> with_finer_mesh;
+  for (const BenchSetting& setting : bench_settings(scene)) {
+    if (setting.refinement > 1) {
+      ASSERT_TRUE(setting.step);
+      with_finer_mesh.push_back(*setting.step);
+    } else if (setting.step) {
+      longest = std::max(longest, *setting.step);
+      shortest = std::min(shortest, *setting.step);
+    }
+  }
+  EXPECT_EQ(with_finer_mesh, (std::vector{longest, shortest, longest, shortest}));
+}
+
 TEST(BenchSetting, IsSaidInWords) {
   EXPECT_EQ(to_string({.step = 2e-8}), "active set, h = 20 ns, 8 T3");
   EXPECT_EQ(to_string({.contact = ContactMethod::gauss_seidel, .tolerance = 1e-6, .step = 5e-9}),
@@ -115,6 +131,8 @@ TEST(BenchSetting, IsSaidInWords) {
             "quasi-static, nothing left out, 128 T3");
   EXPECT_EQ(to_string({.step = 2e-8, .leave_out = false}),
             "active set, h = 20 ns, nothing left out, 8 T3");
+  EXPECT_EQ(to_string({.step = 4.577e-3}), "active set, h = 4.58 ms, 8 T3");
+  EXPECT_EQ(to_string({.step = 3.5e-6}), "active set, h = 3.5 µs, 8 T3");
 }
 
 }  // namespace
