@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "sim/outcome.hpp"
-#include "sim/simulate.hpp"
 
 namespace havers::sim {
 namespace {
