@@ -65,6 +65,10 @@ std::string unknown_word(const CLI::App& app) {
 int answer(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);
   const std::string unknown = unknown_word(app);
+  if (unknown.empty() && app.get_subcommands().empty()) {
+    fmt::print(stderr, "{}", app.help());
+    return bad_input;
+  }
   fmt::print(stderr, "havers: {} (havers -h and havers COMMAND -h show how it is used)\n",
              unknown.empty() ? error.what() : unknown);
   return bad_input;
