@@ -32,45 +32,97 @@ double or_zero(double error) {
   return std::isfinite(error) ? error : 0.0;
 }
 
-// Whether another specimen lies so near that the two names would be printed on top of each other.
-bool crowded(const calib::SpecimenResult& one, const Groups& groups) {
-  constexpr double near = 0.08;  // of the strength
+// All strengths, on both axes. [MPa]
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = 0.0;
+};
+
+Range range_of(const Groups& groups) {
+  Range range;
   for (const auto& [group, members] : groups)
-    for (const auto* other : members)
-      if (other != &one &&
-          std::abs(other->measured.strength / one.measured.strength - 1.0) < near &&
-          std::abs(other->strength.mean / one.strength.mean - 1.0) < near)
-        return true;
-  return false;
+    for (const auto* specimen : members)
+      for (const double stress : {specimen->measured.strength, specimen->strength.mean}) {
+        range.low = std::min(range.low, stress / in::MPa);
+        range.high = std::max(range.high, stress / in::MPa);
+      }
+  return range;
 }
 
-std::string group_data(int number, const Group& group, const Groups& groups) {
+// Orientations may differ so much that the weak would huddle in a corner.
+bool is_wide(const Range& range) {
+  return range.low > 0.0 && range.high > 3.0 * range.low;
+}
+
+enum class Side { right, left, none };
+
+// A name's place in pixels of the figure, nearly: right below its point or left above it.
+struct Label {
+  double x = 0.0, y = 0.0, width = 0.0;
+
+  [[nodiscard]] bool meets(const Label& other) const {
+    constexpr double height = 12.0;
+    return std::abs(x - other.x) < 0.5 * (width + other.width) && std::abs(y - other.y) < height;
+  }
+};
+
+Label label_at(const calib::SpecimenResult& specimen, const Range& range, Side side) {
+  constexpr double axis = 400.0, per_letter = 7.0;  // in pixels
+  const auto place = [&](double stress) {
+    const double value = stress / in::MPa;
+    return axis * (is_wide(range) ? std::log(value / range.low) / std::log(range.high / range.low)
+                                  : (value - range.low) / (range.high - range.low));
+  };
+  const double letters = per_letter * static_cast<double>(specimen.id.size());
+  const double sign = side == Side::right ? 1.0 : -1.0;
+  return {.x = place(specimen.measured.strength) + sign * (8.0 + 0.5 * letters),
+          .y = 0.75 * place(specimen.strength.mean) - sign * 9.0,
+          .width = letters};
+}
+
+// Points lie along the line of equality, so that both its sides are free: the names take turns
+// where they would meet.
+std::map<std::string, Side> sides_of(const Groups& groups, const Range& range) {
+  std::vector<const calib::SpecimenResult*> all;
+  for (const auto& [group, members] : groups) all.insert(all.end(), members.begin(), members.end());
+  std::ranges::sort(all, {}, [](const auto* s) { return s->measured.strength; });
+  std::vector<Label> taken;
+  std::map<std::string, Side> sides;
+  for (const auto* specimen : all)
+    for (const Side side : {Side::right, Side::left, Side::none}) {
+      sides[specimen->id] = side;
+      if (side == Side::none) break;
+      const Label label = label_at(*specimen, range, side);
+      if (std::ranges::any_of(taken, [&](const Label& other) { return label.meets(other); }))
+        continue;
+      taken.push_back(label);
+      break;
+    }
+  return sides;
+}
+
+std::string group_data(int number, const std::vector<const calib::SpecimenResult*>& members,
+                       const std::map<std::string, Side>& sides) {
   std::string block = fmt::format("$group{} << EOD\n", number);
-  for (const auto* specimen : groups.at(group))
-    block += fmt::format(
-        "{:.6g} {:.6g} {:.6g} {:.6g} \"{}\"\n", specimen->measured.strength,
-        specimen->strength.mean, or_zero(specimen->measured.strength_standard_error),
-        or_zero(specimen->strength.sd), crowded(*specimen, groups) ? "" : plain(specimen->id));
+  for (const auto* specimen : members) {
+    const auto name_on = [&](Side side) {
+      return sides.at(specimen->id) == side ? plain(specimen->id) : "";
+    };
+    block +=
+        fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} \"{}\" \"{}\"\n", specimen->measured.strength,
+                    specimen->strength.mean, or_zero(specimen->measured.strength_standard_error),
+                    or_zero(specimen->strength.sd), name_on(Side::right), name_on(Side::left));
+  }
   return block + "EOD\n";
 }
 
-// Equal axes; logarithmic ones where orientations differ so much that the weak would huddle in a
-// corner.
-std::string axes(const Groups& groups) {
-  double low = std::numeric_limits<double>::infinity(), high = 0.0;
-  for (const auto& [group, members] : groups)
-    for (const auto* specimen : members) {
-      low =
-          std::min({low, specimen->measured.strength / in::MPa, specimen->strength.mean / in::MPa});
-      high = std::max(
-          {high, specimen->measured.strength / in::MPa, specimen->strength.mean / in::MPa});
-    }
-  if (low > 0.0 && high > 3.0 * low)
+// Equal axes; logarithmic ones where strengths differ much.
+std::string axes(const Range& range) {
+  if (is_wide(range))
     return fmt::format(
         "set logscale xy\nset xtics (1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100, 150, 200, 300)\n"
         "set ytics (1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100, 150, 200, 300)\n"
         "set xrange [{0:.4g}:{1:.4g}]\nset yrange [{0:.4g}:{1:.4g}]\n",
-        0.8 * low, 1.35 * high);
+        0.8 * range.low, 1.35 * range.high);
   return "set offsets graph 0.08, graph 0.14, graph 0.08, graph 0.08\n";
 }
 
@@ -84,6 +136,8 @@ std::string group_plot(int number, const Group& group, int shape) {
       "1.4 "
       "lc rgb {2} title '{3}°{4}', "
       "$group{0} using ($1*1e-6):($2*1e-6):5 with labels noenhanced left offset 0.9,-0.7 "
+      "font ',11' tc rgb '#555555' notitle, "
+      "$group{0} using ($1*1e-6):($2*1e-6):6 with labels noenhanced right offset -0.9,0.7 "
       "font ',11' tc rgb '#555555' notitle",
       number, 5 + 2 * style - (fitted ? 0 : 1), colours.at(style), group.first,
       fitted ? "" : ", validation");
@@ -98,17 +152,19 @@ Figure strength_figure(const std::vector<calib::SpecimenResult>& specimens, cons
                 .height = 440};
   const Groups groups = groups_of(specimens);
   if (groups.empty()) return figure;
+  const Range range = range_of(groups);
+  const auto sides = sides_of(groups, range);
   std::string data, plots;
   std::map<long, int> shapes;
   int number = 0;
   for (const auto& [group, members] : groups) {
     const int shape =
         shapes.try_emplace(group.first, static_cast<int>(shapes.size())).first->second;
-    data += group_data(number, group, groups);
+    data += group_data(number, members, sides);
     plots += group_plot(number, group, shape);
     ++number;
   }
-  figure.commands = data + panel(0.145, 0.97) + axes(groups) + R"(
+  figure.commands = data + panel(0.145, 0.97) + axes(range) + R"(
 set xlabel 'Measured strength (MPa)' offset 0,0.5
 set ylabel 'Simulated strength (MPa)' offset 1,0
 set key inside at graph 0.02, graph 0.98 left top vertical

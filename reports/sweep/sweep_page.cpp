@@ -123,15 +123,24 @@ std::string sentence_of(const std::vector<Row>& rows, long runs) {
   }
   std::string sentence =
       fmt::format("Of {}: ", count(static_cast<long>(outcomes.size()), "finding"));
-  const std::array<std::string_view, 3> say{"agree", "disagree", "depend or cannot be decided"};
+  const std::array<std::string_view, 3> say{"agree", "disagree", "depend or cannot be decided"},
+      of_one{"agrees", "disagrees", "depends or cannot be decided"};
   bool first = true;
   for (std::size_t kind = 0; kind < 3; ++kind) {
     if (counts.at(kind) == 0) continue;
-    sentence += fmt::format("{}{} {} ({})", first ? "" : "; ", counts.at(kind), say.at(kind),
-                            names.at(kind));
+    sentence += fmt::format("{}{} {} ({})", first ? "" : "; ", counts.at(kind),
+                            counts.at(kind) == 1 ? of_one.at(kind) : say.at(kind), names.at(kind));
     first = false;
   }
   return sentence + ".";
+}
+
+// Runs that fail are worse than claims that do not hold.
+std::string grade_of(const std::vector<Row>& rows, long runs, long failed) {
+  if (20 * failed > runs) return "bad";
+  const bool agree = std::ranges::all_of(
+      rows, [](const Row& row) { return row.finding->outcome == FindingOutcome::agrees; });
+  return agree ? "good" : "mixed";
 }
 
 std::string law_text(const calib::Law& law) {
@@ -264,7 +273,7 @@ std::string sweep_page(const std::string& title, const std::vector<SweepReport>&
   }
   return render_page(
       title, "sweep",
-      {{"grade", text(20 * failed <= runs ? "good" : "bad")},
+      {{"grade", text(grade_of(rows, runs, failed))},
        {"sentence", text(sentence_of(rows, runs))},
        {"detail",
         text(fmt::format("{}, {} failed, {} wall time; seeds are not shared between points.",

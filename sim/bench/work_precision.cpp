@@ -217,7 +217,8 @@ class Bench {
 }  // namespace
 
 std::string to_string(const BenchSetting& setting) {
-  const std::string mesh = fmt::format("{} T3", 8 * setting.refinement * setting.refinement);
+  const std::string mesh =
+      fmt::format("{} triangles a fibre", 8 * setting.refinement * setting.refinement);
   if (setting.regime == Regime::quasi_static)
     return fmt::format("quasi-static{}, {}", setting.leave_out ? "" : ", nothing left out", mesh);
   const std::string step =

@@ -19,7 +19,7 @@ struct BenchSetting {
   bool leave_out = true;
 };
 
-/// "active set, h = 20 ns, 8 T3": the setting in words.
+/// "active set, h = 20 ns, 8 triangles a fibre": the setting in words.
 std::string to_string(const BenchSetting& setting);
 
 /// Median and extremes over the seeds.

@@ -55,7 +55,7 @@ TEST(ImportPage, ShowsNumbersCorrectionsAndWarningsOfEveryTest) {
   EXPECT_TRUE(contains(page, "<h2>A1.csv</h2>"));
   EXPECT_TRUE(contains(page, "<h2>A2.csv</h2>"));
   EXPECT_TRUE(contains(page, "13.000 ± 0.078 GPa, in the window 0.033 to 0.132 %"));
-  EXPECT_TRUE(contains(page, "strain shifted by 2.0e-4"));
+  EXPECT_TRUE(contains(page, "strain shifted by 2.0 × 10⁻⁴"));
   EXPECT_TRUE(contains(page, "The curve is not linear to failure."));
   EXPECT_FALSE(contains(page, "at least"));
 
