@@ -143,11 +143,15 @@ std::string grade_of(const std::vector<Row>& rows, long runs, long failed) {
   return agree ? "good" : "mixed";
 }
 
+std::string with_unit(const MeasureWords& words) {
+  return words.unit.empty() ? words.name : fmt::format("{} ({})", words.name, words.unit);
+}
+
 std::string law_text(const calib::Law& law) {
   std::string terms;
   for (const std::string& term : law.request.terms) terms += name_of_key(term) + ", ";
-  return fmt::format("{} ({}) linear in {}", words_of(law.request.response).name,
-                     words_of(law.request.response).unit, terms.substr(0, terms.size() - 2));
+  return fmt::format("{} linear in {}", with_unit(words_of(law.request.response)),
+                     terms.substr(0, terms.size() - 2));
 }
 
 std::string coefficients_of(const calib::Law& law) {
@@ -200,9 +204,8 @@ mstch::array point_heads(const SweepReport& report) {
   for (const calib::SweepKey& key : report.sweep.plan.keys) head(name_of_key(key.name));
   head("I");
   head("n");
-  for (const calib::Measure m : known_measures(report.result))
-    head(fmt::format("{} {}", words_of(m).name, words_of(m).unit));
-  head("Strength CV %");
+  for (const calib::Measure m : known_measures(report.result)) head(with_unit(words_of(m)));
+  head("CV of the strength (%)");
   head("Weibull modulus");
   head("ln-likelihood, Gumbel − Weibull");
   return heads;
