@@ -92,9 +92,22 @@ int run(const Command& command, const CommonOptions& common) {
   return bad_input;
 }
 
+// The words of the help, for all commands; to be called before they are added.
+void word_help(CLI::App& app) {
+  app.set_help_flag("-h,--help", "this help");
+  const auto formatter = app.get_formatter();
+  for (const auto& [cli11, ours] : {std::pair("SUBCOMMAND", "COMMAND"),
+                                    {"REQUIRED", "(required)"},
+                                    {"FLOAT", "NUMBER"},
+                                    {"Positionals", "Input"},
+                                    {"TEXT", ""}})
+    formatter->label(cli11, ours);
+}
+
 int program(int argc, char** argv) {
   CLI::App app("Fits a fibre-level fracture model of compact bone to a laboratory's tensile tests.",
                "havers");
+  word_help(app);
   CommonOptions common;
   common.command_line = typed(argc, argv);
   const std::array commands{

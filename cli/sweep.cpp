@@ -183,7 +183,7 @@ Command sweep_command(CLI::App& app, CommonOptions& common) {
   const auto arguments = std::make_shared<SweepArguments>();
   parser->add_option("SWEEP", arguments->files, "sweep files (TOML)")->required();
   add_output(*parser, arguments->folder, "folder for the results")->required();
-  parser->add_option("--title", arguments->title, "of the page")->type_name("TEXT");
+  parser->add_option("--title", arguments->title, "of the page")->type_name("TITLE");
   return {parser, [arguments, &common] { return run_sweeps(*arguments, common); }};
 }
 
