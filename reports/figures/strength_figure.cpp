@@ -55,48 +55,53 @@ bool is_wide(const Range& range) {
 
 enum class Side { right, left, none };
 
-// A name's place in pixels of the figure, nearly: right below its point or left above it.
-struct Label {
+// A name or a point, its middle and width in pixels of the figure, nearly.
+struct Box {
   double x = 0.0, y = 0.0, width = 0.0;
 
-  [[nodiscard]] bool meets(const Label& other) const {
+  [[nodiscard]] bool meets(const Box& other) const {
     constexpr double height = 12.0;
     return std::abs(x - other.x) < 0.5 * (width + other.width) && std::abs(y - other.y) < height;
   }
 };
 
-Label label_at(const calib::SpecimenResult& specimen, const Range& range, Side side) {
-  constexpr double axis = 400.0, per_letter = 7.0;  // in pixels
-  const auto place = [&](double stress) {
+Box point_box(const calib::SpecimenResult& specimen, const Range& range) {
+  constexpr double along = 350.0, up = 280.0, symbol = 12.0;
+  const auto part = [&](double stress) {
     const double value = stress / in::MPa;
-    return axis * (is_wide(range) ? std::log(value / range.low) / std::log(range.high / range.low)
-                                  : (value - range.low) / (range.high - range.low));
+    return is_wide(range) ? std::log(value / range.low) / std::log(range.high / range.low)
+                          : (value - range.low) / (range.high - range.low);
   };
-  const double letters = per_letter * static_cast<double>(specimen.id.size());
-  const double sign = side == Side::right ? 1.0 : -1.0;
-  return {.x = place(specimen.measured.strength) + sign * (8.0 + 0.5 * letters),
-          .y = 0.75 * place(specimen.strength.mean) - sign * 9.0,
-          .width = letters};
+  return {along * part(specimen.measured.strength), up * part(specimen.strength.mean), symbol};
 }
 
-// Points lie along the line of equality, so that both its sides are free: the names take turns
-// where they would meet.
+// Right below its point or left above it: points lie along the line of equality.
+Box name_box(const calib::SpecimenResult& specimen, const Box& point, Side side) {
+  constexpr double per_letter = 7.0, gap = 11.0;
+  const double letters = per_letter * static_cast<double>(specimen.id.size());
+  const double sign = side == Side::right ? 1.0 : -1.0;
+  return {point.x + sign * (gap + 0.5 * letters), point.y - sign * 8.0, letters};
+}
+
+// A name stands on the side of the line where its point is, or on the other, or nowhere: it meets
+// neither another name nor another's point.
 std::map<std::string, Side> sides_of(const Groups& groups, const Range& range) {
   std::vector<const calib::SpecimenResult*> all;
   for (const auto& [group, members] : groups) all.insert(all.end(), members.begin(), members.end());
-  std::ranges::sort(all, {}, [](const auto* s) { return s->measured.strength; });
-  std::vector<Label> taken;
+  std::vector<Box> taken;
+  for (const auto* specimen : all) taken.push_back(point_box(*specimen, range));
   std::map<std::string, Side> sides;
-  for (const auto* specimen : all)
-    for (const Side side : {Side::right, Side::left, Side::none}) {
-      sides[specimen->id] = side;
-      if (side == Side::none) break;
-      const Label label = label_at(*specimen, range, side);
-      if (std::ranges::any_of(taken, [&](const Label& other) { return label.meets(other); }))
-        continue;
-      taken.push_back(label);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool below = all[i]->strength.mean < all[i]->measured.strength;
+    Side& side = sides[all[i]->id] = Side::none;
+    for (const Side tried : {below ? Side::right : Side::left, below ? Side::left : Side::right}) {
+      const Box name = name_box(*all[i], taken[i], tried);
+      if (std::ranges::any_of(taken, [&](const Box& other) { return name.meets(other); })) continue;
+      side = tried;
+      taken.push_back(name);
       break;
     }
+  }
   return sides;
 }
 

@@ -12,7 +12,12 @@ namespace {
 
 // Two digits are plenty for an error.
 std::string error_text(double error) {
-  return std::isfinite(error) ? fmt::format("{:.1e}", error) : "–";
+  return number(error, 2);
+}
+
+// A median of counts.
+std::string whole(double value) {
+  return std::isfinite(value) ? std::to_string(std::lround(value)) : number(value);
 }
 
 std::string spread_text(const sim::BenchSpread& spread) {
@@ -27,19 +32,19 @@ mstch::map work_row(const sim::BenchRow& row, bool reference) {
       : row.out_of_time > 0
           ? fmt::format("{} of {} stopped at the time limit", row.out_of_time, row.runs)
           : fmt::format("{} of {} not to be trusted", row.runs - row.trusted, row.runs);
-  return {{"setting", text(to_string(row.setting) + (reference ? " (reference)" : ""))},
+  return {{"setting", text(typeset(to_string(row.setting)) + (reference ? " (reference)" : ""))},
           {"state", text(state)},
           {"forces", text(error_text(row.errors.bonded_forces.median))},
           {"forces_end", text(error_text(row.errors.forces.median))},
-          {"breaks", text(number(row.same_breaks.median, 3))},
+          {"breaks", text(whole(row.same_breaks.median))},
           {"strength", text(error_text(row.errors.strength.median))},
           {"failure_strain", text(error_text(row.errors.failure_strain.median))},
           {"failure_range", text(spread_text(row.errors.failure_strain))},
           {"curve", text(error_text(row.errors.curve.median))},
           {"wall", text(number(row.wall.median, 3))},
           {"cpu", text(number(row.cpu.median, 3))},
-          {"steps", text(number(row.steps.median, 4))},
-          {"iterations", text(number(row.iterations.median, 4))}};
+          {"steps", text(whole(row.steps.median))},
+          {"iterations", text(whole(row.iterations.median))}};
 }
 
 mstch::array cheapest_rows(const sim::WorkPrecision& study) {
@@ -48,11 +53,11 @@ mstch::array cheapest_rows(const sim::WorkPrecision& study) {
     const bool found = cheapest.row >= 0;
     const sim::BenchRow* row =
         found ? &study.rows[static_cast<std::size_t>(cheapest.row)] : nullptr;
-    rows.emplace_back(
-        mstch::map{{"quantity", text(cheapest.quantity)},
-                   {"target", text(fmt::format("{:g}", cheapest.target))},
-                   {"setting", text(found ? to_string(row->setting) : "no setting reaches it")},
-                   {"cpu", text(found ? number(row->cpu.median, 3) : "–")}});
+    rows.emplace_back(mstch::map{
+        {"quantity", text(cheapest.quantity)},
+        {"target", text(fmt::format("{:g}", cheapest.target))},
+        {"setting", text(found ? typeset(to_string(row->setting)) : "no setting reaches it")},
+        {"cpu", text(found ? number(row->cpu.median, 3) : "–")}});
   }
   return rows;
 }

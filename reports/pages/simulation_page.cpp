@@ -70,8 +70,9 @@ Facts scene_facts(const sim::Scene& scene) {
                                    setting(material.poisson), setting(material.density),
                                    material.plane == sim::Plane::stress ? "stress" : "strain")},
           {"Joints",
-           fmt::format("σ₁ = {}, σ₂ = {}, r = {}", setting(joints.head_tail / in::MPa, "MPa"),
-                       setting(joints.flank / in::MPa, "MPa"), setting(ratio(assembly, joints)))},
+           fmt::format("σ₁ = {}, σ₂ = {}, r = {}", setting(joints.head_tail / in::MPa, "MPa", 4),
+                       setting(joints.flank / in::MPa, "MPa", 4),
+                       setting(ratio(assembly, joints), "", 4))},
           {"Thresholds", joints.thresholds.empty()
                              ? fmt::format("{}, scatter d = {}, {} of the joints missing, seed {}",
                                            to_string(joints.distribution), setting(joints.scatter),

@@ -61,9 +61,9 @@ std::string number(double value, int digits) {
   return power_of_ten(text.substr(0, text.find('e')), exponent);
 }
 
-std::string setting(double value, std::string_view unit) {
+std::string setting(double value, std::string_view unit, int digits) {
   if (!std::isfinite(value)) return std::string(unknown);
-  const std::string text = typeset(fmt::format("{:.6g}", value));
+  const std::string text = typeset(fmt::format("{:.{}g}", value, digits));
   return unit.empty() ? text : fmt::format("{}\u00a0{}", text, unit);
 }
 

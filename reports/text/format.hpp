@@ -19,8 +19,9 @@ inline constexpr double GPa = 1e9;   ///< [Pa]
 /// `digits` significant digits: "38.21", "0.004100", "3.21 × 10⁻¹⁴"; "–" when not finite.
 std::string number(double value, int digits = 4);
 
-/// A number somebody chose, as they would write it: "13", "0.33", "10⁻⁸".
-std::string setting(double value, std::string_view unit = {});
+/// A number somebody chose, as they would write it: "13", "0.33", "10⁻⁸". Fewer digits for what
+/// follows from what they chose.
+std::string setting(double value, std::string_view unit = {}, int digits = 6);
 
 /// A sentence with its numbers as a page writes them: "p = 3e-06" is "p = 3 × 10⁻⁶", "-2" "−2".
 std::string typeset(const std::string& sentence);
