@@ -76,6 +76,10 @@ TEST(Check, SaysWhatAStudyLeavesOutAndTakesTwice) {
   EXPECT_THAT(answer.out, HasSubstr("specimens B0 and B90 have the same test"));
   EXPECT_EQ(run_havers(folder, "check made/study.toml").out, "no problems in this study\n");
 
+  EXPECT_THAT(
+      run_havers(folder, "check made/study.toml --set model.loading.strain_rate_per_s=7").out,
+      testing::StartsWith("note: model.loading.strain_rate_per_s changes nothing: every test has"));
+
   const auto made = run_havers(folder, "synthesize made/doubtful.toml -o again");
   EXPECT_EQ(made.exit_code, 2);
   EXPECT_THAT(made.err, HasSubstr("B0.csv: would be made twice"));
