@@ -216,6 +216,11 @@ mstch::map specimen_content(const FitReport& report, std::size_t index) {
           {"sections", section(section_items(report, s.id))}};
 }
 
+// What Ceres adds are its own numbers, to seven digits.
+std::string first_sentence(const std::string& message) {
+  return message.substr(0, message.find(". "));
+}
+
 mstch::array stage_rows(const std::vector<calib::StageLog>& stages) {
   mstch::array rows;
   for (const calib::StageLog& stage : stages)
@@ -224,7 +229,7 @@ mstch::array stage_rows(const std::vector<calib::StageLog>& stages) {
                                  {"after", text(number(stage.cost_after))},
                                  {"evaluations", text(std::to_string(stage.evaluations))},
                                  {"wall", text(duration(stage.wall_seconds))},
-                                 {"message", text(typeset(stage.message))}});
+                                 {"message", text(first_sentence(stage.message))}});
   return rows;
 }
 
