@@ -14,8 +14,6 @@
 namespace havers::sim {
 namespace {
 
-using Eigen::VectorXd;
-
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr int finest = 4;  // refinement of the last mesh that is tried
 
@@ -64,7 +62,7 @@ double relative_error(double value, double reference) {
   return std::abs(value - reference) / std::abs(reference);
 }
 
-double relative_error(const VectorXd& forces, const VectorXd& reference) {
+double relative_error(const Eigen::VectorXd& forces, const Eigen::VectorXd& reference) {
   if (forces.size() == 0 || forces.size() != reference.size()) return not_known;
   return (forces - reference).norm() / reference.norm();
 }
