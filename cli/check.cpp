@@ -56,7 +56,7 @@ Findings look_at(const std::filesystem::path& file, const io::Overrides& overrid
         findings.warnings = load_study(file, overrides).warnings;
         break;
       case Kind::sweep:
-        io::read_sweep(file, overrides);
+        findings.warnings = io::read_sweep(file, overrides).warnings;
         break;
       case Kind::scene:
         io::read_scene(file, overrides);

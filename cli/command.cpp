@@ -16,6 +16,7 @@ namespace havers::cli {
 CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& name,
                       const std::string& sentence, const std::string& examples) {
   CLI::App* command = app.add_subcommand(name, sentence);
+  command->group("Commands");
   command->footer("Examples:\n" + examples +
                   "\nExit codes: 0 done and to be trusted; 1 done, but the answer is no; "
                   "2 usage, input, or a part not built in.");
@@ -30,7 +31,8 @@ CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& n
       ->check(seed_number());
   command
       ->add_option("--set", common.set,
-                   "instead of the input's value, e.g. joints.scatter=0.4; repeatable")
+                   "instead of the input's: joints.scatter=0.4 of a scene, "
+                   "model.joints.scatter=0.4 of a study; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command->add_flag("--force", common.force, "write into a folder that already holds a run");

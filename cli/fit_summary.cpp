@@ -29,7 +29,8 @@ void print_fit_summary(const calib::CalibrationResult& result, double wall_secon
   fmt::print("{}: {}\n", result.trusted() ? "to be trusted" : "NOT to be trusted",
              calib::explain(result.status));
   for (const calib::Check& check : result.verdict)
-    fmt::print("  {:<5}{}: {}\n", calib::to_string(check.outcome), check.check, check.text);
+    fmt::print("  {:<5}{}: {}\n", check.done ? calib::to_string(check.outcome) : "-", check.check,
+               check.text);
   fmt::print("parameters\n");
   for (const calib::CalibratedParameter& parameter : result.parameters) print_parameter(parameter);
   fmt::print("specimens     E [GPa]  simulated  sigma [MPa]  simulated   porosity    scatter\n");

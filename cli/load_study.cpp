@@ -146,6 +146,15 @@ void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStud
   }
 }
 
+// Only what the tests do not tell is taken from the model.
+void doubt_rate(LoadedStudy& loaded) {
+  const bool all_tell = std::ranges::all_of(
+      loaded.study.specimens, [](const auto& specimen) { return specimen.test.strain_rate > 0.0; });
+  if (all_tell && loaded.study.model.loading.strain_rate != sim::Loading{}.strain_rate)
+    loaded.warnings.emplace_back(
+        "model.loading.strain_rate_per_s changes nothing: every test has its own");
+}
+
 // Rejections are problems where they leave nothing to fit.
 void require_specimens(const LoadedStudy& loaded, const std::filesystem::path& file) {
   const bool some = std::ranges::any_of(
@@ -184,6 +193,7 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     take_specimen(read.specimens[i], std::move(outcomes[i]), loaded);
   require_specimens(loaded, file);
+  doubt_rate(loaded);
   return loaded;
 }
 

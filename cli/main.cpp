@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/command.hpp"
@@ -65,6 +66,10 @@ std::string unknown_word(const CLI::App& app) {
 int answer(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);
   const std::string unknown = unknown_word(app);
+  if (unknown.empty() && app.get_subcommands().empty()) {
+    fmt::print(stderr, "{}", app.help());
+    return bad_input;
+  }
   fmt::print(stderr, "havers: {} (havers -h and havers COMMAND -h show how it is used)\n",
              unknown.empty() ? error.what() : unknown);
   return bad_input;
@@ -88,9 +93,22 @@ int run(const Command& command, const CommonOptions& common) {
   return bad_input;
 }
 
+// The words of the help, for all commands; to be called before they are added.
+void word_help(CLI::App& app) {
+  app.set_help_flag("-h,--help", "this help");
+  const auto formatter = app.get_formatter();
+  for (const auto& [cli11, ours] : {std::pair("SUBCOMMAND", "COMMAND"),
+                                    {"REQUIRED", "(required)"},
+                                    {"FLOAT", "NUMBER"},
+                                    {"Positionals", "Input"},
+                                    {"TEXT", ""}})
+    formatter->label(cli11, ours);
+}
+
 int program(int argc, char** argv) {
   CLI::App app("Fits a fibre-level fracture model of compact bone to a laboratory's tensile tests.",
                "havers");
+  word_help(app);
   CommonOptions common;
   common.command_line = typed(argc, argv);
   const std::array commands{

@@ -18,7 +18,7 @@ CLI::Validator number_check(const std::string& words, Rule holds) {
     const bool good = CLI::detail::lexical_cast(text, value) && holds(value);
     return good ? "" : fmt::format("is {}, must be {}", text, words);
   };
-  return {complaint, "NUMBER"};
+  return {complaint, ""};  // the help names no type twice
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ CLI::Validator seed_number() {
     const bool good = read.ec == std::errc{} && read.ptr == end && value >= 0;
     return good ? "" : fmt::format("is {}, must be a whole number from 0 to 2^63 - 1", text);
   };
-  return {complaint, "NUMBER"};
+  return {complaint, ""};  // the help names no type twice
 }
 
 }  // namespace havers::cli

@@ -202,7 +202,7 @@ void add_words(CLI::App& parser, const std::string& name, E& value, const std::s
     return {};
   };
   parser.add_option(name, value, fmt::format("{}: {}", meaning, fmt::join(io::words<E>, ", ")))
-      ->transform(CLI::Validator(number_of_word, "WORD"))
+      ->transform(CLI::Validator(number_of_word, ""))
       ->type_name("WORD");
 }
 

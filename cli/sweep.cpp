@@ -49,6 +49,8 @@ std::vector<Done> read_all(const SweepArguments& arguments, const CommonOptions&
       problems.push_back({file.string(), "has the name of another sweep", "rename one"});
     try {
       io::SweepFile read = io::read_sweep(file, common.set, common.seed);
+      for (const std::string& warning : read.warnings)
+        note(common, fmt::format("note: {}: {}", file.string(), warning));
       all.push_back({file.stem().string(), std::move(read.inputs), std::move(read.sweep), {}});
     } catch (const io::InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
@@ -181,7 +183,7 @@ Command sweep_command(CLI::App& app, CommonOptions& common) {
   const auto arguments = std::make_shared<SweepArguments>();
   parser->add_option("SWEEP", arguments->files, "sweep files (TOML)")->required();
   add_output(*parser, arguments->folder, "folder for the results")->required();
-  parser->add_option("--title", arguments->title, "of the page")->type_name("TEXT");
+  parser->add_option("--title", arguments->title, "of the page")->type_name("TITLE");
   return {parser, [arguments, &common] { return run_sweeps(*arguments, common); }};
 }
 

@@ -66,7 +66,7 @@ std::vector<LeftOut> left_out_by_choice(const Scene& scene, const Simulation& si
       scene.solver.contact != ContactMethod::gauss_seidel)
     list.push_back(
         {"the friction problem of joints inside their cone",
-         "they hold, which is a linear condition; contact = \"gauss_seidel\" asks each"});
+         "they hold, which is a linear condition; contact = \"gauss-seidel\" asks each"});
   if (scene.solver.leave_out)
     list.push_back({"one operator for each body", "equal bodies share theirs"});
   return list;

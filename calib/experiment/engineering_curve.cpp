@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace havers::calib {
 namespace {
@@ -79,7 +80,28 @@ bool is_compressed(const std::vector<double>& stress) {
   return -low > high && std::accumulate(stress.begin(), stress.end(), 0.0) < 0.0;
 }
 
+bool gets_longer(const std::vector<double>& elongation, const std::vector<double>& load) {
+  if (elongation.size() != load.size()) return false;
+  const auto largest = std::ranges::min_element(load) - load.begin();
+  return elongation[static_cast<std::size_t>(largest)] > elongation.front();
+}
+
 }  // namespace
+
+void turn_negative_load(RawTest& raw) {
+  const std::vector<double>& elongation = raw.strain.empty() ? raw.extension : raw.strain;
+  const char* turned = nullptr;
+  for (const auto& [load, name] : {std::pair(&raw.stress, "stress"), {&raw.force, "force"}}) {
+    if (load->empty() || !is_compressed(*load) || !gets_longer(elongation, *load)) continue;
+    for (double& value : *load) value = -value;
+    turned = name;
+  }
+  if (turned != nullptr)
+    raw.warnings.push_back(
+        fmt::format("the {} is negative while the specimen gets longer: it is taken as tension, "
+                    "with its sign turned",
+                    turned));
+}
 
 EngineeringCurve engineering_curve(const RawTest& raw, double machine_compliance) {
   assert(raw.force.empty() || raw.stress.empty() || raw.force.size() == raw.stress.size());
@@ -95,8 +117,8 @@ EngineeringCurve engineering_curve(const RawTest& raw, double machine_compliance
     curve.problems.emplace_back("a number is not finite");
   else if (is_compressed(curve.stress))
     curve.problems.push_back(
-        fmt::format("the {} is negative, as in compression, down to {:.4g} MPa: tension has to be "
-                    "positive, change the sign in the file",
+        fmt::format("the {} is negative, as in compression, down to {:.4g} MPa, and the specimen "
+                    "gets no longer: tension has to be positive, change the signs in the file",
                     raw.force.empty() || curve.area <= 0.0 ? "stress" : "force",
                     std::ranges::min(curve.stress) * 1e-6));
   else if (std::ranges::max(curve.stress) <= 0.0)

@@ -176,6 +176,7 @@ Reduction reduce_test(const RawTest& recorded, const ReductionOptions& options) 
   assert(recorded.time.empty() || recorded.time.size() == recorded.rows());
   RawTest raw = recorded;
   clean_channels(raw, options);
+  turn_negative_load(raw);
   EngineeringCurve curve = engineering_curve(raw, options.machine_compliance);
   const std::vector<std::string> problems = std::move(curve.problems);
 

@@ -264,12 +264,12 @@ CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
   CalibrationResult result{.stages = answer.stages, .scene = study.model};
   result.parameters = parameters_of(problem, answer);
   result.specimens = specimens_of(problem, batch, answer);
-  result.left_out = left_out_of(problem, batch, answer);
   if (!problem.fitted.empty())
     result.scene = replicate_scenes(problem, answer.best.point, problem.fitted.front(), 1).front();
   result.cost = cost_of(result.specimens, answer.best.cost);
   std::ranges::copy(answer.weights.specimen, result.specimen_effect.begin());
   add_hindsight(problem, batch, answer, result);
+  result.left_out = left_out_of(problem, batch, answer);
   if (batch.stopped()) answer.status = CalibrationStatus::cancelled;
   result.status = answer.status;
   result.evaluations = batch.asked();

@@ -146,7 +146,7 @@ std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer
   }
   const double freedom = terms - static_cast<double>(answer.active.size());
   if (freedom < 1.0) return "";
-  return fmt::format(" Were they alike, chi² would be {:.3g} on {:g} degrees of freedom ({}).", sum,
+  return fmt::format(" Were they alike, χ² would be {:.3g} on {:g} degrees of freedom ({}).", sum,
                      freedom, chance_text(gsl_cdf_chisq_Q(sum, freedom)));
 }
 

@@ -12,6 +12,7 @@
 #include "io/config/nearest.hpp"
 #include "io/config/reduction_table.hpp"
 #include "io/config/scene_tables.hpp"
+#include "io/config/study_doubts.hpp"
 #include "io/config/study_keys.hpp"
 #include "io/sweep/sweep_files.hpp"
 
@@ -184,29 +185,6 @@ void check_scatter(TableReader calibrate, const StudyFile& read) {
       "set porosity.to_scatter = \"none\" to fit it, or leave it out of the parameters");
 }
 
-bool is_fitted(const calib::CalibrateOptions& options, const calib::ParameterInfo& info) {
-  return options.automatic
-             ? info.automatic
-             : std::ranges::find(options.parameters, info.name) != options.parameters.end();
-}
-
-// Keys that may well stand there, of a scene pasted whole or of another choice of parameters.
-std::vector<std::string> idle_keys(TableReader top, const calib::Study& study) {
-  std::vector<std::string> warnings;
-  for (const calib::ParameterInfo& info : calib::all_parameters())
-    for (const char* table : {"bounds", "level"})
-      if (!is_fitted(study.calibrate, info) && top.table("calibrate").table(table).has(info.name))
-        warnings.push_back(fmt::format("calibrate.{}.{} changes nothing: {} is not fitted", table,
-                                       info.name, info.name));
-  if (study.model.assembly.orientation != 0.0)
-    warnings.emplace_back(
-        "model.assembly.orientation_deg changes nothing: every specimen has its own");
-  int snapshots = 0;
-  if (top.table("model").table("output").key("snapshots", snapshots) && snapshots != 0)
-    warnings.emplace_back("model.output.snapshots changes nothing: a fit writes none");
-  return warnings;
-}
-
 void read_laws_file(TableReader calibrate, std::vector<calib::SweepLaw>& laws) {
   std::filesystem::path file;
   if (!calibrate.key("laws", file) || !calibrate.require_file("laws", file)) return;
@@ -270,7 +248,7 @@ StudyFile read_tables(ConfigFile& config, const std::filesystem::path& file, Fil
   read_synthesize(top.table("synthesize"), read.synthesize);
   read_reduction(top.table("reduction"), read.reduction);
   read_sections(top.table("sections"), read.sections);
-  read.warnings = idle_keys(top, read.study);
+  read.warnings = study_doubts(top, read);
   read.inputs = config.inputs();
   return read;
 }

@@ -144,12 +144,25 @@ void take_fact(const HeaderLine& line, std::size_t number, std::vector<HeaderSiz
     test.warnings.push_back(fmt::format("line {}, {}: {}", number, excerpt(line.key), warning));
 }
 
+// Width times thickness counts (X1).
+void compare_area(calib::RawTest& test) {
+  constexpr double rounding = 0.01;
+  if (!test.area || !test.width || !test.thickness) return;
+  const double used = *test.width * *test.thickness;
+  if (std::abs(*test.area - used) <= rounding * used) return;
+  test.warnings.push_back(fmt::format(
+      "the file's area of {:.6g} mm² is not width x thickness, {:.6g} mm²: the latter is used, "
+      "check them",
+      1e6 * *test.area, 1e6 * used));
+}
+
 }  // namespace
 
 void read_facts(std::span<const PreviewRow> header, calib::RawTest& test) {
   std::vector<HeaderSize> sizes;
   for (const PreviewRow& row : header)
     for (const HeaderLine& line : header_lines(row)) take_fact(line, row.line, sizes, test);
+  compare_area(test);
 }
 
 }  // namespace havers::io

@@ -39,7 +39,9 @@ nlohmann::json read_json(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream)
     throw InputError(file.string(), "is not there", "name a fit's folder or its result.json");
-  nlohmann::json json = nlohmann::json::parse(stream);
+  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  if (json.is_discarded())
+    throw InputError(file.string(), "is not JSON", "name a fit's folder or its result.json");
   if (!json.is_object() || !json.contains("verdict") || !json.contains("study"))
     throw InputError(file.string(), "is not the result of a fit",
                      "havers fit STUDY.toml -o DIR writes one");
@@ -103,8 +105,9 @@ FitFolder read_fit_folder(const std::filesystem::path& folder_or_result) {
   FitFolder fit;
   try {
     fit = fit_of(read_json(file));
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(file.string(), fmt::format("cannot be understood: {}", error.what()));
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(file.string(), "lacks what the result of a fit has, or has it otherwise",
+                     "run the fit again with this version of havers");
   }
   if (!fit.result.specimens.empty() && !std::filesystem::exists(folder / "curves"))
     throw InputError(file.string(), "has no curves beside it",

@@ -36,6 +36,17 @@ void read_plan(TableReader& top, calib::Sweep& sweep) {
                                                : "only keys of the scene can");
 }
 
+// Keys of a scene or of a sample that were pasted along.
+std::vector<std::string> idle_keys_of_sweep(TableReader& top, const calib::SweepPlan& plan) {
+  std::vector<std::string> warnings;
+  if (top.table("joints").has("seed"))
+    warnings.emplace_back("joints.seed changes nothing: sweep.seed and sweep.seeds choose them");
+  const bool is_sample = plan.sampling >= calib::Sampling::latin_hypercube;
+  if (!is_sample && top.table("sweep").has("points"))
+    warnings.emplace_back("sweep.points changes nothing: a list or a grid has those of its keys");
+  return warnings;
+}
+
 // A key that a question is about must be one of those that vary.
 void require_varied(TableReader& table, const calib::SweepPlan& plan, const std::string& key,
                     const char* name) {
@@ -130,6 +141,7 @@ SweepFile read_sweep(const std::filesystem::path& file, const Overrides& overrid
     config.finish();
   }
   read_questions(top, sweep);
+  read.warnings = idle_keys_of_sweep(top, sweep.plan);
   if (seed) sweep.plan.seed = *seed;
   if (sweep.name.empty()) sweep.name = file.stem().string();
 

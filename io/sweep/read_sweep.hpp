@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "calib/sweep/sweep.hpp"
@@ -14,6 +15,7 @@ namespace havers::io {
 struct SweepFile {
   calib::Sweep sweep;
   std::vector<std::filesystem::path> inputs;  ///< The sweep, and what its scenes name.
+  std::vector<std::string> warnings{};        ///< A sentence each.
 };
 
 /// Reads a sweep; every point's scene is complete and possible.

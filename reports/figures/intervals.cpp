@@ -7,6 +7,7 @@
 
 #include "reports/figures/figures.hpp"
 #include "reports/text/format.hpp"
+#include "reports/text/parameter_label.hpp"
 
 namespace havers::reports {
 namespace {
@@ -38,12 +39,10 @@ std::string panel_commands(const std::vector<Estimate>& estimates, std::size_t n
     data += fmt::format("{:.6g} {} {:.6g} {:.6g}\n", parameter->value, fit + 1,
                         known ? low : parameter->value, known ? high : parameter->value);
   }
-  const auto& first = *estimates.front().parameter;
-  const std::string unit = first.unit.empty() ? "" : fmt::format(" ({})", plain(first.unit));
   return data + fmt::format(
-                    "EOD\nset xlabel '{0}{1}' noenhanced offset 0,0.6\n"
-                    "plot $panel{2} using 1:2:3:4 with xerrorbars pt 7 ps 0.9 lw 1.8 lc rgb blue\n",
-                    plain(first.name), unit, number);
+                    "EOD\nset xlabel '{}' noenhanced offset 0,0.6\n"
+                    "plot $panel{} using 1:2:3:4 with xerrorbars pt 7 ps 0.9 lw 1.8 lc rgb blue\n",
+                    plain(axis_label(estimates.front().parameter->name)), number);
 }
 
 // At most 24 characters of a name, none of them cut in two.

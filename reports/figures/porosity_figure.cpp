@@ -9,8 +9,10 @@
 namespace havers::reports {
 
 Figure histogram_figure(const DepthHistogram& histogram, const std::string& id) {
-  Figure figure{
-      .id = id, .description = "Pixels of the bone by depth, with the threshold", .height = 220};
+  Figure figure{.id = id,
+                .description = "Pixels of the bone by depth, with the threshold",
+                .width = 440,  // half a page
+                .height = 240};
   if (histogram.depth.empty()) return figure;
   // Bone outnumbers pores: on a logarithmic scale both peaks show.
   figure.commands = data_block("depth", {histogram.depth, histogram.share}) +

@@ -4,6 +4,7 @@
 
 #include "reports/figures/figures.hpp"
 #include "reports/text/format.hpp"
+#include "reports/text/parameter_label.hpp"
 
 namespace havers::reports {
 namespace {
@@ -14,7 +15,7 @@ std::string profile_panel(const calib::Profile& profile, std::size_t number) {
              "set xlabel '{}' noenhanced offset 0,0.6\nset ylabel 'Rise of the cost'\n"
              "plot {:.6g} with lines lw 1.2 dt 2 lc rgb grey notitle, $profile{} using 1:2 with "
              "linespoints pt 7 ps 0.8 lw 1.8 lc rgb blue notitle\n",
-             plain(profile.parameter), profile.level, number);
+             plain(axis_label(profile.parameter)), profile.level, number);
 }
 
 }  // namespace

@@ -32,45 +32,102 @@ double or_zero(double error) {
   return std::isfinite(error) ? error : 0.0;
 }
 
-// Whether another specimen lies so near that the two names would be printed on top of each other.
-bool crowded(const calib::SpecimenResult& one, const Groups& groups) {
-  constexpr double near = 0.08;  // of the strength
+// All strengths, on both axes. [MPa]
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = 0.0;
+};
+
+Range range_of(const Groups& groups) {
+  Range range;
   for (const auto& [group, members] : groups)
-    for (const auto* other : members)
-      if (other != &one &&
-          std::abs(other->measured.strength / one.measured.strength - 1.0) < near &&
-          std::abs(other->strength.mean / one.strength.mean - 1.0) < near)
-        return true;
-  return false;
+    for (const auto* specimen : members)
+      for (const double stress : {specimen->measured.strength, specimen->strength.mean}) {
+        range.low = std::min(range.low, stress / in::MPa);
+        range.high = std::max(range.high, stress / in::MPa);
+      }
+  return range;
 }
 
-std::string group_data(int number, const Group& group, const Groups& groups) {
+// Orientations may differ so much that the weak would huddle in a corner.
+bool is_wide(const Range& range) {
+  return range.low > 0.0 && range.high > 3.0 * range.low;
+}
+
+enum class Side { right, left, none };
+
+// A name or a point, its middle and width in pixels of the figure, nearly.
+struct Box {
+  double x = 0.0, y = 0.0, width = 0.0;
+
+  [[nodiscard]] bool meets(const Box& other) const {
+    constexpr double height = 12.0;
+    return std::abs(x - other.x) < 0.5 * (width + other.width) && std::abs(y - other.y) < height;
+  }
+};
+
+Box point_box(const calib::SpecimenResult& specimen, const Range& range) {
+  constexpr double along = 350.0, up = 280.0, symbol = 12.0;
+  const auto part = [&](double stress) {
+    const double value = stress / in::MPa;
+    return is_wide(range) ? std::log(value / range.low) / std::log(range.high / range.low)
+                          : (value - range.low) / (range.high - range.low);
+  };
+  return {along * part(specimen.measured.strength), up * part(specimen.strength.mean), symbol};
+}
+
+// Right below its point or left above it: points lie along the line of equality.
+Box name_box(const calib::SpecimenResult& specimen, const Box& point, Side side) {
+  constexpr double per_letter = 7.0, gap = 11.0;
+  const double letters = per_letter * static_cast<double>(specimen.id.size());
+  const double sign = side == Side::right ? 1.0 : -1.0;
+  return {point.x + sign * (gap + 0.5 * letters), point.y - sign * 8.0, letters};
+}
+
+// A name stands on the side of the line where its point is, or on the other, or nowhere: it meets
+// neither another name nor another's point.
+std::map<std::string, Side> sides_of(const Groups& groups, const Range& range) {
+  std::vector<const calib::SpecimenResult*> all;
+  for (const auto& [group, members] : groups) all.insert(all.end(), members.begin(), members.end());
+  std::vector<Box> taken;
+  for (const auto* specimen : all) taken.push_back(point_box(*specimen, range));
+  std::map<std::string, Side> sides;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool below = all[i]->strength.mean < all[i]->measured.strength;
+    Side& side = sides[all[i]->id] = Side::none;
+    for (const Side tried : {below ? Side::right : Side::left, below ? Side::left : Side::right}) {
+      const Box name = name_box(*all[i], taken[i], tried);
+      if (std::ranges::any_of(taken, [&](const Box& other) { return name.meets(other); })) continue;
+      side = tried;
+      taken.push_back(name);
+      break;
+    }
+  }
+  return sides;
+}
+
+std::string group_data(int number, const std::vector<const calib::SpecimenResult*>& members,
+                       const std::map<std::string, Side>& sides) {
   std::string block = fmt::format("$group{} << EOD\n", number);
-  for (const auto* specimen : groups.at(group))
-    block += fmt::format(
-        "{:.6g} {:.6g} {:.6g} {:.6g} \"{}\"\n", specimen->measured.strength,
-        specimen->strength.mean, or_zero(specimen->measured.strength_standard_error),
-        or_zero(specimen->strength.sd), crowded(*specimen, groups) ? "" : plain(specimen->id));
+  for (const auto* specimen : members) {
+    const auto name_on = [&](Side side) {
+      return sides.at(specimen->id) == side ? plain(specimen->id) : "";
+    };
+    block +=
+        fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} \"{}\" \"{}\"\n", specimen->measured.strength,
+                    specimen->strength.mean, or_zero(specimen->measured.strength_standard_error),
+                    or_zero(specimen->strength.sd), name_on(Side::right), name_on(Side::left));
+  }
   return block + "EOD\n";
 }
 
-// Equal axes; logarithmic ones where orientations differ so much that the weak would huddle in a
-// corner.
-std::string axes(const Groups& groups) {
-  double low = std::numeric_limits<double>::infinity(), high = 0.0;
-  for (const auto& [group, members] : groups)
-    for (const auto* specimen : members) {
-      low =
-          std::min({low, specimen->measured.strength / in::MPa, specimen->strength.mean / in::MPa});
-      high = std::max(
-          {high, specimen->measured.strength / in::MPa, specimen->strength.mean / in::MPa});
-    }
-  if (low > 0.0 && high > 3.0 * low)
+// Equal axes; logarithmic ones where strengths differ much.
+std::string axes(const Range& range) {
+  if (is_wide(range))
     return fmt::format(
         "set logscale xy\nset xtics (1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100, 150, 200, 300)\n"
         "set ytics (1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100, 150, 200, 300)\n"
         "set xrange [{0:.4g}:{1:.4g}]\nset yrange [{0:.4g}:{1:.4g}]\n",
-        0.8 * low, 1.35 * high);
+        0.8 * range.low, 1.35 * range.high);
   return "set offsets graph 0.08, graph 0.14, graph 0.08, graph 0.08\n";
 }
 
@@ -83,7 +140,9 @@ std::string group_plot(int number, const Group& group, int shape) {
       ", $group{0} using ($1*1e-6):($2*1e-6):($3*1e-6):($4*1e-6) with xyerrorbars pt {1} ps 1.2 lw "
       "1.4 "
       "lc rgb {2} title '{3}°{4}', "
-      "$group{0} using ($1*1e-6):($2*1e-6):5 with labels noenhanced left offset 0.9,-0.7 "
+      "$group{0} using ($1*1e-6):($2*1e-6):5 with labels noenhanced left offset 1.3,-0.6 "
+      "font ',11' tc rgb '#555555' notitle, "
+      "$group{0} using ($1*1e-6):($2*1e-6):6 with labels noenhanced right offset -1.3,0.6 "
       "font ',11' tc rgb '#555555' notitle",
       number, 5 + 2 * style - (fitted ? 0 : 1), colours.at(style), group.first,
       fitted ? "" : ", validation");
@@ -98,17 +157,19 @@ Figure strength_figure(const std::vector<calib::SpecimenResult>& specimens, cons
                 .height = 440};
   const Groups groups = groups_of(specimens);
   if (groups.empty()) return figure;
+  const Range range = range_of(groups);
+  const auto sides = sides_of(groups, range);
   std::string data, plots;
   std::map<long, int> shapes;
   int number = 0;
   for (const auto& [group, members] : groups) {
     const int shape =
         shapes.try_emplace(group.first, static_cast<int>(shapes.size())).first->second;
-    data += group_data(number, group, groups);
+    data += group_data(number, members, sides);
     plots += group_plot(number, group, shape);
     ++number;
   }
-  figure.commands = data + panel(0.145, 0.97) + axes(groups) + R"(
+  figure.commands = data + panel(0.145, 0.97) + axes(range) + R"(
 set xlabel 'Measured strength (MPa)' offset 0,0.5
 set ylabel 'Simulated strength (MPa)' offset 1,0
 set key inside at graph 0.02, graph 0.98 left top vertical

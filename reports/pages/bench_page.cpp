@@ -15,13 +15,13 @@ std::string error_text(double error) {
   return number(error, 2);
 }
 
-std::string whole_text(double median) {
-  return fmt::format("{:.0f}", median);
+// A median of counts.
+std::string whole(double value) {
+  return std::isfinite(value) ? std::to_string(std::lround(value)) : number(value);
 }
 
 std::string setting_text(const sim::BenchSetting& setting) {
-  std::string words = typeset(to_string(setting));
-  return words.replace(words.rfind(' '), 1, "\u00a0");  // "8 T3" stays on a line
+  return typeset(to_string(setting));
 }
 
 std::string spread_text(const sim::BenchSpread& spread) {
@@ -40,15 +40,15 @@ mstch::map work_row(const sim::BenchRow& row, bool reference) {
           {"state", text(state)},
           {"forces", text(error_text(row.errors.bonded_forces.median))},
           {"forces_end", text(error_text(row.errors.forces.median))},
-          {"breaks", text(whole_text(row.same_breaks.median))},
+          {"breaks", text(whole(row.same_breaks.median))},
           {"strength", text(error_text(row.errors.strength.median))},
           {"failure_strain", text(error_text(row.errors.failure_strain.median))},
           {"failure_range", text(spread_text(row.errors.failure_strain))},
           {"curve", text(error_text(row.errors.curve.median))},
           {"wall", text(number(row.wall.median, 3))},
           {"cpu", text(number(row.cpu.median, 3))},
-          {"steps", text(whole_text(row.steps.median))},
-          {"iterations", text(whole_text(row.iterations.median))}};
+          {"steps", text(whole(row.steps.median))},
+          {"iterations", text(whole(row.iterations.median))}};
 }
 
 mstch::array cheapest_rows(const sim::WorkPrecision& study) {

@@ -5,18 +5,17 @@
 #include "reports/figures/figures.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/text/format.hpp"
+#include "reports/text/parameter_label.hpp"
 
 namespace havers::reports {
 namespace {
 
-// The parameters of all fits in the order in which they appear, with their units.
-Facts names_of(const std::vector<FitReport>& fits) {
-  Facts names;
+// The parameters of all fits in the order in which they appear.
+std::vector<std::string> names_of(const std::vector<FitReport>& fits) {
+  std::vector<std::string> names;
   for (const FitReport& fit : fits)
-    for (const auto& parameter : fit.result.parameters) {
-      const std::pair<std::string, std::string> name{parameter.name, parameter.unit};
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    }
+    for (const auto& parameter : fit.result.parameters)
+      if (std::ranges::find(names, parameter.name) == names.end()) names.push_back(parameter.name);
   return names;
 }
 
@@ -32,12 +31,11 @@ mstch::map cell(const FitReport& fit, const std::string& name) {
 
 mstch::array parameter_rows(const std::vector<FitReport>& fits) {
   mstch::array rows;
-  for (const auto& [name, unit] : names_of(fits)) {
+  for (const std::string& name : names_of(fits)) {
     mstch::array cells;
     for (const FitReport& fit : fits) cells.emplace_back(cell(fit, name));
-    rows.emplace_back(
-        mstch::map{{"name", text(unit.empty() ? name : fmt::format("{} ({})", name, unit))},
-                   {"cells", mstch::node{cells}}});
+    rows.emplace_back(mstch::map{
+        {"symbol", text(axis_label(name))}, {"name", text(name)}, {"cells", mstch::node{cells}}});
   }
   return rows;
 }

@@ -2,23 +2,14 @@
 
 #include <cmath>
 
-#include "calib/study/parameter.hpp"
 #include "reports/figures/figures.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/text/base64.hpp"
 #include "reports/text/format.hpp"
+#include "reports/text/parameter_label.hpp"
 
 namespace havers::reports {
 namespace {
-
-// "young_GPa[A1]" is young_GPa of A1: symbol and, in brackets, of what.
-std::string symbol_of(const std::string& name) {
-  const std::size_t bracket = name.find('[');
-  const calib::ParameterInfo* info = calib::find_parameter(name.substr(0, bracket));
-  const std::string level =
-      bracket == std::string::npos ? "" : fmt::format(" {}", name.substr(bracket));
-  return info == nullptr ? level : std::string(info->symbol) + level;
-}
 
 std::string interval_or(const std::array<double, 2>& ends, const std::string& missing) {
   return missing.empty() ? interval(ends[0], ends[1]) : "– (" + missing + ")";
@@ -37,7 +28,7 @@ mstch::map parameter_row(const calib::CalibratedParameter& p) {
           {"bounds",
            text(held ? "" : fmt::format("{} to {}", setting(p.bounds[0]), setting(p.bounds[1])))},
           {"note", text(note)},
-          {"held", text(p.left_out_because)}};
+          {"held", text(typeset(p.left_out_because))}};
 }
 
 // What a measured and a simulated quantity are called and shown in.
@@ -167,7 +158,7 @@ mstch::array influence_rows(const calib::CalibrationResult& result) {
 
 mstch::array names(const std::vector<std::string>& sentences) {
   mstch::array list;
-  for (const std::string& sentence : sentences) list.push_back(text(sentence));
+  for (const std::string& sentence : sentences) list.push_back(text(typeset(sentence)));
   return list;
 }
 
@@ -225,6 +216,11 @@ mstch::map specimen_content(const FitReport& report, std::size_t index) {
           {"sections", section(section_items(report, s.id))}};
 }
 
+// What Ceres adds are its own numbers, to seven digits.
+std::string first_sentence(const std::string& message) {
+  return message.substr(0, message.find(". "));
+}
+
 mstch::array stage_rows(const std::vector<calib::StageLog>& stages) {
   mstch::array rows;
   for (const calib::StageLog& stage : stages)
@@ -233,7 +229,7 @@ mstch::array stage_rows(const std::vector<calib::StageLog>& stages) {
                                  {"after", text(number(stage.cost_after))},
                                  {"evaluations", text(std::to_string(stage.evaluations))},
                                  {"wall", text(duration(stage.wall_seconds))},
-                                 {"message", text(stage.message)}});
+                                 {"message", text(first_sentence(stage.message))}});
   return rows;
 }
 

@@ -50,19 +50,19 @@ mstch::node section(mstch::array items) {
 
 mstch::node left_out_section(const std::vector<sim::LeftOut>& left_out) {
   Facts facts;
-  for (const auto& [what, why] : left_out) facts.emplace_back(what, why);
+  for (const auto& [what, why] : left_out) facts.emplace_back(what, typeset(why));
   return section(fact_list(facts));
 }
 
 mstch::node correction_section(const std::vector<calib::Correction>& corrections) {
   Facts facts;
-  for (const auto& [what, detail] : corrections) facts.emplace_back(what, detail);
+  for (const auto& [what, detail] : corrections) facts.emplace_back(what, typeset(detail));
   return section(fact_list(facts));
 }
 
 mstch::node text_section(const std::vector<std::string>& sentences) {
   mstch::array items;
-  for (const std::string& sentence : sentences) items.push_back(text(sentence));
+  for (const std::string& sentence : sentences) items.push_back(text(typeset(sentence)));
   return section(std::move(items));
 }
 
@@ -73,7 +73,7 @@ mstch::node check_section(const std::vector<calib::Check>& checks) {
         mstch::map{{"outcome", text(check.done ? to_string(check.outcome) : "not done")},
                    {"mark", text(mark_of(check))},
                    {"check", text(check.check)},
-                   {"text", text(check.text)}});
+                   {"text", text(typeset(check.text))}});
   return section(std::move(items));
 }
 

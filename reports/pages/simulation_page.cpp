@@ -8,7 +8,7 @@ namespace havers::reports {
 namespace {
 
 std::string sentence_of(const sim::Simulation& s) {
-  if (!s.trusted()) return fmt::format("Not to be trusted: {}.", s.why_not_trusted());
+  if (!s.trusted()) return fmt::format("Not to be trusted: {}.", typeset(s.why_not_trusted()));
   const std::string at = fmt::format("{} at {} strain", quantity(s.strength / in::MPa, "MPa"),
                                      quantity(s.failure_strain / in::percent, "%", 3));
   return s.status == sim::SimulationStatus::broken
@@ -40,7 +40,8 @@ Facts key_numbers(const SimulationReport& report) {
       {"Modulus", quantity(s.modulus / in::GPa, "GPa")},
       {"Strain of the first break", quantity(s.first_break_strain / in::percent, "%")},
       {"Broken joints", fmt::format("{} of {}", s.broken_joints, report.assembly.joints.size())},
-      {"Regime", fmt::format("{}: {}", dynamic ? "dynamic" : "quasi-static", s.regime_ground)},
+      {"Regime",
+       fmt::format("{}: {}", dynamic ? "dynamic" : "quasi-static", typeset(s.regime_ground))},
       {dynamic ? "Time steps" : "Events",
        dynamic ? fmt::format("{} of {}", s.steps, prefixed(s.step, "s")) : std::to_string(s.steps)},
       {"Contact iterations", std::to_string(s.iterations)}};
@@ -69,8 +70,9 @@ Facts scene_facts(const sim::Scene& scene) {
                                    setting(material.poisson), setting(material.density),
                                    material.plane == sim::Plane::stress ? "stress" : "strain")},
           {"Joints",
-           fmt::format("σ₁ = {}, σ₂ = {}, r = {}", setting(joints.head_tail / in::MPa, "MPa"),
-                       setting(joints.flank / in::MPa, "MPa"), setting(ratio(assembly, joints)))},
+           fmt::format("σ₁ = {}, σ₂ = {}, r = {}", setting(joints.head_tail / in::MPa, "MPa", 4),
+                       setting(joints.flank / in::MPa, "MPa", 4),
+                       setting(ratio(assembly, joints), "", 4))},
           {"Thresholds", joints.thresholds.empty()
                              ? fmt::format("{}, scatter d = {}, {} of the joints missing, seed {}",
                                            to_string(joints.distribution), setting(joints.scatter),

@@ -123,22 +123,35 @@ std::string sentence_of(const std::vector<Row>& rows, long runs) {
   }
   std::string sentence =
       fmt::format("Of {}: ", count(static_cast<long>(outcomes.size()), "finding"));
-  const std::array<std::string_view, 3> say{"agree", "disagree", "depend or cannot be decided"};
+  const std::array<std::string_view, 3> say{"agree", "disagree", "depend or cannot be decided"},
+      of_one{"agrees", "disagrees", "depends or cannot be decided"};
   bool first = true;
   for (std::size_t kind = 0; kind < 3; ++kind) {
     if (counts.at(kind) == 0) continue;
-    sentence += fmt::format("{}{} {} ({})", first ? "" : "; ", counts.at(kind), say.at(kind),
-                            names.at(kind));
+    sentence += fmt::format("{}{} {} ({})", first ? "" : "; ", counts.at(kind),
+                            counts.at(kind) == 1 ? of_one.at(kind) : say.at(kind), names.at(kind));
     first = false;
   }
   return sentence + ".";
 }
 
+// Runs that fail are worse than claims that do not hold.
+std::string grade_of(const std::vector<Row>& rows, long runs, long failed) {
+  if (20 * failed > runs) return "bad";
+  const bool agree = std::ranges::all_of(
+      rows, [](const Row& row) { return row.finding->outcome == FindingOutcome::agrees; });
+  return agree ? "good" : "mixed";
+}
+
+std::string with_unit(const MeasureWords& words) {
+  return words.unit.empty() ? words.name : fmt::format("{} ({})", words.name, words.unit);
+}
+
 std::string law_text(const calib::Law& law) {
   std::string terms;
   for (const std::string& term : law.request.terms) terms += name_of_key(term) + ", ";
-  return fmt::format("{} ({}) linear in {}", words_of(law.request.response).name,
-                     words_of(law.request.response).unit, terms.substr(0, terms.size() - 2));
+  return fmt::format("{} linear in {}", with_unit(words_of(law.request.response)),
+                     terms.substr(0, terms.size() - 2));
 }
 
 std::string coefficients_of(const calib::Law& law) {
@@ -191,9 +204,8 @@ mstch::array point_heads(const SweepReport& report) {
   for (const calib::SweepKey& key : report.sweep.plan.keys) head(name_of_key(key.name));
   head("I");
   head("n");
-  for (const calib::Measure m : known_measures(report.result))
-    head(fmt::format("{} {}", words_of(m).name, words_of(m).unit));
-  head("Strength CV %");
+  for (const calib::Measure m : known_measures(report.result)) head(with_unit(words_of(m)));
+  head("CV of the strength (%)");
   head("Weibull modulus");
   head("ln-likelihood, Gumbel − Weibull");
   return heads;
@@ -264,7 +276,7 @@ std::string sweep_page(const std::string& title, const std::vector<SweepReport>&
   }
   return render_page(
       title, "sweep",
-      {{"grade", text(20 * failed <= runs ? "good" : "bad")},
+      {{"grade", text(grade_of(rows, runs, failed))},
        {"sentence", text(sentence_of(rows, runs))},
        {"detail",
         text(fmt::format("{}, {} failed, {} wall time; seeds are not shared between points.",

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <system_error>
+#include <regex>
 
 namespace havers::reports {
 namespace {
@@ -37,6 +36,11 @@ std::string superscript(int exponent) {
   return text;
 }
 
+std::string power_of_ten(const std::string& mantissa, int exponent) {
+  const std::string factor = mantissa == "1" ? "" : fmt::format("{} × ", with_minus(mantissa));
+  return fmt::format("{}10{}", factor, superscript(exponent));
+}
+
 // Decimals that show two significant digits of `width`.
 int decimals_for(double width) {
   return std::max(0, 1 - exponent_of(width, 2));
@@ -54,32 +58,28 @@ std::string number(double value, int digits) {
   const int exponent = exponent_of(value, digits);
   if (exponent >= -4 && exponent < 6) return fixed(value, std::max(0, digits - 1 - exponent));
   const std::string text = fmt::format("{:.{}e}", value, digits - 1);
-  return with_minus(text.substr(0, text.find('e'))) + " × 10" + superscript(exponent);
+  return power_of_ten(text.substr(0, text.find('e')), exponent);
 }
 
-std::string typeset(std::string_view text) {
-  std::string result;
-  std::size_t done = 0;
-  for (std::size_t e = text.find('e', 1); e < text.size(); e = text.find('e', e + 1)) {
-    const bool plus = text.substr(e + 1).starts_with('+');
-    int exponent = 0;
-    const auto [end, error] =
-        std::from_chars(&text[e] + (plus ? 2 : 1), text.data() + text.size(), exponent);
-    const std::size_t begin = text.find_last_not_of("0123456789.", e - 1) + 1;
-    if (error != std::errc() || begin == e) continue;
-    const std::string_view mantissa = text.substr(begin, e - begin);
-    result += text.substr(done, begin - done);
-    result += mantissa == "1" ? "10" : fmt::format("{} × 10", mantissa);
-    result += superscript(exponent);
-    done = static_cast<std::size_t>(end - text.data());
-  }
-  return result.append(text.substr(done));
-}
-
-std::string setting(double value, std::string_view unit) {
+std::string setting(double value, std::string_view unit, int digits) {
   if (!std::isfinite(value)) return std::string(unknown);
-  const std::string text = with_minus(fmt::format("{:.6g}", value));
+  const std::string text = typeset(fmt::format("{:.{}g}", value, digits));
   return unit.empty() ? text : fmt::format("{}\u00a0{}", text, unit);
+}
+
+std::string typeset(const std::string& sentence) {
+  static const std::regex power(R"((-?\b\d+(?:\.\d+)?)e([+-]\d+)\b)"),
+      minus(R"((^|[\s(\[=^])-(?=\d))");
+  std::string text;
+  std::size_t done = 0;
+  for (std::sregex_iterator found(sentence.begin(), sentence.end(), power), none; found != none;
+       ++found) {
+    const auto at = static_cast<std::size_t>(found->position());
+    text += sentence.substr(done, at - done);
+    text += power_of_ten(found->str(1), std::stoi(found->str(2)));
+    done = at + static_cast<std::size_t>(found->length());
+  }
+  return std::regex_replace(text + sentence.substr(done), minus, "$1−");
 }
 
 std::string quantity(double value, std::string_view unit, int digits) {

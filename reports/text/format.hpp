@@ -19,12 +19,12 @@ inline constexpr double GPa = 1e9;   ///< [Pa]
 /// `digits` significant digits: "38.21", "0.004100", "3.21 × 10⁻¹⁴"; "–" when not finite.
 std::string number(double value, int digits = 4);
 
-/// A sentence whose numbers are written as a computer does, written as a reader does: "1e-06" is
-/// "10⁻⁶", "6.1e-09" is "6.1 × 10⁻⁹".
-std::string typeset(std::string_view text);
+/// A number somebody chose, as they would write it: "13", "0.33", "10⁻⁸". Fewer digits for what
+/// follows from what they chose.
+std::string setting(double value, std::string_view unit = {}, int digits = 6);
 
-/// A number somebody chose, as they would write it: "13", "0.33", "1e-08".
-std::string setting(double value, std::string_view unit = {});
+/// A sentence with its numbers as a page writes them: "p = 3e-06" is "p = 3 × 10⁻⁶", "-2" "−2".
+std::string typeset(const std::string& sentence);
 
 /// A number and its unit, held together by a space that does not break: "38.2 MPa"; "–" when not
 /// finite.

@@ -61,8 +61,9 @@ std::vector<BenchSetting> settings_in_time(const BenchSetting& own, double h) {
 }  // namespace
 
 std::string to_string(const BenchSetting& setting) {
-  const std::string rest = fmt::format("{}, {} T3", setting.leave_out ? "" : ", nothing left out",
-                                       8 * setting.refinement * setting.refinement);
+  const std::string rest =
+      fmt::format("{}, {} triangles a fibre", setting.leave_out ? "" : ", nothing left out",
+                  8 * setting.refinement * setting.refinement);
   if (setting.regime == Regime::quasi_static) return "quasi-static" + rest;
   const std::string step = setting.step ? "h = " + in_words(*setting.step) : "h chosen";
   if (setting.contact == ContactMethod::gauss_seidel)

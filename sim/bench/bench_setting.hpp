@@ -22,7 +22,7 @@ struct BenchSetting {
   bool operator==(const BenchSetting&) const = default;
 };
 
-/// "active set, h = 20 ns, 8 T3": the setting in words.
+/// "active set, h = 20 ns, 8 triangles a fibre": the setting in words.
 std::string to_string(const BenchSetting& setting);
 
 bool has_chosen_steps(const BenchSetting& setting);

@@ -65,6 +65,16 @@ TEST(StoppedTest, IsALowerBoundOfTheFit) {
   EXPECT_LT(pulled["parameters"][1]["value"].get<double>(), 72.0);
 }
 
+// Neither passed nor failed; and what was left out is counted when all is done.
+TEST(FitSummary, TicksNoCheckThatWasNotDoneAndCountsSimulationsOnce) {
+  const fs::path folder = folder_with_tests();
+  EXPECT_THAT(run_havers(folder, "fit made/study.toml -o out").out,
+              HasSubstr("\n  -    held-out specimens: Not checked"));
+  const auto result = nlohmann::json::parse(test::read_text(folder / "out/result.json"));
+  EXPECT_THAT(result["left_out"].dump(),
+              HasSubstr(fmt::format(" of {} simulations", result["evaluations"].get<long>())));
+}
+
 TEST(Check, SaysWhatAStudyLeavesOutAndTakesTwice) {
   const fs::path folder = folder_with_tests();
   std::string study = replaced_once(test::small_study(), "orientation_deg = 0\n", "");
@@ -75,6 +85,10 @@ TEST(Check, SaysWhatAStudyLeavesOutAndTakesTwice) {
   EXPECT_THAT(answer.out, HasSubstr("specimen B0 has no orientation_deg"));
   EXPECT_THAT(answer.out, HasSubstr("specimens B0 and B90 have the same test"));
   EXPECT_EQ(run_havers(folder, "check made/study.toml").out, "no problems in this study\n");
+
+  EXPECT_THAT(
+      run_havers(folder, "check made/study.toml --set model.loading.strain_rate_per_s=7").out,
+      testing::StartsWith("note: model.loading.strain_rate_per_s changes nothing: every test has"));
 
   const auto made = run_havers(folder, "synthesize made/doubtful.toml -o again");
   EXPECT_EQ(made.exit_code, 2);

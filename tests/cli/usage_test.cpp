@@ -23,6 +23,14 @@ TEST(Usage, HelpListsEveryCommand) {
     EXPECT_NE(answer.out.find(command), std::string::npos) << command;
 }
 
+TEST(Usage, WithoutACommandTheHelpIsShownAsAMistake) {
+  const auto folder = own_folder();
+  const auto answer = run_havers(folder, "");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_TRUE(answer.out.empty()) << answer.out;
+  EXPECT_EQ(answer.err, run_havers(folder, "-h").out);
+}
+
 TEST(Usage, EveryCommandShowsExamplesAndExitCodes) {
   const auto folder = own_folder();
   for (const char* command : commands) {
@@ -94,7 +102,7 @@ TEST(Usage, VersionSaysWhatIsBuiltIn) {
 TEST(Usage, MistakesInTheCommandLineAreOneLineAndExitTwo) {
   const auto folder = own_folder();
   for (const char* arguments :
-       {"", "fly", "simulate", "simulate scene.toml", "check a.toml --threads 0",
+       {"fly", "simulate", "simulate scene.toml", "check a.toml --threads 0",
         "check a.toml --nonsense", "porosity a.png --pixel-size-um -3"}) {
     SCOPED_TRACE(arguments);
     const auto answer = run_havers(folder, arguments);

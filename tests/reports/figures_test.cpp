@@ -1,5 +1,6 @@
 #include "reports/figures/figures.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,6 +59,18 @@ TEST(Figure, NamesTheSpecimensThatHaveRoom) {
   EXPECT_GE(named, 2);
   EXPECT_TRUE(contains(svg, "45°"));
   EXPECT_TRUE(contains(svg, "90°, validation"));
+}
+
+// Names take turns to the right and to the left of points along the line of equality.
+TEST(Figure, NamesNeighboursOnEitherSide) {
+  std::vector<calib::SpecimenResult> specimens;
+  for (const double strength : {13.0, 13.3, 80.0, 82.0}) {
+    calib::SpecimenResult& specimen = specimens.emplace_back();
+    specimen.id = fmt::format("S{}", specimens.size());
+    specimen.measured.strength = specimen.strength.mean = 1e6 * strength;
+  }
+  const std::string svg = draw(strength_figure(specimens, "strength"));
+  for (const auto& specimen : specimens) EXPECT_TRUE(contains(svg, specimen.id)) << specimen.id;
 }
 
 TEST(Figure, ShowsBothSidesOnlyWhereTheyDiffer) {

@@ -65,6 +65,13 @@ TEST(FitPage, ShowsNoCorrelationAsZero) {
   EXPECT_FALSE(contains(page, "10⁻³²"));
 }
 
+TEST(FitPage, LeavesOutTheNumbersOfAnOptimisersMessage) {
+  auto sample = test::fit_sample();
+  sample.result.stages.front().message = "Tolerance reached. |cost_change|/cost: 1.1e-05 <= 5e-05";
+  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  EXPECT_TRUE(contains(page, "<td>Tolerance reached</td>"));
+}
+
 TEST(FitPage, NamesTheChecksThatFailed) {
   auto sample = test::fit_sample();
   sample.result.verdict[1].outcome = calib::Outcome::fail;

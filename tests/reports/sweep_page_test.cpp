@@ -11,6 +11,7 @@ namespace {
 
 using support::deviation;
 using support::KnownSweep;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -46,10 +47,19 @@ struct Case {
 TEST(SweepPage, SaysTheOutcomeFirstAndEscapesWhatUsersWrote) {
   const Case known;
   const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
-  EXPECT_THAT(page, HasSubstr("Of 1 finding: 1 agree (F7)."));
+  EXPECT_THAT(page, HasSubstr("Of 1 finding: 1 agrees (F7)."));
   EXPECT_THAT(page, HasSubstr("80 runs, 0 failed"));
   EXPECT_THAT(page, HasSubstr("A &lt;sweep&gt;"));
   EXPECT_THAT(page, Not(HasSubstr("<sweep>")));
+}
+
+TEST(SweepPage, IsGreenOnlyWhereEveryFindingAgrees) {
+  Case known;
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+              HasSubstr("verdict good"));
+  known.result.findings.back().outcome = calib::FindingOutcome::undecided;
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+              AllOf(HasSubstr("verdict mixed"), HasSubstr("1 depends or cannot be decided (F7)")));
 }
 
 TEST(SweepPage, GivesEveryLawWithItsIntervals) {

@@ -4,6 +4,7 @@
 
 #include "reports/text/base64.hpp"
 #include "reports/text/format.hpp"
+#include "reports/text/parameter_label.hpp"
 
 namespace havers::reports {
 namespace {
@@ -45,6 +46,25 @@ TEST(Setting, IsWrittenAsItWasChosen) {
   EXPECT_EQ(setting(0.33), "0.33");
   EXPECT_EQ(setting(13.0, "GPa"), "13\u00a0GPa");
   EXPECT_EQ(setting(nan, "GPa"), "–");
+  EXPECT_EQ(setting(1e-8), "10⁻⁸");
+  EXPECT_EQ(setting(-2.5e-9, "m"), "−2.5 × 10⁻⁹\u00a0m");
+}
+
+TEST(Typeset, WritesTheNumbersOfASentenceAsAPageDoes) {
+  EXPECT_EQ(typeset("alike (p = 3e-06), or -2.5e+07."), "alike (p = 3 × 10⁻⁶), or −2.5 × 10⁷.");
+  EXPECT_EQ(typeset("p < 1e-6"), "p < 10⁻⁶");
+  EXPECT_EQ(typeset("AICc is -21.7 (-3 before), r^-0.23"), "AICc is −21.7 (−3 before), r^−0.23");
+}
+
+TEST(Typeset, LeavesNamesAndWordsAsTheyAre) {
+  for (const char* text : {"run-3.csv", "quasi-static", "2-fold", "sha 3e45", "a1e-6", "0 to 1"})
+    EXPECT_EQ(typeset(text), text);
+}
+
+TEST(ParameterLabel, GivesSymbolAndUnitOnce) {
+  EXPECT_EQ(axis_label("young_GPa"), "E (GPa)");
+  EXPECT_EQ(axis_label("head_tail_MPa[45 deg]"), "σ₁ [45 deg] (MPa)");
+  EXPECT_EQ(axis_label("ratio"), "r");
 }
 
 TEST(PlusMinus, ShowsTwoDigitsOfTheError) {

@@ -258,21 +258,6 @@ TEST(ReduceTest, SaysWhyATestCannotBeReduced) {
   EXPECT_EQ(problem_of(raw), "the stress does not grow with the strain");
 }
 
-// With or without noise about zero, which makes a little tension of it.
-TEST(ReduceTest, SaysThatTheForceIsNegative) {
-  for (const double noise : {0.0, 0.1}) {
-    RawTest raw = record({.force_noise = noise});
-    for (std::vector<double>* channel : {&raw.force, &raw.stress})
-      for (double& value : *channel) value = -value;
-    EXPECT_TRUE(problem_of(raw).starts_with("the force is negative, as in compression, down to -"))
-        << problem_of(raw);
-    raw.force.clear();
-    EXPECT_TRUE(
-        problem_of(raw).ends_with(" MPa: tension has to be positive, change the sign in the file"))
-        << problem_of(raw);
-  }
-}
-
 TEST(ReduceTest, SaysWhenThereAreTooFewRows) {
   EXPECT_EQ(problem_of(record({.strain_rate = 1e-2, .rows_after_break = 4})), "9 rows are too few");
   EXPECT_EQ(problem_of(record({.strain_rate = 1e-2})),

@@ -203,6 +203,42 @@ friction = "specimen"
   EXPECT_THAT(read(one_specimen + "[model.output]\nsnapshots = 0\n").warnings, IsEmpty());
 }
 
+TEST_F(ReadStudy, SaysWhichKeysChangeNothing) {
+  const auto warnings = [&](const std::string& tables) {
+    return read(one_specimen + tables).warnings;
+  };
+  EXPECT_THAT(warnings("[model.joints]\nseed = 2\n"),
+              ElementsAre("model.joints.seed changes nothing: calibrate.options.seed draws the "
+                          "thresholds"));
+  EXPECT_THAT(warnings("[sections]\nrim_um = 3\n[porosity]\nto_scatter = \"linear\"\n"),
+              ElementsAre("sections changes nothing: no specimen has any",
+                          "porosity changes nothing: no specimen has sections or a porosity"));
+  EXPECT_THAT(warnings("porosity = 0.1\npixel_size_um = 2\ngauge_columns.force = 2\n"),
+              ElementsAre("gauge_columns of specimen A1 changes nothing: it has no gauge",
+                          "pixel_size_um of specimen A1 changes nothing: it has no sections"));
+  EXPECT_THAT(warnings("porosity = 0.1\n[porosity]\nlinear_slope = 2\n[calibrate]\n"
+                       "parameters = [\"modulus_exponent\"]\n"),
+              ElementsAre("porosity.linear_slope changes nothing: to_scatter is not \"linear\"",
+                          "modulus_exponent in calibrate.parameters changes nothing: to_modulus is "
+                          "not \"power\""));
+  EXPECT_THAT(warnings("porosity = 0.1\n[porosity]\nto_scatter = \"linear\"\n"
+                       "[model.joints]\nscatter = 0.3\n"),
+              ElementsAre("model.joints.scatter changes nothing: every specimen has one from its "
+                          "porosity"));
+  EXPECT_THAT(warnings("[reduction]\nquality_control = false\nlargest_noise = 0.1\n"),
+              ElementsAre("reduction.largest_noise changes nothing: quality_control is false"));
+}
+
+TEST_F(ReadStudy, SaysWhichStartIsMovedAndWhatRunsInTime) {
+  EXPECT_THAT(
+      read(one_specimen, {"calibrate.parameters=['ratio']", "model.joints.ratio=30"}).warnings,
+      ElementsAre("ratio starts at 20, the nearest of its bounds, for the study's 30 lies "
+                  "outside; it stays there where the tests tell nothing of it"));
+  EXPECT_THAT(read(one_specimen, {"calibrate.parameters=['viscosity_s']"}).warnings,
+              ElementsAre(testing::StartsWith("viscosity_s starts at 1e-09, the nearest"),
+                          testing::StartsWith("viscosity_s is fitted: every simulation runs")));
+}
+
 TEST_F(ReadStudy, LetsTheCommandLineOverrideTheFile) {
   const StudyFile file =
       read(one_specimen, {"calibrate.options.budget=50", "model.joints.scatter=0.7",

@@ -113,5 +113,15 @@ TEST(HeaderSizes, AreSaidWhereThoseOfTheUserAreTenTimesOff) {
             std::vector<std::string>{"line 1, Width: no unit, taken as mm"});
 }
 
+TEST(HeaderSizes, AreSaidWhereTheAreaIsNotWidthTimesThickness) {
+  const std::vector<std::string> said{
+      "the file's area of 8.5 mm² is not width x thickness, 8 mm²: the latter is used, check them"};
+  EXPECT_EQ(sized("Width,4,mm\nThickness,2,mm\nArea,8.5,mm²\n" + two_rows).warnings, said);
+  const std::string area = "Area,8.5,mm²\n" + two_rows;
+  EXPECT_EQ(sized(area, {.width = 4e-3, .thickness = 2e-3}).warnings, said);
+  EXPECT_TRUE(sized(area, {.width = 4.26e-3, .thickness = 2e-3}).warnings.empty());
+  EXPECT_TRUE(sized(area).warnings.empty());
+}
+
 }  // namespace
 }  // namespace havers::io

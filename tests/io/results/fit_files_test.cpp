@@ -155,12 +155,14 @@ TEST(FitFolder, SaysWhatIsWrongWithAFolder) {
   EXPECT_THAT(refusal(folder),
               HasSubstr("result.json: is not there (name a fit's folder or its result.json)"));
   folder.write("result.json", "{ \"verdict\": ");
-  EXPECT_THAT(refusal(folder), HasSubstr("result.json: cannot be understood: "));
+  EXPECT_THAT(refusal(folder),
+              HasSubstr("result.json: is not JSON (name a fit's folder or its result.json)"));
   folder.write("result.json", R"({"status": "broken"})");
   EXPECT_THAT(refusal(folder),
               HasSubstr("result.json: is not the result of a fit (havers fit STUDY.toml"));
   folder.write("result.json", R"({"verdict": [], "study": {}, "status": 3})");
-  EXPECT_THAT(refusal(folder), HasSubstr("result.json: cannot be understood: "));
+  EXPECT_THAT(refusal(folder), HasSubstr("result.json: lacks what the result of a fit has, or has "
+                                         "it otherwise (run the fit again"));
   write_folder(folder, sample(), {});
   std::filesystem::remove(folder.path() / "curves/A1.csv");
   EXPECT_THAT(refusal(folder), HasSubstr("A1.csv: cannot be read"));

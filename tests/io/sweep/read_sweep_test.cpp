@@ -42,6 +42,19 @@ keys = ["joints.scatter"]
 x = "joints.scatter"
 )";
 
+TEST(ReadSweep, SaysWhichKeysChangeNothing) {
+  const ScratchFolder folder;
+  const auto file = folder.write("s.toml", good);
+  EXPECT_THAT(read_sweep(file).warnings, testing::IsEmpty());
+  EXPECT_THAT(read_sweep(file, {"joints.seed=3", "sweep.points=9"}).warnings,
+              ElementsAre(HasSubstr("joints.seed changes nothing: sweep.seed"),
+                          HasSubstr("sweep.points changes nothing: a list or a grid")));
+  const auto sample = folder.write(
+      "sample.toml",
+      "[sweep]\nsample = \"sobol\"\npoints = 9\nkeys.\"joints.scatter\" = [0.2, 0.8]\n");
+  EXPECT_THAT(read_sweep(sample).warnings, testing::IsEmpty());
+}
+
 // TOML keeps no order: the keys are in that of the alphabet.
 TEST(ReadSweep, MakesASceneOfEveryPoint) {
   const ScratchFolder folder;

@@ -124,15 +124,15 @@ TEST(BenchSetting, RefinesTheMeshAtTheLongestAndTheShortestStep) {
 }
 
 TEST(BenchSetting, IsSaidInWords) {
-  EXPECT_EQ(to_string({.step = 2e-8}), "active set, h = 20 ns, 8 T3");
+  EXPECT_EQ(to_string({.step = 2e-8}), "active set, h = 20 ns, 8 triangles a fibre");
   EXPECT_EQ(to_string({.contact = ContactMethod::gauss_seidel, .tolerance = 1e-6, .step = 5e-9}),
-            "Gauss-Seidel 1e-06, h = 5 ns, 8 T3");
+            "Gauss-Seidel 1e-06, h = 5 ns, 8 triangles a fibre");
   EXPECT_EQ(to_string({.regime = Regime::quasi_static, .refinement = 4, .leave_out = false}),
-            "quasi-static, nothing left out, 128 T3");
+            "quasi-static, nothing left out, 128 triangles a fibre");
   EXPECT_EQ(to_string({.step = 2e-8, .leave_out = false}),
-            "active set, h = 20 ns, nothing left out, 8 T3");
-  EXPECT_EQ(to_string({.step = 4.577e-3}), "active set, h = 4.58 ms, 8 T3");
-  EXPECT_EQ(to_string({.step = 3.5e-6}), "active set, h = 3.5 µs, 8 T3");
+            "active set, h = 20 ns, nothing left out, 8 triangles a fibre");
+  EXPECT_EQ(to_string({.step = 4.577e-3}), "active set, h = 4.58 ms, 8 triangles a fibre");
+  EXPECT_EQ(to_string({.step = 3.5e-6}), "active set, h = 3.5 µs, 8 triangles a fibre");
 }
 
 }  // namespace

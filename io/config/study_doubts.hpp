@@ -1,0 +1,15 @@
+// What a study says and can hardly mean: keys that change nothing, starts that cannot be.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/config/read_study.hpp"
+#include "io/config/table_reader.hpp"
+
+namespace havers::io {
+
+/// A sentence each, of a study whose tables are read.
+std::vector<std::string> study_doubts(TableReader top, const StudyFile& read);
+
+}  // namespace havers::io
