@@ -90,7 +90,7 @@ void doubt_specimens(TableReader top, const StudyFile& read, Sentences& found) {
   }
 }
 
-void doubt_reduction(TableReader reduction, const StudyFile& read, Sentences& found) {
+void doubt_reduction(const TableReader& reduction, const StudyFile& read, Sentences& found) {
   for (const char* key : {"largest_modulus_error", "largest_noise"})
     if (!read.reduction.quality_control && reduction.has(key))
       changes_nothing(found, fmt::format("reduction.{}", key), "quality_control is false");

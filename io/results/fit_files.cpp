@@ -39,7 +39,7 @@ nlohmann::json read_json(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream)
     throw InputError(file.string(), "is not there", "name a fit's folder or its result.json");
-  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
   if (json.is_discarded())
     throw InputError(file.string(), "is not JSON", "name a fit's folder or its result.json");
   if (!json.is_object() || !json.contains("verdict") || !json.contains("study"))

@@ -75,7 +75,7 @@ Line line_of(const Panel& panel, std::vector<std::size_t> points) {
   return line;
 }
 
-struct Range {
+struct Extent {
   double low = std::numeric_limits<double>::infinity(),
          high = -std::numeric_limits<double>::infinity();
 
@@ -88,13 +88,13 @@ struct Range {
   [[nodiscard]] bool many_decades() const { return low > 0.0 && high >= 100.0 * low; }
 };
 
-std::string log_axis(char axis, const Range& range) {
+std::string log_axis(char axis, const Extent& range) {
   return fmt::format("set logscale {0}\nset format {0} '10^{{%T}}'\nset {0}range [{1}:{2}]\n", axis,
                      0.7 * range.low, 1.4 * range.high);
 }
 
 std::string axes(const std::vector<Line>& lines) {
-  Range x, y;
+  Extent x, y;
   for (const Line& line : lines) {
     x.take(line.x);
     y.take(line.low);

@@ -85,7 +85,7 @@ Scene with_setting(const BenchSetting& setting, Scene scene) {
   return scene;
 }
 
-double longest_step(const Scene& scene) {
+double base_step(const Scene& scene) {
   if (choose_regime(scene).regime == Regime::quasi_static)
     return 1e-2 * first_break_by_uniform_stress(scene) / scene.loading.strain_rate;
   return scene.solver.step.value_or(0.25 * scene.assembly.fibre_length /
@@ -105,7 +105,7 @@ BenchSetting without_omissions(BenchSetting setting) {
 
 std::vector<BenchSetting> bench_settings(const Scene& scene) {
   const BenchSetting own = direct_setting(scene);
-  const double h = longest_step(scene);
+  const double h = base_step(scene);
   return own.regime == Regime::quasi_static ? settings_of_limit(own, h) : settings_in_time(own, h);
 }
 

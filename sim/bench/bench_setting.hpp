@@ -36,7 +36,7 @@ Scene with_setting(const BenchSetting& setting, Scene scene);
 
 /// h that others are parts of: the scene's own or, where it has none, L/(4c); in the quasi-static
 /// limit a hundredth of the way to the first break. [s]
-double longest_step(const Scene& scene);
+double base_step(const Scene& scene);
 
 /// What a scene is computed with.
 std::vector<BenchSetting> bench_settings(const Scene& scene);

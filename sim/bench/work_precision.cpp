@@ -21,7 +21,7 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 BenchSetting reference_setting(const Scene& scene, const std::vector<WatchedRun>& chosen) {
   BenchSetting reference = direct_setting(scene);
   if (reference.regime == Regime::quasi_static) return without_omissions(reference);
-  double step = longest_step(scene) / 64.0;
+  double step = base_step(scene) / 64.0;
   for (const WatchedRun& run : chosen) step = std::min(step, run.simulation.step / 4.0);
   reference.step = step;
   return reference;

@@ -13,8 +13,11 @@ namespace havers::sim {
 
 double end_fraction_used(const Scene& scene) {
   const JointOptions& joints = scene.joints;
-  const bool brittle = joints.thresholds.empty() && joints.distribution == Distribution::uniform &&
+  const bool as_drawn = joints.thresholds.empty() && !joints.head_tail_shear &&
+                        !joints.flank_tension && scene.material.layer_contrast == 1.0;
+  const bool brittle = as_drawn && joints.distribution == Distribution::uniform &&
                        joints.scatter <= 1.0 && joints.missing == 0.0 &&
+                       ratio(scene.assembly, joints) >= 0.2 &&
                        scene.assembly.layers * scene.assembly.fibres >= 40;
   if (!scene.solver.leave_out || !brittle) return scene.loading.end_fraction;
   const double drop = std::max({0.1, 0.3 * joints.scatter, 2.5 / scene.assembly.layers});
@@ -86,7 +89,7 @@ std::vector<LeftOut> left_out_in_the_limit(const Scene& scene, const IntactStruc
   if (end_fraction_used(scene) > scene.loading.end_fraction)
     list.push_back(
         {fmt::format("the avalanche below {:g} of the strength", end_fraction_used(scene)),
-         "none with such thresholds was seen to become stronger thereafter"});
+         "one of 7212 with such thresholds became stronger thereafter, by 0.015 %"});
   return list;
 }
 

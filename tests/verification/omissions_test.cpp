@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "sim/simulation.hpp"
@@ -65,6 +66,26 @@ TEST_P(SameRun, InTheQuasiStaticLimitAsFarAsItGoes) {
     EXPECT_LT(quick.curve.size(), all.curve.size());
     EXPECT_EQ(broken_list(quick), by_then);
     expect_same_curve(quick, all);
+  }
+}
+
+// Where head-tail joints are far weaker than flanks, those bear when these have gone, and more.
+TEST_P(SameRun, WhateverBearsOnceTheWeakerJointsHaveGone) {
+  for (const double ratio : {0.03, 0.05, 0.1, 0.3}) {
+    Scene scene = test::small_scene(GetParam(), 6, 7);
+    scene.loading.lateral = Lateral::free;
+    scene.loading.max_strain = 1.0;
+    scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, ratio);
+    scene.joints.scatter = 0.3;
+    for (const std::uint64_t seed : {1U, 3U}) {
+      scene.joints.seed = seed;
+      scene.solver.leave_out = true;
+      const Simulation quick = simulate(scene);
+      scene.solver.leave_out = false;
+      const Simulation all = simulate(scene);
+      EXPECT_NEAR(quick.strength / all.strength, 1.0, 1e-9) << ratio << ", " << seed;
+      EXPECT_NEAR(quick.failure_strain / all.failure_strain, 1.0, 1e-9) << ratio;
+    }
   }
 }
 

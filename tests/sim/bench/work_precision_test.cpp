@@ -109,7 +109,7 @@ TEST(WorkPrecision, EndsWhenAskedTo) {
 
 TEST(BenchSetting, RefinesTheMeshAtTheLongestAndTheShortestStep) {
   const Scene scene = tiny(Regime::dynamic);
-  double longest = 0.0, shortest = longest_step(scene);
+  double longest = 0.0, shortest = base_step(scene);
   std::vector<double> with_finer_mesh;
   for (const BenchSetting& setting : bench_settings(scene)) {
     if (setting.refinement > 1) {
