@@ -89,6 +89,7 @@ std::map<std::string, Side> sides_of(const Groups& groups, const Range& range) {
   std::vector<const calib::SpecimenResult*> all;
   for (const auto& [group, members] : groups) all.insert(all.end(), members.begin(), members.end());
   std::vector<Box> taken;
+  taken.reserve(2 * all.size());
   for (const auto* specimen : all) taken.push_back(point_box(*specimen, range));
   std::map<std::string, Side> sides;
   for (std::size_t i = 0; i < all.size(); ++i) {
