@@ -34,7 +34,9 @@ RegimeChoice choose_regime(const Scene& scene) {
   choice.ground =
       fmt::format("inertia number {:.2g} is {} {:g}{}", choice.inertia_number,
                   slow ? "below" : "not below", quasi_static_below,
-                  slow && needs_time ? ", but the scene asks for something that needs time" : "");
+                  !slow        ? ""
+                  : needs_time ? ", but the scene asks for something that needs time"
+                               : "; waves that a break releases are taken to fade at once");
   return choice;
 }
 
