@@ -87,16 +87,19 @@ std::string work_precision_svg(const sim::WorkPrecision& study) {
                 .height = 720};
   const std::string forces = work_panel(study, "forces", &sim::BenchErrors::bonded_forces);
   const std::string strain = work_panel(study, "strain", &sim::BenchErrors::failure_strain);
-  if (!forces.empty() && !strain.empty())
-    figure.commands =
-        "set multiplot\nset logscale xy\nset format y '10^{%L}'\nset format x '%g'\nset offsets "
-        "graph 0.06,graph "
-        "0.06,graph 0.06,graph 0.06\n" +
-        panel(0.55, 0.915) + "set ylabel 'Relative error of joint forces' offset 0.8,0\n" + forces +
-        panel(0.09, 0.47) +
-        "set xlabel 'CPU time of a run (s)' offset 0,0.5\n"
-        "set ylabel 'Relative error of failure strain' offset 0.8,0\nunset key\n" +
-        strain + "unset multiplot\n";
+  if (strain.empty()) return draw(figure);
+  figure.commands =
+      "set multiplot\nset logscale xy\nset format y '10^{%L}'\nset format x '%g'\n"
+      "set offsets graph 0.06,graph 0.06,graph 0.06,graph 0.06\n";
+  // Where joints are missing from the start there are no forces of the intact specimen.
+  if (!forces.empty())
+    figure.commands += panel(0.55, 0.915) +
+                       "set ylabel 'Relative error of joint forces' offset 0.8,0\n" + forces +
+                       "unset key\n";
+  figure.commands += panel(0.09, forces.empty() ? 0.915 : 0.47) +
+                     "set xlabel 'CPU time of a run (s)' offset 0,0.5\n"
+                     "set ylabel 'Relative error of failure strain' offset 0.8,0\n" +
+                     strain + "unset multiplot\n";
   return draw(figure);
 }
 

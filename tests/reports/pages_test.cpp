@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "reports/bench_pages.hpp"
 #include "tests/reports/sound_page.hpp"
 
@@ -145,6 +147,15 @@ TEST(WorkPrecisionPage, WritesNumbersAsAReaderDoes) {
   EXPECT_TRUE(contains(page, "differs by 1.3 × 10⁻¹³ at most and takes 1.7 times the CPU time"));
   EXPECT_TRUE(contains(page, "1 of 1 not to be trusted"));
   EXPECT_FALSE(contains(page, "e-0"));
+}
+
+TEST(WorkPrecisionPage, ShowsFailureStrainsWhereNoForcesOfTheIntactSpecimenAre) {
+  sim::WorkPrecision study = work_precision_sample();
+  for (sim::BenchRow& row : study.rows)
+    row.errors.bonded_forces.median = std::numeric_limits<double>::quiet_NaN();
+  const std::string page = work_precision_page({{}, study, {}});
+  EXPECT_TRUE(contains(page, "Relative error of failure strain"));
+  EXPECT_FALSE(contains(page, "Relative error of joint forces"));
 }
 
 TEST(WorkPrecisionPage, IsNotGreenWithoutAReference) {
