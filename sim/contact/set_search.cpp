@@ -16,6 +16,7 @@ constexpr int most_sweeps = 200;       // between two sets
 constexpr int quiet_sweeps = 10;       // sweeps without a change of state
 // Part of the reactions that an answer may err by, where it breaks a law by more.
 constexpr double rough = 1e-4;
+constexpr double useful = 0.1;  // to start from, likewise
 
 Held held_in(JointState state) {
   if (state == JointState::stick) return Held::fully;
@@ -37,8 +38,7 @@ void SetSearch::take(const std::vector<JointState>& states) {
 }
 
 // Of the structure as it is, for the result's states.
-StructureResponse SetSearch::answer(const JointStep& step, double accuracy,
-                                    JointStepResult& result) const {
+void SetSearch::answer(const JointStep& step, double accuracy, JointStepResult& result) {
   const auto joints = static_cast<Index>(result.states.size());
   StructureLoads loads{step.forces,
                        step.prescribed,
@@ -46,7 +46,8 @@ StructureResponse SetSearch::answer(const JointStep& step, double accuracy,
                        step.force_scale,
                        VectorXd::Zero(2 * joints),
                        VectorXd::Zero(joints),
-                       accuracy};
+                       accuracy,
+                       last_.residual < useful ? &last_ : nullptr};
   for (Index j = 0; j < joints; ++j) {
     const JointState state = result.states[static_cast<std::size_t>(j)];
     const JointLaw& law = step.laws[static_cast<std::size_t>(j)];
@@ -54,13 +55,12 @@ StructureResponse SetSearch::answer(const JointStep& step, double accuracy,
     if (state == JointState::open) loads.given(2 * j) = -law.cohesion;
     loads.given(2 * j + 1) = loads.friction(j) * law.cohesion;
   }
-  StructureResponse response = structure_->solve(loads);
+  last_ = structure_->solve(loads);
   ++result.iterations;
-  result.gaps = step.predicted + response.gaps;
-  result.reactions = response.reactions;
-  result.displacements = response.displacements;
+  result.gaps = step.predicted + last_.gaps;
+  result.reactions = last_.reactions;
+  result.displacements = last_.displacements;
   result.converged = is_lawful(step, result, accuracy);
-  return response;
 }
 
 // Whether the law leaves every joint in its state, where reactions err by part of the largest.
@@ -95,18 +95,18 @@ JointStepResult SetSearch::solve(const JointStep& step) {
   for (int set = 0; set < sets_from_answers + sets_from_sweeps; ++set) {
     take(result.states);
     if (!structure_->ok()) return result;
-    StructureResponse response = answer(step, rough, result);
-    if (result.converged) response = answer(step, accuracy_of_forces, result);
-    result.converged = result.converged && response.residual < 1e-9;
+    answer(step, rough, result);
+    if (result.converged) answer(step, accuracy_of_forces, result);
+    result.converged = result.converged && last_.residual < 1e-9;
     if (result.converged) {
-      result.residual = std::max(joint_residual(step, result, stiffness_), response.residual);
-      tie_forces_ = std::move(response.tie_forces);
+      result.residual = std::max(joint_residual(step, result, stiffness_), last_.residual);
+      tie_forces_ = last_.tie_forces;
       break;
     }
     if (set == 0)  // friction may leave several solutions: towards the one nearest to the last
       sweeps_.start(step, step.reactions, tie_forces_);
     else if (set <= sets_from_answers)
-      sweeps_.start(step, response.reactions, response.tie_forces);
+      sweeps_.start(step, last_.reactions, last_.tie_forces);
     else
       patience *= 2;
     result.iterations += look_for_states(step, patience, result.states);

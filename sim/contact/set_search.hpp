@@ -20,15 +20,16 @@ class SetSearch {
 
  private:
   void take(const std::vector<JointState>& states);
-  StructureResponse answer(const JointStep& step, double accuracy, JointStepResult& result) const;
+  void answer(const JointStep& step, double accuracy, JointStepResult& result);
   [[nodiscard]] bool is_lawful(const JointStep& step, const JointStepResult& result,
                                double accuracy) const;
   int look_for_states(const JointStep& step, int patience, std::vector<JointState>& states);
 
   const Bodies* bodies_;
   JointSweeps sweeps_;
-  std::optional<Structure> structure_;  // of the last set
-  Eigen::VectorXd tie_forces_;          // of the last answer [N/m]
+  std::optional<Structure> structure_;       // of the last set
+  StructureResponse last_{.residual = 1.0};  // answer, where the next one starts
+  Eigen::VectorXd tie_forces_;               // of the last step's answer [N/m]
   Eigen::VectorXd stiffness_;
 };
 

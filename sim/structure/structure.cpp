@@ -27,6 +27,7 @@ struct Structure::PortLoads {
   VectorXd friction;  // of each joint; empty: none
   double force_scale = 0.0;
   double accuracy = accuracy_of_forces;
+  bool near = false;  // start where an answer to other loads is
 };
 
 // Displacements, forces and compatibility multipliers at the ports of all bodies.
@@ -78,6 +79,18 @@ VectorXd Structure::unknowns_to_ports(const VectorXd& unknowns) const {
     p(i) = unknowns(own) + (common < 0 ? 0.0 : unknowns(common));
   }
   return p;
+}
+
+// The same but where ports are held together: there as one of them.
+VectorXd Structure::as_held(const VectorXd& displacements) const {
+  VectorXd unknowns = VectorXd::Zero(unknowns_);
+  for (Index i = 0; i < ports(); ++i)
+    if (const auto& [own, common] = unknowns_of_port_[static_cast<std::size_t>(i)]; common < 0)
+      unknowns(own) = displacements(i);
+  for (Index i = 0; i < ports(); ++i)
+    if (const auto& [own, common] = unknowns_of_port_[static_cast<std::size_t>(i)]; common >= 0)
+      unknowns(common) = displacements(i) - unknowns(own);
+  return unknowns_to_ports(unknowns);
 }
 
 VectorXd Structure::ports_to_unknowns(const VectorXd& forces) const {
@@ -138,17 +151,16 @@ Structure::Correction Structure::correct(const VectorXd& forces, const VectorXd&
 
 // Corrections of the mixed system (S6) until its own residuals are rounding. Friction makes them
 // generalised conjugate residuals [EES83].
-Structure::PortState Structure::solve_ports(const PortLoads& loads) const {
-  PortState state{loads.offsets, {}, VectorXd::Zero(bodies_->compatibilities()), 0, 0.0};
+Structure::PortState Structure::solve_ports(const PortLoads& loads, PortState state) const {
   const bool rubs = loads.friction.size() > 0 && !loads.friction.isZero(0.0);
   const VectorXd friction = rubs ? loads.friction : VectorXd();
   state.forces = -loads.forces;
-  if (!loads.offsets.isZero(0.0))
+  if (!state.displacements.isZero(0.0))
     state.forces += bodies_->port_forces(state.displacements, state.multipliers);
   if (rubs) rub(friction, state.forces);
   VectorXd gap = bodies_->incompatibility(state.displacements);
   std::vector<Correction> past;
-  double before = 1.0;
+  double before = loads.near ? 0.0 : 1.0;  // how they shrink is then seen from the second on
   while (factor_ && state.solves < (rubs ? max_solves_with_friction : max_solves)) {
     Correction change = correct(state.forces, gap, friction);
     ++state.solves;
@@ -194,8 +206,8 @@ VectorXd Structure::reactions_of(const VectorXd& port_forces) const {
 }
 
 StructureResponse Structure::solve(const StructureLoads& loads) const {
-  PortLoads at_ports{VectorXd(ports()), VectorXd::Zero(ports()), loads.friction, loads.force_scale,
-                     loads.accuracy};
+  PortLoads at_ports{VectorXd(ports()), VectorXd::Zero(ports()), loads.friction,
+                     loads.force_scale, loads.accuracy,          loads.near != nullptr};
   std::vector<MatrixXd> forces;  // on the free degrees of freedom of each class
   forces.reserve(bodies_->classes().size());
   for (const BodyClass& group : bodies_->classes()) {  // (S3): condense the loads
@@ -219,7 +231,13 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
     }
   }
 
-  const PortState state = solve_ports(at_ports);
+  PortState start{at_ports.offsets, {}, VectorXd::Zero(bodies_->compatibilities()), 0, 0.0};
+  if (loads.near != nullptr) {
+    start.displacements += as_held(bodies_->port_displacements(loads.near->displacements) -
+                                   (at_ports.offsets - prescribed));
+    start.multipliers = loads.near->multipliers;
+  }
+  const PortState state = solve_ports(at_ports, std::move(start));
   VectorXd displacements = loads.prescribed;
   for (std::size_t k = 0; k < forces.size(); ++k) {  // (S4): recover the displacements
     const BodyClass& group = bodies_->classes()[k];
@@ -239,6 +257,7 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
           reactions,
           all.tail(all.size() - 2 * joints()),
           gaps_of(state.displacements - prescribed),
+          state.multipliers,
           state.solves,
           state.error};
 }

@@ -23,6 +23,16 @@ enum class Held : char {
 /// Port forces that err by less than this part of their norm are solved for as well as can be.
 constexpr double accuracy_of_forces = 1e-12;
 
+struct StructureResponse {
+  Eigen::VectorXd displacements;  ///< δ. [m]
+  Eigen::VectorXd reactions;      ///< r of every joint: R_N, R_T. [N/m]
+  Eigen::VectorXd tie_forces;     ///< Of every tie, pushing its top point up. [N/m]
+  Eigen::VectorXd gaps;           ///< u_b − u_a of every joint: normal, tangential. [m]
+  Eigen::VectorXd multipliers;    ///< a of all bodies. [N/m]
+  int solves = 0;                 ///< Triangular solves spent.
+  double residual = 0.0;          ///< Relative error of the port forces, as corrections shrink. [-]
+};
+
 /// What acts on a structure. Vectors over degrees of freedom, and over joints (normal, tangential
 /// of each).
 struct StructureLoads {
@@ -34,16 +44,8 @@ struct StructureLoads {
   Eigen::VectorXd given{};   ///< Reactions where a joint is not held; empty: none. [N/m]
   Eigen::VectorXd
       friction{};  ///< Of each sliding joint: R_T = given + friction · R_N; empty: 0. [-]
-  double accuracy = accuracy_of_forces;  ///< Part of the port forces that they may err by. [-]
-};
-
-struct StructureResponse {
-  Eigen::VectorXd displacements;  ///< δ. [m]
-  Eigen::VectorXd reactions;      ///< r of every joint: R_N, R_T. [N/m]
-  Eigen::VectorXd tie_forces;     ///< Of every tie, pushing its top point up. [N/m]
-  Eigen::VectorXd gaps;           ///< u_b − u_a of every joint: normal, tangential. [m]
-  int solves = 0;                 ///< Triangular solves spent.
-  double residual = 0.0;          ///< Relative error of the port forces, as corrections shrink. [-]
+  double accuracy = accuracy_of_forces;     ///< Part of the port forces that they may err by. [-]
+  const StructureResponse* near = nullptr;  ///< To much the same: where corrections start.
 };
 
 /// Unit jumps at a joint, normal and tangential, solved for half way: all that it takes to know
@@ -85,7 +87,7 @@ class Structure {
   struct PortState;
   struct Correction;
   struct Branch;
-  [[nodiscard]] PortState solve_ports(const PortLoads& loads) const;
+  [[nodiscard]] PortState solve_ports(const PortLoads& loads, PortState state) const;
   [[nodiscard]] Correction correct(const Eigen::VectorXd& forces, const Eigen::VectorXd& gap,
                                    const Eigen::VectorXd& friction) const;
   [[nodiscard]] Eigen::VectorXd in_forces(const Eigen::VectorXd& forces,
@@ -105,6 +107,7 @@ class Structure {
   [[nodiscard]] Eigen::MatrixXd stiffened(const BodyOperator& op) const;
   [[nodiscard]] Eigen::VectorXd gaps_of(const Eigen::VectorXd& displacements) const;
   [[nodiscard]] Eigen::VectorXd unknowns_to_ports(const Eigen::VectorXd& unknowns) const;
+  [[nodiscard]] Eigen::VectorXd as_held(const Eigen::VectorXd& displacements) const;
   [[nodiscard]] Eigen::VectorXd ports_to_unknowns(const Eigen::VectorXd& forces) const;
   [[nodiscard]] Eigen::VectorXd reactions_of(const Eigen::VectorXd& port_forces) const;
   void assemble();

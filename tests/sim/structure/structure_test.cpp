@@ -161,6 +161,15 @@ TEST_P(TinyStructure, LetsJointsOpenAndSlide) {
   const StructureResponse found = structure.solve(loads);
   EXPECT_LT((found.displacements - truth.displacements).norm() / truth.displacements.norm(), 1e-8);
   EXPECT_LT((found.reactions - truth.reactions).norm() / truth.reactions.norm(), 1e-8);
+
+  const StructureResponse bonded = Structure(bodies).solve(random_loads(bodies, 3));
+  loads.near = &bonded;  // another structure's
+  const StructureResponse from_bonded = structure.solve(loads);
+  EXPECT_LT((from_bonded.displacements - truth.displacements).norm() / truth.displacements.norm(),
+            1e-8);
+  EXPECT_LT((from_bonded.reactions - truth.reactions).norm() / truth.reactions.norm(), 1e-8);
+  loads.near = &found;
+  EXPECT_LE(structure.solve(loads).solves, found.solves);
 }
 
 TEST_P(TinyStructure, HoldsNothingTogetherWhenAllIsDetached) {
