@@ -48,7 +48,6 @@ int run_mode(const Flag& flag, const BenchArguments& arguments, const CommonOpti
 
 Command bench_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(app, common, "bench", "error against run time", bench_examples);
-  hide_idle(*parser, {"--verbose"});
   const auto arguments = std::make_shared<BenchArguments>();
   const auto chosen = std::make_shared<const Flag*>(nullptr);
   parser->add_option("SCENE", arguments->scene, "scene file (TOML)");

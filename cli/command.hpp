@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,10 +55,6 @@ Command bench_command(CLI::App& app, CommonOptions& common);
 /// Adds a sub-command with the common options, a sentence of what it does, and examples under -h.
 CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& name,
                       const std::string& sentence, const std::string& examples);
-
-/// Takes the description of common options that do nothing for a command, by which -h leaves them
-/// out; scripts may give them all the same.
-void hide_idle(CLI::App& command, std::initializer_list<const char*> options);
 
 /// Adds -o,--output DIR, which names a folder.
 CLI::Option* add_output(CLI::App& command, std::filesystem::path& folder, const std::string& help);

@@ -89,7 +89,6 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
 Command fit_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(app, common, "fit",
                                  "calibrate the model to a study's tests and report", fit_examples);
-  hide_idle(*parser, {"--verbose"});
   const auto arguments = std::make_shared<FitArguments>();
   parser->add_option("STUDY", arguments->study, "study file (TOML)")->required();
   add_output(*parser, arguments->folder, "folder for the results")->required();

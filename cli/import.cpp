@@ -241,9 +241,6 @@ int run_import(const ImportArguments& arguments, const CommonOptions& common) {
 Command import_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(app, common, "import",
                                  "what is in a test file, as read and as used", import_examples);
-  hide_idle(*parser, {"--verbose", "--threads", "--seed"});
-  parser->get_option("--set")->description(
-      "what a study can say of a test: columns.force=2, reduction.remove_toe=false; repeatable");
   const auto arguments = std::make_shared<ImportArguments>();
   parser->add_option("FILE", arguments->files, "test files")->required();
   parser

@@ -9,7 +9,6 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -94,20 +93,10 @@ int run(const Command& command, const CommonOptions& common) {
   return bad_input;
 }
 
-// Leaves out what has no description.
-class Help : public CLI::Formatter {
- public:
-  std::string make_option(const CLI::Option* option, bool is_positional) const override {
-    return option->get_description().empty() ? ""
-                                             : CLI::Formatter::make_option(option, is_positional);
-  }
-};
-
 // The words of the help, for all commands; to be called before they are added.
 void word_help(CLI::App& app) {
   app.set_help_flag("-h,--help", "this help");
-  const auto formatter = std::make_shared<Help>();
-  app.formatter(formatter);
+  const auto formatter = app.get_formatter();
   for (const auto& [cli11, ours] : {std::pair("SUBCOMMAND", "COMMAND"),
                                     {"REQUIRED", "(required)"},
                                     {"FLOAT", "NUMBER"},

@@ -212,7 +212,6 @@ void add_words(CLI::App& parser, const std::string& name, E& value, const std::s
 Command porosity_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(
       app, common, "porosity", "porosity of sections, measured on their images", porosity_examples);
-  hide_idle(*parser, {"--quiet", "--verbose", "--seed", "--set"});
   const auto arguments = std::make_shared<PorosityArguments>();
   io::SectionOptions& options = arguments->options;
   parser->add_option("IMAGE", arguments->images, "PNG, TIFF, JPEG, BMP or DICOM")->required();

@@ -122,7 +122,6 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
 Command simulate_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser =
       add_command(app, common, "simulate", "one run of the model", simulate_examples);
-  hide_idle(*parser, {"--threads"});
   const auto arguments = std::make_shared<SimulateArguments>();
   parser->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
   add_output(*parser, arguments->folder, "folder for the results")->required();

@@ -180,7 +180,6 @@ Command sweep_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(app, common, "sweep",
                                  "the model over a grid or sample of parameters; laws fitted to it",
                                  sweep_examples);
-  hide_idle(*parser, {"--verbose"});
   const auto arguments = std::make_shared<SweepArguments>();
   parser->add_option("SWEEP", arguments->files, "sweep files (TOML)")->required();
   add_output(*parser, arguments->folder, "folder for the results")->required();

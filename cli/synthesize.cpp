@@ -243,7 +243,6 @@ Command synthesize_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser =
       add_command(app, common, "synthesize",
                   "a study's files made by the model, with a known truth", synthesize_examples);
-  hide_idle(*parser, {"--quiet", "--verbose"});
   const auto arguments = std::make_shared<SynthesizeArguments>();
   parser->add_option("STUDY", arguments->study, "study file (TOML)")->required();
   add_output(*parser, arguments->folder, "folder for the study")->required();

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <sstream>
 
 #include "tests/cli/run_havers.hpp"
@@ -39,32 +38,10 @@ TEST(Usage, EveryCommandShowsExamplesAndExitCodes) {
     EXPECT_EQ(answer.exit_code, 0);
     EXPECT_NE(answer.out.find("Examples:\n  havers " + std::string(command)), std::string::npos)
         << answer.out;
-    for (const char* option : {"--json", "--version", "--help", "Exit codes"})
+    for (const char* option : {"--json", "-q", "-v", "--threads", "--seed", "--set", "--force",
+                               "--version", "Exit codes"})
       EXPECT_NE(answer.out.find(option), std::string::npos) << command << " " << option;
   }
-}
-
-// A command takes what it has no use for as well: scripts give all of them the same options.
-TEST(Usage, HelpShowsTheCommonOptionsThatDoSomething) {
-  const auto folder = own_folder();
-  const std::vector<std::pair<std::string, std::string>> shown_by{
-      {"--json", "bench check fit import porosity report simulate sweep synthesize "},
-      {"--quiet", "bench fit import simulate sweep "},
-      {"--verbose", "simulate "},
-      {"--threads", "bench check fit porosity sweep synthesize "},
-      {"--seed", "bench fit simulate sweep synthesize "},
-      {"--set", "bench check fit import simulate sweep synthesize "},
-      {"--force", "bench fit import porosity report simulate sweep synthesize "}};
-  for (const auto& [option, shown] : shown_by) {
-    std::string found;
-    for (const std::string command : {"bench", "check", "fit", "import", "porosity", "report",
-                                      "simulate", "sweep", "synthesize"})
-      if (std::regex_search(run_havers(folder, command + " -h").out, std::regex(option + "( |\n)")))
-        found += command + " ";
-    EXPECT_EQ(found, shown) << option;
-  }
-  test::write_text(folder / "scene.toml", "");
-  EXPECT_EQ(run_havers(folder, "check scene.toml -q -v --threads 1 --seed 1 --force").exit_code, 0);
 }
 
 // Those of the user's own are in "my/".
