@@ -31,6 +31,13 @@ std::string step_text(const sim::BenchSetting& setting) {
   return setting.step ? fmt::format("{:.4g}", *setting.step * 1e9) : "-";
 }
 
+std::string state_of(const sim::BenchRow& row) {
+  if (row.trusted == row.runs) return "";
+  return row.out_of_time == 0
+             ? "  not trusted"
+             : fmt::format("  stopped at {:.3g} % strain", 100.0 * row.reached.median);
+}
+
 void print_row(const sim::BenchRow& row, bool reference) {
   const sim::BenchSetting& setting = row.setting;
   fmt::print("{:<14}{:<14}{:>9g}{:>11}{:>12}{:>11}", io::word(setting.regime),
@@ -40,8 +47,7 @@ void print_row(const sim::BenchRow& row, bool reference) {
        {row.errors.bonded_forces, row.errors.strength, row.errors.failure_strain, row.errors.curve})
     fmt::print("{:>10}", std::isfinite(error.median) ? fmt::format("{:.1e}", error.median) : "-");
   fmt::print("{:>10.2g}{:>10.2g}{:>12.0f}{}{}\n", row.wall.median, row.cpu.median,
-             row.iterations.median, reference ? "  reference" : "",
-             row.trusted < row.runs ? "  not trusted" : "");
+             row.iterations.median, reference ? "  reference" : "", state_of(row));
 }
 
 void print_summary(const sim::WorkPrecision& study) {

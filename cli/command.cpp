@@ -1,8 +1,9 @@
 #include "cli/command.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -57,6 +58,10 @@ void refuse_settings(const CommonOptions& common, const std::string& what) {
 
 void note(const CommonOptions& common, const std::string& sentence) {
   if (!common.quiet) fmt::print(stderr, "{}\n", sentence);
+}
+
+std::string cell(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
 }
 
 ExitCode without_result(const CommonOptions& common, const std::string& status,

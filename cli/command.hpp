@@ -65,6 +65,9 @@ void refuse_settings(const CommonOptions& common, const std::string& what);
 /// A note for the user on stderr; silent with -q.
 void note(const CommonOptions& common, const std::string& sentence);
 
+/// A number of a table on stdout; a dash for what is not known.
+std::string cell(double value, int decimals);
+
 /// What a run prints that ends without a result: why, on stderr; with --json the status too, on
 /// stdout. Returns the exit code.
 ExitCode without_result(const CommonOptions& common, const std::string& status,

@@ -17,10 +17,11 @@ void print_parameter(const calib::CalibratedParameter& parameter) {
 }
 
 void print_specimen(const calib::SpecimenResult& specimen) {
-  fmt::print("  {:<12}{:>9.2f}{:>11.2f}{:>12.2f}{:>12.2f}{:>11.3f}{:>11.3f}{}\n", specimen.id,
-             1e-9 * specimen.measured.modulus, 1e-9 * specimen.modulus.mean,
-             1e-6 * specimen.measured.strength, 1e-6 * specimen.strength.mean, specimen.porosity,
-             specimen.scatter, specimen.measured.broke ? "" : "  not broken");
+  fmt::print("  {:<12}{:>9}{:>11}{:>12}{:>12}{:>11}{:>11}{}\n", specimen.id,
+             cell(1e-9 * specimen.measured.modulus, 2), cell(1e-9 * specimen.modulus.mean, 2),
+             cell(1e-6 * specimen.measured.strength, 2), cell(1e-6 * specimen.strength.mean, 2),
+             cell(specimen.porosity, 3), cell(specimen.scatter, 3),
+             specimen.measured.broke ? "" : "  not broken");
 }
 
 }  // namespace

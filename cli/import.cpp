@@ -80,15 +80,17 @@ Imported import_joined(io::ImportSettings settings, const ImportArguments& argum
 void collect(const std::vector<Imported>& tests, std::vector<io::Problem>& problems) {
   for (const Imported& test : tests) {
     const calib::RawTest& raw = test.file.test;
-    const bool sized = (raw.area || (raw.width && raw.thickness)) && raw.gauge_length;
+    const bool sized = raw.area || (raw.width && raw.thickness) || !raw.stress.empty();
+    const bool strained = raw.gauge_length || !raw.strain.empty();
     const std::string where =
         tests.size() == 1 ? test.file.file
                           : fmt::format("{}, specimen \"{}\"", test.file.file, raw.specimen_id);
     for (const std::string& problem : test.reduction.problems)
       problems.push_back({where, problem,
-                          sized ? ""
-                                : "--width-mm, --thickness-mm, --gauge-length-mm give sizes "
-                                  "that the file lacks"});
+                          sized && strained
+                              ? ""
+                              : "--width-mm, --thickness-mm, --gauge-length-mm give sizes "
+                                "that the file lacks"});
   }
 }
 

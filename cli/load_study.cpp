@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "calib/experiment/join_logger.hpp"
+#include "calib/fit/calibration.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/input_error.hpp"
 #include "io/machine/read_test.hpp"
@@ -155,6 +156,27 @@ void doubt_rate(LoadedStudy& loaded) {
         "model.loading.strain_rate_per_s changes nothing: every test has its own");
 }
 
+// Least squares search all that no simulation has to be run for; what only a search without
+// derivatives uses is idle then.
+void doubt_search(LoadedStudy& loaded) {
+  using calib::LocalSearch;
+  const calib::CalibrateOptions& chosen = loaded.study.calibrate;
+  if (chosen.local == LocalSearch::automatic && chosen.smooth) return;
+  const std::size_t costly = calib::costly_unknowns(loaded.study);
+  const auto idle = [&](const char* key) {
+    loaded.warnings.push_back(fmt::format(
+        "calibrate.options.{} changes nothing: what is fitted needs no new simulations, and is "
+        "found by least squares alone",
+        key));
+  };
+  if (costly == 0 && chosen.local != LocalSearch::automatic) idle("local");
+  if (costly == 0 && !chosen.smooth) idle("smooth");
+  if (costly == 1 && chosen.local == LocalSearch::bobyqa)
+    loaded.warnings.emplace_back(
+        "calibrate.options.local = \"bobyqa\" needs two parameters that need new simulations, and "
+        "one is fitted: \"sbplx\" is taken");
+}
+
 // Rejections are problems where they leave nothing to fit.
 void require_specimens(const LoadedStudy& loaded, const std::filesystem::path& file) {
   const bool some = std::ranges::any_of(
@@ -194,6 +216,7 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
     take_specimen(read.specimens[i], std::move(outcomes[i]), loaded);
   require_specimens(loaded, file);
   doubt_rate(loaded);
+  doubt_search(loaded);
   return loaded;
 }
 

@@ -117,9 +117,9 @@ void print_table(const std::vector<Section>& sections) {
   fmt::print("porosity [%]   +-    pores   window SD   scatter  section\n");
   for (const Section& section : sections) {
     const calib::SectionPorosity& found = section.measured.porosity;
-    fmt::print("{:>12.3f}{:>7.3f}{:>7}{:>12.4f}{:>10.3f}  {}\n", 100.0 * found.porosity,
-               100.0 * found.porosity_standard_error, found.pore_count, found.window_sd,
-               section.scatter, found.file);
+    fmt::print("{:>12.3f}{:>7}{:>7}{:>12}{:>10}  {}\n", 100.0 * found.porosity,
+               cell(100.0 * found.porosity_standard_error, 3), found.pore_count,
+               cell(found.window_sd, 4), cell(section.scatter, 3), found.file);
     for (const std::string& warning : found.warnings) fmt::print("  note: {}\n", warning);
     if (std::isfinite(found.density))
       fmt::print("  density of solid bone {:.0f} kg/m³, references {:.0f} kg/m³ about their line\n",
@@ -127,8 +127,9 @@ void print_table(const std::vector<Section>& sections) {
   }
   const calib::SpecimenPorosity mean = mean_of(sections);
   if (sections.size() > 1)
-    fmt::print("{:>12.3f}{:>7.3f}{:>19.4f}{:>10.3f}  all, by area\n", 100.0 * mean.porosity,
-               100.0 * mean.porosity_standard_error, mean.window_sd, calib::scatter_of(mean, {}));
+    fmt::print("{:>12.3f}{:>7}{:>19}{:>10}  all, by area\n", 100.0 * mean.porosity,
+               cell(100.0 * mean.porosity_standard_error, 3), cell(mean.window_sd, 4),
+               cell(calib::scatter_of(mean, {}), 3));
   if (calib::removes_joints(mean))
     fmt::print(
         "  note: pores are larger than a window of one fibre: they take away {:.1f} % of the "

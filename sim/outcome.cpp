@@ -33,6 +33,10 @@ bool has_failed(Simulation& simulation, double end_fraction) {
   return last.broken_joints > 0 && last.stress_right < limit && last.stress_left < limit;
 }
 
+bool has_ended(const Simulation& run) {
+  return run.status == SimulationStatus::broken || run.status == SimulationStatus::strain_limit;
+}
+
 std::optional<double> stress_at(const std::vector<CurvePoint>& curve, double strain) {
   const auto next = std::ranges::find_if(
       curve, [strain](const CurvePoint& point) { return point.strain >= strain; });

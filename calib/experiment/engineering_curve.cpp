@@ -88,7 +88,7 @@ bool gets_longer(const std::vector<double>& elongation, const std::vector<double
 
 }  // namespace
 
-void turn_negative_load(RawTest& raw) {
+bool turn_negative_load(RawTest& raw) {
   const std::vector<double>& elongation = raw.strain.empty() ? raw.extension : raw.strain;
   const char* turned = nullptr;
   for (const auto& [load, name] : {std::pair(&raw.stress, "stress"), {&raw.force, "force"}}) {
@@ -101,6 +101,7 @@ void turn_negative_load(RawTest& raw) {
         fmt::format("the {} is negative while the specimen gets longer: it is taken as tension, "
                     "with its sign turned",
                     turned));
+  return turned != nullptr;
 }
 
 EngineeringCurve engineering_curve(const RawTest& raw, double machine_compliance) {
@@ -118,7 +119,8 @@ EngineeringCurve engineering_curve(const RawTest& raw, double machine_compliance
   else if (is_compressed(curve.stress))
     curve.problems.push_back(
         fmt::format("the {} is negative, as in compression, down to {:.4g} MPa, and the specimen "
-                    "gets no longer: tension has to be positive, change the signs in the file",
+                    "gets no longer: only tension can be used; where the file counts tension "
+                    "negative, change the signs of its columns",
                     raw.force.empty() || curve.area <= 0.0 ? "stress" : "force",
                     std::ranges::min(curve.stress) * 1e-6));
   else if (std::ranges::max(curve.stress) <= 0.0)

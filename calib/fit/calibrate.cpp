@@ -63,7 +63,7 @@ std::vector<LeftUnknown> screen(Trail& trail, const Active& all) {
 void search(Trail& trail, const Active& active, bool polish, Answer& answer) {
   const auto split = split_by_cost(trail.problem(), trail.batch(), trail.best().point, active);
   trail.enter("least squares");
-  if (trail.problem().study.calibrate.smooth)
+  if (trail.problem().study.calibrate.smooth || split.costly.empty())
     answer.stages.push_back(search_ceres(trail, trail.best(), active).log);
   if (!polish || split.costly.empty()) return;
   trail.enter("polish");

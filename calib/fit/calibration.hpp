@@ -214,4 +214,8 @@ CalibrationResult calibrate(const Study& study, EvaluationStore* store = nullptr
                             const CalibrationObserver& observer = {},
                             const std::function<bool()>& stop_asked = {});
 
+/// How many of a study's unknowns ask for new simulations when they move from its start. Least
+/// squares find the others, whatever the study's local search.
+std::size_t costly_unknowns(const Study& study);
+
 }  // namespace havers::calib

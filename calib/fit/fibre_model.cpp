@@ -1,5 +1,8 @@
 // The simulator of havers::sim, as calibrations use it.
+#include <numeric>
+
 #include "calib/fit/calibrate.hpp"
+#include "calib/fit/search.hpp"
 #include "calib/fit/simulation_batch.hpp"
 #include "sim/simulate.hpp"
 #include "sim/simulation.hpp"
@@ -45,6 +48,14 @@ Simulator fibre_model(const std::function<bool()>& stop_asked) {
           [](const sim::Scene& scene) {
             return sim::choose_regime(scene).regime == sim::Regime::quasi_static;
           }};
+}
+
+std::size_t costly_unknowns(const Study& study) {
+  const FitProblem problem = make_problem(study);
+  Active all(problem.unknowns.size());
+  std::iota(all.begin(), all.end(), Eigen::Index{0});
+  const SimulationBatch batch(fibre_model(), nullptr, 1);
+  return split_by_cost(problem, batch, start_point(problem.unknowns), all).costly.size();
 }
 
 CalibrationResult calibrate(const Study& study, EvaluationStore* store,

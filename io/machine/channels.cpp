@@ -109,6 +109,16 @@ double factor(const Column& column, const std::string& where, const ReadOptions&
   return unit->to_si;
 }
 
+// Tension is positive here, whatever the column counts.
+double signed_factor(const Column& column, const std::string& where, const ReadOptions& options,
+                     calib::RawTest& test) {
+  const double to_si = factor(column, where, options, test);
+  if (column.quantity == Quantity::time || !counts_compression(column.name)) return to_si;
+  test.warnings.push_back(fmt::format(
+      "column \"{}\" counts compression, by its name: its sign is turned", column.name));
+  return -to_si;
+}
+
 // An elongation of the gauge is a strain only where its length is known.
 bool is_usable(const Column& column, const calib::RawTest& test) {
   const std::optional<Unit> unit = find_unit(column.unit);
@@ -241,7 +251,7 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   std::vector<Channel> channels;
   for (const auto& [quantity, column] : chosen)
     channels.push_back({quantity, table.first_column + column, column,
-                        factor(file.columns[column], where, options, file.test)});
+                        signed_factor(file.columns[column], where, options, file.test)});
   return channels;
 }
 

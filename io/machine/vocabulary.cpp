@@ -132,6 +132,12 @@ constexpr std::array<std::string_view, 10> sensor_words{
 constexpr std::array<std::string_view, 8> true_words{
     "true", "wahre", "vraie", "logarithm", "hencky", "verdader", "rzeczywist", "真"};
 
+constexpr std::array<std::string_view, 6> compression_words{"compress", "compresi", "druck",
+                                                            "kompresj", "ścisk",    "压缩"};
+// Of a load cell for both, as "tension/compression", neither is meant.
+constexpr std::array<std::string_view, 8> tension_words{"tensi", "tracti", "tracci",  "traz",
+                                                        "traç",  "zug",    "rozciąg", "拉"};
+
 // One number a test, in any of the languages.
 constexpr std::array<std::string_view, 26> result_words{
     "maximum",      "maximal",    "max.",        "modulus",  "module",      "modul",      "módulo",
@@ -213,6 +219,11 @@ bool is_no_reading(std::string_view name) {
 
 bool is_of_sensor(std::string_view name) {
   return contains_any(lower(name), sensor_words);
+}
+
+bool counts_compression(std::string_view name) {
+  const std::string text = lower(name);
+  return contains_any(text, compression_words) && !contains_any(text, tension_words);
 }
 
 std::string_view doubt_of(std::string_view name, bool elongation) {

@@ -19,6 +19,9 @@ bool is_no_reading(std::string_view name);
 /// Whether the name speaks of a sensor of its own: a gauge, an extensometer, a load cell.
 bool is_of_sensor(std::string_view name);
 
+/// Whether the name says that the column counts compression: "Compressive load", "Druckkraft".
+bool counts_compression(std::string_view name);
+
 /// Why a column is taken only where no other holds its quantity: an absolute position, a strain of
 /// the crosshead, a true strain. Empty for most. `elongation`: its unit is a length.
 std::string_view doubt_of(std::string_view name, bool elongation);

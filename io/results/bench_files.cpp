@@ -53,6 +53,7 @@ Cells row_cells(const sim::BenchRow& row) {
   add("runs", row.runs);
   add("trusted_runs", row.trusted);
   add("runs_out_of_time", row.out_of_time);
+  add("last_strain", row.reached.median);
   return cells;
 }
 
@@ -66,7 +67,9 @@ nlohmann::json omissions_json(const std::optional<sim::Omissions>& omissions) {
   if (!omissions) return nullptr;
   return {{"setting", to_string(omissions->setting)},
           {"largest_change", omissions->change},
-          {"cpu_ratio", omissions->cpu_ratio}};
+          {"cpu_ratio", omissions->cpu_ratio},
+          {"until_strain",
+           omissions->until_strain ? nlohmann::json(*omissions->until_strain) : nlohmann::json()}};
 }
 
 std::string csv_cell(const nlohmann::json& value) {

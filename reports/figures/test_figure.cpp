@@ -16,7 +16,7 @@ set xlabel 'Strain (%)' offset 0,0.5
 set ylabel 'Engineering stress (MPa)'
 set yrange [{lowest}:{highest}]
 set object 1 rectangle from first {low},graph 0 to first {high},graph 1 fc rgb '#f4efe2' fs solid noborder behind
-plot $raw using ($1*100):($2*1e-6) with lines lw 3.2 lc rgb '#c4c4c4' title 'as read', \
+plot $raw using ($1*100):($2*1e-6) with lines lw 3.2 lc rgb '#c4c4c4' title '{as_read}', \
   $used using ($1*100):($2*1e-6) with lines lw 1.4 lc rgb blue title 'as used', \
   $line using ($1*100):($2*1e-6) with lines lw 2.2 lc rgb orange title 'modulus; window shaded', \
   $peak using ($1*100):($2*1e-6) with points pt 12 ps 1.3 lw 1.6 lc rgb red title 'strength'
@@ -50,15 +50,18 @@ std::string time_panel(const std::vector<double>& read, const std::vector<double
          std::string(time_commands);
 }
 
-// The recorded channels on the axes of a stress-strain plot; empty where one was not recorded.
-Points raw_points(const calib::RawTest& raw, double area) {
+// The recorded channels on the axes of a stress-strain plot, the load with the sign that it was
+// used with; empty where one was not recorded.
+Points raw_points(const calib::RawTest& raw, const calib::MeasuredTest& test) {
   std::vector<double> strain = raw.strain, stress = raw.stress;
   if (strain.empty() && raw.gauge_length)
     for (const double extension : raw.extension) strain.push_back(extension / *raw.gauge_length);
-  if (!raw.force.empty() && area > 0.0) {
+  if (!raw.force.empty() && test.area > 0.0) {
     stress = raw.force;
-    for (double& value : stress) value /= area;
+    for (double& value : stress) value /= test.area;
   }
+  if (test.load_turned)
+    for (double& value : stress) value = -value;
   return thin(strain, stress, 2000);
 }
 
@@ -118,7 +121,7 @@ Figure test_figure(const ImportReport& report, const std::string& id) {
     draw_record(report.raw, figure);
     return figure;
   }
-  const Points raw = raw_points(report.raw, test.area);
+  const Points raw = raw_points(report.raw, test);
   const Points used = thin(test.strain, test.stress);
   if (used.x.empty()) return figure;
   const auto strains = near_curve(raw.x, used.x);
@@ -138,6 +141,7 @@ Figure test_figure(const ImportReport& report, const std::string& id) {
       (shared_times ? panel(0.41, 0.92) : panel(0.155, 0.88)) +
       fmt::format(test_commands, fmt::arg("low", 100.0 * test.window_low),
                   fmt::arg("high", 100.0 * test.window_high),
+                  fmt::arg("as_read", test.load_turned ? "as read, sign turned" : "as read"),
                   fmt::arg("lowest", (std::min(0.0, lowest) - 0.03 * highest) / in::MPa),
                   fmt::arg("highest", 1.06 * highest / in::MPa)) +
       (shared_times ? time_panel(report.raw.time, test.time) : "");

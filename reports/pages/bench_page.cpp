@@ -30,14 +30,24 @@ std::string spread_text(const sim::BenchSpread& spread) {
                      error_text(spread.high));
 }
 
-mstch::map work_row(const sim::BenchRow& row, bool reference) {
-  const std::string state =
-      row.trusted == row.runs ? ""
-      : row.out_of_time > 0
-          ? fmt::format("{} of {} stopped at the time limit", row.out_of_time, row.runs)
-          : fmt::format("{} of {} not to be trusted", row.runs - row.trusted, row.runs);
+std::string state_of(const sim::BenchRow& row, double time_limit) {
+  if (row.trusted == row.runs) return "";
+  if (row.out_of_time == 0)
+    return fmt::format("{} of {} not to be trusted", row.runs - row.trusted, row.runs);
+  return fmt::format("{} of {} stopped after {}, at a strain of {}", row.out_of_time, row.runs,
+                     duration(time_limit), quantity(row.reached.median / in::percent, "%", 3));
+}
+
+// A reference that errors cannot be measured against is bad; that nothing else comes near is not
+// good.
+std::string grade_of(const sim::WorkPrecision& study) {
+  if (!study.complete || !reference_is_trusted(study)) return "bad";
+  return cheapest_for_failure(study) ? "good" : "mixed";
+}
+
+mstch::map work_row(const sim::BenchRow& row, bool reference, double time_limit) {
   return {{"setting", text(setting_text(row.setting) + (reference ? " (reference)" : ""))},
-          {"state", text(state)},
+          {"state", text(state_of(row, time_limit))},
           {"forces", text(error_text(row.errors.bonded_forces.median))},
           {"forces_end", text(error_text(row.errors.forces.median))},
           {"breaks", text(whole(row.same_breaks.median))},
@@ -83,7 +93,8 @@ mstch::map stability_row(const sim::StabilityResult& result) {
 std::string work_precision_page(const WorkPrecisionReport& report) {
   const sim::WorkPrecision& study = report.study;
   mstch::array rows;
-  for (const sim::BenchRow& row : study.rows) rows.emplace_back(work_row(row, rows.empty()));
+  for (const sim::BenchRow& row : study.rows)
+    rows.emplace_back(work_row(row, rows.empty(), study.time_limit));
   return render_page(
       "havers bench: error against run time", "bench",
       {{"sentence", text(typeset(summary(study)))},
@@ -92,7 +103,7 @@ std::string work_precision_page(const WorkPrecisionReport& report) {
                          report.scene.assembly.fibres, report.scene.assembly.layers,
                          count(static_cast<long>(study.seeds.size()), "seed"),
                          study.reference_ground, setting_text(study.reference)))},
-       {"grade", text(study.complete && reference_is_trusted(study) ? "good" : "bad")},
+       {"grade", text(grade_of(study))},
        {"figure", text(work_precision_svg(study))},
        {"strain", text(quantity(study.bonded_strain / in::percent, "%", 3))},
        {"cheapest", mstch::node{cheapest_rows(study)}},

@@ -15,7 +15,15 @@ std::string interval_or(const std::array<double, 2>& ends, const std::string& mi
   return missing.empty() ? interval(ends[0], ends[1]) : "– (" + missing + ")";
 }
 
-mstch::map parameter_row(const calib::CalibratedParameter& p) {
+// What the fit asked for, fitted or not.
+std::vector<std::string> asked_for(const calib::CalibrationResult& result) {
+  std::vector<std::string> names;
+  for (const calib::CalibratedParameter& p : result.parameters) names.push_back(p.name);
+  return names;
+}
+
+mstch::map parameter_row(const calib::CalibratedParameter& p,
+                         const std::vector<std::string>& parameters) {
   const bool held = !p.left_out_because.empty();
   std::string note = p.at_bound ? "at its bound" : "";
   if (!held && !p.identifiable) note += note.empty() ? "not identifiable" : ", not identifiable";
@@ -28,7 +36,7 @@ mstch::map parameter_row(const calib::CalibratedParameter& p) {
           {"bounds",
            text(held ? "" : fmt::format("{} to {}", setting(p.bounds[0]), setting(p.bounds[1])))},
           {"note", text(note)},
-          {"held", text(typeset(p.left_out_because))}};
+          {"held", text(typeset(with_symbols(p.left_out_because, parameters)))}};
 }
 
 // What a measured and a simulated quantity are called and shown in.
@@ -115,7 +123,8 @@ mstch::array correlation_rows(const calib::CalibrationResult& result) {
     mstch::array cells;
     for (const double value : result.correlation[i])  // to a hundredth: what rounding leaves is 0
       cells.push_back(text(number(std::round(100.0 * value) / 100.0 + 0.0, 2)));
-    rows.emplace_back(mstch::map{{"name", text(result.fitted[i])}, {"cells", mstch::node{cells}}});
+    rows.emplace_back(
+        mstch::map{{"name", text(symbol_of(result.fitted[i]))}, {"cells", mstch::node{cells}}});
   }
   return rows;
 }
@@ -126,7 +135,8 @@ mstch::array next_rows(const calib::CalibrationResult& result) {
   for (const calib::NextTest& test : result.next_tests) {
     mstch::array cells;
     for (const double part : test.width) cells.push_back(text(number(part, 2)));
-    rows.emplace_back(mstch::map{{"what", text(test.what)}, {"cells", mstch::node{cells}}});
+    rows.emplace_back(
+        mstch::map{{"what", text(typeset(test.what))}, {"cells", mstch::node{cells}}});
   }
   return rows;
 }
@@ -137,7 +147,7 @@ mstch::array interval_rows(const calib::CalibrationResult& result) {
   for (const calib::CalibratedParameter& p : result.parameters)
     if (p.identifiable)
       rows.emplace_back(
-          mstch::map{{"name", text(p.name)},
+          mstch::map{{"name", text(axis_label(p.name))},
                      {"interval", text(interval(p.slopes_95[0], p.slopes_95[1]))},
                      {"profile", text(interval_or(p.profile_95, p.profile_missing))},
                      {"bootstrap", text(interval_or(p.bootstrap_95, p.bootstrap_missing))}});
@@ -156,9 +166,16 @@ mstch::array influence_rows(const calib::CalibrationResult& result) {
   return rows;
 }
 
-mstch::array names(const std::vector<std::string>& sentences) {
+mstch::array directions(const calib::CalibrationResult& result) {
   mstch::array list;
-  for (const std::string& sentence : sentences) list.push_back(text(typeset(sentence)));
+  for (const std::string& sentence : result.directions)
+    list.push_back(text(typeset(with_symbols(sentence, result.fitted))));
+  return list;
+}
+
+mstch::array fitted_symbols(const calib::CalibrationResult& result) {
+  mstch::array list;
+  for (const std::string& name : result.fitted) list.push_back(text(symbol_of(name)));
   return list;
 }
 
@@ -166,8 +183,8 @@ mstch::array names(const std::vector<std::string>& sentences) {
 mstch::node knowledge(const calib::CalibrationResult& result) {
   if (result.fitted.empty()) return section({});
   return section({mstch::map{
-      {"directions", mstch::node{names(result.directions)}},
-      {"fitted", mstch::node{names(result.fitted)}},
+      {"directions", mstch::node{directions(result)}},
+      {"fitted", mstch::node{fitted_symbols(result)}},
       {"intervals", mstch::node{interval_rows(result)}},
       {"correlation", mstch::node{correlation_rows(result)}},
       {"next", section(next_rows(result))},
@@ -238,7 +255,8 @@ mstch::array stage_rows(const std::vector<calib::StageLog>& stages) {
 std::string fit_page(const FitReport& report) {
   const calib::CalibrationResult& result = report.result;
   mstch::array parameters, specimens;
-  for (const auto& parameter : result.parameters) parameters.emplace_back(parameter_row(parameter));
+  for (const auto& parameter : result.parameters)
+    parameters.emplace_back(parameter_row(parameter, asked_for(result)));
   for (std::size_t i = 0; i < result.specimens.size(); ++i)
     specimens.emplace_back(specimen_content(report, i));
   return render_page(

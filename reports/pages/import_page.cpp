@@ -84,7 +84,7 @@ mstch::map content_of(const ImportReport& report, std::size_t index) {
       {"failure_strain", text(least + number(known(report, test.failure_strain) / in::percent))},
       {"warning_count", text(std::to_string(test.warnings.size()))},
       {"caption", text(test.strain.empty()
-                           ? "As read; it cannot be turned into stress and strain."
+                           ? "As read; why it cannot be used stands below."
                            : "As read, and as used after the corrections below. The shaded window "
                              "holds the points that the modulus was fitted to.")},
       {"clocks", clocks_section(report, index)},

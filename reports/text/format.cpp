@@ -27,18 +27,33 @@ std::string fixed(double value, int decimals) {
   return with_minus(fmt::format("{:.{}f}", value, decimals));
 }
 
-std::string superscript(int exponent) {
+// Of "-0.23" in plain digits: "⁻⁰·²³".
+std::string superscript(std::string_view exponent) {
   constexpr std::array<std::string_view, 10> digits{"⁰", "¹", "²", "³", "⁴",
                                                     "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = exponent < 0 ? "⁻" : "";
-  for (const char c : std::to_string(std::abs(exponent)))
-    text += digits.at(static_cast<std::size_t>(c - '0'));
+  std::string text;
+  for (const char c : exponent)
+    text += c == '-' ? "⁻" : c == '.' ? "·" : digits.at(static_cast<std::size_t>(c - '0'));
   return text;
 }
 
 std::string power_of_ten(const std::string& mantissa, int exponent) {
   const std::string factor = mantissa == "1" ? "" : fmt::format("{} × ", with_minus(mantissa));
-  return fmt::format("{}10{}", factor, superscript(exponent));
+  return fmt::format("{}10{}", factor, superscript(std::to_string(exponent)));
+}
+
+// Every match as `written` has it.
+std::string replaced(const std::string& sentence, const std::regex& pattern,
+                     std::string (*written)(const std::smatch&)) {
+  std::string text;
+  std::size_t done = 0;
+  for (std::sregex_iterator found(sentence.begin(), sentence.end(), pattern), none; found != none;
+       ++found) {
+    const auto at = static_cast<std::size_t>(found->position());
+    text += sentence.substr(done, at - done) + written(*found);
+    done = at + static_cast<std::size_t>(found->length());
+  }
+  return text + sentence.substr(done);
 }
 
 // Decimals that show two significant digits of `width`.
@@ -69,17 +84,13 @@ std::string setting(double value, std::string_view unit, int digits) {
 
 std::string typeset(const std::string& sentence) {
   static const std::regex power(R"((-?\b\d+(?:\.\d+)?)e([+-]\d+)\b)"),
-      minus(R"((^|[\s(\[=^])-(?=\d))");
-  std::string text;
-  std::size_t done = 0;
-  for (std::sregex_iterator found(sentence.begin(), sentence.end(), power), none; found != none;
-       ++found) {
-    const auto at = static_cast<std::size_t>(found->position());
-    text += sentence.substr(done, at - done);
-    text += power_of_ten(found->str(1), std::stoi(found->str(2)));
-    done = at + static_cast<std::size_t>(found->length());
-  }
-  return std::regex_replace(text + sentence.substr(done), minus, "$1−");
+      exponent(R"(\^(-?\d+(?:\.\d+)?))"), minus(R"((^|[\s(\[=])-(?=\d))"), degree(R"((\d) deg\b)");
+  std::string text = replaced(sentence, power, [](const std::smatch& found) {
+    return power_of_ten(found.str(1), std::stoi(found.str(2)));
+  });
+  text =
+      replaced(text, exponent, [](const std::smatch& found) { return superscript(found.str(1)); });
+  return std::regex_replace(std::regex_replace(text, minus, "$1−"), degree, "$1°");
 }
 
 std::string quantity(double value, std::string_view unit, int digits) {

@@ -75,13 +75,10 @@ void take_exact_forces(const Scene& scene, double strain, std::vector<WatchedRun
 
 BenchErrors errors_of(const std::vector<WatchedRun>& runs,
                       const std::vector<WatchedRun>& references) {
-  const auto ended = [&](std::size_t i) {  // only a run that ended has a strength
-    const SimulationStatus status = runs[i].simulation.status;
-    return status == SimulationStatus::broken || status == SimulationStatus::strain_limit;
-  };
   const auto if_ended = [&](const auto& error) {
     return over(runs, [&](std::size_t i) {
-      return ended(i) ? error(runs[i].simulation, references[i].simulation) : not_known;
+      const Simulation &run = runs[i].simulation, &reference = references[i].simulation;
+      return has_ended(run) && has_ended(reference) ? error(run, reference) : not_known;
     });
   };
   return {.bonded_forces = over(runs,
@@ -110,6 +107,10 @@ BenchRow row_of(const BenchSetting& setting, const std::vector<WatchedRun>& runs
   row.wall = over(runs, [&](std::size_t i) { return runs[i].wall; });
   row.cpu = over(runs, [&](std::size_t i) { return runs[i].cpu; });
   row.steps = over(runs, [&](std::size_t i) { return runs[i].simulation.steps; });
+  row.reached = over(runs, [&](std::size_t i) {
+    const std::vector<CurvePoint>& curve = runs[i].simulation.curve;
+    return curve.empty() ? 0.0 : curve.back().strain;
+  });
   row.iterations =
       over(runs, [&](std::size_t i) { return static_cast<double>(runs[i].simulation.iterations); });
   row.same_breaks = over(runs, [&](std::size_t i) {
@@ -132,10 +133,16 @@ std::optional<Omissions> omissions_of(const std::vector<BenchRow>& rows,
                                       const std::vector<WatchedRun>& runs_before) {
   const BenchRow &row = rows.back(), &before = rows[rows.size() - 2];
   if (row.setting == before.setting || without_omissions(row.setting) != before.setting) return {};
-  if (row.trusted < row.runs || before.trusted < before.runs) return {};
-  return Omissions{.setting = row.setting,
-                   .change = largest(errors_of(runs, runs_before)),
-                   .cpu_ratio = before.cpu.median / row.cpu.median};
+  if (row.trusted < row.runs || before.trusted + before.out_of_time < before.runs) return {};
+  const auto cpu_of_a_step = [](const BenchRow& of) {
+    return of.cpu.median / std::max(1.0, of.steps.median);
+  };
+  Omissions omissions{.setting = row.setting,
+                      .change = largest(errors_of(runs, runs_before)),
+                      .cpu_ratio = cpu_of_a_step(before) / cpu_of_a_step(row)};
+  if (!std::isfinite(omissions.change)) return {};
+  if (before.out_of_time > 0) omissions.until_strain = before.reached.low;
+  return omissions;
 }
 
 void name_cheapest(WorkPrecision& study) {
@@ -188,11 +195,26 @@ class Bench {
   bool stopped_ = false;
 };
 
+// Of those that may be trusted, on the reference's mesh; null where there is none.
+const BenchRow* nearest_to_failure(const WorkPrecision& study) {
+  const BenchRow* nearest = nullptr;
+  for (std::size_t i = 1; i < study.rows.size(); ++i) {
+    const BenchRow& row = study.rows[i];
+    const double error = row.errors.failure_strain.median;
+    if (row.setting.refinement != study.reference.refinement || row.trusted < row.runs) continue;
+    if (std::isfinite(error) &&
+        (nearest == nullptr || error < nearest->errors.failure_strain.median))
+      nearest = &row;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
                                const BenchObserver& observer) {
-  WorkPrecision study{.bonded_strain = 0.4 * first_break_by_uniform_stress(scene)};
+  WorkPrecision study{.bonded_strain = 0.4 * first_break_by_uniform_stress(scene),
+                      .time_limit = options.time_limit};
   for (int i = 0; i < options.seeds; ++i)
     study.seeds.push_back(scene.joints.seed + static_cast<std::uint64_t>(i));
 
@@ -223,21 +245,38 @@ WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
   return study;
 }
 
+std::optional<std::size_t> cheapest_for_failure(const WorkPrecision& study) {
+  for (const CheapestSetting& cheapest : study.cheapest)
+    if (cheapest.quantity == "failure strain" && cheapest.target == 1e-3) return cheapest.row;
+  return std::nullopt;
+}
+
 std::string summary(const WorkPrecision& study) {
   if (!study.complete) return "Stopped before every setting was run.";
   if (!reference_is_trusted(study))
     return fmt::format("The reference is not to be trusted: {} of {} runs ended well.",
                        study.rows.front().trusted, study.rows.front().runs);
-  for (const CheapestSetting& cheapest : study.cheapest) {
-    if (cheapest.quantity != "failure strain" || cheapest.target != 1e-3 || !cheapest.row) continue;
-    const BenchRow& row = study.rows[*cheapest.row];
+  if (const auto cheapest = cheapest_for_failure(study)) {
+    const BenchRow& row = study.rows[*cheapest];
     return fmt::format("Cheapest for a failure strain to 0.1 %: {}, {:.2g} s of CPU time.",
                        to_string(row.setting), row.cpu.median);
   }
-  return "No setting but the reference gives the failure strain to 0.1 %.";
+  const BenchRow* nearest = nearest_to_failure(study);
+  return "No setting but the reference gives the failure strain to 0.1 %" +
+         (nearest == nullptr
+              ? std::string(".")
+              : fmt::format("; the nearest comes to {:.2g} %: {}, {:.2g} s of CPU time.",
+                            100.0 * nearest->errors.failure_strain.median,
+                            to_string(nearest->setting), nearest->cpu.median));
 }
 
 std::string explain(const Omissions& omissions) {
+  if (omissions.until_strain)
+    return fmt::format(
+        "With nothing left out runs were stopped at the time limit. Until a strain of {:.3g} % "
+        "joint forces differ by {:.1e} at most, and a step takes {:.1f} times the CPU time: {}.",
+        100.0 * *omissions.until_strain, omissions.change, omissions.cpu_ratio,
+        to_string(omissions.setting));
   return fmt::format(
       "With nothing left out the answer differs by {:.1e} at most and takes {:.1f} times the CPU "
       "time: {}.",

@@ -28,6 +28,7 @@ struct BenchRow {
   BenchSetting setting;
   int runs = 0, trusted = 0;  ///< Seeds, and those whose run is to be trusted.
   int out_of_time = 0;        ///< Seeds whose run was stopped at the time limit.
+  BenchSpread reached;        ///< Strain of the last row. [-]
   BenchErrors errors;
   BenchSpread wall, cpu;  ///< [s]
   BenchSpread steps, iterations;
@@ -45,7 +46,9 @@ struct CheapestSetting {
 struct Omissions {
   BenchSetting setting;    ///< That leaves out.
   double change = 0.0;     ///< Largest of all errors against the runs that leave out nothing. [-]
-  double cpu_ratio = 0.0;  ///< Median CPU time of those, relative to that of the others. [-]
+  double cpu_ratio = 0.0;  ///< Median CPU time of a step of those, relative to the others'. [-]
+  /// Where those were stopped at the time limit: by then only joint forces are compared. [-]
+  std::optional<double> until_strain = {};
 };
 
 /// In a sentence.
@@ -56,10 +59,12 @@ struct WorkPrecision {
   BenchSetting reference;
   std::string reference_ground;  ///< What the errors are measured against, in a sentence.
   double bonded_strain = 0.0;    ///< Where forces before the first break are compared. [-]
+  double time_limit = 0.0;       ///< Wall time of a run, but for the reference's. [s]
   std::vector<std::uint64_t> seeds;
   std::vector<BenchRow> rows;  ///< The first is the reference.
   std::vector<CheapestSetting> cheapest;
-  std::optional<Omissions> omissions;  ///< None where a run of either kind is not to be trusted.
+  /// None where a run of either kind is not to be trusted, or was stopped before it had forces.
+  std::optional<Omissions> omissions;
 };
 
 struct BenchOptions {
@@ -78,6 +83,9 @@ WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
 inline bool reference_is_trusted(const WorkPrecision& study) {
   return !study.rows.empty() && study.rows.front().trusted == study.rows.front().runs;
 }
+
+/// The cheapest row whose failure strain is right to 0.1 %; none where the reference alone is.
+std::optional<std::size_t> cheapest_for_failure(const WorkPrecision& study);
 
 /// The outcome in a sentence.
 std::string summary(const WorkPrecision& study);

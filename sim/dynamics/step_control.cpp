@@ -22,10 +22,6 @@ bool may_leap(const Scene& scene) {
   return scene.solver.leave_out && scene.loading.start == Start::uniform;
 }
 
-bool has_ended(const Simulation& run) {
-  return run.status == SimulationStatus::broken || run.status == SimulationStatus::strain_limit;
-}
-
 std::string ground_of(const Simulation& run, double accuracy) {
   std::string halved;
   if (!std::isnan(*run.step_error))

@@ -89,10 +89,28 @@ bool BreakingRun::break_joints(double event) {
   }
   const double stored = point().elastic;
   largest_energy_ = std::max(largest_energy_, stored);
+  const VectorXd gaps_before = y_;
   loosen(breaking);
-  const bool solved = settle();
+  unsolved_ = !settle();
+  if (unsolved_) take_back(breaking, gaps_before);
   dissipated_ += stored - point().elastic;
-  return solved;
+  return !unsolved_;
+}
+
+// What no way solves has not happened: the joints hold again, as in the last row of the curve.
+void BreakingRun::take_back(const std::vector<std::size_t>& breaking, const VectorXd& gaps_before) {
+  for (const std::size_t j : breaking) {
+    joints_[j].broken = false;
+    joints_[j].broken_at_strain = std::numeric_limits<double>::quiet_NaN();
+    --broken_;
+  }
+  y_.setZero(2 * static_cast<Index>(loose_.size()));
+  y_.head(gaps_before.size()) = gaps_before;
+  reference_ = intact_->stretch(gaps());
+  y_at_reference_ = y_;
+  reactions_ = reference_.reactions;
+  force_ = reference_.force;
+  joint_work_ = of_loose(reactions_).dot(y_);
 }
 
 void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {

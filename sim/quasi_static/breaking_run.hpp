@@ -30,7 +30,7 @@ class BreakingRun {
   /// Stretches on to a strain, never back; joints that slide rub while it grows.
   void stretch(double strain);
   /// Breaks all joints that have met their cones at an event, at the strain there is, and settles
-  /// what is left; false when its contact has no solution that is found.
+  /// what is left; false when its contact has no solution that is found: then none has broken.
   bool break_joints(double event);
 
   [[nodiscard]] CurvePoint point() const;
@@ -47,6 +47,7 @@ class BreakingRun {
   [[nodiscard]] double meets_cone_at(std::size_t joint) const;
   void loosen(const std::vector<std::size_t>& breaking);
   bool settle();
+  void take_back(const std::vector<std::size_t>& breaking, const Eigen::VectorXd& gaps_before);
   [[nodiscard]] std::vector<char> apart() const;
   [[nodiscard]] Eigen::VectorXd gaps() const;
   [[nodiscard]] Eigen::VectorXd reactions_to(const Eigen::VectorXd& y) const;
@@ -63,6 +64,7 @@ class BreakingRun {
   double dissipated_ = 0.0;      // [J/m]
   double largest_energy_ = 0.0;  // stored before an event, likewise
   int broken_ = 0;
+  bool unsolved_ = false;  // the last event was taken back
   int without_contact_ = 0;
   long iterations_ = 0;
 

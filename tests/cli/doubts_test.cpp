@@ -96,6 +96,26 @@ TEST(Check, SaysWhatAStudyLeavesOutAndTakesTwice) {
   EXPECT_FALSE(fs::exists(folder / "again"));
 }
 
+// In the limit modulus and strength scale what was simulated; the ratio does not.
+TEST(Check, SaysWhichSearchHasNothingToDo) {
+  const fs::path folder = folder_with_tests();
+  const auto noted = [&](const std::string& parameters, const std::string& option) {
+    return run_havers(folder, "check made/study.toml --set 'calibrate.parameters=" + parameters +
+                                  "' --set calibrate.options." + option)
+        .out;
+  };
+  const std::string none = R"(["young_GPa", "head_tail_MPa"])", one = R"(["young_GPa", "ratio"])",
+                    two = R"(["ratio", "friction"])";
+  for (const char* option : {"local=cobyla", "smooth=false"}) {
+    EXPECT_THAT(noted(none, option),
+                testing::ContainsRegex("note: calibrate.options.[a-z]+ changes "
+                                       "nothing: what is fitted needs no new"));
+    EXPECT_EQ(noted(one, option), "no problems in this study\n");
+  }
+  EXPECT_THAT(noted(one, "local=bobyqa"), HasSubstr("\"sbplx\" is taken"));
+  EXPECT_EQ(noted(two, "local=bobyqa"), "no problems in this study\n");
+}
+
 // Of the study, of a test, and of a logger, though the study's own would end the reading.
 TEST(Check, TellsTheProblemsOfAllStagesAtOnce) {
   const fs::path folder = own_folder();

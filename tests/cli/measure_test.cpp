@@ -186,6 +186,21 @@ TEST(Study, LeavesOutASpecimenThatCannotBeUsedAndSaysWhy) {
   EXPECT_NE(none.err.find("no specimen is left to fit"), std::string::npos) << none.err;
 }
 
+TEST(Import, AsksForSizesOnlyWhereSomeAreLacking) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "short.csv", "Time (s),Load (N),Strain (%)\n0,0,0\n1,2,0.1\n2,5,0.2\n");
+  EXPECT_NE(run_havers(folder, "import short.csv").err.find("--width-mm"), std::string::npos);
+  EXPECT_EQ(run_havers(folder, "import short.csv --width-mm 4 --thickness-mm 2").err,
+            "havers: short.csv: 3 rows are too few\n");
+}
+
+TEST(Porosity, HasADashForWhatIsNotKnown) {
+  const auto answer = run_havers(
+      own_folder(), "porosity " HAVERS_SOURCE_DIR "/data_samples/bone_bars/A1_section.png");
+  if (answer.exit_code == 2) GTEST_SKIP() << "this build reads no images";
+  EXPECT_EQ(answer.out.find("nan"), std::string::npos) << answer.out;
+}
+
 TEST(Import, TakesSizesFromTheCommandLine) {
   const fs::path folder = folder_with_tests();
   const auto answer = run_havers(folder, "import made/B0.csv --width-mm 8 --json");

@@ -65,6 +65,22 @@ TEST(FitPage, ShowsNoCorrelationAsZero) {
   EXPECT_FALSE(contains(page, "10⁻³²"));
 }
 
+// A key stands once, beside its symbol; everywhere else parameters have the names of the figures.
+TEST(FitPage, WritesSymbolsInTablesAndFormulas) {
+  auto sample = test::fit_sample();
+  auto& result = sample.result;
+  result.fitted = {"young_GPa", "head_tail_MPa"};
+  result.correlation = {{1.0, 0.5}, {0.5, 1.0}};
+  result.directions = {"head_tail_MPa × young_GPa^-0.23 is known to ± 1.9 %."};
+  result.next_tests = {{"one more specimen at 45 deg", {0.9, 0.8}}};
+  result.parameters.back().left_out_because = "only head_tail_MPa × ratio^0.5 is determined";
+  const std::string page = fit_page({sample.study, result, {}, {}});
+  for (const char* shown : {"σ₁ × E⁻⁰·²³ is known", "at 45°<", "<th>E (GPa)</th>", "<th>E</th>",
+                            "<th class=\"n\">σ₁</th>", "only σ₁ × r⁰·⁵ is determined"})
+    EXPECT_TRUE(contains(page, shown)) << shown;
+  EXPECT_EQ(page.find("young_GPa"), page.rfind("young_GPa"));
+}
+
 TEST(FitPage, LeavesOutTheNumbersOfAnOptimisersMessage) {
   auto sample = test::fit_sample();
   sample.result.stages.front().message = "Tolerance reached. |cost_change|/cost: 1.1e-05 <= 5e-05";

@@ -47,6 +47,20 @@ TEST(SimulationPage, SurvivesARunWithoutRows) {
   expect_sound(simulation_page({scene, assembly, simulation, {}}));
 }
 
+// As a machine records it that counts tension negative: no axis goes below zero for it.
+TEST(ImportPage, DrawsATurnedLoadAsItWasUsed) {
+  auto raw = test::raw_test(13e9, 43e6, 1);
+  auto measured = test::measured_test(13e9, 43e6, 1);
+  for (std::vector<double>* channel : {&raw.force, &raw.stress})
+    for (double& value : *channel) value = -value;
+  for (const bool turned : {false, true}) {
+    measured.load_turned = turned;
+    const std::string svg = test_svg({"A1.csv", raw, measured});
+    EXPECT_EQ(contains(svg, ">as read, sign turned<"), turned);
+    EXPECT_EQ(contains(svg, ">−10<"), !turned);
+  }
+}
+
 TEST(ImportPage, ShowsNumbersCorrectionsAndWarningsOfEveryTest) {
   const auto raw = test::raw_test(13e9, 43e6, 1);
   auto measured = test::measured_test(13e9, 43e6, 1);
@@ -131,6 +145,7 @@ sim::WorkPrecision work_precision_sample() {
   sim::WorkPrecision study{.complete = true, .reference = reference};
   study.rows = {row(reference, 0.0, 1), row({.step = 2e-8}, 3e-6, 1),
                 row({.contact = sim::ContactMethod::gauss_seidel, .step = 2e-8}, 3e-5, 0)};
+  study.cheapest = {{.quantity = "failure strain", .target = 1e-3, .row = 1}};
   study.omissions = sim::Omissions{{.step = 2e-8}, 1.3e-13, 1.7};
   return study;
 }
@@ -163,6 +178,25 @@ TEST(WorkPrecisionPage, IsNotGreenWithoutAReference) {
   EXPECT_TRUE(contains(work_precision_page({{}, study, {}}), "verdict good"));
   study.rows.front().trusted = 0;
   EXPECT_TRUE(contains(work_precision_page({{}, study, {}}), "verdict bad"));
+}
+
+TEST(WorkPrecisionPage, IsNotGreenWhereNothingComesNearTheReference) {
+  sim::WorkPrecision study = work_precision_sample();
+  study.cheapest.front().row = {};
+  study.rows[1].errors.failure_strain = {0.0042, 0.001, 0.005};
+  const std::string page = work_precision_page({{}, study, {}});
+  EXPECT_TRUE(contains(page, "verdict mixed"));
+  EXPECT_TRUE(contains(page, "0.1 %; the nearest comes to 0.42 %: active set, h = 20 ns, "));
+}
+
+TEST(WorkPrecisionPage, SaysHowFarRunsCameThatWereStopped) {
+  sim::WorkPrecision study = work_precision_sample();
+  study.time_limit = 20.0;
+  sim::BenchRow& stopped = study.rows.back();
+  stopped.out_of_time = 1;
+  stopped.reached = {0.0021, 0.0021, 0.0021};
+  EXPECT_TRUE(contains(work_precision_page({{}, study, {}}),
+                       "1 of 1 stopped after 20.0\u00a0s, at a strain of 0.210\u00a0%"));
 }
 
 calib::PorosityTrial trial_of(const std::string& hardship, double truth, double ours) {

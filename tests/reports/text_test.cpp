@@ -53,7 +53,7 @@ TEST(Setting, IsWrittenAsItWasChosen) {
 TEST(Typeset, WritesTheNumbersOfASentenceAsAPageDoes) {
   EXPECT_EQ(typeset("alike (p = 3e-06), or -2.5e+07."), "alike (p = 3 × 10⁻⁶), or −2.5 × 10⁷.");
   EXPECT_EQ(typeset("p < 1e-6"), "p < 10⁻⁶");
-  EXPECT_EQ(typeset("AICc is -21.7 (-3 before), r^-0.23"), "AICc is −21.7 (−3 before), r^−0.23");
+  EXPECT_EQ(typeset("AICc is -21.7 (-3 before)"), "AICc is −21.7 (−3 before)");
 }
 
 TEST(Typeset, LeavesNamesAndWordsAsTheyAre) {
@@ -61,10 +61,23 @@ TEST(Typeset, LeavesNamesAndWordsAsTheyAre) {
     EXPECT_EQ(typeset(text), text);
 }
 
+TEST(Typeset, WritesExponentsAndDegreesAsAPageDoes) {
+  EXPECT_EQ(typeset("r^-0.23 × E^2 at 45 deg, -30 deg"), "r⁻⁰·²³ × E² at 45°, −30°");
+  EXPECT_EQ(typeset("5 degrees, (1 − p)^m"), "5 degrees, (1 − p)^m");
+}
+
 TEST(ParameterLabel, GivesSymbolAndUnitOnce) {
   EXPECT_EQ(axis_label("young_GPa"), "E (GPa)");
-  EXPECT_EQ(axis_label("head_tail_MPa[45 deg]"), "σ₁ [45 deg] (MPa)");
+  EXPECT_EQ(axis_label("head_tail_MPa[45 deg]"), "σ₁ [45°] (MPa)");
   EXPECT_EQ(axis_label("ratio"), "r");
+}
+
+TEST(ParameterLabel, WritesFormulasWithSymbols) {
+  const std::vector<std::string> both{"ratio", "young_GPa[A1]", "young_GPa[A12]"};
+  EXPECT_EQ(with_symbols("young_GPa[A12] × ratio^-0.2 is known", both),
+            "E [A12] × r^-0.2 is known");
+  EXPECT_EQ(with_symbols("set calibrate.bounds.ratio", both), "set calibrate.bounds.ratio");
+  EXPECT_EQ(with_symbols("ratios of young_GPa", both), "ratios of young_GPa");
 }
 
 TEST(PlusMinus, ShowsTwoDigitsOfTheError) {

@@ -30,6 +30,7 @@ TEST(LoadSign, TurnsTensionThatAMachineWritesNegative) {
       const MeasuredTest turned = reduced(raw);
       EXPECT_EQ(turned.stress, positive.stress);
       EXPECT_EQ(turned.modulus, positive.modulus);
+      EXPECT_TRUE(turned.load_turned && !positive.load_turned);
       ASSERT_EQ(turned.warnings.size(), positive.warnings.size() + 1);
       EXPECT_EQ(turned.warnings.front(),
                 "the force is negative while the specimen gets longer: it is taken as tension, "
@@ -47,8 +48,9 @@ TEST(LoadSign, SaysThatTheSpecimenIsCompressed) {
         << refusal(raw);
     raw.force.clear();
     EXPECT_TRUE(
-        refusal(raw).ends_with(" MPa, and the specimen gets no longer: tension has to be "
-                               "positive, change the signs in the file"))
+        refusal(raw).ends_with(" MPa, and the specimen gets no longer: only tension can be used; "
+                               "where the file counts tension negative, change the signs of its "
+                               "columns"))
         << refusal(raw);
   }
 }

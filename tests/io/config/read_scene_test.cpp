@@ -154,6 +154,11 @@ TEST_F(ReadScene, NamesTheNearestKeyOfAnUnknownOne) {
       complaints("[joints]\nscater = 0.3\n[lodaing]\nx = 1\n"),
       ElementsAre("scene.toml:3: lodaing: is not a known key (did you mean loading?)",
                   "scene.toml:2: joints.scater: is not a known key (did you mean scatter?)"));
+  // Two letters changed their places; a height is as many letters off.
+  EXPECT_THAT(
+      complaints("[assembly]\nfibre_lenght_um = 3\n"),
+      ElementsAre("scene.toml:2: assembly.fibre_lenght_um: is not a known key (did you mean "
+                  "fibre_length_um?)"));
 }
 
 TEST_F(ReadScene, NamesWrongTypes) {

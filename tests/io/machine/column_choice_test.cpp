@@ -55,6 +55,24 @@ TEST(ColumnChoice, SaysWhatIsUsedForWantOfBetter) {
                                      "is true and not engineering"});
 }
 
+// Tension in such a record is negative, and compression in it is no tension.
+TEST(ColumnChoice, TurnsWhatCountsCompression) {
+  const std::string numbers = "-1,-0.2,-3\n-2,-0.4,-3\n";
+  for (const std::string names :
+       {"Compressive load (N),Compressive strain (%),x", "Druckkraft (N),Compression strain (%),x",
+        "Carga de compresión (N),Deformación de compresión (%),x"}) {
+    const TestFile file = choice_of(names + "\n" + numbers);
+    EXPECT_EQ(file.test.force, (std::vector{1.0, 2.0})) << names;
+    EXPECT_EQ(file.test.strain, (std::vector{0.002, 0.004})) << names;
+  }
+  const std::string both = "Load cell tension/compression (N)";
+  EXPECT_EQ(choice_of(both + ",Strain (%)\n1,2\n2,3\n").test.force, (std::vector{1.0, 2.0}));
+  const auto warnings = choice_of("Compressive stress (MPa),Strain (%)\n1,2\n2,3\n").test.warnings;
+  EXPECT_EQ(warnings,
+            std::vector<std::string>{"column \"Compressive stress\" counts compression, by "
+                                     "its name: its sign is turned"});
+}
+
 TEST(ColumnChoice, NamesTheKeyOfASignalInVolts) {
   const test::TemporaryFile file("Time (s),Strain gauge 1 (V),Strain gauge 2 (V)\n0,1,2\n1,2,3\n");
   EXPECT_EQ(

@@ -107,6 +107,26 @@ TEST(WorkPrecision, EndsWhenAskedTo) {
   EXPECT_EQ(summary(study), "Stopped before every setting was run.");
 }
 
+TEST(WorkPrecision, SaysUpToWhereOmissionsAreComparedWithRunsThatWereStopped) {
+  EXPECT_EQ(explain(Omissions{{.step = 2e-8}, 1.3e-13, 5.2, 0.00214}),
+            "With nothing left out runs were stopped at the time limit. Until a strain of 0.214 % "
+            "joint forces differ by 1.3e-13 at most, and a step takes 5.2 times the CPU time: "
+            "active set, h = 20 ns, 8 triangles a fibre.");
+}
+
+TEST(WorkPrecision, NamesTheNearestWhereNothingReachesTheTarget) {
+  WorkPrecision study = compare_settings(tiny(Regime::quasi_static), {.seeds = 1});
+  for (CheapestSetting& cheapest : study.cheapest) cheapest.row.reset();
+  EXPECT_FALSE(cheapest_for_failure(study));
+  for (BenchRow& row : study.rows) row.errors.failure_strain.median = 0.02;
+  study.rows[2].errors.failure_strain.median = 0.0042;
+  EXPECT_TRUE(
+      summary(study).starts_with("No setting but the reference gives the failure strain to 0.1 %; "
+                                 "the nearest comes to 0.42 %: " +
+                                 to_string(study.rows[2].setting)))
+      << summary(study);
+}
+
 TEST(BenchSetting, RefinesTheMeshAtTheLongestAndTheShortestStep) {
   const Scene scene = tiny(Regime::dynamic);
   double longest = 0.0, shortest = base_step(scene);

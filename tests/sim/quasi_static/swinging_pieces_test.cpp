@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "sim/joint/cohesive_cone.hpp"
 #include "sim/simulate.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/scenes.hpp"
@@ -60,6 +61,33 @@ TEST(SwingingPieces, AreHeldByTheirNeighboursWithNextToNoFriction) {
     EXPECT_LE(simulation.worst_residual, 1e-8) << scene.joints.seed;
     EXPECT_LE(simulation.energy_defect, 1e-7) << scene.joints.seed;
   }
+}
+
+// Without most of its joints, layers a thousand times as soft as their neighbours: no way solves
+// the first break of this wall.
+TEST(SwingingPieces, EndInTheLastRowWhereAnEventIsNotSolved) {
+  Scene scene = test::small_scene(90.0, 6, 2);
+  scene.assembly.fibre_length = 120e-6;
+  scene.material.layer_contrast = 1e-3;
+  scene.material.poisson = 0.49;
+  scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 50.0);
+  scene.joints.scatter = 1.9;
+  scene.joints.friction = 0.001;
+  scene.joints.missing = 0.6;
+  scene.joints.seed = 949797;
+  scene.loading.lateral = Lateral::free;
+  scene.loading.max_strain = 1.0;
+  const Simulation simulation = simulate(scene);
+  EXPECT_EQ(simulation.status, SimulationStatus::not_converged);
+  int broken = 0;
+  for (const JointOutcome& joint : simulation.joints) {
+    if (is_missing(joint.threshold)) continue;
+    broken += joint.broken ? 1 : 0;
+    const Local reaction(joint.reaction_normal, joint.reaction_tangent);
+    const double margin = cone_margin(reaction, intact_law(joint.threshold));
+    EXPECT_TRUE(joint.broken || margin >= -1e-6 * joint.threshold.normal) << margin;
+  }
+  EXPECT_EQ(broken, simulation.broken_joints);
 }
 
 // What rounding leaves is more than that: the run says so, and its answer stays the same.
