@@ -88,24 +88,32 @@ int SetSearch::look_for_states(const JointStep& step, int patience,
   return sweep;
 }
 
+// Whether the result's states are a set that keeps the law; that of no structure does not.
+bool SetSearch::settles(const JointStep& step, JointStepResult& result) {
+  take(result.states);
+  if (!structure_->ok()) return false;
+  answer(step, rough, result);
+  if (result.converged) answer(step, accuracy_of_forces, result);
+  result.converged = result.converged && last_.residual < 1e-9;
+  if (result.converged) {
+    result.residual = std::max(joint_residual(step, result, stiffness_), last_.residual);
+    tie_forces_ = last_.tie_forces;
+  }
+  return result.converged;
+}
+
 JointStepResult SetSearch::solve(const JointStep& step) {
   JointStepResult result;
   result.states = step.states;
-  int patience = 1;
-  for (int set = 0; set < sets_from_answers + sets_from_sweeps; ++set) {
-    take(result.states);
-    if (!structure_->ok()) return result;
-    answer(step, rough, result);
-    if (result.converged) answer(step, accuracy_of_forces, result);
-    result.converged = result.converged && last_.residual < 1e-9;
-    if (result.converged) {
-      result.residual = std::max(joint_residual(step, result, stiffness_), last_.residual);
-      tie_forces_ = last_.tie_forces;
-      break;
-    }
-    if (set == 0)  // friction may leave several solutions: towards the one nearest to the last
-      sweeps_.start(step, step.reactions, tie_forces_);
-    else if (set <= sets_from_answers)
+  // What has broken since the last step changes its set.
+  const auto broken = std::ranges::count(step.broken, 1);
+  if (std::exchange(broken_, broken) == broken && settles(step, result)) return result;
+  // Friction may leave several solutions: towards the one nearest to the last.
+  sweeps_.start(step, step.reactions, tie_forces_);
+  result.iterations += look_for_states(step, 1, result.states);
+  for (int set = 1, patience = 1; set < sets_from_answers + sets_from_sweeps; ++set) {
+    if (settles(step, result) || !structure_->ok()) break;
+    if (set <= sets_from_answers)
       sweeps_.start(step, last_.reactions, last_.tie_forces);
     else
       patience *= 2;

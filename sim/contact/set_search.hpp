@@ -21,6 +21,7 @@ class SetSearch {
  private:
   void take(const std::vector<JointState>& states);
   void answer(const JointStep& step, double accuracy, JointStepResult& result);
+  bool settles(const JointStep& step, JointStepResult& result);
   [[nodiscard]] bool is_lawful(const JointStep& step, const JointStepResult& result,
                                double accuracy) const;
   int look_for_states(const JointStep& step, int patience, std::vector<JointState>& states);
@@ -31,6 +32,7 @@ class SetSearch {
   StructureResponse last_{.residual = 1.0};  // answer, where the next one starts
   Eigen::VectorXd tie_forces_;               // of the last step's answer [N/m]
   Eigen::VectorXd stiffness_;
+  std::ptrdiff_t broken_ = 0;  // joints, at the last step
 };
 
 }  // namespace havers::sim

@@ -31,13 +31,17 @@ struct Structure::Branch {
   std::size_t a, b;
 };
 
-// Of each body: whether every joint determines its multipliers. All fibres of full size are so.
+// Of each body: whether every joint determines its multipliers, as of all of its class. All fibres
+// of full size are so.
 std::vector<char> Structure::conducting() const {
-  std::vector<char> conducts(op_of_body_.size(), 1);
+  std::vector<char> conducts(op_of_body_.size(), 1), is_first(op_of_body_.size(), 0);
+  for (const BodyClass& group : bodies_->classes())
+    is_first[static_cast<std::size_t>(group.bodies.front())] = 1;
   for (std::size_t joint = 0; joint < held_.size(); ++joint) {
     const Joint& between = bodies_->assembly().joints[joint];
     for (const std::size_t side : {0U, 1U}) {
       const int body = side == 0 ? between.body_a : between.body_b;
+      if (is_first[static_cast<std::size_t>(body)] == 0) continue;
       const MatrixXd& N = op_of_body_[static_cast<std::size_t>(body)]->compatibility;
       const std::array<Index, 2> columns{
           ports_of_[2 * joint][side] - bodies_->first_port(body),
@@ -46,6 +50,10 @@ std::vector<char> Structure::conducting() const {
         conducts[static_cast<std::size_t>(body)] = 0;
     }
   }
+  for (const BodyClass& group : bodies_->classes())
+    for (const int body : group.bodies)
+      conducts[static_cast<std::size_t>(body)] =
+          conducts[static_cast<std::size_t>(group.bodies.front())];
   return conducts;
 }
 
