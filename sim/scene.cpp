@@ -8,6 +8,8 @@
 #include <string_view>
 
 #include "sim/assembly/assembly.hpp"
+#include "sim/dynamics/step_control.hpp"
+#include "sim/simulate.hpp"
 
 namespace havers::sim {
 
@@ -168,17 +170,28 @@ void check_solver(const SolverOptions& solver, Checker& checker) {
 // Hours, and a curve that fills the memory.
 constexpr double most_steps_to_failure = 1e7;
 
-// To the strain σ₁/E, about where the specimen fails.
+// To the strain σ₁/E, about where the specimen fails. A chosen step leaps over most of it, or is at
+// most the first.
 void check_number_of_steps(const Scene& scene, Checker& checker) {
-  if (!scene.solver.step || scene.solver.regime == Regime::quasi_static) return;
+  const bool given = scene.solver.step.has_value();
+  if ((!given && may_leap(scene)) || choose_regime(scene).regime == Regime::quasi_static) return;
+  const double step = given ? *scene.solver.step : first_step(scene);
   const double strain =
       std::min(scene.loading.max_strain, scene.joints.head_tail / scene.material.young);
-  const double steps = strain / (scene.loading.strain_rate * *scene.solver.step);
-  if (steps > most_steps_to_failure)
-    checker.say("solver.step_s",
-                fmt::format("is {:g}: a strain of {:.2g} is {:.2g} steps away", *scene.solver.step,
-                            strain, steps),
-                "leave step_s out, and the step is chosen");
+  const double steps = strain / (scene.loading.strain_rate * step);
+  if (steps <= most_steps_to_failure) return;
+  if (given)
+    checker.say(
+        "solver.step_s",
+        fmt::format("is {:g}: a strain of {:.2g} is {:.2g} steps away", step, strain, steps),
+        "leave step_s out, and the step is chosen");
+  else
+    checker.say(
+        "loading.strain_rate_per_s",
+        fmt::format("is {:g}: where every step is taken, a strain of {:.2g} is {:.2g} steps "
+                    "of {:.2g} s away",
+                    scene.loading.strain_rate, strain, steps, step),
+        "start = \"uniform\" leaps to the first break");
 }
 
 // Needs a scene that is otherwise sound: it lays the assembly to count its joints.

@@ -14,8 +14,10 @@ using Eigen::VectorXd;
 
 namespace {
 
+// Sweeps go from joint to joint, and judge what ties lack by the forces of joints: a fibre alone,
+// which has none, is left to the direct solver.
 std::unique_ptr<JointSolver> make_solver(const SolverOptions& options, const Bodies& bodies) {
-  if (options.contact == ContactMethod::gauss_seidel)
+  if (options.contact == ContactMethod::gauss_seidel && !bodies.assembly().joints.empty())
     return std::make_unique<GaussSeidelSolver>(bodies, options.tolerance, options.max_iterations);
   return std::make_unique<ActiveSetSolver>(bodies, options.max_iterations, options.leave_out);
 }

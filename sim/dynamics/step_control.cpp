@@ -17,11 +17,6 @@ constexpr int most_halvings = 10;
 // Of a third or later run. Two always run: their difference is the error.
 constexpr int most_steps = 4000;
 
-// From rest the motion is a shock, and without leaving out every step is taken.
-bool may_leap(const Scene& scene) {
-  return scene.solver.leave_out && scene.loading.start == Start::uniform;
-}
-
 std::string ground_of(const Simulation& run, double accuracy) {
   std::string halved;
   if (!std::isnan(*run.step_error))
@@ -33,6 +28,10 @@ std::string ground_of(const Simulation& run, double accuracy) {
 }
 
 }  // namespace
+
+bool may_leap(const Scene& scene) {
+  return scene.solver.leave_out && scene.loading.start == Start::uniform;
+}
 
 double first_step(const Scene& scene) {
   const double wave = wave_speed(scene.material);

@@ -5,6 +5,10 @@
 
 namespace havers::sim {
 
+/// Whether a run in chosen steps leaps to its first break. From rest the motion is a shock, and
+/// without leaving out every step is taken.
+bool may_leap(const Scene& scene);
+
 /// Where halving starts: a quarter of the time a wave takes across a fibre or, where steps cannot
 /// be leapt over, half of that along it; at most a fiftieth of the strain σ₁/E a step. [s]
 double first_step(const Scene& scene);

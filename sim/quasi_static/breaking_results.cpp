@@ -63,7 +63,7 @@ void BreakingRun::finish(Simulation& simulation) {
   simulation.worst_penetration = worst_penetration_;
   const double elastic = intact_->energy(last.displacements);
   const double work = 0.5 * (last.force * intact_->assembly().width + last.reactions.dot(gaps()));
-  const double energy_scale = std::max(largest_energy_, point().elastic);
+  const double energy_scale = std::max(largest_energy_, std::abs(point().elastic));
   if (energy_scale > 0.0)
     simulation.energy_defect =
         scene_.material.young * strain_ * strain_ * std::abs(elastic - work) / energy_scale;

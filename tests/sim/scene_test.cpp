@@ -63,6 +63,26 @@ TEST(Scene, RefusesAStepThatLeadsNowhere) {
   EXPECT_TRUE(scene.problems().empty());
 }
 
+// Nothing is leapt over from rest, and the curve of all those steps would fill the memory.
+TEST(Scene, RefusesARateThatLeadsNowhereFromRest) {
+  Scene scene;
+  scene.loading.strain_rate = 1e-3;
+  scene.loading.start = Start::rest;
+  ASSERT_EQ(scene.problems().size(), 1U);
+  EXPECT_EQ(scene.problems().front().key, "loading.strain_rate_per_s");
+  scene.solver.regime = Regime::quasi_static;
+  EXPECT_TRUE(scene.problems().empty());
+  scene.solver.regime = Regime::automatic;
+  scene.loading.strain_rate = 1e2;
+  EXPECT_TRUE(scene.problems().empty());
+  scene.loading.strain_rate = 1e-3;
+  scene.loading.start = Start::uniform;
+  scene.solver.regime = Regime::dynamic;
+  EXPECT_TRUE(scene.problems().empty());
+  scene.solver.leave_out = false;
+  EXPECT_EQ(scene.problems().size(), 1U);
+}
+
 TEST(Scene, RefusesAGridThatIsMuchLargerThanTheSpecimen) {
   Scene scene;
   scene.assembly.layers = 1;

@@ -248,6 +248,24 @@ TEST_P(Slivers, AreDroppedAndTheirPlacesFilled) {
               1e-9);
 }
 
+// At 45 degrees two edges of a sliver are equal: which of them is shifted is not left to rounding.
+TEST(Assembly, FillsThePlaceOfSliversAlikeInAllUnits) {
+  for (const auto& [fibres, slenderness] : {std::pair{1, 34.01}, {3, 26.67}}) {
+    const AssemblyOptions options = test::assembly_of({1, fibres, slenderness, 45.0});
+    const Assembly assembly = build_assembly(options, Lateral::free);
+    EXPECT_GT(assembly.dropped, 0);
+    for (const double unit : {37.48, 0.3, 7.7}) {
+      AssemblyOptions scaled = options;
+      scaled.fibre_length *= unit;
+      scaled.fibre_height *= unit;
+      const Assembly same = build_assembly(scaled, Lateral::free);
+      ASSERT_EQ(same.nodes.size(), assembly.nodes.size());
+      for (std::size_t i = 0; i < same.nodes.size(); ++i)
+        EXPECT_LT((same.nodes[i] / unit - assembly.nodes[i]).norm(), 1e-9 * options.fibre_height);
+    }
+  }
+}
+
 TEST(Assembly, CanBeOneFibre) {
   const Assembly assembly = build_assembly({.layers = 1, .fibres = 1}, Lateral::periodic);
   EXPECT_EQ(assembly.bodies.size(), 1U);

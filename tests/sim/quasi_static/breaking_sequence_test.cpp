@@ -1,10 +1,12 @@
 #include "sim/quasi_static/breaking_sequence.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "sim/joint/cohesive_cone.hpp"
 #include "sim/joint/thresholds.hpp"
 #include "sim/quasi_static/intact_structure.hpp"
 #include "sim/structure/disjoint_sets.hpp"
