@@ -9,6 +9,7 @@
 
 #include "sim/assembly/assembly.hpp"
 #include "sim/dynamics/step_control.hpp"
+#include "sim/dynamics/time_stepping.hpp"
 #include "sim/simulate.hpp"
 
 namespace havers::sim {
@@ -167,9 +168,6 @@ void check_solver(const SolverOptions& solver, Checker& checker) {
                   "at least 1");
 }
 
-// Hours, and a curve that fills the memory.
-constexpr double most_steps_to_failure = 1e7;
-
 // To the strain σ₁/E, about where the specimen fails. A chosen step leaps over most of it, or is at
 // most the first.
 void check_number_of_steps(const Scene& scene, Checker& checker) {
@@ -179,7 +177,7 @@ void check_number_of_steps(const Scene& scene, Checker& checker) {
   const double strain =
       std::min(scene.loading.max_strain, scene.joints.head_tail / scene.material.young);
   const double steps = strain / (scene.loading.strain_rate * step);
-  if (steps <= most_steps_to_failure) return;
+  if (steps <= most_steps_of_a_run) return;
   if (given)
     checker.say(
         "solver.step_s",

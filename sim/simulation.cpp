@@ -10,6 +10,8 @@ std::string to_string(SimulationStatus status) {
       return "broken";
     case SimulationStatus::strain_limit:
       return "strain_limit";
+    case SimulationStatus::step_limit:
+      return "step_limit";
     case SimulationStatus::not_converged:
       return "not_converged";
     case SimulationStatus::not_finite:
@@ -28,6 +30,10 @@ std::string explain(SimulationStatus status) {
     case SimulationStatus::strain_limit:
       return "the strain limit was reached before the specimen broke; the strength is a lower "
              "bound";
+    case SimulationStatus::step_limit:
+      return "ten million time steps were taken before the specimen broke; a rate that is higher, "
+             "a "
+             "smaller max_strain or the quasi-static regime takes fewer";
     case SimulationStatus::not_converged:
       return "a step's residual stayed above the tolerance";
     case SimulationStatus::not_finite:

@@ -22,7 +22,7 @@ std::vector<LeftOut> left_out_in_time(const Scene& scene, const Simulation& simu
 }
 
 // From step to step, until the run ends.
-SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, bool leap,
+SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepping& stepping,
                                 const Observer& observer, Simulation& simulation) {
   constexpr double but_for_rounding = 1.0 - 1e-9;
   const double end = but_for_rounding * scene.loading.max_strain;
@@ -37,7 +37,8 @@ SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, bool leap,
                    [&run] { return run.outcomes(); }, [&run] { return run.displacements(); }}))
       return SimulationStatus::cancelled;
     if (has_failed(simulation, scene.loading.end_fraction)) return SimulationStatus::broken;
-    if (leap && run.steps() == 2) simulation.leapt_strain = run.leap();
+    if (run.steps() == stepping.most) return SimulationStatus::step_limit;
+    if (stepping.leap && run.steps() == 2) simulation.leapt_strain = run.leap();
   }
   return SimulationStatus::strain_limit;
 }
@@ -61,7 +62,7 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
   simulation.regime = Regime::dynamic;
   simulation.step = stepping.step;
   DynamicRun run(scene, assembly, simulation.step);
-  simulation.status = follow_in_time(scene, run, stepping.leap, observer, simulation);
+  simulation.status = follow_in_time(scene, run, stepping, observer, simulation);
   run.finish(simulation);
   simulation.dropped = assembly.dropped;
   simulation.left_out = left_out_in_time(scene, simulation);

@@ -6,10 +6,14 @@
 
 namespace havers::sim {
 
+/// Hours, and a curve that fills the memory.
+inline constexpr int most_steps_of_a_run = 10'000'000;
+
 /// How one run is stepped.
 struct Stepping {
-  double step = 0.0;  ///< h. [s]
-  bool leap = false;  ///< Whether uniform motion before the first break is leapt over.
+  double step = 0.0;               ///< h. [s]
+  bool leap = false;               ///< Whether uniform motion before the first break is leapt over.
+  int most = most_steps_of_a_run;  ///< After so many it ends, broken or not.
 };
 
 Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Observer& observer);

@@ -243,7 +243,11 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
     const BodyClass& group = bodies_->classes()[k];
     MatrixXd moved = group.op.compliance * forces[k];
     moved.noalias() += group.op.recovery * bodies_->ports_in(state.displacements, group);
-    if (group.op.held) moved += bodies_->gather(loads.prescribed, group);
+    if (group.op.held) {  // its load is that of moving it: far larger than what the ports bear
+      const MatrixXd lack = forces[k] - group.op.shifted * moved;
+      moved.noalias() += group.op.compliance * lack;
+      moved += bodies_->gather(loads.prescribed, group);
+    }
     bodies_->scatter(moved, group, displacements);
   }
   const VectorXd all = reactions_of(state.forces);

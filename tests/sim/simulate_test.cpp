@@ -246,14 +246,15 @@ TEST(Simulate, KnowsNoDifferenceBetweenNoAngleAndNextToNone) {
 TEST(SimulationStatus, HasAWordAndASentenceEach) {
   std::set<std::string> words, sentences;
   for (const SimulationStatus status :
-       {SimulationStatus::broken, SimulationStatus::strain_limit, SimulationStatus::not_converged,
-        SimulationStatus::not_finite, SimulationStatus::cancelled}) {
+       {SimulationStatus::broken, SimulationStatus::strain_limit, SimulationStatus::step_limit,
+        SimulationStatus::not_converged, SimulationStatus::not_finite,
+        SimulationStatus::cancelled}) {
     words.insert(to_string(status));
     sentences.insert(explain(status));
   }
   EXPECT_THAT(words, testing::ElementsAre("broken", "cancelled", "not_converged", "not_finite",
-                                          "strain_limit"));
-  EXPECT_EQ(sentences.size(), 5U);
+                                          "step_limit", "strain_limit"));
+  EXPECT_EQ(sentences.size(), 6U);
   EXPECT_THAT(explain(SimulationStatus::strain_limit), HasSubstr("lower bound"));
 }
 

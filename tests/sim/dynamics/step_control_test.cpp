@@ -1,5 +1,6 @@
 #include "sim/dynamics/step_control.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,6 +33,15 @@ TEST_P(StepControl, LeapsToTheFirstBreakAndNotPastIt) {
   EXPECT_GT(run.leapt_strain, 0.9 * first);
   EXPECT_NEAR(run.modulus / scene.material.young, 1.0, 1e-9);
   EXPECT_LE(run.energy_defect, 1e-10);
+}
+
+TEST(StepLimit, EndsARunThatDoesNotBreakAndIsNotToBeTrusted) {
+  const Scene scene = without_step(0.0);
+  Simulation run = run_in_steps(scene, {.step = 1e-9, .leap = true, .most = 7}, {});
+  summarise(run);
+  EXPECT_EQ(run.status, SimulationStatus::step_limit);
+  EXPECT_EQ(run.steps, 7);
+  EXPECT_THAT(run.why_not_trusted(), testing::HasSubstr("time steps were taken"));
 }
 
 TEST_P(StepControl, FindsTheFailureStrainOfMuchSmallerSteps) {

@@ -22,6 +22,20 @@ TEST(IntactStructure, IsSharedByScenesThatDifferInStrengthAndModulusOnly) {
   EXPECT_NE(intact_structure(scene), first);
 }
 
+// (M1): moved sides press on bodies far harder than these bear.
+TEST(IntactStructure, BearsTheUniformStressNearlyIncompressible) {
+  for (const double angle : {0.0, 30.0, 90.0})
+    for (const double poisson : {0.3, 0.499, 0.4999}) {
+      Scene scene = test::small_scene(angle, 1, 2);
+      scene.loading.lateral = Lateral::free;
+      scene.material.plane = Plane::strain;
+      scene.material.poisson = poisson;
+      const auto intact = intact_structure(scene);
+      const double expected = intact->assembly().height / (1.0 - poisson * poisson);
+      EXPECT_NEAR(intact->answer().force / expected, 1.0, 1e-10) << angle << ", " << poisson;
+    }
+}
+
 TEST(IntactStructure, RemembersWhatItWasAsked) {
   const auto intact = intact_structure(test::small_scene(30.0));
   EXPECT_EQ(intact->jump(3), intact->jump(3));
