@@ -8,7 +8,6 @@
 #include "sim/contact/release_path.hpp"
 #include "sim/joint/thresholds.hpp"
 #include "sim/outcome.hpp"
-#include "sim/structure/disjoint_sets.hpp"
 
 namespace havers::sim {
 
@@ -28,8 +27,9 @@ constexpr int most_refinements = 5;
 
 // A tolerance below what rounding leaves is no reason to do without contact.
 constexpr double least_tolerance = 1e-8;
-// Of the intact specimen's force: where nothing bears any, and more than what is broken can bear.
-constexpr double nothing_borne = 1e-9, too_much = 2.0;
+// Of the intact specimen's force: where nothing bears any, where rounding may be all that is left,
+// and more than what is broken can bear.
+constexpr double nothing_borne = 1e-9, next_to_nothing = 1e-3, too_much = 2.0;
 
 }  // namespace
 
@@ -137,25 +137,47 @@ void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {
   system_.grow();
 }
 
-// Loose joints at a body that no chain of bonded joints connects to an end: 1. Such a body carries
-// nothing, and without inertia its position is not determined, so neither is what it touches.
-std::vector<char> BreakingRun::apart() const {
+// Bodies that bonded joints connect to each other, and after them the left and the right end.
+DisjointSets BreakingRun::pieces() const {
   const Assembly& assembly = intact_->assembly();
-  const std::size_t end = assembly.bodies.size();  // stands for both ends
-  DisjointSets pieces(end + 1);
-  for (const int body : intact_->held_bodies()) pieces.unite(end, static_cast<std::size_t>(body));
+  const std::size_t left = assembly.bodies.size();
+  DisjointSets pieces(left + 2);
+  for (const std::size_t end : {0U, 1U})
+    for (const int body : intact_->end_bodies()[end])
+      pieces.unite(left + end, static_cast<std::size_t>(body));
   for (std::size_t j = 0; j < joints_.size(); ++j)
     if (!joints_[j].broken)
       pieces.unite(static_cast<std::size_t>(assembly.joints[j].body_a),
                    static_cast<std::size_t>(assembly.joints[j].body_b));
+  return pieces;
+}
 
+// Whether nothing leads from end to end, not even joints that are pressed together.
+bool BreakingRun::severed() const {
+  DisjointSets all = pieces();
+  for (std::size_t i = 0; i < loose_.size(); ++i) {
+    if (system_.states()[i] == JointState::open) continue;
+    const Joint& between = intact_->assembly().joints[static_cast<std::size_t>(loose_.joints()[i])];
+    all.unite(static_cast<std::size_t>(between.body_a), static_cast<std::size_t>(between.body_b));
+  }
+  const std::size_t left = intact_->assembly().bodies.size();
+  return all.find(left) != all.find(left + 1);
+}
+
+// Loose joints at a body that no chain of bonded joints connects to an end: 1. Such a body carries
+// nothing, and without inertia its position is not determined, so neither is what it touches.
+std::vector<char> BreakingRun::apart() const {
+  const Assembly& assembly = intact_->assembly();
+  DisjointSets pieces = this->pieces();
+  const std::size_t left = assembly.bodies.size();
+  const auto carries = [&](int body) {
+    const std::size_t piece = pieces.find(static_cast<std::size_t>(body));
+    return piece == pieces.find(left) || piece == pieces.find(left + 1);
+  };
   std::vector<char> apart;
   for (const int joint : loose_.joints()) {
     const Joint& between = assembly.joints[static_cast<std::size_t>(joint)];
-    const bool carried =
-        pieces.find(static_cast<std::size_t>(between.body_a)) == pieces.find(end) &&
-        pieces.find(static_cast<std::size_t>(between.body_b)) == pieces.find(end);
-    apart.push_back(carried ? 0 : 1);
+    apart.push_back(carries(between.body_a) && carries(between.body_b) ? 0 : 1);
   }
   return apart;
 }
@@ -215,7 +237,8 @@ bool BreakingRun::settle() {
   }
   joint_work_ = of_loose(reactions_).dot(y_);
   worst_residual_ = std::max(worst_residual_, law_missed(contact_, of_loose(reactions_), y_));
-  if (std::abs(force_) <= nothing_borne * intact_->answer().force) force_ = joint_work_ = 0.0;
+  const double borne = std::abs(force_) / intact_->answer().force;
+  if (borne <= nothing_borne || (borne <= next_to_nothing && severed())) force_ = joint_work_ = 0.0;
   return result.converged && std::abs(force_) <= too_much * intact_->answer().force;
 }
 

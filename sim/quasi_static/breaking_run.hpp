@@ -10,6 +10,7 @@
 #include "sim/contact/state_system.hpp"
 #include "sim/quasi_static/intact_structure.hpp"
 #include "sim/simulation.hpp"
+#include "sim/structure/disjoint_sets.hpp"
 
 namespace havers::sim {
 
@@ -48,7 +49,9 @@ class BreakingRun {
   void loosen(const std::vector<std::size_t>& breaking);
   bool settle();
   void take_back(const std::vector<std::size_t>& breaking, const Eigen::VectorXd& gaps_before);
+  [[nodiscard]] DisjointSets pieces() const;
   [[nodiscard]] std::vector<char> apart() const;
+  [[nodiscard]] bool severed() const;
   [[nodiscard]] Eigen::VectorXd gaps() const;
   [[nodiscard]] Eigen::VectorXd reactions_to(const Eigen::VectorXd& y) const;
   [[nodiscard]] Eigen::VectorXd of_loose(const Eigen::VectorXd& of_all) const;

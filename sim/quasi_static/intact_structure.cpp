@@ -71,9 +71,9 @@ IntactStructure::IntactStructure(const AssemblyOptions& options, const Loading& 
     });
   };
   for (std::size_t b = 0; b < assembly_.bodies.size(); ++b)
-    if (touches(assembly_.bodies[b], assembly_.left) ||
-        touches(assembly_.bodies[b], assembly_.right))
-      held_bodies_.push_back(static_cast<int>(b));
+    for (const std::size_t end : {0U, 1U})
+      if (touches(assembly_.bodies[b], end == 0 ? assembly_.left : assembly_.right))
+        end_bodies_[end].push_back(static_cast<int>(b));
   if (!structure_.ok()) return;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(2 * structure_.joints());
   lost_ = none;

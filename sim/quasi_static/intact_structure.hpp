@@ -2,6 +2,7 @@
 // changes.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -43,8 +44,8 @@ class IntactStructure {
   [[nodiscard]] UnitAnswer stretch(const Eigen::VectorXd& gaps) const;
   /// ½ qᵀKq. [J/m]
   [[nodiscard]] double energy(const Eigen::VectorXd& q) const;
-  /// Bodies with a node at one of the ends.
-  [[nodiscard]] const std::vector<int>& held_bodies() const { return held_bodies_; }
+  /// Bodies with a node at the left and at the right end.
+  [[nodiscard]] const std::array<std::vector<int>, 2>& end_bodies() const { return end_bodies_; }
 
   // What these find is remembered for later runs while there is room. Both may be called by several
   // threads.
@@ -71,7 +72,7 @@ class IntactStructure {
   UnitAnswer answer_;
   bool stress_is_known_ = false;
   Eigen::VectorXd lost_;  // forces of the uniform stress that a solve does not find [N/m]
-  std::vector<int> held_bodies_;
+  std::array<std::vector<int>, 2> end_bodies_;
   mutable std::mutex mutex_;
   mutable Memory<Jump> jumps_;                // at each joint
   mutable Memory<Eigen::MatrixX2d> columns_;  // reactions to these

@@ -105,5 +105,22 @@ TEST(SwingingPieces, KeepTheirContactsWhateverTheTolerance) {
   EXPECT_NEAR(strict.strength, usual.strength, 1e-9 * usual.strength);
 }
 
+// Nearly incompressible and of unlike layers: rounding is not small there.
+TEST(SeveredSpecimen, BearsNothingAtAll) {
+  for (const double length : {40e-6, 55e-6, 70e-6, 85e-6, 100e-6}) {
+    Scene scene = test::small_scene(90.0, 1, 2);
+    scene.assembly.fibre_length = length;
+    scene.loading.lateral = Lateral::free;
+    scene.loading.end_fraction = 0.0;
+    scene.material.plane = Plane::strain;
+    scene.material.poisson = 0.4999;
+    scene.material.layer_contrast = 0.02;
+    const Simulation simulation = simulate(scene);
+    EXPECT_EQ(simulation.why_not_trusted(), "");
+    EXPECT_EQ(simulation.status, SimulationStatus::broken);
+    EXPECT_EQ(simulation.curve.back().stress_right, 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace havers::sim
