@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -50,48 +51,70 @@ Branch solve_branch(StateSystem& system, StateSolution known, const VectorXd& ex
           part * p.r0.lpNorm<Eigen::Infinity>()};
 }
 
+// Where the path is, and which way λ goes on from there: down, or up where the path turns back.
+struct Course {
+  double lambda = 1.0;
+  double way = -1.0;
+};
+
 struct Change {
-  double at = -1.0;  // λ; negative: none on the way to 0
+  double at = -1.0;  // λ; negative: none
   std::size_t joint = 0;
   JointState to = JointState::open;
 };
 
-// The next change of one joint on the way down from λ. Each state's conditions are those of the law
-// (M5), (M7), written as forces ≥ 0.
-Change next_change(const StateSystem& system, const Branch& branch, std::size_t joint, double extra,
-                   double from) {
+// What holds a joint back from changing its state to another, (value, slope), as a force ≥ 0: the
+// conditions of the law (M5), (M7).
+RowVector2d condition(const StateSystem& system, const Branch& branch, const Change& change,
+                      double extra) {
   const LocalContact& p = system.problem();
-  const auto row = static_cast<Index>(2 * joint);
-  const JointLaw& law = p.laws[joint];
+  const auto row = static_cast<Index>(2 * change.joint);
+  const JointLaw& law = p.laws[change.joint];
+  const JointState from = system.states()[change.joint];
   const RowVector2d push = branch.r.row(row) + RowVector2d(law.cohesion, extra);
-  const RowVector2d shear = branch.r.row(row + 1);
-  const RowVector2d opening = p.S(row, row) * branch.u.row(row);
-  const RowVector2d slip = p.S(row + 1, row + 1) * branch.u.row(row + 1);
+  if (from == JointState::open) return p.S(row, row) * branch.u.row(row);
+  if (from == JointState::stick)
+    return law.friction * push + slip_sign(change.to) * branch.r.row(row + 1);
+  if (change.to == JointState::open) return push;
+  return slip_sign(from) * p.S(row + 1, row + 1) * branch.u.row(row + 1);
+}
+
+// Where a condition stops to hold on the way; negative: nowhere. One that does not even hold where
+// the path is stops to hold at once, if it does not come to hold further on.
+double end_of(const RowVector2d& condition, double tolerance, const Course& course) {
+  const double last = condition(0) + tolerance, slope = condition(1);
+  if (course.way < 0.0) {
+    if (last >= 0.0) return -1.0;
+    return slope > 0.0 ? std::clamp(-last / slope, 0.0, course.lambda) : course.lambda;
+  }
+  return slope < 0.0 ? std::max(course.lambda, -last / slope) : -1.0;
+}
+
+// The next change of one joint on the way.
+Change next_change(const StateSystem& system, const Branch& branch, std::size_t joint, double extra,
+                   const Course& course) {
   Change first{.joint = joint};
-  if (p.is_apart(joint)) return first;
-  const auto consider = [&](const RowVector2d& condition, JointState to) {
-    const double last = condition(0) + branch.force_tolerance;
-    if (last >= 0.0) return;
-    // One that does not even hold where the path is has to change at once.
-    const double at = condition(1) > 0.0 ? std::clamp(-last / condition(1), 0.0, from) : from;
-    if (at > first.at) first = {at, joint, to};
+  if (system.problem().is_apart(joint)) return first;
+  const auto consider = [&](JointState to) {
+    const double at = end_of(condition(system, branch, {.joint = joint, .to = to}, extra),
+                             branch.force_tolerance, course);
+    if (at >= 0.0 && (first.at < 0.0 || course.way * at < course.way * first.at))
+      first = {at, joint, to};
   };
-  const bool forward = slip(0) + from * slip(1) >= 0.0;
+  const auto row = static_cast<Index>(2 * joint) + 1;
+  const bool forward = branch.u(row, 0) + course.lambda * branch.u(row, 1) >= 0.0;
   switch (system.states()[joint]) {
     case JointState::open:
-      consider(opening, forward ? JointState::slip_forward : JointState::slip_backward);
+      consider(forward ? JointState::slip_forward : JointState::slip_backward);
       break;
     case JointState::stick:
-      consider(law.friction * push - shear, JointState::slip_backward);
-      consider(law.friction * push + shear, JointState::slip_forward);
+      consider(JointState::slip_backward);
+      consider(JointState::slip_forward);
       break;
     case JointState::slip_forward:
-      consider(push, JointState::open);
-      consider(slip, JointState::stick);
-      break;
     case JointState::slip_backward:
-      consider(push, JointState::open);
-      consider(-slip, JointState::stick);
+      consider(JointState::open);
+      consider(JointState::stick);
       break;
   }
   return first;
@@ -128,31 +151,44 @@ VectorXd cohesion_to_stick(const VectorXd& reactions, const std::vector<JointLaw
 
 namespace {
 
+// Whether a joint that has just changed its state would change it back on this way, if at all, at
+// once: the path goes on the other way.
+bool turns(const StateSystem& system, const Branch& branch, const Change& back, double extra,
+           const Course& course) {
+  return course.way * condition(system, branch, back, extra)(1) < -branch.force_tolerance;
+}
+
 LocalContactResult follow(StateSystem& system, StateSolution known, const VectorXd& extra,
-                          double part) {
+                          double part, bool may_turn) {
   LocalContactResult result;
-  double lambda = 1.0;
-  std::set<States> met;  // at this λ
+  Course course;
+  std::set<std::pair<States, double>> met;  // at this λ, and the way on
+  std::optional<Change> back;               // of the last change
   const int most = most_changes_of_a_joint * (1 + static_cast<int>(system.states().size()));
   while (result.iterations < most) {
     ++result.iterations;
     Branch branch = solve_branch(system, std::move(known), extra, part);
     result.y = branch.y.col(0);
     if (!branch.y.allFinite()) break;
+    if (may_turn && back &&
+        turns(system, branch, *back, extra(static_cast<Index>(back->joint)), course))
+      course.way = -course.way;
     Change next;
     for (std::size_t j = 0; j < system.states().size(); ++j) {
-      const Change change = next_change(system, branch, j, extra(static_cast<Index>(j)), lambda);
-      if (change.at > next.at) next = change;
+      const Change change = next_change(system, branch, j, extra(static_cast<Index>(j)), course);
+      if (change.at >= 0.0 && (next.at < 0.0 || course.way * change.at < course.way * next.at))
+        next = change;
     }
-    result.converged = next.at < 0.0;
-    if (result.converged) {
+    if (next.at < 0.0) {  // all the way down, or up without an end
+      result.converged = course.way < 0.0;
       result.y = answer_of_states(system, {branch.y.col(0), branch.r.col(0)});
       break;
     }
-    if (next.at < lambda) met.clear();
-    if (!met.insert(system.states()).second)
-      break;  // the same states again without having moved: the path turns back
-    lambda = next.at;
+    if (next.at != course.lambda) met.clear();
+    if (!met.insert({system.states(), course.way}).second)
+      break;  // the same states again without having moved
+    course.lambda = next.at;
+    back = {course.lambda, next.joint, system.states()[next.joint]};
     system.set(next.joint, next.to);
     known = {std::move(branch.y), std::move(branch.r)};
   }
@@ -167,12 +203,13 @@ LocalContactResult follow_release(StateSystem& system, const VectorXd& extra,
   const States start = system.states();
   LocalContactResult result;
   int spent = 0;
-  for (const double part : nothing) {
-    system.set(start);
-    result = follow(system, known, extra, part);
-    spent += result.iterations;
-    if (result.converged) break;
-  }
+  for (const bool may_turn : {false, true})
+    for (const double part : nothing) {
+      if (result.converged) break;
+      system.set(start);
+      result = follow(system, known, extra, part, may_turn);
+      spent += result.iterations;
+    }
   result.iterations = spent;
   return result;
 }
