@@ -70,7 +70,7 @@ VectorXd ActiveSetSolver::jumps(const JointStep& step) const {
 
 // The loose joints among themselves.
 bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded_reactions,
-                                   bool combine, JointStepResult& result, VectorXd& y) const {
+                                   JointStepResult& result, VectorXd& y) const {
   const auto n = static_cast<Index>(loose_.size());
   LocalContact contact{loose_.stiffness(), VectorXd(2 * n), VectorXd(2 * n), {}, {}, below_inertia};
   std::vector<JointState> states;
@@ -81,8 +81,7 @@ bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded
     contact.laws.push_back(step.laws[static_cast<std::size_t>(joint)]);
     states.push_back(result.states[static_cast<std::size_t>(joint)]);
   }
-  const LocalContactResult local = combine ? combine_states(contact, std::move(states))
-                                           : solve_local_contact(contact, states, max_iterations_);
+  const LocalContactResult local = solve_local_contact(contact, states, max_iterations_);
   result.iterations += local.iterations;
   y = local.y;
   for (Index i = 0; i < n && local.converged; ++i)
@@ -135,14 +134,13 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
     iterations += result.iterations;
   };
   if (search_first) unless_solved([&] { return search_.solve(step); });
-  unless_solved([&] { return solve_loose(step, false); });
+  unless_solved([&] { return solve_loose(step); });
   if (!search_first) unless_solved([&] { return search_.solve(step); });
-  unless_solved([&] { return solve_loose(step, true); });
   result.iterations = iterations;
   return result;
 }
 
-JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, bool combine) {
+JointStepResult ActiveSetSolver::solve_loose(const JointStep& step) {
   detach_opened(step);
   // What is broken and not detached may move; after a rebuild it has to be said again.
   for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint)
@@ -159,7 +157,7 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, bool combine
     StructureResponse response;
     do {  // again with those that the answer overloads, until none is
       VectorXd y;
-      result.converged = settle_loose(step, bonded_response.reactions, combine, result, y);
+      result.converged = settle_loose(step, bonded_response.reactions, result, y);
       response = bonded_response;
       if (y.size() == 0 || y.isZero(0.0)) continue;
       StructureLoads loads = bonded;

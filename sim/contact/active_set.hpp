@@ -24,9 +24,9 @@ class ActiveSetSolver : public JointSolver {
   [[nodiscard]] bool detached(int joint) const {
     return structure_.held()[static_cast<std::size_t>(joint)] == Held::not_at_all;
   }
-  JointStepResult solve_loose(const JointStep& step, bool combine);
+  JointStepResult solve_loose(const JointStep& step);
   [[nodiscard]] Eigen::VectorXd jumps(const JointStep& step) const;
-  bool settle_loose(const JointStep& step, const Eigen::VectorXd& bonded_reactions, bool combine,
+  bool settle_loose(const JointStep& step, const Eigen::VectorXd& bonded_reactions,
                     JointStepResult& result, Eigen::VectorXd& y) const;
   bool loosen_violated(const JointStep& step, const Eigen::VectorXd& reactions,
                        JointStepResult& result);

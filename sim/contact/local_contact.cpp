@@ -23,8 +23,6 @@ constexpr double rounding = 1e-12;
 // piece.
 constexpr double nearly_met = 1e-8;
 constexpr int sets_at_once = 3;  // that follow from each other, before a better one is looked for
-constexpr int sets_of_a_cycle = 20;       // after which it is none, or too long to look at
-constexpr std::size_t most_combined = 5;  // joints whose states are combined in every way
 // Where more are loose, a start that is far from the answer takes longer than none, and springs
 // hold nothing in the time there is.
 constexpr std::size_t few_joints = 100;
@@ -135,34 +133,14 @@ States answered(const LocalContact& p, LocalContactResult& result) {
   return wanted;
 }
 
-// Sets tried one after the other until one is right or comes back; `changed` are the joints whose
-// states did not stay.
-LocalContactResult try_sets(const LocalContact& p, States states, int max_iterations,
-                            std::set<std::size_t>& changed) {
+// A few sets, each made of the answer to the one before.
+LocalContactResult try_sets(const LocalContact& p, States states) {
   LocalContactResult result{.states = std::move(states)};
   std::set<States> tried;
-  while (result.iterations < max_iterations && tried.insert(result.states).second) {
+  while (result.iterations < sets_at_once && tried.insert(result.states).second) {
     States wanted = answered(p, result);
     if (result.converged || wanted.empty()) break;
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-      if (wanted[i] != result.states[i]) changed.insert(i);
     result.states = std::move(wanted);
-  }
-  return result;
-}
-
-// Every combination of the states of a few joints.
-LocalContactResult try_combinations(const LocalContact& p, States states,
-                                    const std::set<std::size_t>& joints) {
-  LocalContactResult result{.states = std::move(states)};
-  const int combinations = 1 << (2 * joints.size());
-  for (int code = 0; code < combinations && !result.converged; ++code) {
-    int digits = code;
-    for (const std::size_t joint : joints) {
-      result.states[joint] = static_cast<JointState>(digits % 4);
-      digits /= 4;
-    }
-    answered(p, result);
   }
   return result;
 }
@@ -171,8 +149,7 @@ LocalContactResult solve_as_it_is(const LocalContact& problem, States states, in
   LocalContactResult result;
   int spent = 0;
   const auto try_from = [&](States found) {
-    std::set<std::size_t> changed;
-    result = try_sets(problem, std::move(found), sets_at_once, changed);
+    result = try_sets(problem, std::move(found));
     spent += result.iterations;
   };
   try_from(std::move(states));
@@ -197,9 +174,15 @@ LocalContactResult solve_as_it_is(const LocalContact& problem, States states, in
     for (std::size_t i = 0; i < stuck.size(); ++i)
       if (problem.is_apart(i)) stuck[i] = JointState::open;
     StateSystem system(problem, stuck);
-    result = follow_release(system,
-                            cohesion_to_stick(problem.r0 - problem.S * problem.u0, problem.laws));
+    const VectorXd extra = cohesion_to_stick(problem.r0 - problem.S * problem.u0, problem.laws);
+    result = follow_release(system, extra);
     spent += result.iterations;
+    if (!result.converged) {
+      system.set(stuck);
+      result =
+          follow_release_with_turns(system, VectorXd::Constant(extra.size(), extra.maxCoeff()));
+      spent += result.iterations;
+    }
   }
   result.iterations = spent;
   return result;
@@ -244,16 +227,6 @@ LocalContactResult solve_local_contact(const LocalContact& problem,
   held.iterations += result.iterations;
   if (held.converged) return held;
   result.iterations = held.iterations;
-  return result;
-}
-
-LocalContactResult combine_states(const LocalContact& problem, States states) {
-  std::set<std::size_t> changed;
-  LocalContactResult result = try_sets(problem, std::move(states), sets_of_a_cycle, changed);
-  if (result.converged || changed.size() > most_combined) return result;
-  const int spent = result.iterations;
-  result = try_combinations(problem, std::move(result.states), changed);
-  result.iterations += spent;
   return result;
 }
 

@@ -67,13 +67,9 @@ SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, cons
 
 /// Active set started from `states`: each set is one linear solve (C2). Where sets do not lead to
 /// each other, convex problems (C7), then sweeps over the joints, each solved alone (C3), find a
-/// better one (C4). Where that ends nowhere, the release of cohesion is followed (C5).
+/// better one (C4). Where that ends nowhere, the release of cohesion is followed (C5), at last with
+/// all its turns (C9).
 LocalContactResult solve_local_contact(const LocalContact& problem,
                                        const std::vector<JointState>& states, int max_iterations);
-
-/// For what that does not solve: sets follow from each other until one comes back, then the states
-/// of the few joints that changed on the way are combined in every way. Where friction leaves
-/// several answers, it is not the nearest that this finds.
-LocalContactResult combine_states(const LocalContact& problem, std::vector<JointState> states);
 
 }  // namespace havers::sim

@@ -29,9 +29,9 @@ struct Branch {
   double force_tolerance = 0.0;  // [N/m]
 };
 
-// So many changes for every joint, and the path leads nowhere: those that arrive take fewer, but
-// for a few, whose answer is found otherwise too.
-constexpr int most_changes_of_a_joint = 5;
+// So many changes for every joint, and the path leads nowhere: those that arrive on the way down
+// take fewer, but for a few; those that turn back a third.
+constexpr int most_changes_down = 5, most_changes_with_turns = 100;
 
 // Of the answers on the way, and of the last one where it is not solved for anew.
 constexpr double accuracy_on_the_way = 1e-11, accuracy_of_answer = 1e-13;
@@ -164,7 +164,8 @@ LocalContactResult follow(StateSystem& system, StateSolution known, const Vector
   Course course;
   std::set<std::pair<States, double>> met;  // at this λ, and the way on
   std::optional<Change> back;               // of the last change
-  const int most = most_changes_of_a_joint * (1 + static_cast<int>(system.states().size()));
+  const int most = (may_turn ? most_changes_with_turns : most_changes_down) *
+                   (1 + static_cast<int>(system.states().size()));
   while (result.iterations < most) {
     ++result.iterations;
     Branch branch = solve_branch(system, std::move(known), extra, part);
@@ -203,15 +204,18 @@ LocalContactResult follow_release(StateSystem& system, const VectorXd& extra,
   const States start = system.states();
   LocalContactResult result;
   int spent = 0;
-  for (const bool may_turn : {false, true})
-    for (const double part : nothing) {
-      if (result.converged) break;
-      system.set(start);
-      result = follow(system, known, extra, part, may_turn);
-      spent += result.iterations;
-    }
+  for (const double part : nothing) {
+    system.set(start);
+    result = follow(system, known, extra, part, false);
+    spent += result.iterations;
+    if (result.converged) break;
+  }
   result.iterations = spent;
   return result;
+}
+
+LocalContactResult follow_release_with_turns(StateSystem& system, const VectorXd& extra) {
+  return follow(system, {}, extra, nothing.front(), true);
 }
 
 }  // namespace havers::sim

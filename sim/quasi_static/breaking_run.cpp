@@ -197,7 +197,6 @@ LocalContactResult BreakingRun::or_better(LocalContactResult result) {
   };
   unless_solved(
       [&] { return solve_local_contact(contact_, result.states, scene_.solver.max_iterations); });
-  unless_solved([&] { return combine_states(contact_, result.states); });
   result.converged =
       result.converged && residual <= std::max(scene_.solver.tolerance, least_tolerance);
   return result;
