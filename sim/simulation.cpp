@@ -12,6 +12,8 @@ std::string to_string(SimulationStatus status) {
       return "strain_limit";
     case SimulationStatus::step_limit:
       return "step_limit";
+    case SimulationStatus::not_determined:
+      return "not_determined";
     case SimulationStatus::not_converged:
       return "not_converged";
     case SimulationStatus::not_finite:
@@ -34,6 +36,9 @@ std::string explain(SimulationStatus status) {
       return "ten million time steps were taken before the specimen broke; a rate that is higher, "
              "a "
              "smaller max_strain or the quasi-static regime takes fewer";
+    case SimulationStatus::not_determined:
+      return "more than one set of joint forces bears the load, as where fibres reach from end to "
+             "end; more fibres in a layer leave one";
     case SimulationStatus::not_converged:
       return "a step's residual stayed above the tolerance";
     case SimulationStatus::not_finite:

@@ -14,12 +14,13 @@ namespace havers::sim {
 
 /// Why a simulation ended.
 enum class SimulationStatus {
-  broken,         ///< Both sides dropped below the end fraction after a break.
-  strain_limit,   ///< The strain limit came first. The strength is a lower bound.
-  step_limit,     ///< So many steps, and it did not break. The strength is a lower bound.
-  not_converged,  ///< A step's residual stayed above the tolerance.
-  not_finite,     ///< A number left the range of doubles.
-  cancelled,      ///< The observer asked to stop.
+  broken,          ///< Both sides dropped below the end fraction after a break.
+  strain_limit,    ///< The strain limit came first. The strength is a lower bound.
+  step_limit,      ///< So many steps, and it did not break. The strength is a lower bound.
+  not_determined,  ///< More than one set of joint forces bears the intact specimen's load.
+  not_converged,   ///< A step's residual stayed above the tolerance.
+  not_finite,      ///< A number left the range of doubles.
+  cancelled,       ///< The observer asked to stop.
 };
 
 /// The status as one word, as written to result.json, and as a sentence.

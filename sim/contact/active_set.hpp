@@ -17,6 +17,7 @@ class ActiveSetSolver : public JointSolver {
   /// comparison).
   ActiveSetSolver(const Bodies& bodies, int max_iterations, bool detach_open = true);
   JointStepResult solve(const JointStep& step) override;
+  [[nodiscard]] bool determined() const override { return structure_.ok(); }
 
  private:
   void detach_opened(const JointStep& step);

@@ -43,6 +43,8 @@ class JointSolver {
   JointSolver& operator=(const JointSolver&) = delete;
   virtual ~JointSolver() = default;
   virtual JointStepResult solve(const JointStep& step) = 0;
+  /// Whether there is but one set of reactions, as far as the method tells.
+  [[nodiscard]] virtual bool determined() const { return true; }
 };
 
 /// Relative displacements u_b − u_a at the joints. [m]

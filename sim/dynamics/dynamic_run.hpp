@@ -26,6 +26,8 @@ class DynamicRun {
   [[nodiscard]] const std::vector<JointOutcome>& outcomes() const { return joints_; }
   [[nodiscard]] const Eigen::VectorXd& displacements() const { return motion_.q; }
   [[nodiscard]] int steps() const { return steps_; }
+  /// Whether the first step had but one answer, as far as the solver tells.
+  [[nodiscard]] bool determined() const { return steps_ > 0 || solver_->determined(); }
   [[nodiscard]] bool finite() const { return motion_.q.allFinite() && motion_.v.allFinite(); }
   /// Fills in the last row's joints and displacements, and the checks.
   void finish(Simulation& simulation) const;

@@ -99,7 +99,10 @@ Simulation break_event_by_event(const Scene& scene,
   Simulation simulation;
   simulation.regime = Regime::quasi_static;
   simulation.dropped = intact->assembly().dropped;
-  if (!intact->structure().ok()) return simulation;
+  if (!intact->structure().ok()) {
+    simulation.status = SimulationStatus::not_determined;
+    return simulation;
+  }
   BreakingRun run(scene, intact, careful);
   if (!run.take_missing()) return simulation;
   simulation.status = follow_events(scene, run, observer, simulation);

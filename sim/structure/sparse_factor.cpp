@@ -149,7 +149,7 @@ struct SparseFactor::Factor {
 };
 
 SparseFactor::SparseFactor(const Eigen::SparseMatrix<double>& lower, Index multipliers,
-                           std::vector<int> order)
+                           std::vector<int> order, double least_pivot)
     : factor_(std::make_unique<Factor>()) {
   cholmod_common* common = factor_->common.get();
   common->nmethods = 1;
@@ -168,7 +168,7 @@ SparseFactor::SparseFactor(const Eigen::SparseMatrix<double>& lower, Index multi
     place_[static_cast<std::size_t>(row)] = static_cast<int>(j);
     const double pivot = static_cast<const double*>(L->x)[static_cast<const int*>(L->p)[j]];
     inverse_pivots_(static_cast<Index>(j)) = 1.0 / pivot;
-    ok_ = ok_ && (row < lower.rows() - multipliers ? pivot > 0.0 : pivot < 0.0);
+    ok_ = ok_ && (row < lower.rows() - multipliers ? pivot > 0.0 : pivot < -least_pivot);
   }
 }
 

@@ -18,14 +18,16 @@ struct Eliminated {
 };
 
 /// L D Lᵀ = P A Pᵀ of A = (K Nᵀ; N 0), K positive definite, the rows of N independent. There is no
-/// pivoting: the order has to make sure that no pivot is small.
+/// pivoting: the order has to make sure that no pivot of N is small, unless its row is a sum of
+/// others.
 class SparseFactor {
  public:
   /// @param lower  lower triangle of A
   /// @param multipliers  rows of N; they come last in A
   /// @param order  of elimination: each row of N behind some of those it has entries with
+  /// @param least_pivot  of a row of N; a smaller one is rounding, N is not independent
   SparseFactor(const Eigen::SparseMatrix<double>& lower, Eigen::Index multipliers,
-               std::vector<int> order);
+               std::vector<int> order, double least_pivot = 0.0);
   ~SparseFactor();
   SparseFactor(SparseFactor&& other) noexcept;
   SparseFactor& operator=(SparseFactor&& other) noexcept;

@@ -125,6 +125,20 @@ TEST(Simulate, SaysWhenAStepDidNotConverge) {
   EXPECT_GT(simulation.worst_residual, scene.solver.tolerance);
 }
 
+// Where fibres reach from end to end, three and more layers can bear forces between their joints
+// that no load asks for.
+TEST(Simulate, SaysWhenForcesAreNotDetermined) {
+  for (const int layers : {3, 4, 5, 6, 7, 10, 12, 100})
+    for (const Regime regime : {Regime::quasi_static, Regime::dynamic}) {
+      Scene scene = test::small_scene(0.0, layers, 1);
+      scene.solver.regime = regime;
+      scene.solver.step = 2e-8;
+      const Simulation simulation = simulate(scene);
+      EXPECT_EQ(simulation.status, SimulationStatus::not_determined) << layers;
+      EXPECT_FALSE(simulation.trusted());
+    }
+}
+
 TEST(Simulate, SaysWhenANumberLeftItsRange) {
   Scene scene = test::dynamic_scene(0.0, 1e-8);
   scene.loading.strain_rate = 1e304;
@@ -247,14 +261,14 @@ TEST(SimulationStatus, HasAWordAndASentenceEach) {
   std::set<std::string> words, sentences;
   for (const SimulationStatus status :
        {SimulationStatus::broken, SimulationStatus::strain_limit, SimulationStatus::step_limit,
-        SimulationStatus::not_converged, SimulationStatus::not_finite,
-        SimulationStatus::cancelled}) {
+        SimulationStatus::not_determined, SimulationStatus::not_converged,
+        SimulationStatus::not_finite, SimulationStatus::cancelled}) {
     words.insert(to_string(status));
     sentences.insert(explain(status));
   }
-  EXPECT_THAT(words, testing::ElementsAre("broken", "cancelled", "not_converged", "not_finite",
-                                          "step_limit", "strain_limit"));
-  EXPECT_EQ(sentences.size(), 6U);
+  EXPECT_THAT(words, testing::ElementsAre("broken", "cancelled", "not_converged", "not_determined",
+                                          "not_finite", "step_limit", "strain_limit"));
+  EXPECT_EQ(sentences.size(), 7U);
   EXPECT_THAT(explain(SimulationStatus::strain_limit), HasSubstr("lower bound"));
 }
 
