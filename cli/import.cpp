@@ -6,6 +6,7 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "calib/experiment/join_logger.hpp"
@@ -199,9 +200,9 @@ void write_figures(const OutputFolder& output, const std::vector<Imported>& test
   io::write_file(output.stage("report.html"), reports::import_page(pages, facts));
 }
 
-void write_results(const ImportArguments& arguments, const std::vector<Imported>& tests,
-                   const CommonOptions& common, const Stopwatch& watch) {
-  OutputFolder output(arguments.folder, common.force);
+void write_results(const OutputFolder& output, const ImportArguments& arguments,
+                   const std::vector<Imported>& tests, const CommonOptions& common,
+                   const Stopwatch& watch) {
   io::write_file(output.stage("import.json"), io::json_text(json_of(tests)));
   std::vector<std::filesystem::path> inputs = arguments.files;
   if (arguments.gauge) inputs.push_back(*arguments.gauge);
@@ -210,11 +211,6 @@ void write_results(const ImportArguments& arguments, const std::vector<Imported>
     write_figures(output, tests, page_facts(provenance_of(common, inputs, watch)));
   else
     note(common, "no figures and no page: this build makes none (havers --version)");
-  output.publish();
-  if (!common.json)
-    fmt::print(
-        "{}\n",
-        (arguments.folder / (reports::available() ? "report.html" : "import.json")).string());
 }
 
 int run_import(const ImportArguments& arguments, const CommonOptions& common) {
@@ -224,6 +220,8 @@ int run_import(const ImportArguments& arguments, const CommonOptions& common) {
   give_sizes(settings.gauge_columns, arguments);
   if (arguments.gauge && arguments.files.size() != 1)
     throw io::InputError("--gauge", "is the second file of one test", "import the others alone");
+  std::optional<OutputFolder> output;  // refused before anything is read
+  if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force);
   std::vector<io::Problem> problems;
   const std::vector<Imported> tests = import_all(arguments, settings, problems);
   if (common.json) {
@@ -231,7 +229,14 @@ int run_import(const ImportArguments& arguments, const CommonOptions& common) {
   } else {
     for (const Imported& test : tests) print_test(test);
   }
-  if (!arguments.folder.empty() && !tests.empty()) write_results(arguments, tests, common, watch);
+  if (output && !tests.empty()) {
+    write_results(*output, arguments, tests, common, watch);
+    output->publish();
+    if (!common.json)
+      fmt::print(
+          "{}\n",
+          (arguments.folder / (reports::available() ? "report.html" : "import.json")).string());
+  }
   if (!problems.empty()) throw io::InputError(std::move(problems));
   return done;
 }

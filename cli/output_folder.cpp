@@ -55,6 +55,16 @@ fs::path staging_beside(const fs::path& folder) {
   return folder.parent_path() / fmt::format(".{}.partial", folder.filename().string());
 }
 
+// What a run has to make above its staging folder, the deepest first.
+std::vector<fs::path> missing_above(const fs::path& staging) {
+  std::vector<fs::path> missing;
+  std::error_code ignored;
+  for (fs::path path = staging.parent_path(); !path.empty() && !fs::exists(path, ignored);
+       path = path.parent_path())
+    missing.push_back(path);
+  return missing;
+}
+
 void refuse_to_overwrite(const fs::path& folder, bool force) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder))
@@ -81,7 +91,8 @@ std::string name_of_its_own(const std::string& name, std::set<std::string>& used
 
 OutputFolder::OutputFolder(const fs::path& folder, bool force)
     : folder_(without_trailing_slash(folder)),
-      staging_(fs::exists(folder_) ? folder_ / staging_name : staging_beside(folder_)) {
+      staging_(fs::exists(folder_) ? folder_ / staging_name : staging_beside(folder_)),
+      made_(missing_above(staging_)) {
   refuse_to_overwrite(folder_, force);
   std::error_code error;
   fs::remove_all(staging_beside(folder_), error);  // a run that was killed may have left it
@@ -93,6 +104,7 @@ OutputFolder::OutputFolder(const fs::path& folder, bool force)
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
   fs::remove_all(staging_, ignored);
+  for (const fs::path& folder : made_) fs::remove(folder, ignored);  // where nothing is in it
 }
 
 fs::path OutputFolder::stage(const fs::path& name) const {

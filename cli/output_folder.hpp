@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace havers::cli {
 
@@ -43,6 +44,7 @@ class OutputFolder {
 
  private:
   std::filesystem::path folder_, staging_;
+  std::vector<std::filesystem::path> made_;  // above them
 };
 
 }  // namespace havers::cli

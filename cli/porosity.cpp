@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -149,9 +150,9 @@ nlohmann::json json_of(const std::vector<Section>& sections) {
   return json;
 }
 
-void write_page(const PorosityArguments& arguments, const std::vector<Section>& sections,
-                const CommonOptions& common, const Stopwatch& watch) {
-  OutputFolder output(arguments.folder, common.force);
+void write_page(const OutputFolder& output, const PorosityArguments& arguments,
+                const std::vector<Section>& sections, const CommonOptions& common,
+                const Stopwatch& watch) {
   reports::PorosityReport page;
   std::set<std::string> used;
   for (const Section& section : sections) {
@@ -169,14 +170,18 @@ void write_page(const PorosityArguments& arguments, const std::vector<Section>& 
   io::write_file(output.stage("porosity.json"), io::json_text(json_of(sections)));
   if (reports::available())
     io::write_file(output.stage("report.html"), reports::porosity_page(page));
-  output.publish();
 }
 
 int run_porosity(const PorosityArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   refuse_settings(common, "havers porosity reads no study");
+  std::optional<OutputFolder> output;  // refused before anything is measured
+  if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force);
   const std::vector<Section> sections = measure_all(arguments);
-  if (!arguments.folder.empty()) write_page(arguments, sections, common, watch);
+  if (output) {
+    write_page(*output, arguments, sections, common, watch);
+    output->publish();
+  }
   if (common.json) {
     fmt::print("{}", io::json_text(json_of(sections)));
     return done;

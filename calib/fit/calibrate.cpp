@@ -265,7 +265,8 @@ CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
   result.parameters = parameters_of(problem, answer);
   result.specimens = specimens_of(problem, batch, answer);
   if (!problem.fitted.empty())
-    result.scene = replicate_scenes(problem, answer.best.point, problem.fitted.front(), 1).front();
+    result.scene =
+        replicate_scenes(problem, answer.best.point, std::ranges::min(problem.fitted), 1).front();
   result.cost = cost_of(result.specimens, answer.best.cost);
   std::ranges::copy(answer.weights.specimen, result.specimen_effect.begin());
   add_hindsight(problem, batch, answer, result);

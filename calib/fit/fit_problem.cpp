@@ -93,6 +93,7 @@ FitProblem make_problem(const Study& study) {
     if (study.specimens[s].use == Use::fit && problem.targets.back().usable)
       problem.fitted.push_back(s);
   }
+  std::ranges::sort(problem.fitted, {}, [&](std::size_t s) { return study.specimens[s].id; });
   return problem;
 }
 

@@ -19,7 +19,9 @@ struct FitProblem {
   std::vector<Unknown> unknowns;
   std::vector<SpecimenModel> models{};  ///< One per specimen of the study.
   std::vector<Target> targets{};        ///< One per specimen of the study.
-  std::vector<std::size_t> fitted{};    ///< Specimens that are fitted and whose test is usable.
+  /// Specimens that are fitted and whose test is usable, by their ids: the order in which a study
+  /// names them changes nothing.
+  std::vector<std::size_t> fitted{};
 };
 FitProblem make_problem(const Study& study);
 

@@ -38,25 +38,36 @@ Column split(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& variance, E
   return column;
 }
 
-bool informs(const Unknown& unknown, const Column& column) {
-  const double information = column.rest.squaredNorm();
-  const bool seen = information > standard_errors * standard_errors * column.noise;
-  return seen && information * std::pow(part_of_bounds * unknown.range(), 2) >= 1.0;
+bool seen(const Column& column) {
+  return column.rest.squaredNorm() > standard_errors * standard_errors * column.noise;
 }
 
-std::string no_effect(const FitProblem& problem, const Unknown& unknown,
-                      const Eigen::VectorXd& slope) {
+bool informs(const Unknown& unknown, const Column& column) {
+  const double information = column.rest.squaredNorm();
+  return seen(column) && information * std::pow(part_of_bounds * unknown.range(), 2) >= 1.0;
+}
+
+std::string no_effect(const FitProblem& problem, const Unknown& unknown, const Column& column) {
   const bool logarithmic = unknown.info->scale == Scale::logarithmic;
+  const Eigen::VectorXd& slope = column.rest;
   if (slope.cwiseAbs().maxCoeff() < 1e-3)
     return fmt::format(
         "structurally unidentifiable: nothing that the {} fitted specimens show changes with it",
         problem.fitted.size());
+  const char* const change = logarithmic ? "doubling it" : "changing it by 0.1";
+  const double most = slope.cwiseAbs().maxCoeff() * (logarithmic ? std::log(2.0) : 0.1);
+  // A large effect that chance could have made is no small one.
+  if (!seen(column) && most >= 1.0)
+    return fmt::format(
+        "practically unidentifiable: what {} does to the {} fitted specimens, up to {:.2g} "
+        "standard deviations, is lost in the chance of the replicates; more of them "
+        "(calibrate.options.replicates) may tell it",
+        change, problem.fitted.size(), most);
   return fmt::format(
       "practically unidentifiable: {} moves no modulus, strength or failure strain of the {} "
       "fitted specimens by "
       "more than {:.2g} of its standard deviation",
-      logarithmic ? "doubling it" : "changing it by 0.1", problem.fitted.size(),
-      slope.cwiseAbs().maxCoeff() * (logarithmic ? std::log(2.0) : 0.1));
+      change, problem.fitted.size(), most);
 }
 
 // A combination in words: how the partner has to move to undo what the unknown does.
@@ -84,8 +95,8 @@ std::string reason(const FitProblem& problem, const Point& at, const Active& act
   };
   const Unknown& unknown = unknown_of(k);
   const Eigen::VectorXd slope = slopes.jacobian.col(k);
-  if (!informs(unknown, split(slopes.jacobian, slopes.variance, k, {})))
-    return no_effect(problem, unknown, slope);
+  const Column alone = split(slopes.jacobian, slopes.variance, k, {});
+  if (!informs(unknown, alone)) return no_effect(problem, unknown, alone);
 
   Eigen::Index partner = -1;
   double likeness = 0.0;
@@ -97,7 +108,7 @@ std::string reason(const FitProblem& problem, const Point& at, const Active& act
     likeness = cosine;
     partner = j;
   }
-  if (partner < 0) return no_effect(problem, unknown, slope);
+  if (partner < 0) return no_effect(problem, unknown, alone);
   const auto& other = slopes.jacobian.col(partner);
   // Columns that are parallel to rounding cannot be told apart by any accuracy of these tests.
   const bool parallel = likeness > (1.0 - 1e-9) * slope.norm();

@@ -21,15 +21,21 @@ MatrixXd rows_of(const Answer& answer, std::size_t fitted) {
                                                            static_cast<Index>(fitted));
 }
 
-// The first fitted specimen again, which others that do not exist are made from.
-Specimen like_the_first(const FitProblem& problem) {
-  return problem.study.specimens[problem.fitted.front()];
+double distance(const FitProblem& problem, std::size_t fitted, double orientation) {
+  return std::abs(problem.study.specimens[problem.fitted[fitted]].orientation - orientation);
 }
 
-// Slopes of a specimen that does not exist.
+// The fitted specimen nearest to an orientation, which one that does not exist is made from.
+std::size_t nearest(const FitProblem& problem, double orientation) {
+  std::size_t best = 0;
+  for (std::size_t f = 1; f < problem.fitted.size(); ++f)
+    if (distance(problem, f, orientation) < distance(problem, best, orientation)) best = f;
+  return best;
+}
+
+// Slopes of a specimen that does not exist, measured like specimen `like` of the study.
 MatrixXd simulated_rows(SimulationBatch& batch, const FitProblem& problem, const Answer& answer,
-                        Specimen specimen) {
-  const std::size_t like = problem.fitted.front();
+                        std::size_t like, Specimen specimen) {
   Study other = problem.study;
   other.specimens = {std::move(specimen)};
   const FitProblem one = make_problem(other);
@@ -63,22 +69,22 @@ bool all_shared(const FitProblem& problem) {
 // Slopes of one more specimen at an orientation; empty where they cannot be had.
 MatrixXd further_rows(SimulationBatch& batch, const FitProblem& problem, const Answer& answer,
                       double orientation) {
-  for (std::size_t f = 0; f < problem.fitted.size(); ++f)
-    if (std::abs(problem.study.specimens[problem.fitted[f]].orientation - orientation) < degree)
-      return rows_of(answer, f);
+  const std::size_t near = nearest(problem, orientation);
+  if (distance(problem, near, orientation) < degree) return rows_of(answer, near);
   if (!all_shared(problem)) return {};
-  Specimen turned = like_the_first(problem);
+  Specimen turned = problem.study.specimens[problem.fitted[near]];
   turned.orientation = orientation;
   turned.id = fmt::format("next at {:.4g}", orientation / degree);
-  return simulated_rows(batch, problem, answer, std::move(turned));
+  return simulated_rows(batch, problem, answer, problem.fitted[near], std::move(turned));
 }
 
-// The first specimen once more, pulled faster. In the quasi-static limit it is the same test.
-MatrixXd faster_rows(SimulationBatch& batch, const FitProblem& problem, const Answer& answer) {
-  Specimen faster = like_the_first(problem);
+// A specimen once more, pulled faster. In the quasi-static limit it is the same test.
+MatrixXd faster_rows(SimulationBatch& batch, const FitProblem& problem, const Answer& answer,
+                     std::size_t like) {
+  Specimen faster = problem.study.specimens[like];
   if (!all_shared(problem) || !(faster.test.strain_rate > 0.0)) return {};
   faster.test.strain_rate *= faster_by;
-  return simulated_rows(batch, problem, answer, std::move(faster));
+  return simulated_rows(batch, problem, answer, like, std::move(faster));
 }
 
 std::vector<double> errors(const MatrixXd& normal) {
@@ -125,11 +131,11 @@ std::vector<NextTest> next_tests(SimulationBatch& batch, const FitProblem& probl
     tests.push_back(compared(fmt::format("one more specimen at {:g} deg", degrees), now,
                              now + rows.transpose() * rows));
   }
-  if (const MatrixXd rows = faster_rows(batch, problem, answer); rows.size() > 0)
+  const std::size_t along = problem.fitted[nearest(problem, 0.0)];
+  if (const MatrixXd rows = faster_rows(batch, problem, answer, along); rows.size() > 0)
     tests.push_back(
         compared(fmt::format("one more specimen at {:.4g} deg, {:g} times as fast",
-                             problem.study.specimens[problem.fitted.front()].orientation / degree,
-                             faster_by),
+                             problem.study.specimens[along].orientation / degree, faster_by),
                  now, now + rows.transpose() * rows));
   const bool have_sections = std::ranges::any_of(
       problem.fitted, [&](std::size_t s) { return (answer.weights.scatter[s] > 0.0).any(); });

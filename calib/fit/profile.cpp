@@ -126,7 +126,7 @@ std::vector<Profile> profiles_of(Trail& trail, const Answer& answer) {
     std::ranges::sort(roots);
     Profile profile{.parameter = unknown.label};
     for (const auto& [at, root] : roots) {
-      profile.value.push_back(from_search(*unknown.info, at));
+      profile.value.push_back(value_in_unit(unknown, at));
       profile.rise.push_back(0.5 * root * root);
     }
     const auto i = static_cast<Index>(k);
@@ -137,7 +137,7 @@ std::vector<Profile> profiles_of(Trail& trail, const Answer& answer) {
       if (!answer.elsewhere.empty())
         at = upper ? std::max(at, centre + answer.uncertainty.upper[i])
                    : std::min(at, centre + answer.uncertainty.lower[i]);
-      return from_search(*unknown.info, std::clamp(at, unknown.lower, unknown.upper));
+      return value_in_unit(unknown, std::clamp(at, unknown.lower, unknown.upper));
     };
     profile.interval_95 = {end(false), end(true)};
     profiles.push_back(std::move(profile));

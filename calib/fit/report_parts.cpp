@@ -13,11 +13,10 @@ constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 CalibratedParameter unfitted(const Unknown& unknown, double position) {
   CalibratedParameter parameter{.name = unknown.label, .unit = std::string(unknown.info->unit)};
-  parameter.value = from_search(*unknown.info, position);
+  parameter.value = value_in_unit(unknown, position);
   parameter.standard_error = not_given;
   parameter.interval_95 = {not_given, not_given};
-  parameter.bounds = {from_search(*unknown.info, unknown.lower),
-                      from_search(*unknown.info, unknown.upper)};
+  parameter.bounds = {unknown.bounds.first, unknown.bounds.second};
   return parameter;
 }
 

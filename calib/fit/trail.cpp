@@ -43,7 +43,7 @@ void Trail::note(const Evaluation& evaluation) {
                                .best = {}};
   for (Eigen::Index k = 0; k < best_.point.size(); ++k) {
     const auto& unknown = problem_.unknowns[static_cast<std::size_t>(k)];
-    progress.best.emplace_back(unknown.label, from_search(*unknown.info, best_.point[k]));
+    progress.best.emplace_back(unknown.label, value_in_unit(unknown, best_.point[k]));
   }
   cancelled_ = !observer_(progress);
 }

@@ -40,7 +40,7 @@ Unknown bounded(const Study& study, const ParameterInfo& info) {
   const auto given = study.calibrate.bounds.find(std::string(info.name));
   const auto bounds =
       given == study.calibrate.bounds.end() ? std::pair(info.lower, info.upper) : given->second;
-  Unknown unknown{.info = &info, .label = std::string(info.name)};
+  Unknown unknown{.info = &info, .label = std::string(info.name), .bounds = bounds};
   unknown.lower = to_search(info, bounds.first);
   unknown.upper = to_search(info, bounds.second);
   const double value =
@@ -103,6 +103,13 @@ Point inside_bounds(const std::vector<Unknown>& unknowns, Point point) {
   return point;
 }
 
+double value_in_unit(const Unknown& unknown, double position) {
+  const auto& [lower, upper] = unknown.bounds;
+  if (position == unknown.lower) return lower;
+  if (position == unknown.upper) return upper;
+  return std::clamp(from_search(*unknown.info, position), lower, upper);
+}
+
 std::optional<double> value_at(const std::vector<Unknown>& unknowns, const Point& point,
                                const ParameterInfo& info, std::size_t specimen) {
   double sum = 0.0;
@@ -111,7 +118,7 @@ std::optional<double> value_at(const std::vector<Unknown>& unknowns, const Point
     if (unknowns[k].info != &info) continue;
     const double position = point[static_cast<Eigen::Index>(k)];
     if (std::ranges::find(unknowns[k].specimens, specimen) != unknowns[k].specimens.end())
-      return from_search(info, position);
+      return value_in_unit(unknowns[k], position);
     sum += position;
     ++groups;
   }

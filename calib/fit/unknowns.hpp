@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calib/study/parameter.hpp"
@@ -21,6 +22,7 @@ struct Unknown {
   const ParameterInfo* info = nullptr;
   std::string label;                     ///< "ratio", "young_GPa[45 deg]", "young_GPa[A1]".
   double lower = 0.0, upper = 0.0;       ///< Bounds, in the scale of the search.
+  std::pair<double, double> bounds{};    ///< The same as the study gives them. [info->unit]
   double start = 0.0;                    ///< The study's model, moved inside the bounds.
   std::vector<std::size_t> specimens{};  ///< Those it acts on.
 
@@ -30,6 +32,10 @@ struct Unknown {
 /// A value in the parameter's unit to the scale of the search (F1), and back.
 double to_search(const ParameterInfo& info, double value);
 double from_search(const ParameterInfo& info, double position);
+
+/// An unknown's value in its unit; at a bound the very one that the study gives, not its rounding
+/// by the scale of the search.
+double value_in_unit(const Unknown& unknown, double position);
 
 /// The unknowns of a study, in the order of all_parameters().
 std::vector<Unknown> unknowns_of(const Study& study);

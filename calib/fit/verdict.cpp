@@ -90,7 +90,7 @@ std::string where_left(const Unknown& unknown, double position) {
                              : position != unknown.start ? ""
                              : unknown.info->of_porosity ? ", the value of [porosity]"
                                                          : ", the value of [model]";
-  return fmt::format("{:.4g}{}", from_search(*unknown.info, position), ground);
+  return fmt::format("{:.4g}{}", value_in_unit(unknown, position), ground);
 }
 
 Check check_identifiable(const FitProblem& problem, const Answer& answer) {

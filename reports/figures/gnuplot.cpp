@@ -52,9 +52,19 @@ void make_ids_unique(std::string& svg, const std::string& id) {
     replace_all(svg, before, fmt::format("{}{}-", before, id));
 }
 
+// A plot without a title of ours has gnuplot's, its number or its command, which a browser would
+// show where the mouse rests.
+void drop_titles_of_gnuplot(std::string& svg) {
+  constexpr std::string_view begin = "<title>", end = "</title>";
+  for (const std::string_view own : {"<title>gnuplot_plot_", "<title>$"})
+    for (std::size_t at = svg.find(own); at != std::string::npos; at = svg.find(own, at))
+      svg.erase(at, svg.find(end, at + begin.size()) + end.size() - at);
+}
+
 // gnuplot's answer without its prologue, with a title for those who cannot see it.
 std::string inline_svg(std::string svg, const Figure& figure) {
   svg.erase(0, svg.find("<svg"));
+  drop_titles_of_gnuplot(svg);
   const std::size_t title = svg.find("<title>"), description = svg.find("</desc>");
   svg.replace(title, description + 7 - title, "<title>" + escaped(figure.description) + "</title>");
   svg.insert(4, R"( role="img" width="100%")");

@@ -50,7 +50,7 @@ mstch::node section(mstch::array items) {
 
 mstch::node left_out_section(const std::vector<sim::LeftOut>& left_out) {
   Facts facts;
-  for (const auto& [what, why] : left_out) facts.emplace_back(what, typeset(why));
+  for (const auto& [what, why] : left_out) facts.emplace_back(typeset(what), typeset(why));
   return section(fact_list(facts));
 }
 

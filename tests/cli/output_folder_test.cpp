@@ -52,6 +52,20 @@ TEST(OutputFolder, LosesTheResultBeforeItsFiles) {
   EXPECT_FALSE(fs::exists(folder / "out/result.json")) << "a result without its files";
 }
 
+// What is read or measured first would be lost.
+TEST(OutputFolder, IsRefusedBeforeAnythingIsDone) {
+  const fs::path folder = test::folder_with_tests();
+  fs::create_directories(folder / "full/of");
+  for (const char* command : {"import made/B0.csv", "porosity none.png"}) {
+    const auto answer = run_havers(folder, command + std::string(" -o full"));
+    EXPECT_EQ(answer.exit_code, 2);
+    EXPECT_EQ(answer.out, "") << command;
+    EXPECT_NE(answer.err.find("is not empty"), std::string::npos) << answer.err;
+  }
+  EXPECT_EQ(run_havers(folder, "import none.csv -o far/away/from/here").exit_code, 2);
+  EXPECT_FALSE(fs::exists(folder / "far"));
+}
+
 // Not even by --force: neither a scene and curves of the user's own, nor his result.
 TEST(OutputFolder, KeepsWhatNoRunHasWritten) {
   const fs::path folder = folder_with_scene();

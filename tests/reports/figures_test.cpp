@@ -46,6 +46,9 @@ TEST(Figure, IsAnSvgThatFillsItsContainer) {
   EXPECT_TRUE(contains(svg, "95 % of the replicates"));
   EXPECT_TRUE(contains(svg, "id='s0-gpDot'"));
   EXPECT_FALSE(contains(svg, "id='gpDot'"));
+  for (const char* own : {"<title>$", "<title>gnuplot"})
+    EXPECT_FALSE(contains(svg, own)) << "gnuplot's commands where the mouse rests";
+  EXPECT_TRUE(contains(svg, "<title>measured</title>"));
 }
 
 // Where points lie close to each other their names would lie on each other.

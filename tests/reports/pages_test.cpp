@@ -30,6 +30,7 @@ TEST(SimulationPage, PutsTheErrorBesideTheTime) {
       "12.3\u00a0s wall time, for a relative energy defect of 3.20 × 10⁻¹⁴, a residual of at most "
       "6.10 × 10⁻¹⁰"));
   EXPECT_LT(page.find("To be trusted"), page.find("<table"));
+  EXPECT_TRUE(contains(page, "time steps up to a strain of 3.978 × 10⁻⁶"));
 }
 
 TEST(SimulationPage, DoesNotTrustARunWhoseEnergyDoesNotClose) {

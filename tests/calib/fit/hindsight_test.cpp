@@ -75,6 +75,31 @@ TEST(Hindsight, KnowsWhichFurtherTestTellsMost) {
   EXPECT_LT(result.next_tests[1].width[ratio], 0.9);
 }
 
+// Not the weights, the draws of the bootstrap, nor the specimen that a further test is made from.
+TEST(Hindsight, IsTheSameForSpecimensInAnyOrder) {
+  auto study = test::synthetic_study({0.0, 45.0}, {.specimen_effect = 0.05});
+  study.specimens.push_back(study.specimens.front());
+  study.specimens.back().id = "A1";
+  study.specimens.back().test.modulus_standard_error *= 20.0;
+  for (auto& specimen : study.specimens) specimen.test.strain_rate = 1e-3;
+  const auto one = test::fit(study);
+  std::ranges::reverse(study.specimens);
+  const auto other = test::fit(study);
+  ASSERT_EQ(one.next_tests.size(), 4U);
+  ASSERT_EQ(other.next_tests.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(one.next_tests[i].what, other.next_tests[i].what);
+    EXPECT_EQ(one.next_tests[i].width, other.next_tests[i].width) << one.next_tests[i].what;
+  }
+  for (const char* name : {"young_GPa", "head_tail_MPa", "ratio"}) {
+    const auto here = test::parameter_of(one, name), there = test::parameter_of(other, name);
+    EXPECT_TRUE(here.bootstrap_missing.empty());
+    EXPECT_EQ(here.value, there.value) << name;
+    EXPECT_EQ(here.interval_95, there.interval_95) << name;
+    EXPECT_EQ(here.bootstrap_95, there.bootstrap_95) << name;
+  }
+}
+
 // Strength that follows the modulus would tell of it too; these tests are asked for the modulus
 // alone.
 TEST(Hindsight, ExpectsOfAFurtherTestWhatTheOthersAreAskedFor) {

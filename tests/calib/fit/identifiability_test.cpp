@@ -44,6 +44,11 @@ TEST(Identifiability, IsNotFooledByNoise) {
   };
   const auto result = calibrate_with(simulator, test::synthetic_study({0.0, 90.0}));
   EXPECT_FALSE(test::parameter_of(result, "ratio").identifiable);
+  EXPECT_NE(
+      test::parameter_of(result, "ratio").left_out_because.find("calibrate.options.replicates"),
+      std::string::npos)
+      << "a large effect by chance is not \"no more than\": "
+      << test::parameter_of(result, "ratio").left_out_because;
   EXPECT_TRUE(test::parameter_of(result, "head_tail_MPa").identifiable);
 }
 

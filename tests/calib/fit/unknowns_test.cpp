@@ -79,6 +79,17 @@ TEST(Unknowns, GiveAHeldOutSpecimenItsGroupWhereverItIsListed) {
   EXPECT_NEAR(*value_at(unknowns, point, info, 3), 20.0, 1e-12);
 }
 
+// Their logarithms do not come back as the same numbers: exp(log 12) is more than 12.
+TEST(Unknowns, EndAtTheBoundsAsTheStudyGivesThem) {
+  auto study = test::synthetic_study({0.0, 90.0});
+  study.calibrate.parameters = {"young_GPa"};
+  study.calibrate.bounds["young_GPa"] = {0.1, 12.0};
+  const auto young = test::parameter_of(test::fit(study), "young_GPa");
+  EXPECT_EQ(young.bounds, (std::array{0.1, 12.0}));
+  EXPECT_TRUE(young.at_bound);
+  EXPECT_EQ(young.value, 12.0);
+}
+
 TEST(Unknowns, OfAutoLeaveTheScatterToWhatPorosityTells) {
   Study study;
   study.specimens.push_back({.id = "A"});
