@@ -29,9 +29,15 @@ struct Branch {
   double force_tolerance = 0.0;  // [N/m]
 };
 
-// So many changes for every joint, and the path leads nowhere: those that arrive on the way down
-// take fewer, but for a few; those that turn back a third.
-constexpr int most_changes_down = 5, most_changes_with_turns = 100;
+// How a path is followed: what is nothing, and after how many changes for every joint it leads
+// nowhere. Those that arrive on the way down take fewer than 5, but for a few.
+struct Way {
+  double part;
+  bool may_turn = false;
+  int most_changes = 5;
+};
+constexpr int most_changes_where_it_arrives = 100;
+constexpr double no_answer = 1e-8;  // least residual of the law
 
 // Of the answers on the way, and of the last one where it is not solved for anew.
 constexpr double accuracy_on_the_way = 1e-11, accuracy_of_answer = 1e-13;
@@ -159,19 +165,18 @@ bool turns(const StateSystem& system, const Branch& branch, const Change& back, 
 }
 
 LocalContactResult follow(StateSystem& system, StateSolution known, const VectorXd& extra,
-                          double part, bool may_turn) {
+                          const Way& way) {
   LocalContactResult result;
   Course course;
   std::set<std::pair<States, double>> met;  // at this λ, and the way on
   std::optional<Change> back;               // of the last change
-  const int most = (may_turn ? most_changes_with_turns : most_changes_down) *
-                   (1 + static_cast<int>(system.states().size()));
+  const int most = way.most_changes * (1 + static_cast<int>(system.states().size()));
   while (result.iterations < most) {
     ++result.iterations;
-    Branch branch = solve_branch(system, std::move(known), extra, part);
+    Branch branch = solve_branch(system, std::move(known), extra, way.part);
     result.y = branch.y.col(0);
     if (!branch.y.allFinite()) break;
-    if (may_turn && back &&
+    if (way.may_turn && back &&
         turns(system, branch, *back, extra(static_cast<Index>(back->joint)), course))
       course.way = -course.way;
     Change next;
@@ -206,16 +211,23 @@ LocalContactResult follow_release(StateSystem& system, const VectorXd& extra,
   int spent = 0;
   for (const double part : nothing) {
     system.set(start);
-    result = follow(system, known, extra, part, false);
+    result = follow(system, known, extra, {.part = part});
     spent += result.iterations;
     if (result.converged) break;
+  }
+  if (!result.converged || law_residual_of(system.problem(), result.y) > no_answer) {
+    system.set(start);
+    result = follow(system, known, extra, {.part = nothing.front(), .may_turn = true});
+    spent += result.iterations;
   }
   result.iterations = spent;
   return result;
 }
 
 LocalContactResult follow_release_with_turns(StateSystem& system, const VectorXd& extra) {
-  return follow(system, {}, extra, nothing.front(), true);
+  return follow(
+      system, {}, extra,
+      {.part = nothing.front(), .may_turn = true, .most_changes = most_changes_where_it_arrives});
 }
 
 }  // namespace havers::sim

@@ -17,8 +17,8 @@ constexpr int corrections = 5;
 constexpr double accuracy_of_solve = 1e-13;
 constexpr double shrinkage = 0.5;  // by a correction, without which rounding is all that is left
 // A bordered factor that leaves more of the reactions than this, and more than rounding leaves of
-// those by the gaps, is made anew.
-constexpr double tolerated = 1e-10, rounding_of_gaps = 1e-15;
+// those by the gaps, a sum of so many, is made anew.
+constexpr double tolerated = 1e-10, rounding_of_gaps = 1.5e-16;
 // A border costs its cube, a factor that of all equations: so many, and a tenth of these.
 constexpr std::size_t borders_at_least = 4;
 
@@ -190,9 +190,9 @@ StateSolution StateSystem::solve_from(StateSolution known, const MatrixXd& r0, c
   StateSolution found = known;
   correct(found, held, cohesion, load, accuracy);
   if (borders_.empty()) return found;
-  const double lacks = lacking(found.r, cohesion).norm();
-  if (lacks <= tolerated * found.r.norm() + rounding_of_gaps * scale() * found.y.norm())
-    return found;
+  const double lacks = lacking(found.r, cohesion).norm(),
+               rounding = rounding_of_gaps * std::sqrt(static_cast<double>(found.y.rows()));
+  if (lacks <= tolerated * found.r.norm() + rounding * scale() * found.y.norm()) return found;
   factorise();
   correct(known, held, cohesion, load, accuracy);
   return known;

@@ -202,21 +202,15 @@ TEST(LocalContact, FindsTheSlidingJointThatSetsCycleAround) {
 // With μ above the wedging limit the path turns back, and goes on where λ grows.
 TEST(ReleasePath, ArrivesWithItsTurnsWhateverTheFriction) {
   for (const int joints : {1, 3, 12, 30})
-    for (const double friction : {0.3, 1.0, 5.0, 20.0}) {
-      int turned = 0;
+    for (const double friction : {0.3, 1.0, 5.0, 20.0})
       for (unsigned seed = 1; seed <= 100; ++seed) {
         const LocalContact problem = test::random_contact(joints, friction, seed);
-        turned += release_from_sticking(problem).converged ? 0 : 1;
         StateSystem system(problem);
         const double extra = sticking_cohesion(problem).maxCoeff();
         const auto result = follow_release_with_turns(system, VectorXd::Constant(joints, extra));
         ASSERT_TRUE(result.converged) << joints << ", " << friction << ", " << seed;
         EXPECT_TRUE(test::keeps_law(problem, result.y, 1e-9)) << seed;
       }
-      if (friction > 1.0) {
-        EXPECT_GT(turned, 0);
-      }
-    }
 }
 
 TEST(ReleasePath, StartsWhereEveryJointSticks) {
