@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <set>
 #include <string>
 
 #include "sim/joint/thresholds.hpp"
@@ -255,40 +253,6 @@ TEST(Simulate, KnowsNoDifferenceBetweenNoAngleAndNextToNone) {
   const Simulation straight = simulate(test::small_scene(0.0, 4, 3)),
                    turned = simulate(test::small_scene(1e-6, 4, 3));
   EXPECT_NEAR(turned.modulus / straight.modulus, 1.0, 1e-9);
-}
-
-TEST(SimulationStatus, HasAWordAndASentenceEach) {
-  std::set<std::string> words, sentences;
-  for (const SimulationStatus status :
-       {SimulationStatus::broken, SimulationStatus::strain_limit, SimulationStatus::step_limit,
-        SimulationStatus::not_determined, SimulationStatus::not_converged,
-        SimulationStatus::not_finite, SimulationStatus::cancelled}) {
-    words.insert(to_string(status));
-    sentences.insert(explain(status));
-  }
-  EXPECT_THAT(words, testing::ElementsAre("broken", "cancelled", "not_converged", "not_determined",
-                                          "not_finite", "step_limit", "strain_limit"));
-  EXPECT_EQ(sentences.size(), 7U);
-  EXPECT_THAT(explain(SimulationStatus::strain_limit), HasSubstr("lower bound"));
-}
-
-TEST(Simulation, IsNotTrustedUnlessItsChecksHold) {
-  Simulation simulation;
-  EXPECT_FALSE(simulation.trusted());  // pessimistic at first
-  simulation.status = SimulationStatus::broken;
-  EXPECT_TRUE(simulation.trusted());
-  simulation.energy_defect = 1e-6;
-  EXPECT_FALSE(simulation.trusted());
-  simulation.energy_defect = 0.0;
-  simulation.tolerance = 1e-8;
-  simulation.worst_residual = 1e-8;
-  EXPECT_TRUE(simulation.trusted());
-  simulation.worst_residual = 2e-8;
-  EXPECT_FALSE(simulation.trusted());
-  simulation.worst_residual = 0.0;
-  EXPECT_TRUE(simulation.trusted());
-  simulation.step_error = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("not known"));
 }
 
 TEST(Simulate, SaysThatTheErrorOfAGivenStepIsNotKnown) {
