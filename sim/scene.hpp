@@ -91,7 +91,7 @@ enum class ContactMethod { automatic, active_set, gauss_seidel };
 struct SolverOptions {
   Regime regime = Regime::automatic;
   std::optional<double> step;   ///< h; omitted: chosen, and said. [s]
-  double step_accuracy = 1e-3;  ///< Of the failure strain, where the step is chosen. [-]
+  double step_accuracy = 1e-3;  ///< Of failure strain and strength by the chosen step. [-]
   ContactMethod contact = ContactMethod::automatic;
   double tolerance = 1e-8;     ///< Largest relative residual (M11). [-]
   int max_iterations = 10000;  ///< Of a contact solver in one step.

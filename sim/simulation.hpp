@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -54,6 +55,13 @@ struct LeftOut {
   std::string what, why;
 };
 
+/// Relative changes, NaN when the step was never halved. [-]
+struct StepError {
+  double failure_strain = 0.0, strength = 0.0;
+
+  [[nodiscard]] double largest() const { return std::max(failure_strain, strength); }
+};
+
 /// A finished simulation. Whatever the status, the curve holds what was computed.
 struct Simulation {
   SimulationStatus status = SimulationStatus::not_converged;
@@ -71,9 +79,9 @@ struct Simulation {
   double first_break_strain = 0.0;  ///< NaN when nothing broke. [-]
   int broken_joints = 0;
 
-  /// Change of the failure strain by the last halving of a chosen step, NaN when it was never
-  /// halved; 0 in the quasi-static limit, none where the step was given. [-]
-  std::optional<double> step_error = 0.0;
+  /// What the last halving of a chosen step changed; 0 in the quasi-static limit, none where the
+  /// step was given.
+  std::optional<StepError> step_error = StepError{};
   double leapt_strain = 0.0;    ///< What was stretched without steps, before the first break. [-]
   int steps = 0;                ///< Time steps, or events of the quasi-static sequence.
   long iterations = 0;          ///< Of the contact solver, all steps together.

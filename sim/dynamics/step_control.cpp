@@ -19,10 +19,11 @@ constexpr int most_steps = 4000;
 
 std::string ground_of(const Simulation& run, double accuracy) {
   std::string halved;
-  if (!std::isnan(*run.step_error))
-    halved = fmt::format(": halving to it changed the failure strain by {:.2g} %",
-                         100.0 * *run.step_error);
-  if (*run.step_error > accuracy)
+  if (!std::isnan(run.step_error->failure_strain))
+    halved = fmt::format(
+        ": halving to it changed the failure strain by {:.2g} % and the strength by {:.2g} %",
+        100.0 * run.step_error->failure_strain, 100.0 * run.step_error->strength);
+  if (run.step_error->largest() > accuracy)
     halved += fmt::format(", more than the {:g} % asked for", 100.0 * accuracy);
   return fmt::format("; the step of {:.3g} ns is chosen{}", 1e9 * run.step, halved);
 }
@@ -44,16 +45,17 @@ double first_step(const Scene& scene) {
 Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer) {
   Stepping stepping{.step = first_step(scene), .leap = may_leap(scene)};
   Simulation run;
-  double before = std::numeric_limits<double>::quiet_NaN();
+  run.failure_strain = run.strength = std::numeric_limits<double>::quiet_NaN();
   int agreed = 0;
   for (int halving = 0; halving <= most_halvings; ++halving) {
+    const double strain = run.failure_strain, strength = run.strength;  // with twice the step
     run = run_in_steps(scene, stepping, observer);
     summarise(run);
-    run.step_error = std::abs(run.failure_strain - before) / run.failure_strain;
-    agreed = *run.step_error < 0.5 * scene.solver.step_accuracy ? agreed + 1 : 0;
+    run.step_error = {std::abs(run.failure_strain - strain) / run.failure_strain,
+                      std::abs(run.strength - strength) / run.strength};
+    agreed = run.step_error->largest() < 0.5 * scene.solver.step_accuracy ? agreed + 1 : 0;
     if (!has_ended(run) || agreed == 2) break;
     if (halving > 0 && 2 * run.steps > most_steps) break;
-    before = run.failure_strain;
     stepping.step *= 0.5;
   }
   run.regime_ground = ground_of(run, scene.solver.step_accuracy);

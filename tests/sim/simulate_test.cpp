@@ -131,6 +131,7 @@ TEST(Simulate, SaysWhenForcesAreNotDetermined) {
       Scene scene = test::small_scene(0.0, layers, 1);
       scene.solver.regime = regime;
       scene.solver.step = 2e-8;
+      scene.loading.strain_rate = 1000.0;
       const Simulation simulation = simulate(scene);
       EXPECT_EQ(simulation.status, SimulationStatus::not_determined) << layers;
       EXPECT_FALSE(simulation.trusted());
@@ -261,11 +262,11 @@ TEST(Simulate, SaysThatTheErrorOfAGivenStepIsNotKnown) {
   scene.loading.strain_rate = 1000.0;
   scene.solver.step = 1e-8;
   const Simulation run = simulate(scene);
-  EXPECT_EQ(run.step_error, std::nullopt);
+  EXPECT_FALSE(run.step_error.has_value());
   EXPECT_THAT(run.regime_ground, HasSubstr("its error is not known"));
   scene.solver.step.reset();
   scene.solver.regime = Regime::quasi_static;
-  EXPECT_EQ(simulate(scene).step_error, 0.0);
+  EXPECT_EQ(simulate(scene).step_error.value().largest(), 0.0);
 }
 
 }  // namespace

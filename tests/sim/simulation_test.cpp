@@ -42,7 +42,11 @@ TEST(Simulation, IsNotTrustedUnlessItsChecksHold) {
   EXPECT_FALSE(simulation.trusted());
   simulation.worst_residual = 0.0;
   EXPECT_TRUE(simulation.trusted());
-  simulation.step_error = std::numeric_limits<double>::quiet_NaN();
+  simulation.step_error = StepError{.strength = 0.025};
+  EXPECT_TRUE(simulation.trusted());
+  simulation.step_error = StepError{.strength = 0.035};
+  EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("still changes the strength"));
+  simulation.step_error = StepError{std::numeric_limits<double>::quiet_NaN(), 0.0};
   EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("not known"));
 }
 
