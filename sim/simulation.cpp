@@ -34,11 +34,10 @@ std::string explain(SimulationStatus status) {
              "bound";
     case SimulationStatus::step_limit:
       return "ten million time steps were taken before the specimen broke; a rate that is higher, "
-             "a "
-             "smaller max_strain or the quasi-static regime takes fewer";
+             "a smaller max_strain or the quasi-static regime takes fewer";
     case SimulationStatus::not_determined:
-      return "more than one set of joint forces bears the load, as where fibres reach from end to "
-             "end; more fibres in a layer leave one";
+      return "more than one set of joint forces bears the load, as where nearly all fibres reach "
+             "from end to end; more fibres in a layer leave one";
     case SimulationStatus::not_converged:
       return "a step's residual stayed above the tolerance";
     case SimulationStatus::not_finite:

@@ -123,19 +123,19 @@ TEST(Simulate, SaysWhenAStepDidNotConverge) {
   EXPECT_GT(simulation.worst_residual, scene.solver.tolerance);
 }
 
-// Where fibres reach from end to end, three and more layers can bear forces between their joints
+// Where nearly every fibre reaches from end to end, many layers can bear forces between their joints
 // that no load asks for.
 TEST(Simulate, SaysWhenForcesAreNotDetermined) {
-  for (const int layers : {3, 4, 5, 6, 7, 10, 12, 100})
-    for (const Regime regime : {Regime::quasi_static, Regime::dynamic}) {
-      Scene scene = test::small_scene(0.0, layers, 1);
-      scene.solver.regime = regime;
-      scene.solver.step = 2e-8;
-      scene.loading.strain_rate = 1000.0;
-      const Simulation simulation = simulate(scene);
-      EXPECT_EQ(simulation.status, SimulationStatus::not_determined) << layers;
-      EXPECT_FALSE(simulation.trusted());
-    }
+  for (const Regime regime : {Regime::quasi_static, Regime::dynamic}) {
+    Scene scene = test::small_scene(5.0, 300, 1);
+    scene.solver.regime = regime;
+    scene.solver.step = 2e-8;
+    scene.loading.strain_rate = 1000.0;
+    ASSERT_TRUE(scene.problems().empty());
+    const Simulation simulation = simulate(scene);
+    EXPECT_EQ(simulation.status, SimulationStatus::not_determined);
+    EXPECT_FALSE(simulation.trusted());
+  }
 }
 
 TEST(Simulate, SaysWhenANumberLeftItsRange) {
