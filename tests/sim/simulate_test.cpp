@@ -123,8 +123,8 @@ TEST(Simulate, SaysWhenAStepDidNotConverge) {
   EXPECT_GT(simulation.worst_residual, scene.solver.tolerance);
 }
 
-// Where nearly every fibre reaches from end to end, many layers can bear forces between their joints
-// that no load asks for.
+// Where nearly every fibre reaches from end to end, many layers can bear forces between their
+// joints that no load asks for.
 TEST(Simulate, SaysWhenForcesAreNotDetermined) {
   for (const Regime regime : {Regime::quasi_static, Regime::dynamic}) {
     Scene scene = test::small_scene(5.0, 300, 1);
