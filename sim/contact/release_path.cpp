@@ -107,11 +107,11 @@ Change next_change(const StateSystem& system, const Branch& branch, std::size_t 
     if (at >= 0.0 && (first.at < 0.0 || course.way * at < course.way * first.at))
       first = {at, joint, to};
   };
-  const auto row = static_cast<Index>(2 * joint) + 1;
-  const bool forward = branch.u(row, 0) + course.lambda * branch.u(row, 1) >= 0.0;
+  const auto slip = branch.u.row(static_cast<Index>(2 * joint) + 1);
   switch (system.states()[joint]) {
     case JointState::open:
-      consider(forward ? JointState::slip_forward : JointState::slip_backward);
+      consider(JointState::slip_forward);
+      if (slip(0) + first.at * slip(1) < 0.0) first.to = JointState::slip_backward;
       break;
     case JointState::stick:
       consider(JointState::slip_backward);
