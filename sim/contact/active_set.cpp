@@ -33,9 +33,8 @@ int bearing(const JointStep& step) {
 
 }  // namespace
 
-ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, int max_iterations, bool detach_open)
+ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, bool detach_open)
     : bodies_(&bodies),
-      max_iterations_(max_iterations),
       detach_open_(detach_open),
       structure_(bodies),
       loose_(structure_),
@@ -81,7 +80,7 @@ bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded
     contact.laws.push_back(step.laws[static_cast<std::size_t>(joint)]);
     states.push_back(result.states[static_cast<std::size_t>(joint)]);
   }
-  const LocalContactResult local = solve_local_contact(contact, states, max_iterations_);
+  const LocalContactResult local = solve_local_contact(contact, states);
   result.iterations += local.iterations;
   y = local.y;
   for (Index i = 0; i < n && local.converged; ++i)

@@ -15,7 +15,7 @@ class ActiveSetSolver : public JointSolver {
  public:
   /// @param detach_open  false: broken joints stay in the factor for good (section 7, for
   /// comparison).
-  ActiveSetSolver(const Bodies& bodies, int max_iterations, bool detach_open = true);
+  explicit ActiveSetSolver(const Bodies& bodies, bool detach_open = true);
   JointStepResult solve(const JointStep& step) override;
   [[nodiscard]] bool determined() const override { return structure_.ok(); }
 
@@ -34,7 +34,6 @@ class ActiveSetSolver : public JointSolver {
   bool reattach_closed(const JointStepResult& result);
 
   const Bodies* bodies_;
-  int max_iterations_;
   bool detach_open_;
   Structure structure_;  // holds all but the joints that opened for good
   LooseJoints loose_;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <set>
 
-#include "sim/contact/given_friction.hpp"
 #include "sim/contact/release_path.hpp"
 #include "sim/contact/state_system.hpp"
 
@@ -22,16 +21,10 @@ constexpr double rounding = 1e-12;
 // Residual of the law above which states that agree with their answer are none: nothing holds a
 // piece.
 constexpr double nearly_met = 1e-8;
-constexpr int sets_at_once = 3;  // that follow from each other, before a better one is looked for
-// Where more are loose, a start that is far from the answer takes longer than none, and springs
-// hold nothing in the time there is.
-constexpr std::size_t few_joints = 100;
-constexpr int searches = 6;  // by sweeps, before the release path is taken
-constexpr int sweeps_of_search = 200;
+constexpr int sets_at_once = 3;  // that follow from each other, before the release path is taken
 // Of springs that hold joints, parts of the largest stiffness; each is tried with so many answers.
 constexpr std::array<double, 5> springs{1e-11, 1e-10, 1e-9, 1e-8, 1e-7};
 constexpr int times_moved = 8;
-constexpr int calm = 10;  // sweeps without a change of state, after which the set is worth a solve
 
 States states_of(const LocalContact& p, const VectorXd& y, const States& now) {
   const VectorXd r = p.r0 + p.S * y, u = p.u0 + y;
@@ -100,29 +93,6 @@ SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, cons
 
 namespace {
 
-// (C4). States and gaps by sweeps over the joints, until the states stay; returns the sweeps spent.
-int gauss_seidel(const LocalContact& p, VectorXd& y, States& states, int max_sweeps) {
-  VectorXd r = p.r0 + p.S * y;
-  int quiet = 0, sweep = 0;
-  while (sweep < max_sweeps && quiet < calm) {
-    ++sweep;
-    ++quiet;
-    for (std::size_t i = 0; i < p.laws.size(); ++i) {
-      if (p.is_apart(i)) continue;
-      const auto row = static_cast<Index>(2 * i);
-      const Eigen::Matrix2d S = p.S.block<2, 2>(row, row);
-      const Local old = y.segment<2>(row);
-      const SingleJoint found =
-          solve_single_joint(S, r.segment<2>(row) - S * old, p.u0.segment<2>(row), p.laws[i]);
-      r += p.S.middleCols<2>(row) * (found.y - old);
-      y.segment<2>(row) = found.y;
-      if (found.state != states[i]) quiet = 0;
-      states[i] = found.state;
-    }
-  }
-  return sweep;
-}
-
 // What the answer to some states makes of them; nothing where there is no answer.
 States answered(const LocalContact& p, LocalContactResult& result) {
   ++result.iterations;
@@ -145,53 +115,24 @@ LocalContactResult try_sets(const LocalContact& p, States states) {
   return result;
 }
 
-LocalContactResult solve_as_it_is(const LocalContact& problem, States states, int max_iterations) {
-  LocalContactResult result;
-  int spent = 0;
-  const auto try_from = [&](States found) {
-    result = try_sets(problem, std::move(found));
-    spent += result.iterations;
-  };
-  try_from(std::move(states));
-  const auto try_given_friction = [&](const VectorXd& start) {
-    if (result.converged) return;
-    StatesOfGivenFriction found = states_by_given_friction(problem, start);
-    spent += found.iterations;
-    if (!found.states.empty()) try_from(std::move(found.states));
-  };
-  const VectorXd zero = VectorXd::Zero(problem.u0.size());
-  const bool from_answer = problem.laws.size() <= few_joints && result.y.allFinite();
-  try_given_friction(from_answer ? VectorXd(problem.u0 + result.y) : zero);
-  for (int i = 0; i < searches && !result.converged; ++i) {
-    if (!result.y.allFinite()) result.y.setZero();
-    spent +=
-        gauss_seidel(problem, result.y, result.states, std::min(max_iterations, sweeps_of_search));
-    try_from(std::move(result.states));
-  }
-  if (from_answer) try_given_friction(zero);
-  if (!result.converged) {
-    States stuck(problem.laws.size(), JointState::stick);
-    for (std::size_t i = 0; i < stuck.size(); ++i)
-      if (problem.is_apart(i)) stuck[i] = JointState::open;
-    StateSystem system(problem, stuck);
-    const VectorXd extra = cohesion_to_stick(problem.r0 - problem.S * problem.u0, problem.laws);
-    result = follow_release(system, extra);
-    spent += result.iterations;
-    if (!result.converged) {
-      system.set(stuck);
-      result =
-          follow_release_with_turns(system, VectorXd::Constant(extra.size(), extra.maxCoeff()));
-      spent += result.iterations;
-    }
-  }
-  result.iterations = spent;
+// Sets from the last one on, or else the release path.
+LocalContactResult solve_as_it_is(const LocalContact& problem, States states) {
+  LocalContactResult result = try_sets(problem, std::move(states));
+  if (result.converged) return result;
+  States stuck(problem.laws.size(), JointState::stick);
+  for (std::size_t i = 0; i < stuck.size(); ++i)
+    if (problem.is_apart(i)) stuck[i] = JointState::open;
+  StateSystem system(problem, stuck);
+  const VectorXd enough = cohesion_to_stick(problem.r0 - problem.S * problem.u0, problem.laws);
+  const int spent = result.iterations;
+  result = follow_release(system, VectorXd::Constant(enough.size(), enough.maxCoeff()));
+  result.iterations += spent;
   return result;
 }
 
 // (C10). Joints held by springs where the last answer has left them, until these bear nothing, or
 // no less than what rounding leaves on a piece that hangs on nothing.
-LocalContactResult solve_with_springs(const LocalContact& problem, const States& states,
-                                      int max_iterations) {
+LocalContactResult solve_with_springs(const LocalContact& problem, const States& states) {
   LocalContactResult best;
   double least = nearly_met;
   int spent = 0;
@@ -201,7 +142,7 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
     held.S.diagonal().array() += stiffness;
     LocalContactResult result{.states = states};
     for (int i = 0; i < times_moved && least > law_is_met; ++i) {
-      result = solve_as_it_is(held, std::move(result.states), max_iterations);
+      result = solve_as_it_is(held, std::move(result.states));
       spent += result.iterations;
       if (!result.converged) break;
       const double residual = law_residual_of(problem, result.y);
@@ -217,13 +158,11 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
 
 }  // namespace
 
-LocalContactResult solve_local_contact(const LocalContact& problem,
-                                       const std::vector<JointState>& states, int max_iterations) {
+LocalContactResult solve_local_contact(const LocalContact& problem, const States& states) {
   if (states.empty()) return {.converged = true, .y = {}, .states = {}, .iterations = 0};
-  LocalContactResult result = solve_as_it_is(problem, states, max_iterations);
-  const bool solved = result.converged && law_residual_of(problem, result.y) <= nearly_met;
-  if (solved || states.size() > few_joints) return result;
-  LocalContactResult held = solve_with_springs(problem, states, max_iterations);
+  LocalContactResult result = solve_as_it_is(problem, states);
+  if (result.converged && law_residual_of(problem, result.y) <= nearly_met) return result;
+  LocalContactResult held = solve_with_springs(problem, states);
   held.iterations += result.iterations;
   if (held.converged) return held;
   result.iterations = held.iterations;

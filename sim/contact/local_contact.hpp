@@ -66,10 +66,8 @@ SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, cons
                                const JointLaw& law);
 
 /// Active set started from `states`: each set is one linear solve (C2). Where sets do not lead to
-/// each other, convex problems (C7), then sweeps over the joints, each solved alone (C3), find a
-/// better one (C4). Where that ends nowhere, the release of cohesion is followed (C5), at last with
-/// all its turns (C9).
+/// each other, the release of cohesion from all joints sticking (C5).
 LocalContactResult solve_local_contact(const LocalContact& problem,
-                                       const std::vector<JointState>& states, int max_iterations);
+                                       const std::vector<JointState>& states);
 
 }  // namespace havers::sim

@@ -19,9 +19,12 @@ using Eigen::VectorXd;
 using States = std::vector<JointState>;
 
 // Part of the largest free reaction below which a force, or a gap times its stiffness, is nothing.
-// Pieces that carry nothing must not change their minds about contacts without a force: where they
-// do, the next larger part is taken.
-constexpr std::array<double, 3> nothing{1e-10, 1e-8, 1e-6};
+// Pieces that carry nothing must not change their minds about contacts without a force.
+constexpr double nothing = 1e-10;
+// After so many changes for every joint a path leads nowhere.
+constexpr int most_changes = 100;
+// Of the answers on the way, and of the last one where it is not solved for anew.
+constexpr double accuracy_on_the_way = 1e-11, accuracy_of_answer = 1e-13;
 
 // The solution for given states: value at λ = 0 (column 0) and slope (column 1).
 struct Branch {
@@ -29,20 +32,7 @@ struct Branch {
   double force_tolerance = 0.0;  // [N/m]
 };
 
-// How a path is followed: what is nothing, and after how many changes for every joint it leads
-// nowhere. Those that arrive on the way down take fewer than 5, but for a few.
-struct Way {
-  double part;
-  bool may_turn = false;
-  int most_changes = 5;
-};
-constexpr int most_changes_where_it_arrives = 100;
-constexpr double no_answer = 1e-8;  // least residual of the law
-
-// Of the answers on the way, and of the last one where it is not solved for anew.
-constexpr double accuracy_on_the_way = 1e-11, accuracy_of_answer = 1e-13;
-
-Branch solve_branch(StateSystem& system, StateSolution known, const VectorXd& extra, double part) {
+Branch solve_branch(StateSystem& system, StateSolution known, const VectorXd& extra) {
   const LocalContact& p = system.problem();
   const auto n = static_cast<Index>(p.laws.size());
   MatrixXd r0 = MatrixXd::Zero(2 * n, 2), u0 = MatrixXd::Zero(2 * n, 2), cohesion(n, 2);
@@ -54,7 +44,7 @@ Branch solve_branch(StateSystem& system, StateSolution known, const VectorXd& ex
       system.solve_from(std::move(known), r0, -u0, cohesion, accuracy_on_the_way);
   u0 += solution.y;
   return {std::move(solution.y), std::move(solution.r), std::move(u0),
-          part * p.r0.lpNorm<Eigen::Infinity>()};
+          nothing * p.r0.lpNorm<Eigen::Infinity>()};
 }
 
 // Where the path is, and which way λ goes on from there: down, or up where the path turns back.
@@ -164,20 +154,20 @@ bool turns(const StateSystem& system, const Branch& branch, const Change& back, 
   return course.way * condition(system, branch, back, extra)(1) < -branch.force_tolerance;
 }
 
-LocalContactResult follow(StateSystem& system, StateSolution known, const VectorXd& extra,
-                          const Way& way) {
+}  // namespace
+
+LocalContactResult follow_release(StateSystem& system, const VectorXd& extra, StateSolution known) {
   LocalContactResult result;
   Course course;
   std::set<std::pair<States, double>> met;  // at this λ, and the way on
   std::optional<Change> back;               // of the last change
-  const int most = way.most_changes * (1 + static_cast<int>(system.states().size()));
+  const int most = most_changes * (1 + static_cast<int>(system.states().size()));
   while (result.iterations < most) {
     ++result.iterations;
-    Branch branch = solve_branch(system, std::move(known), extra, way.part);
+    Branch branch = solve_branch(system, std::move(known), extra);
     result.y = branch.y.col(0);
     if (!branch.y.allFinite()) break;
-    if (way.may_turn && back &&
-        turns(system, branch, *back, extra(static_cast<Index>(back->joint)), course))
+    if (back && turns(system, branch, *back, extra(static_cast<Index>(back->joint)), course))
       course.way = -course.way;
     Change next;
     for (std::size_t j = 0; j < system.states().size(); ++j) {
@@ -200,34 +190,6 @@ LocalContactResult follow(StateSystem& system, StateSolution known, const Vector
   }
   result.states = system.states();
   return result;
-}
-
-}  // namespace
-
-LocalContactResult follow_release(StateSystem& system, const VectorXd& extra,
-                                  const StateSolution& known) {
-  const States start = system.states();
-  LocalContactResult result;
-  int spent = 0;
-  for (const double part : nothing) {
-    system.set(start);
-    result = follow(system, known, extra, {.part = part});
-    spent += result.iterations;
-    if (result.converged) break;
-  }
-  if (!result.converged || law_residual_of(system.problem(), result.y) > no_answer) {
-    system.set(start);
-    result = follow(system, known, extra, {.part = nothing.front(), .may_turn = true});
-    spent += result.iterations;
-  }
-  result.iterations = spent;
-  return result;
-}
-
-LocalContactResult follow_release_with_turns(StateSystem& system, const VectorXd& extra) {
-  return follow(
-      system, {}, extra,
-      {.part = nothing.front(), .may_turn = true, .most_changes = most_changes_where_it_arrives});
 }
 
 }  // namespace havers::sim

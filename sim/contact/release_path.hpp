@@ -8,19 +8,14 @@ namespace havers::sim {
 
 /// Follows the solution with cohesions c + λ e from λ = 1, where the system's states hold, to λ = 0
 /// (C5). For given states the solution is linear in λ; one joint changes its state at a time, where
-/// its condition says so. Where that ends nowhere, as friction allows, the path is followed again,
-/// with growing λ where it turns back. Not converged when it still ends elsewhere, or where pieces
-/// that carry nothing change their minds without end.
+/// its condition says so. Where friction turns the path back, it goes on with growing λ until it
+/// turns down again. Where all joints stick at first and have an e > 0, that is the only solution
+/// for large λ, so that the path can end at λ = 0 only; else it may end elsewhere, not converged.
 /// @param extra  e of each joint, n. [N/m]
 /// @param known  gaps and reactions as they are with these states, if there is an answer: at λ = 0
 /// and by λ, a column each
 LocalContactResult follow_release(StateSystem& system, const Eigen::VectorXd& extra,
-                                  const StateSolution& known = {});
-
-/// The same with turns from the start (C9). All joints have to stick, and to have an e > 0: for
-/// large λ that is the only solution, so that the path cannot end but at λ = 0. It may be a hundred
-/// times as long, and the answer far from the last.
-LocalContactResult follow_release_with_turns(StateSystem& system, const Eigen::VectorXd& extra);
+                                  StateSolution known = {});
 
 /// Gaps of the system's states. A piece that hangs on next to nothing may lie anywhere: if not
 /// where equations solved from nothing leave it, then where they are met nearest to a known answer.

@@ -19,7 +19,7 @@ namespace {
 std::unique_ptr<JointSolver> make_solver(const SolverOptions& options, const Bodies& bodies) {
   if (options.contact == ContactMethod::gauss_seidel && !bodies.assembly().joints.empty())
     return std::make_unique<GaussSeidelSolver>(bodies, options.tolerance, options.max_iterations);
-  return std::make_unique<ActiveSetSolver>(bodies, options.max_iterations, options.leave_out);
+  return std::make_unique<ActiveSetSolver>(bodies, options.leave_out);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ struct DirectAnswer {
 
 DirectAnswer solve_directly(const WallStep& wall) {
   constexpr int repeats = 20;
-  sim::ActiveSetSolver solver(wall.bodies, 10000);
+  sim::ActiveSetSolver solver(wall.bodies);
   DirectAnswer answer{solver.solve(wall.step)};
   const std::clock_t begin = std::clock();
   for (int i = 0; i < repeats; ++i) answer.result = solver.solve(wall.step);

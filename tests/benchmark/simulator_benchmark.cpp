@@ -26,7 +26,7 @@ void BondedStep(benchmark::State& state) {
   const Scene scene = contract_wall(state);
   const double strain = 0.5 * first_break_by_uniform_stress(scene);
   const test::WallStep wall(scene, strain, test::step_of(scene, 1.0));
-  ActiveSetSolver solver(wall.bodies, 1000);
+  ActiveSetSolver solver(wall.bodies);
   JointStepResult result;
   for (auto _ : state) benchmark::DoNotOptimize(result = solver.solve(wall.step));
   const Eigen::VectorXd exact = bonded_forces_at(scene, strain);  // (M1)

@@ -64,7 +64,7 @@ inline SteppedRun run_steps(const sim::Scene& scene, const sim::Assembly& assemb
   using Eigen::VectorXd;
   const double h = *scene.solver.step, speed = scene.loading.strain_rate * assembly.width;
   const sim::Bodies bodies(assembly, scene.material, {1.0 / (h * h), 1.0});
-  sim::ActiveSetSolver solver(bodies, scene.solver.max_iterations);
+  sim::ActiveSetSolver solver(bodies);
   VectorXd q = VectorXd::Zero(bodies.dofs());
   VectorXd v = scene.loading.strain_rate * uniform_field(assembly, scene.material.poisson);
   sim::JointStep step = intact_joints(thresholds);

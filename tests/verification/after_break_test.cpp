@@ -95,7 +95,7 @@ TEST_P(AnyStep, JointForcesAreThoseOfTheFullEquations) {
   }
   for (std::size_t j = 0; j < step.laws.size(); j += 10)  // sliding, together or apart
     step.predicted.segment<2>(static_cast<Index>(2 * j)) << (j % 20 == 0 ? -1e-8 : 1e-8), 2e-8;
-  const JointStepResult result = ActiveSetSolver(wall.bodies, 10000).solve(step);
+  const JointStepResult result = ActiveSetSolver(wall.bodies).solve(step);
   ASSERT_TRUE(result.converged);
   const auto count = [&](auto state) {
     return std::count_if(result.states.begin(), result.states.end(), state);

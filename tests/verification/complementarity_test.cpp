@@ -97,7 +97,7 @@ TEST_P(SmallWall, IsSolvedAsByEnumerationStatusForStatus) {
   const std::vector<VectorXd> solutions = test::all_solutions(problem);
   ASSERT_FALSE(solutions.empty());
 
-  ActiveSetSolver active_set(wall.bodies, 10000);
+  ActiveSetSolver active_set(wall.bodies);
   GaussSeidelSolver gauss_seidel(wall.bodies, 1e-10, 100000);
   for (JointSolver* solver : std::initializer_list<JointSolver*>{&active_set, &gauss_seidel}) {
     if (solver == &gauss_seidel && length > 1.0) continue;  // it is for short steps

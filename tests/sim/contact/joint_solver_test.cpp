@@ -25,10 +25,10 @@ struct Kind {
 };
 
 const Kind active_set{"ActiveSet", [](const Bodies& bodies) {
-                        return std::make_unique<ActiveSetSolver>(bodies, 1000);
+                        return std::make_unique<ActiveSetSolver>(bodies);
                       }};
 const Kind active_set_whole{"ActiveSetWithoutDetaching", [](const Bodies& bodies) {
-                              return std::make_unique<ActiveSetSolver>(bodies, 1000, false);
+                              return std::make_unique<ActiveSetSolver>(bodies, false);
                             }};
 const Kind gauss_seidel{"GaussSeidel", [](const Bodies& bodies) {
                           return std::make_unique<GaussSeidelSolver>(bodies, 1e-11, 200000);
