@@ -123,25 +123,41 @@ int gauss_seidel(const LocalContact& p, VectorXd& y, States& states, int max_swe
   return sweep;
 }
 
-// What the answer to some states makes of them; nothing where there is no answer.
-States answered(const LocalContact& p, LocalContactResult& result) {
-  ++result.iterations;
-  result.y = StateSystem(p, result.states).solve(p.r0, -p.u0, cohesions(p)).y;
-  if (!result.y.allFinite()) return {};
-  States wanted = states_of(p, result.y, result.states);
-  result.converged = wanted == result.states;
-  return wanted;
-}
-
 // A few sets, each made of the answer to the one before.
 LocalContactResult try_sets(const LocalContact& p, States states) {
   LocalContactResult result{.states = std::move(states)};
   std::set<States> tried;
   while (result.iterations < sets_at_once && tried.insert(result.states).second) {
-    States wanted = answered(p, result);
-    if (result.converged || wanted.empty()) break;
+    ++result.iterations;
+    result.y = StateSystem(p, result.states).solve(p.r0, -p.u0, cohesions(p)).y;
+    if (!result.y.allFinite()) break;
+    States wanted = states_of(p, result.y, result.states);
+    result.converged = wanted == result.states;
+    if (result.converged) break;
     result.states = std::move(wanted);
   }
+  return result;
+}
+
+// (C5) and (C9), from all joints sticking but those that are apart. These keep their cohesion, so
+// that λ changes nothing as long as the others stick.
+LocalContactResult release_all(const LocalContact& problem) {
+  States start(problem.laws.size(), JointState::stick);
+  VectorXd sticking = VectorXd::Ones(static_cast<Index>(start.size()));
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    if (!problem.is_apart(i)) continue;
+    start[i] = JointState::open;
+    sticking(static_cast<Index>(i)) = 0.0;
+  }
+  StateSystem system(problem, start);
+  const VectorXd reactions = system.solve(problem.r0, -problem.u0, cohesions(problem)).r;
+  const VectorXd extra = cohesion_to_stick(reactions, problem.laws).cwiseProduct(sticking);
+  LocalContactResult result = follow_release(system, extra);
+  if (result.converged) return result;
+  const int spent = result.iterations;
+  system.set(std::move(start));
+  result = follow_release_with_turns(system, extra.maxCoeff() * sticking);
+  result.iterations += spent;
   return result;
 }
 
@@ -170,19 +186,8 @@ LocalContactResult solve_as_it_is(const LocalContact& problem, States states, in
   }
   if (from_answer) try_given_friction(zero);
   if (!result.converged) {
-    States stuck(problem.laws.size(), JointState::stick);
-    for (std::size_t i = 0; i < stuck.size(); ++i)
-      if (problem.is_apart(i)) stuck[i] = JointState::open;
-    StateSystem system(problem, stuck);
-    const VectorXd extra = cohesion_to_stick(problem.r0 - problem.S * problem.u0, problem.laws);
-    result = follow_release(system, extra);
+    result = release_all(problem);
     spent += result.iterations;
-    if (!result.converged) {
-      system.set(stuck);
-      result =
-          follow_release_with_turns(system, VectorXd::Constant(extra.size(), extra.maxCoeff()));
-      spent += result.iterations;
-    }
   }
   result.iterations = spent;
   return result;

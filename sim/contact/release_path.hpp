@@ -17,9 +17,10 @@ namespace havers::sim {
 LocalContactResult follow_release(StateSystem& system, const Eigen::VectorXd& extra,
                                   const StateSolution& known = {});
 
-/// The same with turns from the start (C9). All joints have to stick, and to have an e > 0: for
-/// large λ that is the only solution, so that the path cannot end but at λ = 0. It may be a hundred
-/// times as long, and the answer far from the last.
+/// The same with turns from the start (C9). All joints have to stick, and to have an e > 0; those
+/// that are apart have none. For large λ that is the only solution, so that the path cannot end but
+/// at λ = 0, if no piece hangs on nothing. It may be a hundred times as long, and the answer far
+/// from the last.
 LocalContactResult follow_release_with_turns(StateSystem& system, const Eigen::VectorXd& extra);
 
 /// Gaps of the system's states. A piece that hangs on next to nothing may lie anywhere: if not
