@@ -186,17 +186,16 @@ std::vector<char> BreakingRun::apart() const {
 // does.
 LocalContactResult BreakingRun::or_better(LocalContactResult result) {
   double residual = law_residual_of(contact_, result.y);
-  const auto unless_solved = [&](const auto& solve) {
-    if (result.converged && residual <= scene_.solver.tolerance) return;
-    LocalContactResult other = solve();
+  if (!result.converged || !(residual <= scene_.solver.tolerance)) {
+    LocalContactResult other =
+        solve_local_contact(contact_, result.states, scene_.solver.max_iterations);
     iterations_ += other.iterations;
     const double of_other = law_residual_of(contact_, other.y);
-    if (result.converged && !(other.converged && of_other < residual)) return;
-    result = std::move(other);
-    residual = of_other;
-  };
-  unless_solved(
-      [&] { return solve_local_contact(contact_, result.states, scene_.solver.max_iterations); });
+    if (!result.converged || (other.converged && of_other < residual)) {
+      result = std::move(other);
+      residual = of_other;
+    }
+  }
   result.converged =
       result.converged && residual <= std::max(scene_.solver.tolerance, least_tolerance);
   return result;
