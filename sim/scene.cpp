@@ -189,7 +189,7 @@ void check_number_of_steps(const Scene& scene, Checker& checker) {
         fmt::format("is {:g}: where every step is taken, a strain of {:.2g} is {:.2g} steps "
                     "of {:.2g} s away",
                     scene.loading.strain_rate, strain, steps, step),
-        "start = \"uniform\" leaps to the first break");
+        "start = \"uniform\" with leave_out = true leaps to the first break");
 }
 
 // Needs a scene that is otherwise sound: it lays the assembly to count its joints.

@@ -134,14 +134,14 @@ std::optional<Omissions> omissions_of(const std::vector<BenchRow>& rows,
   const BenchRow &row = rows.back(), &before = rows[rows.size() - 2];
   if (row.setting == before.setting || without_omissions(row.setting) != before.setting) return {};
   if (row.trusted < row.runs || before.trusted + before.out_of_time < before.runs) return {};
-  const auto cpu_of_a_step = [](const BenchRow& of) {
-    return of.cpu.median / std::max(1.0, of.steps.median);
-  };
   Omissions omissions{.setting = row.setting,
                       .change = largest(errors_of(runs, runs_before)),
-                      .cpu_ratio = cpu_of_a_step(before) / cpu_of_a_step(row)};
+                      .cpu_ratio = before.cpu.median / row.cpu.median};
   if (!std::isfinite(omissions.change)) return {};
-  if (before.out_of_time > 0) omissions.until_strain = before.reached.low;
+  if (before.out_of_time > 0) {  // a run that was stopped has a CPU time of a step only
+    omissions.cpu_ratio *= row.steps.median / std::max(1.0, before.steps.median);
+    omissions.until_strain = before.reached.low;
+  }
   return omissions;
 }
 

@@ -46,8 +46,9 @@ struct CheapestSetting {
 struct Omissions {
   BenchSetting setting;    ///< That leaves out.
   double change = 0.0;     ///< Largest of all errors against the runs that leave out nothing. [-]
-  double cpu_ratio = 0.0;  ///< Median CPU time of a step of those, relative to the others'. [-]
-  /// Where those were stopped at the time limit: by then only joint forces are compared. [-]
+  double cpu_ratio = 0.0;  ///< Median CPU time of those, relative to that of the others. [-]
+  /// Where those were stopped at the time limit: until there joint forces are compared, and the CPU
+  /// times are those of a step. [-]
   std::optional<double> until_strain = {};
 };
 

@@ -93,39 +93,44 @@ SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, cons
 
 namespace {
 
-// What the answer to some states makes of them; nothing where there is no answer.
-States answered(const LocalContact& p, LocalContactResult& result) {
-  ++result.iterations;
-  result.y = StateSystem(p, result.states).solve(p.r0, -p.u0, cohesions(p)).y;
-  if (!result.y.allFinite()) return {};
-  States wanted = states_of(p, result.y, result.states);
-  result.converged = wanted == result.states;
-  return wanted;
-}
-
 // A few sets, each made of the answer to the one before.
 LocalContactResult try_sets(const LocalContact& p, States states) {
   LocalContactResult result{.states = std::move(states)};
   std::set<States> tried;
   while (result.iterations < sets_at_once && tried.insert(result.states).second) {
-    States wanted = answered(p, result);
-    if (result.converged || wanted.empty()) break;
+    ++result.iterations;
+    result.y = StateSystem(p, result.states).solve(p.r0, -p.u0, cohesions(p)).y;
+    if (!result.y.allFinite()) break;
+    States wanted = states_of(p, result.y, result.states);
+    result.converged = wanted == result.states;
+    if (result.converged) break;
     result.states = std::move(wanted);
   }
   return result;
 }
 
-// Sets from the last one on, or else the release path.
+// (C5) from all joints sticking but those that are apart. These keep their cohesion, so that λ
+// changes nothing as long as the others stick.
+LocalContactResult release_all(const LocalContact& problem) {
+  States start(problem.laws.size(), JointState::stick);
+  VectorXd sticking = VectorXd::Ones(static_cast<Index>(start.size()));
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    if (!problem.is_apart(i)) continue;
+    start[i] = JointState::open;
+    sticking(static_cast<Index>(i)) = 0.0;
+  }
+  StateSystem system(problem, std::move(start));
+  const VectorXd reactions = system.solve(problem.r0, -problem.u0, cohesions(problem)).r;
+  const double enough =
+      cohesion_to_stick(reactions, problem.laws).cwiseProduct(sticking).maxCoeff();
+  return follow_release(system, enough * sticking);
+}
+
 LocalContactResult solve_as_it_is(const LocalContact& problem, States states) {
   LocalContactResult result = try_sets(problem, std::move(states));
   if (result.converged) return result;
-  States stuck(problem.laws.size(), JointState::stick);
-  for (std::size_t i = 0; i < stuck.size(); ++i)
-    if (problem.is_apart(i)) stuck[i] = JointState::open;
-  StateSystem system(problem, stuck);
-  const VectorXd enough = cohesion_to_stick(problem.r0 - problem.S * problem.u0, problem.laws);
   const int spent = result.iterations;
-  result = follow_release(system, VectorXd::Constant(enough.size(), enough.maxCoeff()));
+  result = release_all(problem);
   result.iterations += spent;
   return result;
 }
@@ -158,7 +163,8 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
 
 }  // namespace
 
-LocalContactResult solve_local_contact(const LocalContact& problem, const States& states) {
+LocalContactResult solve_local_contact(const LocalContact& problem,
+                                       const std::vector<JointState>& states) {
   if (states.empty()) return {.converged = true, .y = {}, .states = {}, .iterations = 0};
   LocalContactResult result = solve_as_it_is(problem, states);
   if (result.converged && law_residual_of(problem, result.y) <= nearly_met) return result;

@@ -110,14 +110,13 @@ JointStepResult SetSearch::solve(const JointStep& step) {
   if (std::exchange(broken_, broken) == broken && settles(step, result)) return result;
   // Friction may leave several solutions: towards the one nearest to the last.
   sweeps_.start(step, step.reactions, tie_forces_);
-  result.iterations += look_for_states(step, 1, result.states);
-  for (int set = 1, patience = 1; set < sets_from_answers + sets_from_sweeps; ++set) {
+  for (int set = 0, patience = 1; set < sets_from_answers + sets_from_sweeps; ++set) {
+    result.iterations += look_for_states(step, patience, result.states);
     if (settles(step, result) || !structure_->ok()) break;
-    if (set <= sets_from_answers)
+    if (set < sets_from_answers)
       sweeps_.start(step, last_.reactions, last_.tie_forces);
     else
       patience *= 2;
-    result.iterations += look_for_states(step, patience, result.states);
   }
   return result;
 }

@@ -186,7 +186,7 @@ std::vector<char> BreakingRun::apart() const {
 // does.
 LocalContactResult BreakingRun::or_better(LocalContactResult result) {
   double residual = law_residual_of(contact_, result.y);
-  if (!result.converged || residual > scene_.solver.tolerance) {
+  if (!result.converged || !(residual <= scene_.solver.tolerance)) {
     LocalContactResult other = solve_local_contact(contact_, result.states);
     iterations_ += other.iterations;
     const double of_other = law_residual_of(contact_, other.y);

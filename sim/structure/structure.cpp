@@ -179,7 +179,7 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads, PortState st
     const double correction = scale > 0.0 ? std::abs(length) * change.forces.norm() / scale : 0.0;
     // The next correction is expected to shrink as this one did, but not by more than part of a
     // double's digits.
-    const double shrinkage = std::max(correction / before, 1e-6);
+    const double shrinkage = correction > 1e-6 * before ? correction / before : 1e-6;
     state.error = correction * std::min(shrinkage, 1.0);
     if (!rubs && scale > 0.0)
       state.error = std::min(

@@ -56,6 +56,15 @@ TEST_P(BenchOmissions, ChangeNothingAndHaveACost) {
   EXPECT_EQ(whole, 1);
 }
 
+// The rest of an avalanche that is left out is no small part of the cost.
+TEST(WorkPrecision, TakesTheCostOfOmissionsFromRunsNotFromSteps) {
+  const WorkPrecision study = compare_settings(test::small_scene(0.0, 8, 5), {.seeds = 1});
+  ASSERT_TRUE(study.omissions);
+  const BenchRow &whole = study.rows[0], &row = study.rows[1];
+  EXPECT_GT(whole.steps.median, row.steps.median);
+  EXPECT_DOUBLE_EQ(study.omissions->cpu_ratio, whole.cpu.median / row.cpu.median);
+}
+
 TEST(WorkPrecision, NamesTheCheapestSettingThatReachesATarget) {
   const WorkPrecision study = compare_settings(tiny(Regime::quasi_static), {.seeds = 1});
   ASSERT_EQ(study.cheapest.size(), 9U);

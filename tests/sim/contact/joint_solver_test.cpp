@@ -24,9 +24,8 @@ struct Kind {
   std::function<std::unique_ptr<JointSolver>(const Bodies&)> make;
 };
 
-const Kind active_set{"ActiveSet", [](const Bodies& bodies) {
-                        return std::make_unique<ActiveSetSolver>(bodies);
-                      }};
+const Kind active_set{
+    "ActiveSet", [](const Bodies& bodies) { return std::make_unique<ActiveSetSolver>(bodies); }};
 const Kind active_set_whole{"ActiveSetWithoutDetaching", [](const Bodies& bodies) {
                               return std::make_unique<ActiveSetSolver>(bodies, false);
                             }};

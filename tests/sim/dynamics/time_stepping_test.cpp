@@ -19,7 +19,6 @@ TEST(SimulateDynamic, TakesTheStepOfTheScene) {
   EXPECT_DOUBLE_EQ(simulation.curve[10].strain, 3e-4);
 }
 
-// The joints' answer does not depend on the method that found it.
 // 0.0123 % is a hundred steps of this rate, but for rounding, whatever the units.
 TEST(SimulateDynamic, EndsWithTheStepThatReachesTheStrainLimit) {
   for (const double unit : {1.0, 3e-7, 7.7, 1.1e5}) {
@@ -33,6 +32,7 @@ TEST(SimulateDynamic, EndsWithTheStepThatReachesTheStrainLimit) {
   }
 }
 
+// The joints' answer does not depend on the method that found it.
 TEST(SimulateDynamic, GivesTheSameRunByGaussSeidelAsByTheActiveSet) {
   Scene scene = test::small_scene(0.0, 4, 3);
   scene.solver.step = 5e-9;

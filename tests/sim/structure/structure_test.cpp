@@ -172,6 +172,18 @@ TEST_P(TinyStructure, LetsJointsOpenAndSlide) {
   EXPECT_LE(structure.solve(loads).solves, found.solves);
 }
 
+// There is nothing to correct, and no correction to be smaller than.
+TEST_P(TinyStructure, BearsNothingWhereNothingActsWhereverItStarts) {
+  const Structure structure(bodies);
+  StructureLoads loads = no_loads(bodies);
+  const StructureResponse first = structure.solve(loads);
+  loads.near = &first;
+  for (const StructureResponse& found : {first, structure.solve(loads)}) {
+    EXPECT_EQ(found.reactions.norm(), 0.0);
+    EXPECT_EQ(found.residual, 0.0);
+  }
+}
+
 TEST_P(TinyStructure, HoldsNothingTogetherWhenAllIsDetached) {
   const std::vector<Held> all(assembly.joints.size(), Held::not_at_all);
   const Structure structure(bodies, all);
