@@ -136,11 +136,11 @@ LocalContactResult solve_as_it_is(const LocalContact& problem, States states) {
 }
 
 // (C10). Joints held by springs where the last answer has left them, until these bear nothing, or
-// no less than what rounding leaves on a piece that hangs on nothing.
-LocalContactResult solve_with_springs(const LocalContact& problem, const States& states) {
-  LocalContactResult best;
-  double least = nearly_met;
-  int spent = 0;
+// no less than what rounding leaves on a piece that hangs on nothing: the best of all answers.
+LocalContactResult solve_with_springs(const LocalContact& problem, const States& states,
+                                      LocalContactResult best) {
+  double least = best.converged ? law_residual_of(problem, best.y) : nearly_met;
+  int spent = best.iterations;
   for (const double part : springs) {
     const double stiffness = part * problem.S.diagonal().maxCoeff();
     LocalContact held = problem;
@@ -163,16 +163,11 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
 
 }  // namespace
 
-LocalContactResult solve_local_contact(const LocalContact& problem,
-                                       const std::vector<JointState>& states) {
+LocalContactResult solve_local_contact(const LocalContact& problem, const States& states) {
   if (states.empty()) return {.converged = true, .y = {}, .states = {}, .iterations = 0};
   LocalContactResult result = solve_as_it_is(problem, states);
-  if (result.converged && law_residual_of(problem, result.y) <= nearly_met) return result;
-  LocalContactResult held = solve_with_springs(problem, states);
-  held.iterations += result.iterations;
-  if (held.converged) return held;
-  result.iterations = held.iterations;
-  return result;
+  const bool solved = result.converged && law_residual_of(problem, result.y) <= law_is_met;
+  return solved ? result : solve_with_springs(problem, states, std::move(result));
 }
 
 }  // namespace havers::sim

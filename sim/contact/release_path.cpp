@@ -1,10 +1,7 @@
 #include "sim/contact/release_path.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -20,14 +17,11 @@ using Eigen::RowVector2d;
 using Eigen::VectorXd;
 using States = std::vector<JointState>;
 
-// Parts of the largest free reaction below which a force, or a gap times its stiffness, is nothing,
-// tried one after the other. Pieces that carry nothing must not change their minds about contacts
-// without a force, but a path must not pass by where a state changes either.
-constexpr std::array<double, 3> nothing{1e-10, 1e-12, 1e-8};
+// Part of the largest free reaction below which a force, or a gap times its stiffness, is nothing.
+// Pieces that carry nothing must not change their minds about contacts without a force.
+constexpr double nothing = 1e-10;
 // After so many changes for every joint a path leads nowhere.
 constexpr int most_changes = 100;
-// Residual of the law above which another answer is looked for.
-constexpr double well_met = 1e-8;
 // Of the answers on the way, and of the last one where it is not solved for anew.
 constexpr double accuracy_on_the_way = 1e-11, accuracy_of_answer = 1e-13;
 
@@ -37,7 +31,7 @@ struct Branch {
   double force_tolerance = 0.0;  // [N/m]
 };
 
-Branch solve_branch(StateSystem& system, StateSolution known, const VectorXd& extra, double part) {
+Branch solve_branch(StateSystem& system, StateSolution known, const VectorXd& extra) {
   const LocalContact& p = system.problem();
   const auto n = static_cast<Index>(p.laws.size());
   MatrixXd r0 = MatrixXd::Zero(2 * n, 2), u0 = MatrixXd::Zero(2 * n, 2), cohesion(n, 2);
@@ -49,7 +43,7 @@ Branch solve_branch(StateSystem& system, StateSolution known, const VectorXd& ex
       system.solve_from(std::move(known), r0, -u0, cohesion, accuracy_on_the_way);
   u0 += solution.y;
   return {std::move(solution.y), std::move(solution.r), std::move(u0),
-          part * p.r0.lpNorm<Eigen::Infinity>()};
+          nothing * p.r0.lpNorm<Eigen::Infinity>()};
 }
 
 // Where the path is, and where λ goes from there: down (−1), or up (+1) where the path turns back.
@@ -132,42 +126,6 @@ bool turns(const StateSystem& system, const Branch& branch, const Change& back, 
   return course.direction * condition(system, branch, back, extra)(1) < -branch.force_tolerance;
 }
 
-LocalContactResult follow(StateSystem& system, StateSolution known, const VectorXd& extra,
-                          double part) {
-  LocalContactResult result;
-  Course course;
-  std::set<std::pair<States, double>> met;  // at this λ, and the direction
-  std::optional<Change> back;               // of the last change
-  const int most = most_changes * (1 + static_cast<int>(system.states().size()));
-  while (result.iterations < most) {
-    ++result.iterations;
-    Branch branch = solve_branch(system, std::move(known), extra, part);
-    result.y = branch.y.col(0);
-    if (!branch.y.allFinite()) break;
-    if (back && turns(system, branch, *back, extra(static_cast<Index>(back->joint)), course))
-      course.direction = -course.direction;
-    Change next;
-    for (std::size_t j = 0; j < system.states().size(); ++j) {
-      const Change change = next_change(system, branch, j, extra(static_cast<Index>(j)), course);
-      if (comes_before(change.at, next.at, course)) next = change;
-    }
-    if (next.at < 0.0) {  // all the way down, or up without an end
-      result.converged = course.direction < 0.0;
-      result.y = answer_of_states(system, {branch.y.col(0), branch.r.col(0)});
-      break;
-    }
-    if (next.at != course.lambda) met.clear();
-    if (!met.insert({system.states(), course.direction}).second)
-      break;  // the same states again without having moved
-    course.lambda = next.at;
-    back = {course.lambda, next.joint, system.states()[next.joint]};
-    system.set(next.joint, next.to);
-    known = {std::move(branch.y), std::move(branch.r)};
-  }
-  result.states = system.states();
-  return result;
-}
-
 }  // namespace
 
 VectorXd answer_of_states(StateSystem& system, StateSolution known) {
@@ -197,27 +155,39 @@ VectorXd cohesion_to_stick(const VectorXd& reactions, const std::vector<JointLaw
   return extra;
 }
 
-LocalContactResult follow_release(StateSystem& system, const VectorXd& extra,
-                                  const StateSolution& known) {
-  const States start = system.states();
-  LocalContactResult best;
-  double least = std::numeric_limits<double>::infinity();
-  int spent = 0;
-  static const std::size_t P = getenv("P") ? (std::size_t)atoi(getenv("P")) : 0U;
-  static const std::vector<std::vector<double>> all{{1e-10},{1e-10,1e-12,1e-8},{1e-10,1e-8,1e-6},{1e-10,1e-8},{1e-10,1e-8,1e-6,1e-12}, {1e-10,1e-12,1e-8,1e-6},{1e-11,1e-9,1e-7},{1e-10,1e-11,1e-9}};
-  for (const double part : all[P]) {
-    system.set(start);
-    LocalContactResult result = follow(system, known, extra, part);
-    spent += result.iterations;
-    const double residual = result.converged ? law_residual_of(system.problem(), result.y) : least;
-    if (best.states.empty() || residual < least) {
-      best = std::move(result);
-      least = residual;
+LocalContactResult follow_release(StateSystem& system, const VectorXd& extra, StateSolution known) {
+  LocalContactResult result;
+  Course course;
+  std::set<std::pair<States, double>> met;  // at this λ, and the direction
+  std::optional<Change> back;               // of the last change
+  const int most = most_changes * (1 + static_cast<int>(system.states().size()));
+  while (result.iterations < most) {
+    ++result.iterations;
+    Branch branch = solve_branch(system, std::move(known), extra);
+    result.y = branch.y.col(0);
+    if (!branch.y.allFinite()) break;
+    if (back && turns(system, branch, *back, extra(static_cast<Index>(back->joint)), course))
+      course.direction = -course.direction;
+    Change next;
+    for (std::size_t j = 0; j < system.states().size(); ++j) {
+      const Change change = next_change(system, branch, j, extra(static_cast<Index>(j)), course);
+      if (comes_before(change.at, next.at, course)) next = change;
     }
-    if (least <= well_met) break;
+    if (next.at < 0.0) {  // all the way down, or up without an end
+      result.converged = course.direction < 0.0;
+      result.y = answer_of_states(system, {branch.y.col(0), branch.r.col(0)});
+      break;
+    }
+    if (next.at != course.lambda) met.clear();
+    if (!met.insert({system.states(), course.direction}).second)
+      break;  // the same states again without having moved
+    course.lambda = next.at;
+    back = {course.lambda, next.joint, system.states()[next.joint]};
+    system.set(next.joint, next.to);
+    known = {std::move(branch.y), std::move(branch.r)};
   }
-  best.iterations = spent;
-  return best;
+  result.states = system.states();
+  return result;
 }
 
 }  // namespace havers::sim

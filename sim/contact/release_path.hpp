@@ -15,7 +15,7 @@ namespace havers::sim {
 /// @param known  gaps and reactions as they are with these states, if there is an answer: at λ = 0
 /// and by λ, a column each
 LocalContactResult follow_release(StateSystem& system, const Eigen::VectorXd& extra,
-                                  const StateSolution& known = {});
+                                  StateSolution known = {});
 
 /// Gaps of the system's states. A piece that hangs on next to nothing may lie anywhere: if not
 /// where equations solved from nothing leave it, then where they are met nearest to a known answer.
