@@ -1,6 +1,7 @@
 #include "cli/load_study.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -149,11 +150,19 @@ void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStud
 
 // Only what the tests do not tell is taken from the model.
 void doubt_rate(LoadedStudy& loaded) {
-  const bool all_tell = std::ranges::all_of(
-      loaded.study.specimens, [](const auto& specimen) { return specimen.test.strain_rate > 0.0; });
-  if (all_tell && loaded.study.model.loading.strain_rate != sim::Loading{}.strain_rate)
+  std::vector<std::string> silent;
+  for (const calib::Specimen& specimen : loaded.study.specimens)
+    if (!(specimen.test.strain_rate > 0.0)) silent.push_back(specimen.id);
+  const sim::Scene& model = loaded.study.model;
+  const bool given = model.loading.strain_rate != sim::Loading{}.strain_rate;
+  if (silent.empty() && given)
     loaded.warnings.emplace_back(
         "model.loading.strain_rate_per_s changes nothing: every test has its own");
+  if (!silent.empty() && !given && model.solver.regime != sim::Regime::quasi_static)
+    loaded.warnings.push_back(fmt::format(
+        "no time tells the strain rate of specimen{} {}: {:g} 1/s is taken, and inertia with it "
+        "(give model.loading.strain_rate_per_s)",
+        silent.size() == 1 ? "" : "s", fmt::join(silent, ", "), model.loading.strain_rate));
 }
 
 // Least squares search all that no simulation has to be run for; what only a search without

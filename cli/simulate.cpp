@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
@@ -61,6 +62,18 @@ void write_results(const OutputFolder& output, const sim::Scene& scene,
                  io::json_text(io::simulation_json(scene, simulation, provenance)));
 }
 
+// No time without its error. The runs of longer steps were timed too.
+std::string steps_text(const sim::Simulation& run) {
+  if (run.regime == sim::Regime::quasi_static) return fmt::format("{} events", run.steps);
+  const sim::StepError unknown{.failure_strain = NAN, .strength = NAN};
+  const sim::StepError error = run.step_error.value_or(unknown);
+  return fmt::format(
+      "{} steps{}, {}", run.steps, run.step_error ? " after runs of longer ones" : "",
+      std::isnan(error.failure_strain) ? "whose error is not known"
+                                       : fmt::format("step error {:.1e} (strength {:.1e})",
+                                                     error.failure_strain, error.strength));
+}
+
 void print_summary(const sim::Simulation& run, double wall_seconds, bool verbose) {
   if (run.trusted())
     fmt::print("to be trusted: {}\n", sim::explain(run.status));
@@ -74,9 +87,9 @@ void print_summary(const sim::Simulation& run, double wall_seconds, bool verbose
   fmt::print("\nregime         {}: {}\n",
              run.regime == sim::Regime::dynamic ? "dynamic" : "quasi-static", run.regime_ground);
   fmt::print(
-      "time           {:.3g} s for {} steps; energy defect {:.1e}, residual {:.1e}, penetration "
+      "time           {:.3g} s for {}; energy defect {:.1e}, residual {:.1e}, penetration "
       "{:.1e} m\n",
-      wall_seconds, run.steps, run.energy_defect, run.worst_residual, run.worst_penetration);
+      wall_seconds, steps_text(run), run.energy_defect, run.worst_residual, run.worst_penetration);
   if (!verbose) return;
   for (const sim::LeftOut& left_out : run.left_out)
     fmt::print("left out       {}: {}\n", left_out.what, left_out.why);

@@ -10,6 +10,7 @@
 #include "sim/assembly/assembly.hpp"
 #include "sim/dynamics/step_control.hpp"
 #include "sim/dynamics/time_stepping.hpp"
+#include "sim/joint/thresholds.hpp"
 #include "sim/simulate.hpp"
 
 namespace havers::sim {
@@ -175,7 +176,7 @@ void check_number_of_steps(const Scene& scene, Checker& checker) {
   if ((!given && may_leap(scene)) || choose_regime(scene).regime == Regime::quasi_static) return;
   const double step = given ? *scene.solver.step : first_step(scene);
   const double strain =
-      std::min(scene.loading.max_strain, scene.joints.head_tail / scene.material.young);
+      std::min(scene.loading.max_strain, head_tail_strength(scene) / scene.material.young);
   const double steps = strain / (scene.loading.strain_rate * step);
   if (steps <= most_steps_of_a_run) return;
   if (given)
@@ -198,7 +199,8 @@ void check_thresholds(const Scene& scene, Checker& checker) {
   const std::size_t joints = build_assembly(scene.assembly, scene.loading.lateral).joints.size();
   if (given.size() != joints)
     checker.say("joints.thresholds_file",
-                fmt::format("names {} joints, the assembly has {}", given.size(), joints),
+                fmt::format("names {} joint{}, the assembly has {}", given.size(),
+                            given.size() == 1 ? "" : "s", joints),
                 "write a matching file with havers simulate: joints.csv");
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (is_positive(given[i].normal) && is_not_negative(given[i].tangent)) continue;

@@ -21,6 +21,17 @@ bool is_spike(const double* y, double threshold) {
   return distance > 5.0 * wander;
 }
 
+// (X12) A clock that stands still, or is written with too few digits, tells no rate.
+void drop_standing_time(RawTest& test) {
+  const std::vector<double>& time = test.time;
+  const bool loaded = !test.force.empty() || !test.stress.empty();
+  if (!loaded || time.size() < 2 ||
+      std::ranges::any_of(time, [&](double t) { return t != time.front(); }))
+    return;
+  test.warnings.emplace_back("the time is the same in all rows: it is taken as not recorded");
+  test.time.clear();
+}
+
 }  // namespace
 
 std::size_t remove_spikes(std::vector<double>& values) {
@@ -54,6 +65,7 @@ std::size_t spread_repeated_times(std::vector<double>& time) {
 }
 
 void clean_channels(RawTest& test, const ReductionOptions& options) {
+  drop_standing_time(test);
   if (options.spread_repeated_times)
     if (const std::size_t rows = spread_repeated_times(test.time); rows > 0)
       test.corrections.push_back(

@@ -276,6 +276,7 @@ CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
   result.evaluations = batch.asked();
   result.simulated = batch.simulated();
   result.failed_simulations = batch.failed();
+  result.most_failed_because = batch.most_failed_because();
   result.distinct_simulations = batch.distinct();
   result.verdict = verdict_of(problem, answer, result);
   return result;

@@ -18,7 +18,7 @@ namespace havers::calib {
 enum class CalibrationStatus {
   converged,       ///< The optimisers stopped at a minimum.
   budget_spent,    ///< The budget of simulations ended first; the best point so far is given.
-  all_failed,      ///< No simulation gave a usable answer.
+  all_failed,      ///< Nowhere did every specimen's simulations give a usable answer.
   nothing_to_fit,  ///< No parameter is informed by the specimens.
   cancelled,       ///< Stopped by the user; run again to go on from the store.
 };
@@ -192,7 +192,8 @@ struct CalibrationResult {
   long evaluations = 0;  ///< Simulations asked for.
   long simulated = 0;    ///< Of these, run and not found in the store.
   long failed_simulations = 0;
-  long distinct_simulations = 0;  ///< Different ones among those asked for.
+  std::string most_failed_because{};  ///< Empty where none failed.
+  long distinct_simulations = 0;      ///< Different ones among those asked for.
 
   /// Status good and no check failed.
   [[nodiscard]] bool trusted() const;

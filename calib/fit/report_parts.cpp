@@ -62,6 +62,8 @@ std::vector<CalibratedParameter> parameters_of(const FitProblem& problem, const 
       if (parameter.identifiable)
         set_error(unknown, answer.uncertainty, active - answer.active.begin(), parameter);
     }
+    if (!parameter.identifiable && parameter.left_out_because.empty())
+      parameter.left_out_because = "simulations at the answer or beside it failed";
     parameters.push_back(std::move(parameter));
   }
   return parameters;

@@ -3,7 +3,9 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
 #include <exception>
+#include <map>
 #include <unordered_set>
 #include <utility>
 
@@ -94,6 +96,15 @@ std::vector<Response> SimulationBatch::run(const std::vector<sim::Scene>& scenes
                                              : rescaled(found->second, forms[i]));
   }
   return answers;
+}
+
+std::string SimulationBatch::most_failed_because() const {
+  std::map<std::string, long> reasons;
+  for (const auto& [key, response] : memory_)
+    if (response.failed) ++reasons[response.why];
+  const auto most =
+      std::ranges::max_element(reasons, {}, [](const auto& one) { return one.second; });
+  return most == reasons.end() ? "" : most->first;
 }
 
 std::vector<std::string> SimulationBatch::keys(const std::vector<sim::Scene>& scenes) const {

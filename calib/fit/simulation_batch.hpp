@@ -48,6 +48,8 @@ class SimulationBatch {
   [[nodiscard]] long asked() const { return asked_; }
   [[nodiscard]] long simulated() const { return simulated_; }
   [[nodiscard]] long failed() const { return failed_; }  ///< Of the distinct ones.
+  /// Why most of them failed; empty where none did.
+  [[nodiscard]] std::string most_failed_because() const;
   [[nodiscard]] long distinct() const { return static_cast<long>(memory_.size()); }
   [[nodiscard]] bool stopped() const { return stopped_; }  ///< By the simulator.
 

@@ -28,7 +28,7 @@ std::string explain(CalibrationStatus status) {
       return "the budget of simulations ended before the searches did; the best point so far is "
              "given";
     case CalibrationStatus::all_failed:
-      return "no simulation gave a usable answer";
+      return "nowhere did the simulations of every specimen give a usable answer";
     case CalibrationStatus::nothing_to_fit:
       return "the specimens inform none of the parameters";
     case CalibrationStatus::cancelled:

@@ -109,6 +109,15 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer) {
                      : "")};
 }
 
+// Where there is no answer, nothing of it passes.
+void leave_unchecked(std::vector<Check>& checks) {
+  for (Check& check : checks) {
+    if (check.outcome != Outcome::pass) continue;
+    check.text = "Not checked: there is no answer.";
+    check.done = false;
+  }
+}
+
 Check check_failures(const CalibrationResult& result, long distinct) {
   const double share =
       distinct > 0 ? static_cast<double>(result.failed_simulations) / static_cast<double>(distinct)
@@ -120,7 +129,9 @@ Check check_failures(const CalibrationResult& result, long distinct) {
     return {"simulations", Outcome::pass,
             text + "; the replicates that answered stand in for them."};
   return {"simulations", share <= 0.2 ? Outcome::warn : Outcome::fail,
-          text + ": narrow calibrate.bounds to where the model can be simulated."};
+          fmt::format("{}, most often so: {}. Narrow calibrate.bounds to where the model can be "
+                      "simulated.",
+                      text, result.most_failed_because)};
 }
 
 }  // namespace
@@ -143,6 +154,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_confirmation(result));
   checks.push_back(check_validation(result));
   checks.push_back(check_censored(problem, answer));
+  if (answer.best.failed) leave_unchecked(checks);
   checks.push_back(check_failures(result, result.distinct_simulations));
   return checks;
 }

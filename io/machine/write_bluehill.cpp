@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <locale>
 #include <vector>
@@ -40,10 +42,17 @@ std::string header(const calib::RawTest& test, const std::locale& locale) {
   return text + "\r\n";
 }
 
+// Five, and of a fast test so many that its rows keep times of their own.
+int decimals_of(const std::vector<double>& time) {
+  constexpr int usual = 5, of_a_step = 2;
+  if (time.size() < 2 || !(time[1] > time[0])) return usual;
+  return std::max(usual, of_a_step + static_cast<int>(std::ceil(-std::log10(time[1] - time[0]))));
+}
+
 std::vector<WrittenColumn> columns_of(const calib::RawTest& test) {
   std::vector<WrittenColumn> columns;
   for (const WrittenColumn& column : {
-           WrittenColumn{"Time", "(s)", test.time, 1.0, 5},
+           WrittenColumn{"Time", "(s)", test.time, 1.0, decimals_of(test.time)},
            WrittenColumn{"Extension", "(mm)", test.extension, 1e3, 5},
            WrittenColumn{"Load", "(N)", test.force, 1.0, 5},
            WrittenColumn{"Tensile strain (Strain 1)", "(%)", test.strain, 1e2, 5},

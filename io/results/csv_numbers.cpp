@@ -74,7 +74,7 @@ class Columns {
 }  // namespace
 
 std::string csv_number(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : "";
+  return std::isfinite(value) ? fmt::format("{}", value + 0.0) : "";  // -0 + 0 is 0
 }
 
 std::string csv_text(const std::vector<std::string>& header,

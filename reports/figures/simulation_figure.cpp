@@ -35,24 +35,32 @@ unset multiplot
 constexpr std::string_view left_side =
     "$curve using ($1*100):($3*1e-6) with lines lw 1.2 lc rgb orange title 'left side', ";
 
-// A quasi-static run has rows at breaks only: between them stress grows with the strain, energy
-// and what friction takes with its square.
+// A quasi-static run has rows at breaks only, and one in time leaps to the first: between rows
+// stress grows with the strain, energy and what friction takes with its square, what viscosity
+// takes with the time.
 std::vector<sim::CurvePoint> with_parabolas(const sim::Simulation& simulation) {
-  if (simulation.regime == sim::Regime::dynamic) return simulation.curve;
+  const bool dynamic = simulation.regime == sim::Regime::dynamic;
+  if (dynamic && simulation.leapt_strain == 0.0) return simulation.curve;
   constexpr int parts = 60;
   const double piece = simulation.curve.back().strain / parts;
   std::vector<sim::CurvePoint> curve;
   for (const sim::CurvePoint& end : simulation.curve) {
     const sim::CurvePoint begin = curve.empty() ? end : curve.back();
+    const double gap = end.strain - begin.strain;
+    if (dynamic && gap < simulation.leapt_strain) {
+      curve.push_back(end);
+      continue;
+    }
     for (double strain = begin.strain + piece; strain < end.strain; strain += piece) {
       sim::CurvePoint& point = curve.emplace_back(begin);
-      const double part = strain / end.strain;
+      const double part = (strain - begin.strain) / gap;
       point.strain = strain;
-      point.stress_right = point.stress_left = part * end.stress_right;
-      point.elastic = part * part * end.elastic;
-      const double grown = (strain * strain - begin.strain * begin.strain) /
-                           (end.strain * end.strain - begin.strain * begin.strain);
-      point.dissipated += grown * (end.dissipated - begin.dissipated);
+      point.stress_right = std::lerp(begin.stress_right, end.stress_right, part);
+      point.stress_left = std::lerp(begin.stress_left, end.stress_left, part);
+      point.elastic = end.elastic * (strain * strain) / (end.strain * end.strain);
+      const double grown =
+          dynamic ? part : part * (strain + begin.strain) / (end.strain + begin.strain);
+      point.dissipated = std::lerp(begin.dissipated, end.dissipated, grown);
     }
     curve.push_back(end);
   }

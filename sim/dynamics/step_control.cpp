@@ -45,14 +45,17 @@ double first_step(const Scene& scene) {
 Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer) {
   Stepping stepping{.step = first_step(scene), .leap = may_leap(scene)};
   Simulation run;
-  run.failure_strain = run.strength = std::numeric_limits<double>::quiet_NaN();
+  constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+  run.failure_strain = run.strength = not_known;
   int agreed = 0;
   for (int halving = 0; halving <= most_halvings; ++halving) {
     const double strain = run.failure_strain, strength = run.strength;  // with twice the step
     run = run_in_steps(scene, stepping, observer);
     summarise(run);
-    run.step_error = {std::abs(run.failure_strain - strain) / run.failure_strain,
-                      std::abs(run.strength - strength) / run.strength};
+    run.step_error = has_ended(run)
+                         ? StepError{std::abs(run.failure_strain - strain) / run.failure_strain,
+                                     std::abs(run.strength - strength) / run.strength}
+                         : StepError{not_known, not_known};  // half a run tells nothing
     agreed = run.step_error->largest() < 0.5 * scene.solver.step_accuracy ? agreed + 1 : 0;
     if (!has_ended(run) || agreed == 2) break;
     if (halving > 0 && 2 * run.steps > most_steps) break;

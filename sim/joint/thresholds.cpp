@@ -70,14 +70,15 @@ double head_tail_strength(const Scene& scene) {
   const std::vector<Threshold>& given = scene.joints.thresholds;
   if (given.empty()) return scene.joints.head_tail;
   const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
-  std::vector<double> strengths;
+  std::vector<double> factors;
   for (std::size_t j = 0; j < std::min(given.size(), assembly.joints.size()); ++j)
-    if (assembly.joints[j].kind == JointKind::head_tail && !is_missing(given[j]))
-      strengths.push_back(given[j].normal / assembly.joints[j].length);
-  if (strengths.empty()) return scene.joints.head_tail;
-  const auto median = strengths.begin() + static_cast<std::ptrdiff_t>(strengths.size() / 2);
-  std::nth_element(strengths.begin(), median, strengths.end());
-  return *median;
+    if (const Joint& joint = assembly.joints[j];
+        joint.kind == JointKind::head_tail && !is_missing(given[j]))
+      factors.push_back(given[j].normal / mean_threshold(scene, joint).normal);
+  if (factors.empty()) return scene.joints.head_tail;
+  const auto median = factors.begin() + static_cast<std::ptrdiff_t>(factors.size() / 2);
+  std::nth_element(factors.begin(), median, factors.end());
+  return *median * scene.joints.head_tail;
 }
 
 Threshold mean_threshold(const Scene& scene, const Joint& joint) {

@@ -27,7 +27,8 @@ class ThresholdFactors {
 /// from its thresholds: what is missing at one fraction is missing at every larger one.
 bool is_drawn_missing(std::uint64_t seed, std::uint64_t joint, double fraction);
 
-/// σ₁: the scene's, or where it gives thresholds the median of its head-tail joints. [Pa]
+/// σ₁: the scene's or, where it gives thresholds, that by the median of their ratios to the scene's
+/// mean ones over the head-tail joints. [Pa]
 double head_tail_strength(const Scene& scene);
 
 /// Mean thresholds of a joint, in proportion to its length, with the reinforced boundary. [N/m]

@@ -96,6 +96,22 @@ TEST(Check, SaysWhatAStudyLeavesOutAndTakesTwice) {
   EXPECT_FALSE(fs::exists(folder / "again"));
 }
 
+// A thousand a second is no testing machine's rate.
+TEST(Check, SaysWhichRateIsTakenWhereNoTimeTellsIt) {
+  const fs::path folder = folder_with_tests();
+  calib::RawTest raw = io::read_test(folder / "made/B0.csv").test;
+  raw.time.clear();
+  io::write_bluehill(folder / "made/B0.csv", raw);
+  const auto noted = [&](const std::string& settings) {
+    return run_havers(folder, "check made/study.toml" + settings).out;
+  };
+  EXPECT_THAT(noted(""), testing::StartsWith("note: no time tells the strain rate of specimen B0: "
+                                             "1000 1/s is taken"));
+  for (const char* settled :
+       {" --set model.loading.strain_rate_per_s=1e-3", " --set model.solver.regime=quasi-static"})
+    EXPECT_EQ(noted(settled), "no problems in this study\n");
+}
+
 // In the limit modulus and strength scale what was simulated; the ratio does not.
 TEST(Check, SaysWhichSearchHasNothingToDo) {
   const fs::path folder = folder_with_tests();

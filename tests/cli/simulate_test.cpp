@@ -46,6 +46,22 @@ TEST(Simulate, SummaryPutsTheVerdictFirstAndThePathLast) {
   EXPECT_TRUE(fs::is_regular_file(last)) << last;
 }
 
+// No time without the error of what it bought.
+TEST(Simulate, PrintsTheStepsErrorBesideTheTime) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "scene.toml", test::small_scene());
+  const auto time_of = [&](const std::string& settings) {
+    const std::string out = run_havers(folder, "simulate scene.toml -o out --force" + settings).out;
+    const std::size_t line = out.find("\ntime ");
+    return out.substr(line, out.find(';', line) - line);
+  };
+  EXPECT_NE(time_of(" --set loading.strain_rate_per_s=1000 --set solver.step_accuracy=0.1")
+                .find("longer ones, step error "),
+            std::string::npos);
+  EXPECT_NE(time_of(impact).find("steps, whose error is not known"), std::string::npos);
+  EXPECT_NE(time_of("").find(" events"), std::string::npos);
+}
+
 TEST(Simulate, JsonIsTheResultFile) {
   const fs::path folder = own_folder();
   test::write_text(folder / "scene.toml", test::small_scene());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <sstream>
 
 #include "reports/figures/process.hpp"
 #include "reports/figures/thin.hpp"
@@ -83,6 +84,30 @@ TEST(Figure, ShowsBothSidesOnlyWhereTheyDiffer) {
   EXPECT_TRUE(contains(draw(simulation_figure(report, "c")), "left side"));
   simulation.regime = sim::Regime::quasi_static;
   EXPECT_FALSE(contains(draw(simulation_figure(report, "c")), "left side"));
+}
+
+// Half way to the first break a quarter of the energy is stored, steps or no steps.
+TEST(Figure, DrawsTheEnergyOfStrainThatWasLeaptOver) {
+  sim::Scene scene = test::dynamic_scene(90.0);
+  scene.solver.step.reset();
+  const sim::Assembly assembly = sim::build_assembly(scene.assembly, scene.loading.lateral);
+  const sim::Simulation simulation = sim::simulate(scene);
+  ASSERT_GT(simulation.leapt_strain, 0.0);
+  const auto& before_break = *std::ranges::find_if(
+      simulation.curve, [&](const auto& row) { return row.strain > simulation.leapt_strain; });
+  std::istringstream rows(simulation_figure({scene, assembly, simulation, {}}, "c").commands);
+  std::string header;
+  std::getline(rows, header);
+  int between = 0;
+  double strain = 0.0, right = 0.0, left = 0.0, broken = 0.0, elastic = 0.0, rest = 0.0;
+  while (strain < before_break.strain * (1.0 - 1e-5) &&
+         rows >> strain >> right >> left >> broken >> elastic >> rest >> rest) {
+    const double part = strain / before_break.strain;
+    EXPECT_NEAR(elastic / before_break.elastic, part * part, 1e-3);
+    EXPECT_NEAR(right / before_break.stress_right, part, 1e-3);
+    between += part > 0.1 && part < 0.9 ? 1 : 0;
+  }
+  EXPECT_GT(between, 20);
 }
 
 TEST(Figure, CountsBrokenJointsOfEitherKindAsTheyBreak) {

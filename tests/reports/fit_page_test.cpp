@@ -46,6 +46,18 @@ TEST(FitPage, ShowsEverySpecimenParameterCheckAndStage) {
   EXPECT_TRUE(contains(page, "porosity 4.80 ± 0.21 %"));
 }
 
+// Two reasons side by side are wider than the page, unless their lines break.
+TEST(FitPage, BreaksTheLinesOfReasonsInTheTableOfIntervals) {
+  auto sample = test::fit_sample();
+  sample.result.fitted = {"young_GPa", "head_tail_MPa"};
+  sample.result.correlation = {{1.0, 0.0}, {0.0, 1.0}};
+  sample.result.parameters.front().bootstrap_95 = {test::nan, test::nan};
+  sample.result.parameters.front().bootstrap_missing = "3 specimens are too few to draw from";
+  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  EXPECT_TRUE(contains(page, "<td class=\"n said\">– (3 specimens are too few"));
+  EXPECT_TRUE(contains(page, "td.said { white-space: normal; }"));
+}
+
 // What a search asks for again is in memory; the store knows what earlier runs left.
 TEST(FitPage, TellsRepeatsFromTheStore) {
   auto sample = test::fit_sample();

@@ -12,42 +12,6 @@ using test::after;
 using test::contains;
 using test::expect_sound;
 
-sim::Assembly small_assembly() {
-  return sim::build_assembly({.layers = 6, .fibres = 4}, sim::Lateral::periodic);
-}
-
-TEST(SimulationPage, PutsTheErrorBesideTheTime) {
-  const auto assembly = small_assembly();
-  const auto simulation = test::simulation_sample(assembly);
-  const sim::Scene scene;
-  const std::string page =
-      simulation_page({scene, assembly, simulation, {{"havers", "0.1.0"}}, 12.34});
-  expect_sound(page);
-  EXPECT_TRUE(
-      contains(page, "The specimen broke: strength 38.90\u00a0MPa at 0.300\u00a0% strain."));
-  EXPECT_TRUE(contains(
-      page,
-      "12.3\u00a0s wall time, for a relative energy defect of 3.20 × 10⁻¹⁴, a residual of at most "
-      "6.10 × 10⁻¹⁰"));
-  EXPECT_LT(page.find("To be trusted"), page.find("<table"));
-  EXPECT_TRUE(contains(page, "time steps up to a strain of 3.978 × 10⁻⁶"));
-}
-
-TEST(SimulationPage, DoesNotTrustARunWhoseEnergyDoesNotClose) {
-  const auto assembly = small_assembly();
-  auto simulation = test::simulation_sample(assembly);
-  simulation.energy_defect = 1e-3;
-  EXPECT_TRUE(contains(simulation_page({sim::Scene{}, assembly, simulation, {}}),
-                       "Not to be trusted: the energy balance does not close."));
-}
-
-TEST(SimulationPage, SurvivesARunWithoutRows) {
-  const sim::Assembly assembly;
-  const sim::Simulation simulation;
-  const sim::Scene scene;
-  expect_sound(simulation_page({scene, assembly, simulation, {}}));
-}
-
 // As a machine records it that counts tension negative: no axis goes below zero for it.
 TEST(ImportPage, DrawsATurnedLoadAsItWasUsed) {
   auto raw = test::raw_test(13e9, 43e6, 1);

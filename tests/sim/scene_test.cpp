@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "sim/joint/thresholds.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace havers::sim {
@@ -82,6 +83,18 @@ TEST(Scene, RefusesARateThatLeadsNowhereFromRest) {
   scene.solver.leave_out = false;
   ASSERT_EQ(scene.problems().size(), 1U);
   EXPECT_NE(scene.problems().front().hint.find("leave_out = true"), std::string::npos);
+}
+
+// How far failure is, given thresholds say, not the strength that they replace.
+TEST(Scene, CountsStepsToTheGivenThresholds) {
+  Scene scene = test::dynamic_scene(0.0, 1e-11);
+  scene.loading.strain_rate = 10.0;
+  ASSERT_EQ(scene.problems().size(), 1U);
+  scene.joints.thresholds =
+      draw_thresholds(scene, build_assembly(scene.assembly, scene.loading.lateral));
+  EXPECT_EQ(scene.problems().size(), 1U);
+  for (Threshold& threshold : scene.joints.thresholds) threshold.normal *= 1e-3;
+  EXPECT_TRUE(scene.problems().empty());
 }
 
 TEST(Scene, RefusesAGridThatIsMuchLargerThanTheSpecimen) {

@@ -1,6 +1,7 @@
 // A known specimen, recorded with a known fault: the correction must bring the specimen back.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "calib/experiment/clean_channels.hpp"
@@ -77,6 +78,17 @@ TEST(Corrections, RateSurvivesACoarseClock) {
   EXPECT_NEAR(test.strain_rate, fine.strain_rate, 0.05 * fine.strain_rate);
   EXPECT_NE(detail_of(test, "repeated times").find("spread evenly"), std::string::npos);
   EXPECT_EQ(detail_of(reduced(raw, {.spread_repeated_times = false}), "repeated times"), "");
+}
+
+TEST(Corrections, TakesATimeThatStandsStillAsNotRecorded) {
+  RawTest raw = record(fine);
+  std::ranges::fill(raw.time, 0.5);
+  const MeasuredTest test = reduced(raw);
+  EXPECT_TRUE(test.time.empty());
+  EXPECT_EQ(test.strain_rate, 0.0);
+  EXPECT_EQ(detail_of(test, "repeated times"), "");
+  ASSERT_EQ(test.warnings.size(), 1U);
+  EXPECT_EQ(test.warnings[0], "the time is the same in all rows: it is taken as not recorded");
 }
 
 TEST(Corrections, TakesTheMachinesComplianceOffTheCrosshead) {

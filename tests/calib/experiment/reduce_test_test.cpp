@@ -259,6 +259,11 @@ TEST(ReduceTest, SaysWhyATestCannotBeReduced) {
 }
 
 TEST(ReduceTest, SaysWhenThereAreTooFewRows) {
+  RawTest one = record({});
+  for (std::vector<double>* channel : {&one.time, &one.force, &one.extension, &one.strain})
+    channel->resize(1);
+  one.stress.clear();
+  EXPECT_EQ(problem_of(one), "1 row is too few");
   EXPECT_EQ(problem_of(record({.strain_rate = 1e-2, .rows_after_break = 4})), "9 rows are too few");
   EXPECT_EQ(problem_of(record({.strain_rate = 1e-2})),
             "too few rows between 6 and 24 MPa for a modulus: reduction.window_low and "

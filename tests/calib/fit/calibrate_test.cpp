@@ -1,7 +1,9 @@
 #include "calib/fit/calibrate.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -138,6 +140,13 @@ TEST(Calibrate, SaysThatEverySimulationFailed) {
   EXPECT_EQ(result.status, CalibrationStatus::all_failed);
   EXPECT_FALSE(result.trusted());
   EXPECT_EQ(result.failed_simulations, result.distinct_simulations);
+  EXPECT_EQ(std::ranges::count(result.verdict, Outcome::pass, &Check::outcome),
+            std::ranges::count(result.verdict, false, &Check::done))
+      << "what passes was not looked at";
+  EXPECT_EQ(test::parameter_of(result, "ratio").left_out_because,
+            "simulations at the answer or beside it failed");
+  EXPECT_THAT(result.verdict.back().text,
+              testing::HasSubstr("failed, most often so: broken model."));
 }
 
 TEST(Calibrate, SaysThatThereIsNothingToFit) {

@@ -105,6 +105,7 @@ TEST(Verdict, SaysWhereAParameterStaysThatIsLeftOut) {
   CalibrationResult result;
   const auto stays_at = [&](double scatter) {
     answer.best.point = Point::Constant(1, scatter);
+    answer.best.failed = false;
     result.verdict = verdict_of(problem, answer, result);
     return check_of(result, "identifiable").text;
   };

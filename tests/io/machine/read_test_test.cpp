@@ -270,6 +270,18 @@ TEST(ReadTest, ReadsBackWhatWasWritten) {
   EXPECT_TRUE(back.test.warnings.empty());
 }
 
+// Nanoseconds in seconds take more than Bluehill's five decimals.
+TEST(WriteBluehill, KeepsTheTimesOfAFastTest) {
+  calib::RawTest raw = test::record({});
+  for (std::size_t i = 0; i < raw.rows(); ++i) raw.time[i] = 5e-9 * static_cast<double>(i);
+  const TemporaryFile file("");
+  write_bluehill(file.path(), raw);
+  const TestFile back = read_test(file.path());
+  ASSERT_EQ(back.test.time.size(), raw.time.size());
+  for (std::size_t i = 0; i < raw.time.size(); ++i)
+    EXPECT_NEAR(back.test.time[i], raw.time[i], 0.51e-10);
+}
+
 TEST(WriteBluehill, WritesOnlyWhatWasRecordedWithCrLfAndThousands) {
   const TemporaryFile file("");
   calib::RawTest raw;

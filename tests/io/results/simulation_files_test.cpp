@@ -44,6 +44,14 @@ TEST(CurveFile, HoldsTheColumnsOfTheContractWithoutLoss) {
                   "2e-08,0.30000000000000004,1857142857.142857,-1e-300,3,1.5,1e+22,0.1"));
 }
 
+TEST(CurveFile, HoldsNoNegativeZero) {
+  const test::ScratchFolder folder;
+  sim::Simulation simulation;
+  simulation.curve = {{0.0, 0.0, 0.0, -0.0, 0, 0.0, 0.0, 0.0}};
+  write_curve(folder.path() / "curve.csv", simulation);
+  EXPECT_EQ(lines(test::contents(folder.path() / "curve.csv"))[1], "0,0,0,0,0,0,0,0");
+}
+
 TEST(JointsFile, HoldsTheColumnsOfTheContract) {
   const test::ScratchFolder folder;
   sim::Assembly assembly;

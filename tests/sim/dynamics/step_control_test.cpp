@@ -118,6 +118,21 @@ TEST(StepChosen, EndsWhenTheObserverAsksTo) {
             SimulationStatus::cancelled);
 }
 
+// Half a run is no second opinion on the first.
+TEST(StepChosen, HasNoErrorWhereARunOfItsHalvingWasStopped) {
+  double last = 0.0;
+  int runs = 0;
+  const auto stop_in_the_second = [&](const Progress& progress) {
+    runs += progress.point.time < last || runs == 0 ? 1 : 0;
+    last = progress.point.time;
+    return runs < 2;
+  };
+  const Simulation run = run_in_chosen_steps(without_step(0.0), stop_in_the_second);
+  EXPECT_EQ(run.status, SimulationStatus::cancelled);
+  EXPECT_TRUE(std::isnan(run.step_error.value().failure_strain));
+  EXPECT_THAT(run.regime_ground, testing::Not(testing::HasSubstr("halving")));
+}
+
 TEST(FirstStep, IsAQuarterOfTheTimeThatAWaveTakesAcrossAFibre) {
   Scene scene = without_step(0.0);
   const double wave = std::sqrt(13e9 / 2000.0);

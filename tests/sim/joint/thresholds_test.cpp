@@ -163,5 +163,19 @@ TEST(DrawThresholds, TakesGivenOnesAsTheyAre) {
   }
 }
 
+// Outer layers bear more, and say no more of σ₁ than others do.
+TEST(HeadTailStrength, OfGivenThresholdsIsThatOfTheSceneThatDrewThem) {
+  for (const int layers : {2, 6}) {
+    Scene scene = test::small_scene(0.0);
+    scene.assembly.layers = layers;
+    scene.joints.scatter = 0.0;
+    scene.joints.thresholds =
+        draw_thresholds(scene, build_assembly(scene.assembly, scene.loading.lateral));
+    EXPECT_NEAR(head_tail_strength(scene) / scene.joints.head_tail, 1.0, 1e-14) << layers;
+    for (Threshold& threshold : scene.joints.thresholds) threshold.normal *= 0.5;
+    EXPECT_NEAR(head_tail_strength(scene) / scene.joints.head_tail, 0.5, 1e-14) << layers;
+  }
+}
+
 }  // namespace
 }  // namespace havers::sim
