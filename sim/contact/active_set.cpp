@@ -71,7 +71,13 @@ VectorXd ActiveSetSolver::jumps(const JointStep& step) const {
 bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded_reactions,
                                    JointStepResult& result, VectorXd& y) const {
   const auto n = static_cast<Index>(loose_.size());
-  LocalContact contact{loose_.stiffness(), VectorXd(2 * n), VectorXd(2 * n), {}, {}, below_inertia};
+  LocalContact contact{loose_.stiffness(),
+                       VectorXd(2 * n),
+                       VectorXd(2 * n),
+                       {},
+                       {},
+                       below_inertia,
+                       step.force_scale / std::sqrt(static_cast<double>(step.laws.size()))};
   std::vector<JointState> states;
   for (Index i = 0; i < n; ++i) {
     const int joint = loose_.joints()[static_cast<std::size_t>(i)];

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "sim/contact/release_path.hpp"
+#include "sim/contact/homotopy.hpp"
 #include "sim/contact/state_system.hpp"
 
 namespace havers::sim {
@@ -28,7 +28,8 @@ constexpr int times_moved = 8;
 
 States states_of(const LocalContact& p, const VectorXd& y, const States& now) {
   const VectorXd r = p.r0 + p.S * y, u = p.u0 + y;
-  const double scale = std::max(r.cwiseAbs().maxCoeff(), p.r0.cwiseAbs().maxCoeff());
+  const double scale =
+      std::max({p.force_scale, r.cwiseAbs().maxCoeff(), p.r0.cwiseAbs().maxCoeff()});
   States states(now.size());
   for (std::size_t i = 0; i < now.size(); ++i) {
     const auto row = static_cast<Index>(2 * i);
@@ -60,7 +61,7 @@ double law_missed(const LocalContact& p, const VectorXd& r, const VectorXd& gaps
 
 double law_residual_of(const LocalContact& p, const VectorXd& y) {
   const double missed = law_missed(p, p.r0 + p.S * y, p.u0 + y);
-  return missed == 0.0 ? 0.0 : missed / p.r0.norm();
+  return missed == 0.0 ? 0.0 : missed / std::max(p.force_scale, p.r0.norm());
 }
 
 JointState state_of(const Local& reaction, const Local& gap, JointState now, const JointLaw& law,
@@ -109,29 +110,19 @@ LocalContactResult try_sets(const LocalContact& p, States states) {
   return result;
 }
 
-// (C5) from all joints sticking but those that are apart. These keep their cohesion, so that λ
-// changes nothing as long as the others stick.
-LocalContactResult release_all(const LocalContact& problem) {
-  States start(problem.laws.size(), JointState::stick);
-  VectorXd sticking = VectorXd::Ones(static_cast<Index>(start.size()));
-  for (std::size_t i = 0; i < start.size(); ++i) {
-    if (!problem.is_apart(i)) continue;
-    start[i] = JointState::open;
-    sticking(static_cast<Index>(i)) = 0.0;
-  }
-  StateSystem system(problem, std::move(start));
-  const VectorXd reactions = system.solve(problem.r0, -problem.u0, cohesions(problem)).r;
-  const double enough =
-      cohesion_to_stick(reactions, problem.laws).cwiseProduct(sticking).maxCoeff();
-  return follow_release(system, enough * sticking);
-}
-
-LocalContactResult solve_as_it_is(const LocalContact& problem, States states) {
-  LocalContactResult result = try_sets(problem, std::move(states));
-  if (result.converged) return result;
-  const int spent = result.iterations;
-  result = release_all(problem);
-  result.iterations += spent;
+// Sets from the last one on, or a path: from the last set, near, or from where it has to arrive.
+LocalContactResult solve_as_it_is(const LocalContact& problem, const States& states) {
+  LocalContactResult result = try_sets(problem, states);
+  int spent = result.iterations;
+  StateSystem system(problem, states);
+  const auto follow = [&](const std::optional<Homotopy>& path) {
+    if (result.converged || !path) return;
+    result = follow_homotopy(system, *path);
+    spent += result.iterations;
+  };
+  if (!result.converged) follow(from_states(system));
+  if (!result.converged) follow(from_sticking(system));
+  result.iterations = spent;
   return result;
 }
 
@@ -147,7 +138,7 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
     held.S.diagonal().array() += stiffness;
     LocalContactResult result{.states = states};
     for (int i = 0; i < times_moved && least > law_is_met; ++i) {
-      result = solve_as_it_is(held, std::move(result.states));
+      result = solve_as_it_is(held, result.states);
       spent += result.iterations;
       if (!result.converged) break;
       const double residual = law_residual_of(problem, result.y);

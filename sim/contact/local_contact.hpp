@@ -28,6 +28,9 @@ struct LocalContact {
   /// holds it. A long strip beside a crack bends as softly as 1e-8 of that, so it has to be less.
   /// In long steps inertia holds pieces by 1e-11, and has to be what decides. [-]
   double trace = 1e-11;
+  /// What forces err by is compared to r₀, but to no less than this: where nothing bears, r₀ is
+  /// rounding. [N/m]
+  double force_scale = 0.0;
 
   [[nodiscard]] bool is_apart(std::size_t joint) const {
     return !apart.empty() && apart[joint] != 0;

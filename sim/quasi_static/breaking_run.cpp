@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "sim/contact/release_path.hpp"
+#include "sim/contact/homotopy.hpp"
 #include "sim/joint/thresholds.hpp"
 #include "sim/outcome.hpp"
 
@@ -43,7 +43,10 @@ BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructu
       reference_{{}, intact_->answer().reactions, intact_->answer().force, 0.0},
       reactions_(reference_.reactions),
       force_(reference_.force),
-      noise_(1e-10 * intact_->answer().reactions.lpNorm<Eigen::Infinity>()) {}
+      noise_(1e-10 * intact_->answer().reactions.lpNorm<Eigen::Infinity>()) {
+  const VectorXd& intact_reactions = intact_->answer().reactions;
+  contact_.force_scale = intact_reactions.norm() / std::sqrt(static_cast<double>(joints_.size()));
+}
 
 // ε = f_N μ_c / (|r_T| − μ_c r_N), section 6.
 double BreakingRun::meets_cone_at(std::size_t joint) const {
@@ -210,7 +213,7 @@ bool BreakingRun::settle() {
   StateSolution known{MatrixXd::Zero(contact_.r0.size(), 2), MatrixXd::Zero(contact_.r0.size(), 2)};
   known.y.col(0).head(y_.size()) = y_;
   known.r.col(0) = of_loose(reactions_);
-  LocalContactResult result = follow_release(system_, extra_, known);
+  LocalContactResult result = follow_homotopy(system_, {.cohesion = extra_}, known);
   iterations_ += result.iterations;
   result = or_better(std::move(result));
   if (!result.converged) {  // an answer without contact, counted and reported, instead of none

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "sim/assembly/assembly.hpp"
+#include "sim/contact/homotopy.hpp"
 #include "sim/contact/loose_joints.hpp"
-#include "sim/contact/release_path.hpp"
 #include "tests/sim/contact/enumerated_contact.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <utility>
 
-#include "sim/contact/release_path.hpp"
+#include "sim/contact/homotopy.hpp"
 #include "tests/sim/contact/enumerated_contact.hpp"
 
 namespace havers::sim {

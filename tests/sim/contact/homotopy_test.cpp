@@ -1,4 +1,4 @@
-#include "sim/contact/release_path.hpp"
+#include "sim/contact/homotopy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ VectorXd sticking_cohesion(const LocalContact& problem) {
 
 LocalContactResult release_from_sticking(const LocalContact& problem) {
   StateSystem system(problem);
-  return follow_release(system, sticking_cohesion(problem));
+  return follow_homotopy(system, {.cohesion = sticking_cohesion(problem)});
 }
 
 class ReleasePath : public testing::TestWithParam<std::tuple<int, double>> {};
@@ -43,7 +43,8 @@ TEST(ReleasePathFromAllSticking, ArrivesWhateverTheFriction) {
         const LocalContact problem = test::random_contact(joints, friction, seed);
         StateSystem system(problem);
         const double extra = sticking_cohesion(problem).maxCoeff();
-        const auto result = follow_release(system, VectorXd::Constant(joints, extra));
+        const auto result =
+            follow_homotopy(system, {.cohesion = VectorXd::Constant(joints, extra)});
         ASSERT_TRUE(result.converged) << joints << ", " << friction << ", " << seed;
         EXPECT_TRUE(test::keeps_law(problem, result.y, 1e-9)) << seed;
       }

@@ -1,4 +1,4 @@
-#include "sim/contact/release_path.hpp"
+#include "sim/contact/homotopy.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,28 +22,33 @@ using States = std::vector<JointState>;
 constexpr double nothing = 1e-10;
 // After so many changes for every joint a path leads nowhere.
 constexpr int most_changes = 100;
+constexpr double unlike = 0.618;  // multiples of it, without their whole parts, are spread evenly
 // Of the answers on the way, and of the last one where it is not solved for anew.
 constexpr double accuracy_on_the_way = 1e-11, accuracy_of_answer = 1e-13;
 
 // The solution for given states: value at λ = 0 (column 0) and slope (column 1).
 struct Branch {
-  MatrixXd y, r, u;
+  MatrixXd y, r, u, cohesion;
   double force_tolerance = 0.0;  // [N/m]
 };
 
-Branch solve_branch(StateSystem& system, StateSolution known, const VectorXd& extra) {
+MatrixXd with_slope(const VectorXd& value, const VectorXd& slope) {
+  MatrixXd both = MatrixXd::Zero(value.size(), 2);
+  both.col(0) = value;
+  if (slope.size() > 0) both.col(1) = slope;
+  return both;
+}
+
+Branch solve_branch(StateSystem& system, StateSolution known, const Homotopy& added) {
   const LocalContact& p = system.problem();
-  const auto n = static_cast<Index>(p.laws.size());
-  MatrixXd r0 = MatrixXd::Zero(2 * n, 2), u0 = MatrixXd::Zero(2 * n, 2), cohesion(n, 2);
-  r0.col(0) = p.r0;
-  u0.col(0) = p.u0;
-  cohesion << cohesions(p), extra;
-  if (known.y.size() == 0) known = {MatrixXd::Zero(2 * n, 2), r0};
+  const MatrixXd r0 = with_slope(p.r0, added.reactions);
+  MatrixXd u = with_slope(p.u0, added.gaps), cohesion = with_slope(cohesions(p), added.cohesion);
+  if (known.y.size() == 0) known = {MatrixXd::Zero(r0.rows(), 2), r0};
   StateSolution solution =
-      system.solve_from(std::move(known), r0, -u0, cohesion, accuracy_on_the_way);
-  u0 += solution.y;
-  return {std::move(solution.y), std::move(solution.r), std::move(u0),
-          nothing * p.r0.lpNorm<Eigen::Infinity>()};
+      system.solve_from(std::move(known), r0, -u, cohesion, accuracy_on_the_way);
+  u += solution.y;
+  return {std::move(solution.y), std::move(solution.r), std::move(u), std::move(cohesion),
+          nothing * std::max(p.force_scale, p.r0.lpNorm<Eigen::Infinity>())};
 }
 
 // Where the path is, and where λ goes from there: down (−1), or up (+1) where the path turns back.
@@ -60,13 +65,13 @@ struct Change {
 
 // What holds a joint back from changing its state to another, (value, slope), as a force ≥ 0: the
 // conditions of the law (M5), (M7).
-RowVector2d condition(const StateSystem& system, const Branch& branch, const Change& change,
-                      double extra) {
+RowVector2d condition(const StateSystem& system, const Branch& branch, const Change& change) {
   const LocalContact& p = system.problem();
   const auto row = static_cast<Index>(2 * change.joint);
   const JointLaw& law = p.laws[change.joint];
   const JointState from = system.states()[change.joint];
-  RowVector2d push = branch.r.row(row) + RowVector2d(law.cohesion, extra);
+  const RowVector2d push =
+      branch.r.row(row) + branch.cohesion.row(static_cast<Index>(change.joint));
   if (from == JointState::open) return p.S(row, row) * branch.u.row(row);
   if (from == JointState::stick)
     return law.friction * push + slip_sign(change.to) * branch.r.row(row + 1);
@@ -91,12 +96,12 @@ bool comes_before(double at, double other, const Course& course) {
 }
 
 // The next change of one joint on the way.
-Change next_change(const StateSystem& system, const Branch& branch, std::size_t joint, double extra,
+Change next_change(const StateSystem& system, const Branch& branch, std::size_t joint,
                    const Course& course) {
   Change first{.joint = joint};
   if (system.problem().is_apart(joint)) return first;
   const auto consider = [&](JointState to) {
-    const double at = end_of(condition(system, branch, {.joint = joint, .to = to}, extra),
+    const double at = end_of(condition(system, branch, {.joint = joint, .to = to}),
                              branch.force_tolerance, course);
     if (comes_before(at, first.at, course)) first = {at, joint, to};
   };
@@ -121,9 +126,9 @@ Change next_change(const StateSystem& system, const Branch& branch, std::size_t 
 
 // Where a joint changes its state, what holds it back from changing again is zero. Whether that
 // falls from there on: then the path goes on in the other direction.
-bool turns(const StateSystem& system, const Branch& branch, const Change& back, double extra,
+bool turns(const StateSystem& system, const Branch& branch, const Change& back,
            const Course& course) {
-  return course.direction * condition(system, branch, back, extra)(1) < -branch.force_tolerance;
+  return course.direction * condition(system, branch, back)(1) < -branch.force_tolerance;
 }
 
 }  // namespace
@@ -155,7 +160,57 @@ VectorXd cohesion_to_stick(const VectorXd& reactions, const std::vector<JointLaw
   return extra;
 }
 
-LocalContactResult follow_release(StateSystem& system, const VectorXd& extra, StateSolution known) {
+Homotopy from_sticking(StateSystem& system) {
+  const LocalContact& p = system.problem();
+  States start(p.laws.size(), JointState::stick);
+  VectorXd e(static_cast<Index>(start.size()));
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    e(static_cast<Index>(i)) =
+        p.is_apart(i) ? 0.0 : 1.0 + std::fmod(unlike * static_cast<double>(i), 1.0);
+    if (p.is_apart(i)) start[i] = JointState::open;
+  }
+  system.set(std::move(start));
+  const VectorXd reactions = system.solve(p.r0, -p.u0, cohesions(p)).r;
+  return {.cohesion = cohesion_to_stick(reactions, p.laws).cwiseProduct(e).maxCoeff() * e};
+}
+
+std::optional<Homotopy> from_states(StateSystem& system) {
+  const LocalContact& p = system.problem();
+  const StateSolution now = system.solve(p.r0, -p.u0, cohesions(p));
+  if (!now.y.allFinite()) return std::nullopt;
+  Homotopy added{VectorXd::Zero(p.r0.size()), VectorXd::Zero(p.r0.size()), {}};
+  for (std::size_t i = 0; i < p.laws.size(); ++i) {
+    const auto row = static_cast<Index>(2 * i);
+    const JointLaw& law = p.laws[i];
+    const Local r = now.r.col(0).segment<2>(row),
+                u = p.u0.segment<2>(row) + now.y.col(0).segment<2>(row);
+    const double push = r.x() + law.cohesion;
+    const double sign = slip_sign(system.states()[i]);
+    if (p.is_apart(i)) continue;
+    switch (system.states()[i]) {
+      case JointState::open:
+        added.gaps(row) = std::max(0.0, -2.0 * u.x());
+        break;
+      case JointState::slip_forward:
+      case JointState::slip_backward:
+        added.gaps(row + 1) = sign * std::max(0.0, -2.0 * sign * u.y());
+        added.reactions(row) = std::max(0.0, -2.0 * push);
+        added.reactions(row + 1) = -sign * law.friction * added.reactions(row);
+        break;
+      case JointState::stick:
+        added.reactions(row) = std::max(0.0, -2.0 * push);
+        added.reactions(row + 1) = std::copysign(
+            std::max(0.0, 1.5 * (std::abs(r.y()) - law.friction * (push + added.reactions(row)))),
+            -r.y());
+        if (std::abs(added.reactions(row + 1)) > std::abs(r.y())) added.reactions(row + 1) = -r.y();
+        break;
+    }
+  }
+  return added;
+}
+
+LocalContactResult follow_homotopy(StateSystem& system, const Homotopy& added,
+                                   StateSolution known) {
   LocalContactResult result;
   Course course;
   std::set<std::pair<States, double>> met;  // at this λ, and the direction
@@ -163,14 +218,13 @@ LocalContactResult follow_release(StateSystem& system, const VectorXd& extra, St
   const int most = most_changes * (1 + static_cast<int>(system.states().size()));
   while (result.iterations < most) {
     ++result.iterations;
-    Branch branch = solve_branch(system, std::move(known), extra);
+    Branch branch = solve_branch(system, std::move(known), added);
     result.y = branch.y.col(0);
     if (!branch.y.allFinite()) break;
-    if (back && turns(system, branch, *back, extra(static_cast<Index>(back->joint)), course))
-      course.direction = -course.direction;
+    if (back && turns(system, branch, *back, course)) course.direction = -course.direction;
     Change next;
     for (std::size_t j = 0; j < system.states().size(); ++j) {
-      const Change change = next_change(system, branch, j, extra(static_cast<Index>(j)), course);
+      const Change change = next_change(system, branch, j, course);
       if (comes_before(change.at, next.at, course)) next = change;
     }
     if (next.at < 0.0) {  // all the way down, or up without an end

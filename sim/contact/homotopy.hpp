@@ -1,0 +1,47 @@
+// The robust way through a local contact problem: from another whose answer is known to this one.
+#pragma once
+
+#include <optional>
+
+#include "sim/contact/local_contact.hpp"
+#include "sim/contact/state_system.hpp"
+
+namespace havers::sim {
+
+/// What is added to a problem at λ = 1; on the way it shrinks with λ. Empty: nothing.
+struct Homotopy {
+  Eigen::VectorXd reactions{};  ///< To r₀, 2n. [N/m]
+  Eigen::VectorXd gaps{};       ///< To u₀, 2n. [m]
+  Eigen::VectorXd cohesion{};   ///< To c, n. [N/m]
+};
+
+/// Follows the solution from λ = 1, where the system's states hold, to λ = 0 (C5). For given states
+/// it is linear in λ; one joint changes its state at a time, where its condition says so. Where
+/// friction turns the path back, it goes on with growing λ until it turns down again. Not converged
+/// where it goes up without an end or is too long.
+/// @param known  gaps and reactions as they are with these states, if there is an answer: at λ = 0
+/// and by λ, a column each
+LocalContactResult follow_homotopy(StateSystem& system, const Homotopy& added,
+                                   StateSolution known = {});
+
+/// From given states, and the gaps that they have with joints' conditions mirrored where these do
+/// not hold: near where the states nearly hold. Empty where they have no gaps.
+std::optional<Homotopy> from_states(StateSystem& system);
+
+/// From all joints sticking but those apart: cohesion e > 0 of every joint. For large λ that is the
+/// only solution, so that the path cannot end but at λ = 0. No two joints have the same e: it may
+/// be long, and must not come to where several change at once.
+Homotopy from_sticking(StateSystem& system);
+
+/// Gaps of the system's states. A piece that hangs on next to nothing may lie anywhere: if not
+/// where equations solved from nothing leave it, then where they are met nearest to a known answer.
+Eigen::VectorXd answer_of_states(StateSystem& system, StateSolution known);
+
+/// c of every joint, n. [N/m]
+Eigen::VectorXd cohesions(const LocalContact& problem);
+
+/// e that lets joints with these reactions stick: where a path can start. [N/m]
+Eigen::VectorXd cohesion_to_stick(const Eigen::VectorXd& reactions,
+                                  const std::vector<JointLaw>& laws);
+
+}  // namespace havers::sim
