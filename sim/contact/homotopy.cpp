@@ -20,9 +20,7 @@ using States = std::vector<JointState>;
 // Part of the largest free reaction below which a force, or a gap times its stiffness, is nothing.
 // Pieces that carry nothing must not change their minds about contacts without a force.
 constexpr double nothing = 1e-10;
-// After so many changes for every joint a path leads nowhere.
-constexpr int most_changes = 100;
-constexpr double unlike = 0.618;  // multiples of it, without their whole parts, are spread evenly
+constexpr double golden = 0.618;  // multiples of it, without their whole parts, are spread evenly
 // Of the answers on the way, and of the last one where it is not solved for anew.
 constexpr double accuracy_on_the_way = 1e-11, accuracy_of_answer = 1e-13;
 
@@ -160,53 +158,46 @@ VectorXd cohesion_to_stick(const VectorXd& reactions, const std::vector<JointLaw
   return extra;
 }
 
-Homotopy from_sticking(StateSystem& system) {
-  const LocalContact& p = system.problem();
-  States start(p.laws.size(), JointState::stick);
-  VectorXd e(static_cast<Index>(start.size()));
-  for (std::size_t i = 0; i < start.size(); ++i) {
-    e(static_cast<Index>(i)) =
-        p.is_apart(i) ? 0.0 : 1.0 + std::fmod(unlike * static_cast<double>(i), 1.0);
-    if (p.is_apart(i)) start[i] = JointState::open;
-  }
-  system.set(std::move(start));
-  const VectorXd reactions = system.solve(p.r0, -p.u0, cohesions(p)).r;
-  return {.cohesion = cohesion_to_stick(reactions, p.laws).cwiseProduct(e).maxCoeff() * e};
-}
-
 std::optional<Homotopy> from_states(StateSystem& system) {
   const LocalContact& p = system.problem();
   const StateSolution now = system.solve(p.r0, -p.u0, cohesions(p));
   if (!now.y.allFinite()) return std::nullopt;
   Homotopy added{VectorXd::Zero(p.r0.size()), VectorXd::Zero(p.r0.size()), {}};
   for (std::size_t i = 0; i < p.laws.size(); ++i) {
-    const auto row = static_cast<Index>(2 * i);
-    const JointLaw& law = p.laws[i];
-    const Local r = now.r.col(0).segment<2>(row),
-                u = p.u0.segment<2>(row) + now.y.col(0).segment<2>(row);
-    const double push = r.x() + law.cohesion;
-    const double sign = slip_sign(system.states()[i]);
     if (p.is_apart(i)) continue;
-    switch (system.states()[i]) {
-      case JointState::open:
-        added.gaps(row) = std::max(0.0, -2.0 * u.x());
-        break;
-      case JointState::slip_forward:
-      case JointState::slip_backward:
-        added.gaps(row + 1) = sign * std::max(0.0, -2.0 * sign * u.y());
-        added.reactions(row) = std::max(0.0, -2.0 * push);
-        added.reactions(row + 1) = -sign * law.friction * added.reactions(row);
-        break;
-      case JointState::stick:
-        added.reactions(row) = std::max(0.0, -2.0 * push);
-        added.reactions(row + 1) = std::copysign(
-            std::max(0.0, 1.5 * (std::abs(r.y()) - law.friction * (push + added.reactions(row)))),
-            -r.y());
-        if (std::abs(added.reactions(row + 1)) > std::abs(r.y())) added.reactions(row + 1) = -r.y();
-        break;
+    const auto row = static_cast<Index>(2 * i);
+    const JointState state = system.states()[i];
+    if (state == JointState::open) {
+      added.gaps(row) = 2.0 * std::max(0.0, -p.u0(row) - now.y(row, 0));
+      continue;
+    }
+    const JointLaw& law = p.laws[i];
+    const double push = now.r(row, 0) + law.cohesion, shear = now.r(row + 1, 0),
+                 limit = law.friction * std::abs(push), sign = slip_sign(state);
+    added.reactions(row) = 2.0 * std::max(0.0, -push);
+    if (state != JointState::stick) {
+      added.reactions(row + 1) = -sign * law.friction * added.reactions(row);
+      added.gaps(row + 1) = 2.0 * sign * std::max(0.0, -sign * (p.u0(row + 1) + now.y(row + 1, 0)));
+    } else if (std::abs(shear) > limit) {
+      added.reactions(row + 1) = 0.5 * std::copysign(limit, shear) - shear;
     }
   }
   return added;
+}
+
+Homotopy from_sticking(StateSystem& system, int way) {
+  const LocalContact& p = system.problem();
+  States start(p.laws.size(), JointState::stick);
+  VectorXd e = VectorXd::Zero(static_cast<Index>(start.size()));
+  for (std::size_t i = 0; i < start.size(); ++i)
+    if (p.is_apart(i))
+      start[i] = JointState::open;
+    else
+      e(static_cast<Index>(i)) =
+          1.0 + std::fmod(golden * (static_cast<double>(i) + 7.0 * way * way), 1.0);
+  system.set(std::move(start));
+  const VectorXd reactions = system.solve(p.r0, -p.u0, cohesions(p)).r;
+  return {.cohesion = cohesion_to_stick(reactions, p.laws).cwiseProduct(e).maxCoeff() * e};
 }
 
 LocalContactResult follow_homotopy(StateSystem& system, const Homotopy& added,

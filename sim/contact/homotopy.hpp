@@ -15,23 +15,25 @@ struct Homotopy {
   Eigen::VectorXd cohesion{};   ///< To c, n. [N/m]
 };
 
-/// Follows the solution from λ = 1, where the system's states hold, to λ = 0 (C5). For given states
+/// Follows the solution from λ = 1, where the system's states hold, to λ = 0 (C4). For given states
 /// it is linear in λ; one joint changes its state at a time, where its condition says so. Where
 /// friction turns the path back, it goes on with growing λ until it turns down again. Not converged
-/// where it goes up without an end or is too long.
+/// where it goes up without an end, or takes too many changes.
 /// @param known  gaps and reactions as they are with these states, if there is an answer: at λ = 0
 /// and by λ, a column each
+/// @param most_changes  for each joint
 LocalContactResult follow_homotopy(StateSystem& system, const Homotopy& added,
-                                   StateSolution known = {});
+                                   StateSolution known = {}, int most_changes = 100);
 
-/// From given states, and the gaps that they have with joints' conditions mirrored where these do
-/// not hold: near where the states nearly hold. Empty where they have no gaps.
+/// From the system's states as they are: what breaks a joint's law is mirrored. A short path, if
+/// these are nearly the answer's; it may end elsewhere. None where the states have no gaps.
 std::optional<Homotopy> from_states(StateSystem& system);
 
-/// From all joints sticking but those apart: cohesion e > 0 of every joint. For large λ that is the
-/// only solution, so that the path cannot end but at λ = 0. No two joints have the same e: it may
-/// be long, and must not come to where several change at once.
-Homotopy from_sticking(StateSystem& system);
+/// From all joints sticking but those apart, with cohesion e > 0 of each. For large λ that is the
+/// only solution, so that the path cannot end but at λ = 0, if no piece hangs on nothing. It may be
+/// long, by chance: another `way` has other e, no two of them alike, as joints that change at once
+/// lead astray.
+Homotopy from_sticking(StateSystem& system, int way = 0);
 
 /// Gaps of the system's states. A piece that hangs on next to nothing may lie anywhere: if not
 /// where equations solved from nothing leave it, then where they are met nearest to a known answer.

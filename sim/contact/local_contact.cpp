@@ -21,7 +21,9 @@ constexpr double rounding = 1e-12;
 // Residual of the law above which states that agree with their answer are none: nothing holds a
 // piece.
 constexpr double nearly_met = 1e-8;
-constexpr int sets_at_once = 3;  // that follow from each other, before the release path is taken
+constexpr int sets_at_once = 3;  // that follow from each other, before paths are followed
+// From all joints sticking, each with twice the changes for a joint that the one before may take.
+constexpr int ways = 7, changes_of_first_way = 10;
 // Of springs that hold joints, parts of the largest stiffness; each is tried with so many answers.
 constexpr std::array<double, 5> springs{1e-11, 1e-10, 1e-9, 1e-8, 1e-7};
 constexpr int times_moved = 8;
@@ -110,18 +112,19 @@ LocalContactResult try_sets(const LocalContact& p, States states) {
   return result;
 }
 
-// Sets from the last one on, or a path: from the last set, near, or from where it has to arrive.
+// Sets from the last one on; where these lead nowhere, paths.
 LocalContactResult solve_as_it_is(const LocalContact& problem, const States& states) {
   LocalContactResult result = try_sets(problem, states);
+  if (result.converged) return result;
   int spent = result.iterations;
   StateSystem system(problem, states);
-  const auto follow = [&](const std::optional<Homotopy>& path) {
-    if (result.converged || !path) return;
-    result = follow_homotopy(system, *path);
+  const auto follow = [&](const Homotopy& path, int most_changes) {
+    result = follow_homotopy(system, path, {}, most_changes);
     spent += result.iterations;
   };
-  if (!result.converged) follow(from_states(system));
-  if (!result.converged) follow(from_sticking(system));
+  if (const std::optional<Homotopy> near = from_states(system)) follow(*near, 1);
+  for (int way = 0; way < ways && !result.converged; ++way)
+    follow(from_sticking(system, way), changes_of_first_way << way);
   result.iterations = spent;
   return result;
 }
