@@ -200,8 +200,8 @@ Homotopy from_sticking(StateSystem& system, int way) {
   return {.cohesion = cohesion_to_stick(reactions, p.laws).cwiseProduct(e).maxCoeff() * e};
 }
 
-LocalContactResult follow_homotopy(StateSystem& system, const Homotopy& added,
-                                   StateSolution known) {
+LocalContactResult follow_homotopy(StateSystem& system, const Homotopy& added, StateSolution known,
+                                   int most_changes) {
   LocalContactResult result;
   Course course;
   std::set<std::pair<States, double>> met;  // at this λ, and the direction
