@@ -5,7 +5,11 @@
 #include <random>
 #include <tuple>
 
+#include "sim/assembly/assembly.hpp"
+#include "sim/contact/loose_joints.hpp"
+#include "sim/scene.hpp"
 #include "tests/sim/contact/enumerated_contact.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace havers::sim {
 namespace {
@@ -51,21 +55,6 @@ TEST_P(FromSticking, LeavesOpenWhatIsApart) {
   }
 }
 
-// Joints that are all alike and far from each other would change their states at once.
-TEST_P(FromSticking, ArrivesWhereAllJointsAreAlike) {
-  const LocalContact one = test::random_contact(1, friction, 5);
-  LocalContact all{.S = Eigen::MatrixXd::Zero(2 * joints, 2 * joints),
-                   .r0 = one.r0.replicate(joints, 1),
-                   .u0 = one.u0.replicate(joints, 1),
-                   .laws = {one.laws.begin(), one.laws.end()}};
-  all.laws.assign(static_cast<std::size_t>(joints), one.laws.front());
-  for (Index i = 0; i < joints; ++i) all.S.block<2, 2>(2 * i, 2 * i) = one.S;
-  StateSystem system(all);
-  const auto result = follow_homotopy(system, from_sticking(system));
-  ASSERT_TRUE(result.converged);
-  EXPECT_TRUE(test::keeps_law(all, result.y, 1e-9));
-}
-
 // At λ = 1 the states that a path starts from are the answer.
 TEST_P(FromSticking, AndFromOtherStatesStartsAtAnAnswer) {
   for (unsigned seed = 1; seed <= 20; ++seed)
@@ -82,6 +71,36 @@ TEST_P(FromSticking, AndFromOtherStatesStartsAtAnAnswer) {
         const VectorXd y = system.solve(problem.r0, -problem.u0, cohesions(problem)).y;
         EXPECT_TRUE(test::keeps_law(problem, y, 1e-9)) << "seed " << seed;
       }
+}
+
+// Most joints of a wall in long steps, any gaps and forces: joints that close have slipped since
+// the branch began.
+TEST(FromStickingInAWall, ArrivesInLongSteps) {
+  for (const double angle : {0.0, 30.0}) {
+    const Scene scene = test::small_scene(angle, 5, 4);
+    const Assembly assembly = build_assembly(scene.assembly, Lateral::free);
+    const double h = 100.0 * scene.assembly.fibre_length / wave_speed(scene.material);
+    const Bodies bodies(assembly, scene.material, {1.0 / (h * h), 1.0});
+    const Structure structure(bodies);
+    for (const double friction : {0.6, 1.4})
+      for (unsigned seed = 1; seed <= 20; ++seed) {
+        std::mt19937 random(seed);
+        LooseJoints loose(structure);
+        std::bernoulli_distribution broken(0.7);
+        for (int joint = 0; joint < static_cast<int>(assembly.joints.size()); ++joint)
+          if (broken(random)) loose.add(joint);
+        LocalContact problem{.S = loose.stiffness(), .r0 = {}, .u0 = {}, .laws = {}};
+        std::normal_distribution<double> gap(0.0, 1e-7);
+        const auto draw = [&] { return gap(random); };
+        problem.u0 = VectorXd::NullaryExpr(problem.S.rows(), draw);
+        problem.r0 = problem.S * VectorXd::NullaryExpr(problem.S.rows(), draw);
+        problem.laws.assign(loose.size(), broken_law(friction));
+        StateSystem system(problem);
+        const auto result = follow_homotopy(system, from_sticking(system));
+        EXPECT_TRUE(result.converged) << angle << ", " << friction << ", " << seed;
+        EXPECT_LT(law_residual_of(problem, result.y), 1e-9) << angle << ", " << seed;
+      }
+  }
 }
 
 }  // namespace

@@ -45,6 +45,31 @@ TEST(SwingingPieces, LeaveARunTrustedWhereLayersComeLoose) {
   }
 }
 
+// Joints of a small regular wall come to their limits at once: a path on which they were to change
+// their states together would lead in circles.
+TEST(SwingingPieces, AreHeldWhereManyJointsChangeAtOnce) {
+  Scene scene = test::small_scene(0.0, 5, 2);
+  scene.joints.flank = 6e6;
+  scene.joints.scatter = 1.4;
+  scene.joints.friction = 1.2;
+  for (scene.joints.seed = 1; scene.joints.seed <= 100; ++scene.joints.seed) {
+    const Simulation simulation = simulate(scene);
+    EXPECT_EQ(simulation.status, SimulationStatus::broken) << scene.joints.seed;
+    EXPECT_EQ(simulation.events_without_contact, 0) << scene.joints.seed;
+  }
+}
+
+// A missing joint that the load passes by bears rounding alone, and that obeys no law.
+TEST(SwingingPieces, DoNotHideThatAMissingJointBearsNothing) {
+  Scene scene = test::small_scene(90.0, 8, 3);
+  scene.joints.missing = 0.05;
+  for (scene.joints.seed = 1; scene.joints.seed <= 40; ++scene.joints.seed) {
+    const Simulation simulation = simulate(scene);
+    EXPECT_EQ(simulation.events_without_contact, 0) << scene.joints.seed;
+    EXPECT_TRUE(simulation.trusted()) << simulation.why_not_trusted();
+  }
+}
+
 // A fibre on its last joint turns between neighbours that hardly rub: its equations have no digits
 // left, and springs that let go of it leave a force of 1e-9.
 TEST(SwingingPieces, AreHeldByTheirNeighboursWithNextToNoFriction) {
