@@ -18,9 +18,9 @@ using Eigen::VectorXd;
 using States = std::vector<JointState>;
 
 constexpr double rounding = 1e-12;
-// Residual of the law above which states that agree with their answer are none: nothing holds a
-// piece.
-constexpr double nearly_met = 1e-8;
+// Residual of the law below which an answer is one, and above which it is none though its states
+// agree with it: nothing holds a piece. In between a better one is looked for.
+constexpr double well_met = 1e-9, nearly_met = 1e-8;
 constexpr int sets_at_once = 3;  // that follow from each other, before paths are followed
 // From all joints sticking, each with twice the changes for a joint that the one before may take.
 constexpr int ways = 7, changes_of_first_way = 10;
@@ -140,7 +140,7 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
     LocalContact held = problem;
     held.S.diagonal().array() += stiffness;
     LocalContactResult result{.states = states};
-    for (int i = 0; i < times_moved && least > law_is_met; ++i) {
+    for (int i = 0; i < times_moved && least > well_met; ++i) {
       result = solve_as_it_is(held, result.states);
       spent += result.iterations;
       if (!result.converged) break;
@@ -160,7 +160,7 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
 LocalContactResult solve_local_contact(const LocalContact& problem, const States& states) {
   if (states.empty()) return {.converged = true, .y = {}, .states = {}, .iterations = 0};
   LocalContactResult result = solve_as_it_is(problem, states);
-  const bool solved = result.converged && law_residual_of(problem, result.y) <= law_is_met;
+  const bool solved = result.converged && law_residual_of(problem, result.y) <= well_met;
   return solved ? result : solve_with_springs(problem, states, std::move(result));
 }
 
