@@ -129,7 +129,7 @@ LocalContactResult solve_as_it_is(const LocalContact& problem, const States& sta
   return result;
 }
 
-// (C10). Joints held by springs where the last answer has left them, until these bear nothing, or
+// (C7). Joints held by springs where the last answer has left them, until these bear nothing, or
 // no less than what rounding leaves on a piece that hangs on nothing: the best of all answers.
 LocalContactResult solve_with_springs(const LocalContact& problem, const States& states,
                                       LocalContactResult best) {

@@ -69,7 +69,7 @@ SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, cons
                                const JointLaw& law);
 
 /// Active set started from `states`: each set is one linear solve (C2). Where sets do not lead to
-/// each other, the release of cohesion from all joints sticking (C5).
+/// each other, homotopies (C4), at last with springs (C7).
 LocalContactResult solve_local_contact(const LocalContact& problem,
                                        const std::vector<JointState>& states);
 

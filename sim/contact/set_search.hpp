@@ -9,7 +9,7 @@ namespace havers::sim {
 
 /// Every set of states is a structure that holds what sticks, slides along what slips and leaves
 /// what is open (S5); the friction of sliding joints comes by the corrections of (S6). Where an
-/// answer breaks the law of a joint, sweeps over all joints (C6) say which set to take next. Sweeps
+/// answer breaks the law of a joint, sweeps over all joints (C5) say which set to take next. Sweeps
 /// see one joint's neighbours, a factor sees all: together they are quick while h c/L is not large.
 class SetSearch {
  public:

@@ -96,7 +96,7 @@ const VectorXd& StateSystem::column(Index row) {
   return columns_.emplace(row, from_factor(load)).first->second;
 }
 
-// (C8). Whether the states are near enough to those of the factor.
+// (C6). Whether the states are near enough to those of the factor.
 bool StateSystem::border_factor() {
   std::vector<std::optional<double>> slopes(place_.size());
   for (const Equation& equation : equations_)

@@ -19,7 +19,7 @@ struct StateSolution {
 
 /// (C2): gaps are held where a joint sticks, along the normal also where it slips; for each other
 /// gap one equation, no force beyond −c where open, friction on the cone where slipping. The factor
-/// of some states serves others too: what they change borders it (C8).
+/// of some states serves others too: what they change borders it (C6).
 class StateSystem {
  public:
   /// The problem may change its loads and laws' cohesions, and get more joints (see `grow`).
