@@ -17,9 +17,6 @@ using Eigen::RowVector2d;
 using Eigen::VectorXd;
 using States = std::vector<JointState>;
 
-// Part of the largest free reaction below which a force, or a gap times its stiffness, is nothing.
-// Pieces that carry nothing must not change their minds about contacts without a force.
-constexpr double nothing = 1e-10;
 constexpr double golden = 0.618;  // multiples of it, without their whole parts, are spread evenly
 // Of the answers on the way, and of the last one where it is not solved for anew.
 constexpr double accuracy_on_the_way = 1e-11, accuracy_of_answer = 1e-13;
@@ -37,7 +34,8 @@ MatrixXd with_slope(const VectorXd& value, const VectorXd& slope) {
   return both;
 }
 
-Branch solve_branch(StateSystem& system, StateSolution known, const Homotopy& added) {
+Branch solve_branch(StateSystem& system, StateSolution known, const Homotopy& added,
+                    double nothing) {
   const LocalContact& p = system.problem();
   const MatrixXd r0 = with_slope(p.r0, added.reactions);
   MatrixXd u = with_slope(p.u0, added.gaps), cohesion = with_slope(cohesions(p), added.cohesion);
@@ -201,7 +199,7 @@ Homotopy from_sticking(StateSystem& system, int way) {
 }
 
 LocalContactResult follow_homotopy(StateSystem& system, const Homotopy& added, StateSolution known,
-                                   int most_changes) {
+                                   int most_changes, double nothing) {
   LocalContactResult result;
   Course course;
   std::set<std::pair<States, double>> met;  // at this λ, and the direction
@@ -209,7 +207,7 @@ LocalContactResult follow_homotopy(StateSystem& system, const Homotopy& added, S
   const int most = most_changes * (1 + static_cast<int>(system.states().size()));
   while (result.iterations < most) {
     ++result.iterations;
-    Branch branch = solve_branch(system, std::move(known), added);
+    Branch branch = solve_branch(system, std::move(known), added, nothing);
     result.y = branch.y.col(0);
     if (!branch.y.allFinite()) break;
     if (back && turns(system, branch, *back, course)) course.direction = -course.direction;

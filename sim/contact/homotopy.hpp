@@ -22,8 +22,12 @@ struct Homotopy {
 /// @param known  gaps and reactions as they are with these states, if there is an answer: at λ = 0
 /// and by λ, a column each
 /// @param most_changes  for each joint
+/// @param nothing  part of the largest free reaction below which a force, or a gap times its
+/// stiffness, is none: pieces that carry nothing must not change their minds about contacts without
+/// a force. The larger, the sooner the path passes by where a state changes. [-]
 LocalContactResult follow_homotopy(StateSystem& system, const Homotopy& added,
-                                   StateSolution known = {}, int most_changes = 100);
+                                   StateSolution known = {}, int most_changes = 100,
+                                   double nothing = 1e-10);
 
 /// From the system's states as they are: what breaks a joint's law is mirrored. A short path, if
 /// these are nearly the answer's; it may end elsewhere. None where the states have no gaps.

@@ -140,51 +140,6 @@ void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {
   system_.grow();
 }
 
-// Bodies that bonded joints connect to each other, and after them the left and the right end.
-DisjointSets BreakingRun::pieces() const {
-  const Assembly& assembly = intact_->assembly();
-  const std::size_t left = assembly.bodies.size();
-  DisjointSets pieces(left + 2);
-  for (const std::size_t end : {0U, 1U})
-    for (const int body : intact_->end_bodies()[end])
-      pieces.unite(left + end, static_cast<std::size_t>(body));
-  for (std::size_t j = 0; j < joints_.size(); ++j)
-    if (!joints_[j].broken)
-      pieces.unite(static_cast<std::size_t>(assembly.joints[j].body_a),
-                   static_cast<std::size_t>(assembly.joints[j].body_b));
-  return pieces;
-}
-
-// Whether nothing leads from end to end, not even joints that are pressed together.
-bool BreakingRun::severed() const {
-  DisjointSets all = pieces();
-  for (std::size_t i = 0; i < loose_.size(); ++i) {
-    if (system_.states()[i] == JointState::open) continue;
-    const Joint& between = intact_->assembly().joints[static_cast<std::size_t>(loose_.joints()[i])];
-    all.unite(static_cast<std::size_t>(between.body_a), static_cast<std::size_t>(between.body_b));
-  }
-  const std::size_t left = intact_->assembly().bodies.size();
-  return all.find(left) != all.find(left + 1);
-}
-
-// Loose joints at a body that no chain of bonded joints connects to an end: 1. Such a body carries
-// nothing, and without inertia its position is not determined, so neither is what it touches.
-std::vector<char> BreakingRun::apart() const {
-  const Assembly& assembly = intact_->assembly();
-  DisjointSets pieces = this->pieces();
-  const std::size_t left = assembly.bodies.size();
-  const auto carries = [&](int body) {
-    const std::size_t piece = pieces.find(static_cast<std::size_t>(body));
-    return piece == pieces.find(left) || piece == pieces.find(left + 1);
-  };
-  std::vector<char> apart;
-  for (const int joint : loose_.joints()) {
-    const Joint& between = assembly.joints[static_cast<std::size_t>(joint)];
-    apart.push_back(carries(between.body_a) && carries(between.body_b) ? 0 : 1);
-  }
-  return apart;
-}
-
 // What keeps the law to the tolerance, found in another way if need be; not converged where none
 // does.
 LocalContactResult BreakingRun::or_better(LocalContactResult result) {
@@ -203,6 +158,21 @@ LocalContactResult BreakingRun::or_better(LocalContactResult result) {
   return result;
 }
 
+// From a solution that the joints just broken are still held in.
+LocalContactResult BreakingRun::release(const StateSolution& known) {
+  constexpr int most_changes = 5;  // paths that arrive take fewer, but for a few
+  const std::vector<JointState> start = system_.states();
+  LocalContactResult result;
+  for (const double nothing : {1e-10, 1e-8, 1e-6}) {
+    system_.set(start);
+    const int spent = result.iterations;
+    result = follow_homotopy(system_, {.cohesion = extra_}, known, most_changes, nothing);
+    result.iterations += spent;
+    if (result.converged) break;
+  }
+  return result;
+}
+
 // Only what has just broken is released; the others follow from where they are.
 bool BreakingRun::settle() {
   contact_.apart = apart();
@@ -213,7 +183,7 @@ bool BreakingRun::settle() {
   StateSolution known{MatrixXd::Zero(contact_.r0.size(), 2), MatrixXd::Zero(contact_.r0.size(), 2)};
   known.y.col(0).head(y_.size()) = y_;
   known.r.col(0) = of_loose(reactions_);
-  LocalContactResult result = follow_homotopy(system_, {.cohesion = extra_}, known);
+  LocalContactResult result = release(known);
   iterations_ += result.iterations;
   result = or_better(std::move(result));
   if (!result.converged) {  // an answer without contact, counted and reported, instead of none

@@ -57,6 +57,7 @@ class BreakingRun {
   [[nodiscard]] Eigen::VectorXd of_loose(const Eigen::VectorXd& of_all) const;
   [[nodiscard]] Eigen::VectorXd lacking(const Eigen::VectorXd& reactions) const;
   void refine();
+  LocalContactResult release(const StateSolution& known);
   LocalContactResult or_better(LocalContactResult result);
 
   const Scene& scene_;
