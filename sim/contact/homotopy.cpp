@@ -66,8 +66,7 @@ RowVector2d condition(const StateSystem& system, const Branch& branch, const Cha
   const auto row = static_cast<Index>(2 * change.joint);
   const JointLaw& law = p.laws[change.joint];
   const JointState from = system.states()[change.joint];
-  const RowVector2d push =
-      branch.r.row(row) + branch.cohesion.row(static_cast<Index>(change.joint));
+  RowVector2d push = branch.r.row(row) + branch.cohesion.row(static_cast<Index>(change.joint));
   if (from == JointState::open) return p.S(row, row) * branch.u.row(row);
   if (from == JointState::stick)
     return law.friction * push + slip_sign(change.to) * branch.r.row(row + 1);
