@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
@@ -17,7 +18,7 @@ using Eigen::RowVector2d;
 using Eigen::VectorXd;
 using States = std::vector<JointState>;
 
-constexpr double golden = 0.618;  // multiples of it, without their whole parts, are spread evenly
+constexpr double farthest = 1e3;  // λ; a path that has gone up so far is not seen to come back
 // Of the answers on the way, and of the last one where it is not solved for anew.
 constexpr double accuracy_on_the_way = 1e-11, accuracy_of_answer = 1e-13;
 
@@ -191,7 +192,7 @@ Homotopy from_sticking(StateSystem& system, int way) {
       start[i] = JointState::open;
     else
       e(static_cast<Index>(i)) =
-          1.0 + std::fmod(golden * (static_cast<double>(i) + 7.0 * way * way), 1.0);
+          1.0 + std::fmod(std::numbers::phi * (static_cast<double>(i) + 7.0 * way * way), 1.0);
   system.set(std::move(start));
   const VectorXd reactions = system.solve(p.r0, -p.u0, cohesions(p)).r;
   return {.cohesion = cohesion_to_stick(reactions, p.laws).cwiseProduct(e).maxCoeff() * e};
@@ -215,6 +216,7 @@ LocalContactResult follow_homotopy(StateSystem& system, const Homotopy& added, S
       const Change change = next_change(system, branch, j, course);
       if (comes_before(change.at, next.at, course)) next = change;
     }
+    if (next.at > farthest) break;
     if (next.at < 0.0) {  // all the way down, or up without an end
       result.converged = course.direction < 0.0;
       result.y = answer_of_states(system, {branch.y.col(0), branch.r.col(0)});

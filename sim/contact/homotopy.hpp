@@ -27,7 +27,7 @@ struct Homotopy {
 /// a force. The larger, the sooner the path passes by where a state changes. [-]
 LocalContactResult follow_homotopy(StateSystem& system, const Homotopy& added,
                                    StateSolution known = {}, int most_changes = 100,
-                                   double nothing = 1e-10);
+                                   double nothing = 1e-9);
 
 /// From the system's states as they are: what breaks a joint's law is mirrored. A short path, if
 /// these are nearly the answer's; it may end elsewhere. None where the states have no gaps.

@@ -163,7 +163,7 @@ LocalContactResult BreakingRun::release(const StateSolution& known) {
   constexpr int most_changes = 5;  // paths that arrive take fewer, but for a few
   const std::vector<JointState> start = system_.states();
   LocalContactResult result;
-  for (const double nothing : {1e-10, 1e-8, 1e-6}) {
+  for (const double nothing : {1e-8, 1e-10, 1e-6}) {
     system_.set(start);
     const int spent = result.iterations;
     result = follow_homotopy(system_, {.cohesion = extra_}, known, most_changes, nothing);
