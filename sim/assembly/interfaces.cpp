@@ -9,7 +9,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double turned = 1e-12;  // [rad]; less is rounding
+constexpr double turned = 1e-12;        // [rad]; less is rounding
+constexpr double smallest_part = 1e-6;  // of an edge; no tie is on less, or so near its middle
 
 const Vector2d& at(const Assembly& assembly, int node) {
   return assembly.nodes[static_cast<std::size_t>(node)];
@@ -58,7 +59,9 @@ std::vector<OuterEdge> outer_edges(const HalfFibres& halves, const Assembly& ass
   return edges;
 }
 
-// The point at x on an edge: two neighbouring nodes and their weights.
+// The point at x on an edge: two neighbouring nodes and their weights. The middle's displacement is
+// known from those of a half fibre's other edges; that of a point just beside it would differ from
+// it by rounding, and be held by it.
 struct EdgePoint {
   std::array<int, 2> nodes;
   std::array<double, 2> weights;
@@ -66,7 +69,9 @@ struct EdgePoint {
 
 EdgePoint point_on(const OuterEdge& edge, double x) {
   const std::size_t pieces = edge.nodes.size() - 1;
-  const double place = (x - edge.from) / (edge.to - edge.from) * static_cast<double>(pieces);
+  double part = (x - edge.from) / (edge.to - edge.from);
+  if (std::abs(part - 0.5) < smallest_part) part = 0.5;
+  const double place = part * static_cast<double>(pieces);
   const std::size_t piece = std::min(static_cast<std::size_t>(place), pieces - 1);
   const double w = place - static_cast<double>(piece);
   return {{edge.nodes[piece], edge.nodes[piece + 1]}, {1.0 - w, w}};
@@ -94,11 +99,11 @@ void add_joints(const AssemblyOptions& options, const HalfFibres& halves, Assemb
 void add_ties(const HalfFibres& halves, Assembly& assembly) {
   const std::vector<OuterEdge> top = outer_edges(halves, assembly, assembly.height);
   const std::vector<OuterEdge> bottom = outer_edges(halves, assembly, 0.0);
-  const double tolerance = 1e-9 * assembly.width;
+  const auto length = [](const OuterEdge& edge) { return edge.to - edge.from; };
   for (std::size_t t = 0, b = 0; t < top.size() && b < bottom.size();) {
     const double from = std::max(top[t].from, bottom[b].from),
                  to = std::min(top[t].to, bottom[b].to);
-    if (to - from > tolerance) {
+    if (to - from > smallest_part * std::min(length(top[t]), length(bottom[b]))) {
       const double x = 0.5 * (from + to);
       const EdgePoint above = point_on(top[t], x), below = point_on(bottom[b], x);
       assembly.ties.push_back(

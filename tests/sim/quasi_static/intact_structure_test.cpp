@@ -36,6 +36,17 @@ TEST(IntactStructure, BearsTheUniformStressNearlyIncompressible) {
     }
 }
 
+// Facing edges of a periodic wall then overlap all but for 1e-8 of their length.
+TEST(IntactStructure, BearsTheUniformStressWhereFibresAreAllButAlongASide) {
+  for (const double degrees : {1e-9, 1e-8, 1e-7, 1e-6, 89.99999999, 89.9999999}) {
+    SCOPED_TRACE(degrees);
+    const auto intact = intact_structure(test::small_scene(degrees));
+    ASSERT_TRUE(intact->structure().ok());
+    EXPECT_TRUE(intact->stress_is_known());
+    EXPECT_NEAR(intact->answer().force / intact->assembly().height, 1.0, 1e-6);
+  }
+}
+
 TEST(IntactStructure, RemembersWhatItWasAsked) {
   const auto intact = intact_structure(test::small_scene(30.0));
   EXPECT_EQ(intact->jump(3), intact->jump(3));
