@@ -24,6 +24,7 @@ constexpr double together = 1e-9;
 // reactions.
 constexpr double refined = 1e-11;
 constexpr int most_refinements = 5;
+constexpr double most_growth = 10.0;  // of what is lacking: more, and rounding leads a piece away
 
 // A tolerance below what rounding leaves is no reason to do without contact.
 constexpr double least_tolerance = 1e-8;
@@ -247,18 +248,25 @@ VectorXd BreakingRun::gaps() const {
 void BreakingRun::refine() {
   const double scale = intact_->answer().reactions.norm();
   reference_ = intact_->stretch(gaps());
-  for (int i = 0; i < most_refinements; ++i) {
-    const VectorXd lack = lacking(reference_.reactions);
-    if (lack.norm() <= refined * scale) break;
+  VectorXd lack = lacking(reference_.reactions);
+  for (int i = 0; i < most_refinements && lack.norm() > refined * scale; ++i) {
     contact_.r0 += lack;
     const LocalContactResult found =
         or_better({.converged = true,
                    .y = answer_of_states(system_, {y_, contact_.r0 + contact_.S * y_}),
                    .states = system_.states()});
     if (!found.converged) break;
+    const VectorXd y_before = std::exchange(y_, found.y);
+    UnitAnswer next = intact_->stretch(gaps());
+    VectorXd still_lacking = lacking(next.reactions);
+    if (still_lacking.norm() > most_growth * lack.norm()) {
+      y_ = y_before;
+      contact_.r0 -= lack;
+      break;
+    }
     system_.set(found.states);
-    y_ = found.y;
-    reference_ = intact_->stretch(gaps());
+    reference_ = std::move(next);
+    lack = std::move(still_lacking);
   }
   y_at_reference_ = y_;
 }
