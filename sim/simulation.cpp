@@ -71,7 +71,7 @@ std::string Simulation::why_not_trusted() const {
   if (status != SimulationStatus::broken && status != SimulationStatus::strain_limit)
     return explain(status);
   if (step_error && std::isnan(step_error->failure_strain))
-    return "the error of the chosen time step is not known";
+    return "the error of the chosen time step is not known: no run of half of it has an answer";
   if (step_error && step_error->failure_strain > largest_step_error.failure_strain)
     return "halving the time step still changes the failure strain";
   if (step_error && step_error->strength > largest_step_error.strength)

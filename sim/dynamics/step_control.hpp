@@ -16,8 +16,8 @@ double first_step(const Scene& scene);
 /// Runs a scene with first_step and ever half of it, until two halvings in turn have changed the
 /// failure strain and the strength by less than half of `step_accuracy`: implicit Euler is of first
 /// order, so what is left is about the last change. Ends as well where a further run would be too
-/// long. The last run is the answer; `step_error` and `regime_ground` say what its last halving
-/// changed.
+/// long. The last run that came to its end is the answer, or the one that was cancelled;
+/// `step_error` and `regime_ground` say what its last halving changed.
 Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer);
 
 }  // namespace havers::sim
