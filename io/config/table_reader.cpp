@@ -50,6 +50,11 @@ const toml::node& innermost(const toml::table& table, std::string_view key) {
   return *node;
 }
 
+bool is_override(const toml::node& node) {
+  const toml::source_region& source = node.source();
+  return source.path && source.path->starts_with(override_mark);
+}
+
 std::filesystem::path beside(const std::filesystem::path& file, const std::string& name) {
   return (file.parent_path() / name).lexically_normal();
 }
@@ -196,8 +201,10 @@ bool TableReader::require_file(std::string_view name, const std::filesystem::pat
   if (there) file_->inputs_.push_back(file);
   if (!named) complain(name, "is empty, must name a file");
   if (named && !there)
-    complain(name, fmt::format("names {}, which is not there", file.string()),
-             "paths are relative to the folder of this file");
+    complain(
+        name, fmt::format("names {}, which is not there", file.string()),
+        fmt::format("paths are relative to the folder of {}",
+                    is_override(innermost(*table_, name)) ? file_->file_.string() : "this file"));
   return there;
 }
 
@@ -266,8 +273,7 @@ TableReader ConfigFile::top() {
 
 std::string ConfigFile::where(const toml::node& node, const std::string& key) const {
   const toml::source_region& source = node.source();
-  if (source.path && source.path->starts_with(override_mark))
-    return fmt::format("{}{}", override_mark, key);
+  if (is_override(node)) return fmt::format("{}{}", override_mark, key);
   if (&node == top_.get() || source.begin.line == 0)
     return fmt::format("{}: {}", file_.string(), key);
   return fmt::format("{}:{}: {}", file_.string(), source.begin.line, key);
