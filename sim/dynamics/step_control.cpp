@@ -9,6 +9,7 @@
 #include "sim/dynamics/time_stepping.hpp"
 #include "sim/joint/thresholds.hpp"
 #include "sim/outcome.hpp"
+#include "sim/simulate.hpp"
 
 namespace havers::sim {
 namespace {
@@ -64,6 +65,21 @@ double first_step(const Scene& scene) {
                                          : 0.5 * scene.assembly.fibre_length / wave;
   const double strain = 0.02 * head_tail_strength(scene) / scene.material.young;
   return std::min(transit, strain / scene.loading.strain_rate);
+}
+
+std::string doubt_about_steps(const Scene& scene) {
+  if (scene.solver.step || !may_leap(scene) || choose_regime(scene).regime == Regime::quasi_static)
+    return "";
+  const double followed = most_steps_of_a_run * first_step(scene) * scene.loading.strain_rate;
+  if (followed >=
+      std::min(scene.loading.max_strain, head_tail_strength(scene) / scene.material.young))
+    return "";
+  return fmt::format(
+      "a run in time ends after ten million steps, at this rate a strain of at most {:.2g} % "
+      "beyond "
+      "the first break: where the specimen bears longer it takes hours and is not trusted (regime "
+      "= \"quasi-static\" takes no steps)",
+      100.0 * followed);
 }
 
 Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer) {

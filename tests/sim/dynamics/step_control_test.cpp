@@ -175,6 +175,18 @@ TEST(StepChosen, IsNotTrustedWhereNoShorterStepHasAnAnswer) {
   EXPECT_THAT(run.why_not_trusted(), testing::HasSubstr("no run of half of it has an answer"));
 }
 
+TEST(StepChosen, IsDoubtedWhereTenMillionEndSoonAfterTheFirstBreak) {
+  Scene scene = without_step(0.0);
+  EXPECT_EQ(doubt_about_steps(scene), "");
+  scene.loading.strain_rate = 1e-3;
+  EXPECT_THAT(doubt_about_steps(scene), testing::HasSubstr("a strain of at most 0.00098 % beyond"));
+  Scene given = scene, limit = scene;
+  given.solver.step = 1.0;
+  EXPECT_EQ(doubt_about_steps(given), "") << "refused where it is too short";
+  limit.solver.regime = Regime::automatic;
+  EXPECT_EQ(doubt_about_steps(limit), "");
+}
+
 TEST(FirstStep, IsAQuarterOfTheTimeThatAWaveTakesAcrossAFibre) {
   Scene scene = without_step(0.0);
   const double wave = std::sqrt(13e9 / 2000.0);
