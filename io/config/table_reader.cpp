@@ -50,11 +50,6 @@ const toml::node& innermost(const toml::table& table, std::string_view key) {
   return *node;
 }
 
-bool is_override(const toml::node& node) {
-  const toml::source_region& source = node.source();
-  return source.path && source.path->starts_with(override_mark);
-}
-
 std::filesystem::path beside(const std::filesystem::path& file, const std::string& name) {
   return (file.parent_path() / name).lexically_normal();
 }
@@ -200,12 +195,11 @@ bool TableReader::require_file(std::string_view name, const std::filesystem::pat
   const bool named = file.has_filename();  // beside() has added nothing else to the folder
   if (there) file_->inputs_.push_back(file);
   if (!named) complain(name, "is empty, must name a file");
-  if (named && !there)
-    complain(
-        name, fmt::format("names {}, which is not there", file.string()),
-        fmt::format("paths are relative to the folder of {}",
-                    is_override(innermost(*table_, name)) ? file_->file_.string() : "this file"));
-  return there;
+  if (!named || there) return there;
+  const bool set = is_override(innermost(*table_, name));
+  complain(name, fmt::format("names {}, which is not there", file.string()),
+           "paths are relative to the folder of " + (set ? file_->file_.string() : "this file"));
+  return false;
 }
 
 std::optional<std::size_t> TableReader::word_index(std::string_view name,
