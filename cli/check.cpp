@@ -13,6 +13,7 @@
 #include "io/input_error.hpp"
 #include "io/results/result_files.hpp"
 #include "io/sweep/read_sweep.hpp"
+#include "sim/dynamics/step_control.hpp"
 
 namespace havers::cli {
 namespace {
@@ -59,7 +60,9 @@ Findings look_at(const std::filesystem::path& file, const io::Overrides& overrid
         findings.warnings = io::read_sweep(file, overrides).warnings;
         break;
       case Kind::scene:
-        io::read_scene(file, overrides);
+        const sim::Scene scene = io::read_scene(file, overrides).scene;
+        if (const std::string doubt = sim::doubt_about_steps(scene); !doubt.empty())
+          findings.warnings.push_back(doubt);
     }
   } catch (const io::InputError& error) {
     findings.problems = error.problems();

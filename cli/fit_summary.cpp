@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 namespace havers::cli {
 namespace {
 
@@ -36,9 +38,10 @@ void print_fit_summary(const calib::CalibrationResult& result, double wall_secon
   for (const calib::CalibratedParameter& parameter : result.parameters) print_parameter(parameter);
   fmt::print("specimens     E [GPa]  simulated  sigma [MPa]  simulated   porosity    scatter\n");
   for (const calib::SpecimenResult& specimen : result.specimens) print_specimen(specimen);
-  fmt::print("{:.3g} s for a cost of {:.4g}: {} simulations, {} of them new, {} failed\n",
-             wall_seconds, result.cost, result.evaluations, result.simulated,
-             result.failed_simulations);
+  fmt::print("{:.3g} s {}: {} simulations, {} of them new, {} failed\n", wall_seconds,
+             std::isfinite(result.cost) ? fmt::format("for a cost of {:.4g}", result.cost)
+                                        : "without an answer",
+             result.evaluations, result.simulated, result.failed_simulations);
 }
 
 }  // namespace havers::cli

@@ -12,6 +12,7 @@
 #include "cli/provenance.hpp"
 #include "io/snapshots/snapshots.hpp"
 #include "reports/figures/avalanche.hpp"
+#include "sim/dynamics/step_control.hpp"
 
 namespace havers::cli {
 namespace {
@@ -27,16 +28,18 @@ struct SimulateArguments {
   std::filesystem::path scene, folder;
 };
 
-std::string progress_text(const sim::CurvePoint& point) {
-  return fmt::format("strain {:.4f} %  stress {:.2f} MPa  broken joints {}", 100.0 * point.strain,
-                     1e-6 * point.stress_right, point.broken_joints);
+// The row shows that a slow run goes on, and by starting anew that a finer one does.
+std::string progress_text(const sim::Progress& progress) {
+  const sim::CurvePoint& point = progress.point;
+  return fmt::format("row {}  strain {:.4f} %  stress {:.2f} MPa  broken joints {}", progress.row,
+                     100.0 * point.strain, 1e-6 * point.stress_right, point.broken_joints);
 }
 
 sim::Simulation watched_run(const sim::Scene& scene, io::SnapshotRecorder& snapshots,
                             const CommonOptions& common) {
   ProgressLine line(common);
   return sim::simulate(scene, [&](const sim::Progress& progress) {
-    if (line.due()) line.show(progress_text(progress.point));
+    if (line.due()) line.show(progress_text(progress));
     snapshots.record(progress);
     return !interrupted();
   });
@@ -99,6 +102,8 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
   const Stopwatch watch;
   io::SceneFile file = io::read_scene(arguments.scene, common.set);
   if (common.seed) file.scene.joints.seed = *common.seed;
+  if (const std::string doubt = sim::doubt_about_steps(file.scene); !doubt.empty())
+    note(common, "note: " + doubt);
   io::SnapshotRecorder snapshots(file.snapshots);
   OutputFolder output(arguments.folder, common.force);
   if (!reports::available())

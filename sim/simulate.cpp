@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "sim/assembly/assembly.hpp"
 #include "sim/dynamics/time_stepping.hpp"
 #include "sim/joint/cohesive_cone.hpp"
 #include "sim/joint/thresholds.hpp"
@@ -42,6 +44,14 @@ RegimeChoice choose_regime(const Scene& scene) {
 
 namespace {
 
+// Its fibres would swing on their own for as long as they are watched.
+bool nothing_is_bonded(const Scene& scene) {
+  if (!some_are_missing(scene.joints)) return false;
+  const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
+  return !assembly.joints.empty() &&
+         std::ranges::all_of(draw_thresholds(scene, assembly), is_missing);
+}
+
 // Section 7: what the scene and its regime do without; a run adds its own omissions.
 std::vector<LeftOut> left_out_by_choice(const Scene& scene, const Simulation& simulation) {
   std::vector<LeftOut> list;
@@ -78,7 +88,12 @@ std::vector<LeftOut> left_out_by_choice(const Scene& scene, const Simulation& si
 
 Simulation simulate(const Scene& scene, const Observer& observer) {
   assert(scene.problems().empty());
-  const RegimeChoice choice = choose_regime(scene);
+  RegimeChoice choice = choose_regime(scene);
+  if (choice.regime == Regime::dynamic && nothing_is_bonded(scene)) {
+    choice.regime = Regime::quasi_static;
+    choice.ground +=
+        ", but every joint is missing: nothing is bonded, and the limit says so at once";
+  }
   Simulation simulation = choice.regime == Regime::quasi_static
                               ? simulate_quasi_static(scene, observer)
                               : simulate_dynamic(scene, observer);

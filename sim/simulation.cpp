@@ -1,5 +1,7 @@
 #include "sim/simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace havers::sim {
@@ -52,6 +54,8 @@ namespace {
 // Changes by the last halving of a chosen step that are still trusted. Waves between breaks change
 // the peak of the stress more than its place. [-]
 constexpr StepError largest_step_error{.failure_strain = 1e-2, .strength = 3e-2};
+constexpr const char* instead_of_halving =
+    "; a step_s that is shorter still, or the quasi-static regime, may help";
 // Relative defect of (M4) in time steps, and in the quasi-static limit, where pieces that swing by
 // a hundred times what the specimen stretches leave fewer digits to forces. [-]
 constexpr double largest_energy_defect = 1e-10, largest_energy_defect_of_events = 1e-9;
@@ -71,11 +75,12 @@ std::string Simulation::why_not_trusted() const {
   if (status != SimulationStatus::broken && status != SimulationStatus::strain_limit)
     return explain(status);
   if (step_error && std::isnan(step_error->failure_strain))
-    return "the error of the chosen time step is not known";
+    return "the error of the chosen time step is not known: no run of half of it has an answer";
   if (step_error && step_error->failure_strain > largest_step_error.failure_strain)
-    return "halving the time step still changes the failure strain";
+    return fmt::format("halving the time step still changes the failure strain{}",
+                       instead_of_halving);
   if (step_error && step_error->strength > largest_step_error.strength)
-    return "halving the time step still changes the strength";
+    return fmt::format("halving the time step still changes the strength{}", instead_of_halving);
   if (steps_over_failure(*this))
     return "a time step is longer than a tenth of the time to failure; a shorter step_s shows more";
   if (!(worst_residual <= tolerance)) return "the joints' law is not met to the tolerance";

@@ -100,7 +100,8 @@ struct Simulation {
 
   /// Whether the numbers may be used: the run ended as it should and the checks hold.
   [[nodiscard]] bool trusted() const { return why_not_trusted().empty(); }
-  /// The check that does not hold, as a sentence; empty when all do.
+  /// The check that does not hold, as a sentence; empty when all do. What helps, where that is
+  /// known, stands behind a semicolon.
   [[nodiscard]] std::string why_not_trusted() const;
 };
 

@@ -70,8 +70,8 @@ void clean_channels(RawTest& test, const ReductionOptions& options) {
     if (const std::size_t rows = spread_repeated_times(test.time); rows > 0)
       test.corrections.push_back(
           {"repeated times",
-           fmt::format("{} rows have the time of the row before: spread evenly up to the next",
-                       rows)});
+           fmt::format("{} the time of the row before: spread evenly up to the next",
+                       rows == 1 ? "1 row has" : fmt::format("{} rows have", rows))});
   if (!options.remove_spikes) return;
   struct Named {
     const char* name;
@@ -82,9 +82,10 @@ void clean_channels(RawTest& test, const ReductionOptions& options) {
                   Named{"strain", test.strain}, Named{"extension", test.extension}})
     if (const std::size_t rows = remove_spikes(channel.values); rows > 0)
       test.corrections.push_back(
-          {"spikes", fmt::format("{} single rows of {} stood out of their neighbours: replaced by "
-                                 "the mean of the rows before and after",
-                                 rows, channel.name)});
+          {"spikes", fmt::format("{} of {} stood out of {} neighbours: replaced by the mean of the "
+                                 "rows before and after",
+                                 rows == 1 ? "1 row" : fmt::format("{} single rows", rows),
+                                 channel.name, rows == 1 ? "its" : "their")});
 }
 
 }  // namespace havers::calib

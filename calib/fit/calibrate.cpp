@@ -261,13 +261,14 @@ CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
   Trail trail(problem, batch, observer);
   Answer answer = solve(problem, trail);
 
-  CalibrationResult result{.stages = answer.stages, .scene = study.model};
+  CalibrationResult result{.stages = answer.stages, .scene = study.model, .cost = answer.best.cost};
   result.parameters = parameters_of(problem, answer);
   result.specimens = specimens_of(problem, batch, answer);
   if (!problem.fitted.empty())
     result.scene =
         replicate_scenes(problem, answer.best.point, std::ranges::min(problem.fitted), 1).front();
-  result.cost = cost_of(result.specimens, answer.best.cost);
+  if (answer.status != CalibrationStatus::all_failed)
+    result.cost = cost_of(result.specimens, answer.best.cost);
   std::ranges::copy(answer.weights.specimen, result.specimen_effect.begin());
   add_hindsight(problem, batch, answer, result);
   result.left_out = left_out_of(problem, batch, answer);

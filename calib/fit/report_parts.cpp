@@ -88,8 +88,10 @@ std::vector<sim::LeftOut> left_out_of(const FitProblem& problem, const Simulatio
   if (batch.asked() > batch.distinct())
     list.push_back(
         {fmt::format("{} of {} simulations", batch.asked() - batch.distinct(), batch.asked()),
-         "asked for before, or the same but for E and σ₁: in the quasi-static limit stresses scale "
-         "with the thresholds and strains with threshold/E"});
+         batch.scaled()
+             ? "asked for before, or the same but for E and σ₁: in the quasi-static limit stresses "
+               "scale with the thresholds and strains with threshold/E"
+             : "asked for before"});
   return list;
 }
 

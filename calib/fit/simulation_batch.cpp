@@ -72,6 +72,7 @@ std::vector<Response> SimulationBatch::run(const std::vector<sim::Scene>& scenes
   for (const auto& scene : scenes) {
     forms.push_back(form_of(simulator_, scene));
     keys.push_back(key_of(forms.back().scene));
+    scaled_ |= forms.back().scaled;
   }
 
   std::vector<Work> missing;

@@ -51,6 +51,8 @@ class SimulationBatch {
   /// Why most of them failed; empty where none did.
   [[nodiscard]] std::string most_failed_because() const;
   [[nodiscard]] long distinct() const { return static_cast<long>(memory_.size()); }
+  /// Whether scenes that differ in E and σ₁ alone were one simulation (F3).
+  [[nodiscard]] bool scaled() const { return scaled_; }
   [[nodiscard]] bool stopped() const { return stopped_; }  ///< By the simulator.
 
  private:
@@ -62,6 +64,7 @@ class SimulationBatch {
   int threads_;
   std::unordered_map<std::string, Response> memory_;
   long asked_ = 0, simulated_ = 0, failed_ = 0;
+  bool scaled_ = false;
   std::atomic<bool> stopped_ = false;
 };
 

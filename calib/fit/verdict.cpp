@@ -35,6 +35,8 @@ Check check_convergence(const Answer& answer, double cost) {
 // Starts agree when they end at the same cost and, where they do, at the same point within its
 // errors.
 Check check_starts(const Answer& answer) {
+  if (answer.ends.empty() || answer.best.failed)
+    return {"starts agree", Outcome::pass, "Not checked: no search came to an answer.", false};
   if (answer.ends.size() < 2)
     return {"starts agree", Outcome::warn,
             "Only one start gave an answer; nothing to compare it with."};
@@ -124,14 +126,16 @@ Check check_failures(const CalibrationResult& result, long distinct) {
                    : 0.0;
   const std::string text =
       fmt::format("{} of {} different simulations failed", result.failed_simulations, distinct);
+  const bool says_what_helps = result.most_failed_because.find("; ") != std::string::npos;
   if (result.failed_simulations == 0) return {"simulations", Outcome::pass, text + "."};
   if (share <= 0.05)
     return {"simulations", Outcome::pass,
             text + "; the replicates that answered stand in for them."};
   return {"simulations", share <= 0.2 ? Outcome::warn : Outcome::fail,
-          fmt::format("{}, most often so: {}. Narrow calibrate.bounds to where the model can be "
-                      "simulated.",
-                      text, result.most_failed_because)};
+          fmt::format("{}, most often so: {}.{}", text, result.most_failed_because,
+                      says_what_helps ? ""
+                                      : " Narrow calibrate.bounds to where the model can be "
+                                        "simulated.")};
 }
 
 }  // namespace

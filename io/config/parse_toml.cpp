@@ -76,6 +76,11 @@ void merge(toml::table& top, toml::table&& overrides) {
 
 }  // namespace
 
+bool is_override(const toml::node& node) {
+  const toml::source_region& source = node.source();
+  return source.path && source.path->starts_with(override_mark);
+}
+
 toml::table parse_toml(const std::filesystem::path& file, const Overrides& overrides) {
   toml::table table = file.empty() ? toml::table{} : parse_file(file);
   std::vector<Problem> problems;

@@ -195,10 +195,11 @@ bool TableReader::require_file(std::string_view name, const std::filesystem::pat
   const bool named = file.has_filename();  // beside() has added nothing else to the folder
   if (there) file_->inputs_.push_back(file);
   if (!named) complain(name, "is empty, must name a file");
-  if (named && !there)
-    complain(name, fmt::format("names {}, which is not there", file.string()),
-             "paths are relative to the folder of this file");
-  return there;
+  if (!named || there) return there;
+  const bool set = is_override(innermost(*table_, name));
+  complain(name, fmt::format("names {}, which is not there", file.string()),
+           "paths are relative to the folder of " + (set ? file_->file_.string() : "this file"));
+  return false;
 }
 
 std::optional<std::size_t> TableReader::word_index(std::string_view name,
@@ -266,8 +267,7 @@ TableReader ConfigFile::top() {
 
 std::string ConfigFile::where(const toml::node& node, const std::string& key) const {
   const toml::source_region& source = node.source();
-  if (source.path && source.path->starts_with(override_mark))
-    return fmt::format("{}{}", override_mark, key);
+  if (is_override(node)) return fmt::format("{}{}", override_mark, key);
   if (&node == top_.get() || source.begin.line == 0)
     return fmt::format("{}: {}", file_.string(), key);
   return fmt::format("{}:{}: {}", file_.string(), source.begin.line, key);

@@ -57,7 +57,8 @@ class Columns {
     const std::size_t position = positions_[column];
     const std::string_view cell = position < row.cells.size() ? row.cells[position] : "";
     const char* const end = cell.data() + cell.size();
-    if (!cell.empty() && std::from_chars(cell.data(), end, value).ptr != end)
+    const bool whole = std::from_chars(cell.data(), end, value).ptr == end;
+    if (!cell.empty() && !(whole && std::isfinite(value)))
       problems_.push_back(
           {fmt::format("{}:{}", file_, row.line),
            fmt::format("column {} holds \"{}\", must be a number", names_[column], cell), ""});

@@ -10,7 +10,8 @@ namespace havers::io {
 
 // Rows may come in any order; the joints must be 0 to n - 1, each once.
 std::vector<sim::Threshold> read_thresholds(const std::filesystem::path& file) {
-  const std::vector<CsvNumbers> rows = read_csv_numbers(file, {"joint", "f_N", "f_T"});
+  const std::vector<std::string> names{"joint", "f_N", "f_T"};
+  const std::vector<CsvNumbers> rows = read_csv_numbers(file, names);
   if (rows.empty())
     throw InputError(file.string(), "holds no joint", "give a row for each, as in joints.csv");
   std::vector<sim::Threshold> thresholds(rows.size());
@@ -21,6 +22,10 @@ std::vector<sim::Threshold> read_thresholds(const std::filesystem::path& file) {
   };
   for (const CsvNumbers& row : rows) {
     const double joint = row.values[0];
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (std::isnan(row.values[i]))
+        complain(row.line, fmt::format("column {} is empty, must be a number", names[i]));
+    if (std::isnan(joint)) continue;
     if (!(joint >= 0.0 && joint < static_cast<double>(rows.size()) && joint == std::floor(joint))) {
       complain(row.line,
                fmt::format("joint is {}, must be a whole number from 0 to {}, as many as rows",

@@ -103,9 +103,11 @@ std::string status_sentence(const calib::CalibrationResult& result) {
 std::string search_sentence(const FitReport& report) {
   const calib::CalibrationResult& result = report.result;
   return fmt::format(
-      "Cost ½ Σ residual² = {} after {} ({} run, {} taken from the store, {} asked for again; {} "
+      "{} after {} ({} run, {} taken from the store, {} asked for again; {} "
       "failed) in {} wall time.",
-      number(result.cost), count(result.evaluations, "simulation"), result.simulated,
+      std::isfinite(result.cost) ? fmt::format("Cost ½ Σ residual² = {}", number(result.cost))
+                                 : "No answer",
+      count(result.evaluations, "simulation"), result.simulated,
       result.distinct_simulations - result.simulated,
       result.evaluations - result.distinct_simulations, result.failed_simulations,
       duration(report.wall_seconds));

@@ -58,8 +58,8 @@ void add_both(Scenes& scenes, const std::string& name, const Scene& scene) {
 }
 
 void add_steps_and_materials(Scenes& scenes) {
-  for (int power = -3; power <= 6; ++power)
-    scenes.push_back({fmt::format("h c/L = 1e{}", power), dynamic(std::pow(10.0, power), wall())});
+  for (const double size : {1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6})
+    scenes.push_back({fmt::format("h c/L = {:g}", size), dynamic(size, wall())});
   for (const double young : {1e3, 1e12})
     add_both(scenes, fmt::format("modulus {:g} Pa", young), with_modulus(young));
   for (const double density : {1e-3, 1e6}) {

@@ -9,6 +9,7 @@
 #include "sim/dynamics/time_stepping.hpp"
 #include "sim/joint/thresholds.hpp"
 #include "sim/outcome.hpp"
+#include "sim/simulate.hpp"
 
 namespace havers::sim {
 namespace {
@@ -17,7 +18,9 @@ constexpr int most_halvings = 10;
 // Of a third or later run. Two always run: their difference is the error.
 constexpr int most_steps = 4000;
 
-std::string ground_of(const Simulation& run, double accuracy) {
+constexpr double never_compared = std::numeric_limits<double>::quiet_NaN();
+
+std::string ground_of(const Simulation& run, double accuracy, const std::string& finer_failed) {
   std::string halved;
   if (!std::isnan(run.step_error->failure_strain))
     halved = fmt::format(
@@ -25,7 +28,29 @@ std::string ground_of(const Simulation& run, double accuracy) {
         100.0 * run.step_error->failure_strain, 100.0 * run.step_error->strength);
   if (run.step_error->largest() > accuracy)
     halved += fmt::format(", more than the {:g} % asked for", 100.0 * accuracy);
-  return fmt::format("; the step of {:.3g} ns is chosen{}", 1e9 * run.step, halved);
+  return fmt::format("; the step of {:.3g} ns is chosen{}{}", 1e9 * run.step, halved, finer_failed);
+}
+
+// Half a run tells nothing.
+StepError error_of(const Simulation& run, const Simulation& coarser) {
+  if (!has_ended(run)) return {never_compared, never_compared};
+  return {std::abs(run.failure_strain - coarser.failure_strain) / run.failure_strain,
+          std::abs(run.strength - coarser.strength) / run.strength};
+}
+
+Simulation summarised_run(const Scene& scene, const Stepping& stepping, const Observer& observer) {
+  Simulation run = run_in_steps(scene, stepping, observer);
+  summarise(run);
+  return run;
+}
+
+// A watcher sees the answer last.
+void show_again(const Scene& scene, Stepping stepping, const Observer& observer, Simulation& run) {
+  if (!observer) return;
+  const StepError error = *run.step_error;
+  stepping.step = run.step;
+  run = summarised_run(scene, stepping, observer);
+  run.step_error = has_ended(run) ? error : StepError{never_compared, never_compared};
 }
 
 }  // namespace
@@ -42,26 +67,42 @@ double first_step(const Scene& scene) {
   return std::min(transit, strain / scene.loading.strain_rate);
 }
 
+std::string doubt_about_steps(const Scene& scene) {
+  if (scene.solver.step || !may_leap(scene) || choose_regime(scene).regime == Regime::quasi_static)
+    return "";
+  const double followed = most_steps_of_a_run * first_step(scene) * scene.loading.strain_rate;
+  if (followed >=
+      std::min(scene.loading.max_strain, head_tail_strength(scene) / scene.material.young))
+    return "";
+  return fmt::format(
+      "a run in time ends after ten million steps, at this rate a strain of at most {:.2g} % "
+      "beyond "
+      "the first break: where the specimen bears longer it takes long and is not trusted (regime "
+      "= \"quasi-static\" takes no steps)",
+      100.0 * followed);
+}
+
 Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer) {
   Stepping stepping{.step = first_step(scene), .leap = may_leap(scene)};
   Simulation run;
-  constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-  run.failure_strain = run.strength = not_known;
+  run.failure_strain = run.strength = never_compared;
+  std::string finer_failed;
   int agreed = 0;
   for (int halving = 0; halving <= most_halvings; ++halving) {
-    const double strain = run.failure_strain, strength = run.strength;  // with twice the step
-    run = run_in_steps(scene, stepping, observer);
-    summarise(run);
-    run.step_error = has_ended(run)
-                         ? StepError{std::abs(run.failure_strain - strain) / run.failure_strain,
-                                     std::abs(run.strength - strength) / run.strength}
-                         : StepError{not_known, not_known};  // half a run tells nothing
+    Simulation finer = summarised_run(scene, stepping, observer);
+    if (halving > 0 && !has_ended(finer) && finer.status != SimulationStatus::cancelled) {
+      finer_failed = fmt::format("; a run of half of it has no answer: {}", explain(finer.status));
+      show_again(scene, stepping, observer, run);
+      break;
+    }
+    finer.step_error = error_of(finer, run);  // run has twice the step
+    run = std::move(finer);
     agreed = run.step_error->largest() < 0.5 * scene.solver.step_accuracy ? agreed + 1 : 0;
     if (!has_ended(run) || agreed == 2) break;
     if (halving > 0 && 2 * run.steps > most_steps) break;
     stepping.step *= 0.5;
   }
-  run.regime_ground = ground_of(run, scene.solver.step_accuracy);
+  run.regime_ground = ground_of(run, scene.solver.step_accuracy, finer_failed);
   return run;
 }
 

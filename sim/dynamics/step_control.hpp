@@ -1,6 +1,8 @@
 // The choice of the time step by what it does to the failure strain. Section 8 of sim/README.md.
 #pragma once
 
+#include <string>
+
 #include "sim/simulation.hpp"
 
 namespace havers::sim {
@@ -13,11 +15,15 @@ bool may_leap(const Scene& scene);
 /// be leapt over, half of that along it; at most a fiftieth of the strain σ₁/E a step. [s]
 double first_step(const Scene& scene);
 
+/// That a run in chosen steps may end before its specimen breaks, as a sentence; empty where it has
+/// steps enough to the strain σ₁/E.
+std::string doubt_about_steps(const Scene& scene);
+
 /// Runs a scene with first_step and ever half of it, until two halvings in turn have changed the
 /// failure strain and the strength by less than half of `step_accuracy`: implicit Euler is of first
 /// order, so what is left is about the last change. Ends as well where a further run would be too
-/// long. The last run is the answer; `step_error` and `regime_ground` say what its last halving
-/// changed.
+/// long. The last run that came to its end is the answer, or the one that was cancelled;
+/// `step_error` and `regime_ground` say what its last halving changed.
 Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer);
 
 }  // namespace havers::sim

@@ -194,6 +194,16 @@ TEST(Usage, MissingFilesAreNamed) {
   }
 }
 
+TEST(Check, DoubtsASlowSceneInTime) {
+  const auto folder = own_folder();
+  test::write_text(folder / "slow.toml",
+                   "[loading]\nstrain_rate_per_s = 1e-3\n[solver]\nregime = \"dynamic\"\n");
+  const auto answer = run_havers(folder, "check slow.toml");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_TRUE(answer.out.starts_with("note: a run in time ends after ten million steps, "))
+      << answer.out;
+}
+
 TEST(Check, SaysNoProblemsOrAllOfThem) {
   const auto folder = own_folder();
   test::write_text(folder / "good.toml", test::small_scene());

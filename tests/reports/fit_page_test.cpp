@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "reports/bench_pages.hpp"
 #include "tests/reports/sound_page.hpp"
 
@@ -113,6 +115,15 @@ TEST(FitPage, SaysWhyAFitWithoutFailedChecksCannotBeTrusted) {
   sample.result.status = calib::CalibrationStatus::cancelled;
   EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}),
                        "The fit cannot be trusted: " + explain(sample.result.status)));
+}
+
+TEST(FitPage, NamesNoCostWhereThereIsNoAnswer) {
+  auto sample = test::fit_sample();
+  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), "Cost ½ Σ residual² = "));
+  sample.result.cost = std::numeric_limits<double>::infinity();
+  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  EXPECT_FALSE(contains(page, "Cost ½ Σ residual²"));
+  EXPECT_TRUE(contains(page, "No answer after "));
 }
 
 TEST(FitPage, EscapesWhatUsersWrote) {

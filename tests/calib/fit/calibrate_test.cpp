@@ -147,6 +147,7 @@ TEST(Calibrate, SaysThatEverySimulationFailed) {
             "simulations at the answer or beside it failed");
   EXPECT_THAT(result.verdict.back().text,
               testing::HasSubstr("failed, most often so: broken model."));
+  EXPECT_FALSE(result.verdict.at(2).done) << "no start is compared: " << result.verdict[2].text;
 }
 
 TEST(Calibrate, SaysThatThereIsNothingToFit) {

@@ -268,5 +268,32 @@ TEST(Hindsight, FitsTheLawOfModulusAndPorosity) {
             1);
 }
 
+// Only in the limit are other moduli and strengths the same simulation.
+TEST(LeftOut, SaysWhyItRanFewerSimulationsThanItAskedFor) {
+  const auto why = [](const Simulator& simulator) {
+    const auto result = calibrate_with(simulator, test::synthetic_study({0.0, 90.0}));
+    return result.left_out.back().why;
+  };
+  auto simulator = test::ClosedForm{}.simulator();
+  simulator.quasi_static = [](const sim::Scene&) { return true; };
+  EXPECT_THAT(why(simulator), testing::HasSubstr("in the quasi-static limit"));
+  simulator.quasi_static = [](const sim::Scene&) { return false; };
+  EXPECT_EQ(why(simulator), "asked for before");
+}
+
+// Two of three replicates fail: what the third says is no cost.
+TEST(Cost, IsNoneWhereNoPointHasAnAnswer) {
+  auto simulator = test::ClosedForm{}.simulator();
+  simulator.run = [](const sim::Scene& scene) {
+    auto response = test::ClosedForm{}(scene);
+    response.failed = scene.joints.seed % 3 != 0;
+    return response;
+  };
+  const auto result = calibrate_with(simulator, test::synthetic_study({0.0, 90.0}));
+  EXPECT_EQ(result.status, CalibrationStatus::all_failed);
+  EXPECT_LT(result.failed_simulations, result.distinct_simulations);
+  EXPECT_FALSE(std::isfinite(result.cost));
+}
+
 }  // namespace
 }  // namespace havers::calib

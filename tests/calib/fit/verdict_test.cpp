@@ -116,6 +116,28 @@ TEST(Verdict, SaysWhereAParameterStaysThatIsLeftOut) {
   EXPECT_TRUE(says(check_of(result, "inside bounds"), "No fitted parameter"));
 }
 
+TEST(Verdict, SendsNobodyToTheBoundsWhereTheTimeStepIsTheReason) {
+  const Study study = test::synthetic_study({0.0});
+  const FitProblem problem{.study = study, .unknowns = unknowns_of(study)};
+  Answer answer;
+  answer.best.point = Point::Constant(static_cast<Eigen::Index>(problem.unknowns.size()), 0.5);
+  CalibrationResult result;
+  result.failed_simulations = 5;
+  result.distinct_simulations = 9;
+  const auto advice = [&](const std::string& because) {
+    result.most_failed_because = because;
+    return verdict_of(problem, answer, result).back().text;
+  };
+  sim::Simulation run;
+  run.status = sim::SimulationStatus::broken;
+  run.step_error->strength = 0.5;
+  EXPECT_THAT(advice(run.why_not_trusted()), testing::EndsWith("quasi-static regime, may help."));
+  EXPECT_THAT(advice(explain(sim::SimulationStatus::step_limit)),
+              testing::EndsWith("takes fewer."));
+  EXPECT_THAT(advice(explain(sim::SimulationStatus::not_converged)),
+              testing::EndsWith("Narrow calibrate.bounds to where the model can be simulated."));
+}
+
 TEST(Verdict, SaysThatTwoSpecimensDoNotShowTheirSpread) {
   EXPECT_EQ(check_of(test::fit(test::synthetic_study({0.0})), "spread between specimens").outcome,
             Outcome::warn);

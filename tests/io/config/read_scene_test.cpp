@@ -262,6 +262,9 @@ TEST_F(ReadScene, ReadsThresholdsBesideIt) {
       complaints(text + "none.csv\"\n"),
       ElementsAre("scene.toml:5: joints.thresholds_file: names sub/none.csv, which is not there "
                   "(paths are relative to the folder of this file)"));
+  EXPECT_THAT(complaints(text + "joints.csv\"\n", {"joints.thresholds_file=none.csv"}),
+              ElementsAre("--set joints.thresholds_file: names none.csv, which is not there (paths "
+                          "are relative to the folder of scene.toml)"));
   folder.write("sub/empty.csv", "joint,f_N,f_T\n");
   EXPECT_THAT(complaints(text + "empty.csv\"\n"), ElementsAre(HasSubstr("holds no joint")));
   folder.write("sub/bad.csv", "joint,f_N,f_T\n0,one,2\n");

@@ -157,6 +157,14 @@ TEST(Thresholds, MustNameEveryJointOnce) {
               HasSubstr("t.csv:1: has no column f_T (the columns needed are joint,f_N,f_T)"));
   EXPECT_THAT(refused("joint,f_N,f_T\n0,1,x\n"),
               HasSubstr("t.csv:2: column f_T holds \"x\", must be a number"));
+  EXPECT_THAT(refused("joint,f_N,f_T\n0,nan,1\n"),
+              HasSubstr("t.csv:2: column f_N holds \"nan\", must be a number"));
+  EXPECT_THAT(refused("joint,f_N,f_T\n0,1,2\n1,,2\n"),
+              HasSubstr("t.csv:3: column f_N is empty, must be a number"));
+  EXPECT_THAT(refused("joint,f_N,f_T\n,1,2\n"),
+              HasSubstr("t.csv:2: column joint is empty, must be a number"));
+  EXPECT_THAT(refused("joint,f_N,f_T\n0,1\n"),
+              HasSubstr("t.csv:2: column f_T is empty, must be a number"));
   EXPECT_THAT(refused(""), HasSubstr("t.csv: is empty (the columns needed are joint,f_N,f_T)"));
   EXPECT_THAT(complaint([&] { read_thresholds(folder.path() / "none.csv"); }),
               HasSubstr("none.csv: cannot be read"));

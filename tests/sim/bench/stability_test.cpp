@@ -16,6 +16,7 @@ TEST(Stability, HasFortyScenesOfDistinctNames) {
   std::set<std::string> names;
   for (const StabilityScene& scene : scenes) names.insert(scene.name);
   EXPECT_EQ(names.size(), scenes.size());
+  EXPECT_TRUE(names.contains("h c/L = 1e+06")) << "with its sign a page typesets it";
 }
 
 TEST(Stability, EverySceneIsSolvedOrRefusedAsItMust) {

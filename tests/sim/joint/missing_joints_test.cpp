@@ -158,6 +158,21 @@ TEST(MissingJoints, MaySeverTheSpecimenWithoutDoubt) {
   }
 }
 
+// In time the loose fibres would swing to the largest strain.
+TEST(MissingJoints, LeaveNothingToSimulateInTimeWhereTheyAreAll) {
+  Scene scene = test::dynamic_scene();
+  const std::size_t joints = build_assembly(scene.assembly, scene.loading.lateral).joints.size();
+  scene.joints.thresholds.assign(joints, Threshold{});
+  const Simulation simulation = simulate(scene);
+  EXPECT_EQ(simulation.regime, Regime::quasi_static);
+  EXPECT_EQ(simulation.strength, 0.0);
+  EXPECT_TRUE(simulation.trusted()) << simulation.why_not_trusted();
+  EXPECT_NE(simulation.regime_ground.find("every joint is missing"), std::string::npos);
+  scene.joints.thresholds.front() = {500.0, 500.0};
+  scene.loading.max_strain = 1e-4;
+  EXPECT_EQ(simulate(scene).regime, Regime::dynamic);
+}
+
 // Digits are lost where nothing is left to bear and the material hardly changes its volume: what is
 // left of the force may be less than nothing, and then its energy is too.
 TEST(MissingJoints, LeaveNoTrustInARunOfNegativeEnergy) {
