@@ -34,7 +34,8 @@ bool has_failed(Simulation& simulation, double end_fraction) {
 }
 
 bool has_ended(const Simulation& run) {
-  return run.status == SimulationStatus::broken || run.status == SimulationStatus::strain_limit;
+  return run.status == SimulationStatus::broken || run.status == SimulationStatus::strain_limit ||
+         run.status == SimulationStatus::severed;
 }
 
 std::optional<double> stress_at(const std::vector<CurvePoint>& curve, double strain) {

@@ -19,7 +19,8 @@ std::vector<JointOutcome> initial_outcomes(const std::vector<Threshold>& thresho
 /// strength so far.
 bool has_failed(Simulation& simulation, double end_fraction);
 
-/// Whether a run came to its end, by a break or at the largest strain: only then it has a strength.
+/// Whether a run came to its end, by a break, at the largest strain or severed from the start: only
+/// then it has a strength.
 bool has_ended(const Simulation& run);
 
 /// Stress at the right side where the curve first reaches a strain, linear from row to row and from

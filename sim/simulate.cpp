@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -13,6 +12,7 @@
 #include "sim/outcome.hpp"
 #include "sim/quasi_static/breaking_sequence.hpp"
 #include "sim/simulation.hpp"
+#include "sim/structure/pieces.hpp"
 
 namespace havers::sim {
 
@@ -44,12 +44,17 @@ RegimeChoice choose_regime(const Scene& scene) {
 
 namespace {
 
-// Its fibres would swing on their own for as long as they are watched.
-bool nothing_is_bonded(const Scene& scene) {
+// Whether missing joints leave no chain of bonded ones from end to end. In time its pieces would
+// swing on their own for as long as they are watched.
+bool is_severed(const Scene& scene) {
   if (!some_are_missing(scene.joints)) return false;
   const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
-  return !assembly.joints.empty() &&
-         std::ranges::all_of(draw_thresholds(scene, assembly), is_missing);
+  const std::vector<Threshold> thresholds = draw_thresholds(scene, assembly);
+  DisjointSets pieces = pieces_of(assembly, end_bodies(assembly), [&](std::size_t joint) {
+    return !is_missing(thresholds[joint]);
+  });
+  const std::size_t left = assembly.bodies.size();
+  return pieces.find(left) != pieces.find(left + 1);
 }
 
 // Section 7: what the scene and its regime do without; a run adds its own omissions.
@@ -89,10 +94,9 @@ std::vector<LeftOut> left_out_by_choice(const Scene& scene, const Simulation& si
 Simulation simulate(const Scene& scene, const Observer& observer) {
   assert(scene.problems().empty());
   RegimeChoice choice = choose_regime(scene);
-  if (choice.regime == Regime::dynamic && nothing_is_bonded(scene)) {
+  if (choice.regime == Regime::dynamic && is_severed(scene)) {
     choice.regime = Regime::quasi_static;
-    choice.ground +=
-        ", but every joint is missing: nothing is bonded, and the limit says so at once";
+    choice.ground += ", but missing joints sever the specimen, and the limit says so at once";
   }
   Simulation simulation = choice.regime == Regime::quasi_static
                               ? simulate_quasi_static(scene, observer)
@@ -100,6 +104,9 @@ Simulation simulate(const Scene& scene, const Observer& observer) {
   simulation.regime_ground = choice.ground + simulation.regime_ground;
   simulation.tolerance = scene.solver.tolerance;
   summarise(simulation);
+  // Pieces that press on each other may still bear something.
+  if (simulation.strength == 0.0 && has_ended(simulation) && is_severed(scene))
+    simulation.status = SimulationStatus::severed;
   const std::vector<LeftOut> list = left_out_by_choice(scene, simulation);
   simulation.left_out.insert(simulation.left_out.begin(), list.begin(), list.end());
   return simulation;

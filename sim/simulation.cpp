@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "sim/outcome.hpp"
+
 namespace havers::sim {
 
 std::string to_string(SimulationStatus status) {
@@ -12,6 +14,8 @@ std::string to_string(SimulationStatus status) {
       return "broken";
     case SimulationStatus::strain_limit:
       return "strain_limit";
+    case SimulationStatus::severed:
+      return "severed";
     case SimulationStatus::step_limit:
       return "step_limit";
     case SimulationStatus::not_determined:
@@ -34,6 +38,8 @@ std::string explain(SimulationStatus status) {
     case SimulationStatus::strain_limit:
       return "the strain limit was reached before the specimen broke; the strength is a lower "
              "bound";
+    case SimulationStatus::severed:
+      return "missing joints sever the specimen before it is pulled: it bears nothing";
     case SimulationStatus::step_limit:
       return "ten million time steps were taken before the specimen broke; a rate that is higher, "
              "a smaller max_strain or the quasi-static regime takes fewer";
@@ -72,8 +78,7 @@ bool steps_over_failure(const Simulation& run) {
 }  // namespace
 
 std::string Simulation::why_not_trusted() const {
-  if (status != SimulationStatus::broken && status != SimulationStatus::strain_limit)
-    return explain(status);
+  if (!has_ended(*this)) return explain(status);
   if (step_error && std::isnan(step_error->failure_strain))
     return "the error of the chosen time step is not known: no run of half of it has an answer";
   if (step_error && step_error->failure_strain > largest_step_error.failure_strain)

@@ -17,6 +17,7 @@ namespace havers::sim {
 enum class SimulationStatus {
   broken,          ///< Both sides dropped below the end fraction after a break.
   strain_limit,    ///< The strain limit came first. The strength is a lower bound.
+  severed,         ///< Missing joints leave nothing between the ends: it never bears a load.
   step_limit,      ///< So many steps, and it did not break. The strength is a lower bound.
   not_determined,  ///< More than one set of joint forces bears the intact specimen's load.
   not_converged,   ///< A step's residual stayed above the tolerance.

@@ -12,6 +12,8 @@ namespace {
 
 std::string sentence_of(const sim::Simulation& s) {
   if (!s.trusted()) return fmt::format("Not to be trusted: {}.", typeset(s.why_not_trusted()));
+  if (s.status == sim::SimulationStatus::severed)
+    return "Missing joints sever the specimen: it bears nothing. To be trusted.";
   const std::string at = fmt::format("{} at {} strain", quantity(s.strength / in::MPa, "MPa"),
                                      quantity(s.failure_strain / in::percent, "%", 3));
   return s.status == sim::SimulationStatus::broken

@@ -1,21 +1,12 @@
 // What of a breaking specimen hangs together.
 #include "sim/quasi_static/breaking_run.hpp"
+#include "sim/structure/pieces.hpp"
 
 namespace havers::sim {
 
-// Bodies that bonded joints connect to each other, and after them the left and the right end.
 DisjointSets BreakingRun::pieces() const {
-  const Assembly& assembly = intact_->assembly();
-  const std::size_t left = assembly.bodies.size();
-  DisjointSets pieces(left + 2);
-  for (const std::size_t end : {0U, 1U})
-    for (const int body : intact_->end_bodies()[end])
-      pieces.unite(left + end, static_cast<std::size_t>(body));
-  for (std::size_t j = 0; j < joints_.size(); ++j)
-    if (!joints_[j].broken)
-      pieces.unite(static_cast<std::size_t>(assembly.joints[j].body_a),
-                   static_cast<std::size_t>(assembly.joints[j].body_b));
-  return pieces;
+  return pieces_of(intact_->assembly(), intact_->end_bodies(),
+                   [this](std::size_t joint) { return !joints_[joint].broken; });
 }
 
 // Whether nothing leads from end to end, not even joints that are pressed together.

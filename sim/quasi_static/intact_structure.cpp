@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/contact/joint_step.hpp"
+#include "sim/structure/pieces.hpp"
 
 namespace havers::sim {
 namespace {
@@ -64,16 +65,8 @@ IntactStructure::IntactStructure(const AssemblyOptions& options, const Loading& 
     : assembly_(build_assembly(options, loading.lateral)),
       shift_(quasi_static_shift(assembly_)),
       bodies_(assembly_, unit_material(material), shift_, leave_out),
-      structure_(bodies_) {
-  const auto touches = [](const Body& body, const std::vector<int>& side) {
-    return std::any_of(side.begin(), side.end(), [&](int node) {
-      return node >= body.first_node && node < body.first_node + body.nodes;
-    });
-  };
-  for (std::size_t b = 0; b < assembly_.bodies.size(); ++b)
-    for (const std::size_t end : {0U, 1U})
-      if (touches(assembly_.bodies[b], end == 0 ? assembly_.left : assembly_.right))
-        end_bodies_[end].push_back(static_cast<int>(b));
+      structure_(bodies_),
+      end_bodies_(sim::end_bodies(assembly_)) {
   if (!structure_.ok()) return;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(2 * structure_.joints());
   lost_ = none;

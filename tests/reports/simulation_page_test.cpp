@@ -67,6 +67,14 @@ TEST(SimulationPage, DoesNotTrustARunWhoseEnergyDoesNotClose) {
                        "Not to be trusted: the energy balance does not close."));
 }
 
+TEST(SimulationPage, GivesASeveredSpecimenNoBoundOfStrength) {
+  const auto assembly = small_assembly();
+  auto simulation = test::simulation_sample(assembly);
+  simulation.status = sim::SimulationStatus::severed;
+  EXPECT_TRUE(contains(simulation_page({sim::Scene{}, assembly, simulation, {}}),
+                       "Missing joints sever the specimen: it bears nothing. To be trusted."));
+}
+
 TEST(SimulationPage, SurvivesARunWithoutRows) {
   const sim::Assembly assembly;
   const sim::Simulation simulation;

@@ -137,7 +137,7 @@ TEST(MissingJoints, MayLeaveNothingThatBears) {
   const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
   scene.joints.thresholds.assign(assembly.joints.size(), {0.0, 0.0});
   const Simulation simulation = simulate(scene);
-  EXPECT_EQ(simulation.status, SimulationStatus::strain_limit);
+  EXPECT_EQ(simulation.status, SimulationStatus::severed);
   EXPECT_NEAR(simulation.strength, 0.0, 1e-3);
 }
 
@@ -166,11 +166,27 @@ TEST(MissingJoints, LeaveNothingToSimulateInTimeWhereTheyAreAll) {
   const Simulation simulation = simulate(scene);
   EXPECT_EQ(simulation.regime, Regime::quasi_static);
   EXPECT_EQ(simulation.strength, 0.0);
+  EXPECT_EQ(simulation.status, SimulationStatus::severed);
   EXPECT_TRUE(simulation.trusted()) << simulation.why_not_trusted();
-  EXPECT_NE(simulation.regime_ground.find("every joint is missing"), std::string::npos);
-  scene.joints.thresholds.front() = {500.0, 500.0};
-  scene.loading.max_strain = 1e-4;
-  EXPECT_EQ(simulate(scene).regime, Regime::dynamic);
+  EXPECT_NE(simulation.regime_ground.find("missing joints sever"), std::string::npos);
+  scene.joints.thresholds.front() = {500.0, 500.0};  // of two pieces
+  EXPECT_EQ(simulate(scene).status, SimulationStatus::severed);
+}
+
+// A chain: without any one of its joints it is two pieces.
+TEST(MissingJoints, SeverAChain) {
+  for (const Regime regime : {Regime::quasi_static, Regime::dynamic}) {
+    Scene scene = test::dynamic_scene();
+    scene.assembly.layers = 1;
+    scene.solver.regime = regime;
+    scene.joints.thresholds.assign(4, {500.0, 500.0});
+    EXPECT_EQ(simulate(scene).status, SimulationStatus::broken);
+    scene.joints.thresholds[2] = {};
+    const Simulation simulation = simulate(scene);
+    EXPECT_EQ(simulation.status, SimulationStatus::severed);
+    EXPECT_EQ(simulation.strength, 0.0);
+    EXPECT_EQ(simulation.curve.back().stress_right, 0.0);
+  }
 }
 
 // Digits are lost where nothing is left to bear and the material hardly changes its volume: what is
