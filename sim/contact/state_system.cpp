@@ -15,7 +15,6 @@ namespace {
 // A few corrections take the effect of the trace on everything else away.
 constexpr int corrections = 5;
 constexpr double accuracy_of_solve = 1e-13;
-constexpr double trace_of_apart = 1e-9;
 constexpr double shrinkage = 0.5;  // by a correction, without which rounding is all that is left
 // A bordered factor that leaves more of the reactions than this, and more than rounding leaves of
 // those by the gaps, a sum of so many, is made anew.
@@ -43,13 +42,6 @@ double StateSystem::scale() const {
   return problem_->S.diagonal().maxCoeff();
 }
 
-// A piece that nothing holds may lie anywhere: what rounding leaves of its joints' stiffness, of
-// either sign, must not say where.
-double StateSystem::hold(Index row) const {
-  const bool apart = problem_->is_apart(static_cast<std::size_t>(row / 2));
-  return (apart ? std::max(trace_of_apart, problem_->trace) : problem_->trace) * scale();
-}
-
 double StateSystem::coefficient(const Equation& equation, Index unknown) const {
   double value = problem_->S(equation.row, unknown);
   if (equation.slope != 0.0) value += equation.slope * problem_->S(equation.row - 1, unknown);
@@ -71,6 +63,7 @@ std::vector<StateSystem::Equation> StateSystem::equations_of_states() const {
 void StateSystem::factorise() {
   factorised_ = equations_;
   const auto n = static_cast<Index>(factorised_.size());
+  const double hold = n > 0 ? problem_->trace * scale() : 0.0;
   MatrixXd matrix(n, n);
   std::fill(place_.begin(), place_.end(), -1);
   for (Index j = 0; j < n; ++j) {
@@ -78,7 +71,7 @@ void StateSystem::factorise() {
     place_[static_cast<std::size_t>(unknown)] = j;
     for (Index k = 0; k < n; ++k)
       matrix(k, j) = coefficient(factorised_[static_cast<std::size_t>(k)], unknown);
-    matrix(j, j) += hold(unknown);
+    matrix(j, j) += hold;
   }
   factor_.compute(matrix);
   columns_.clear();
@@ -136,10 +129,11 @@ bool StateSystem::border_factor() {
     for (Index j = 0; j < k; ++j)
       if (borders_[static_cast<std::size_t>(j)].has_unknown)
         corner(i, j) = coefficient(equation, borders_[static_cast<std::size_t>(j)].row);
+    const double hold = problem_->trace * scale();
     if (border.has_unknown)
-      corner(i, i) += hold(border.row);
+      corner(i, i) += hold;
     else
-      border_rows_(i, place_[static_cast<std::size_t>(border.row)]) += hold(border.row);
+      border_rows_(i, place_[static_cast<std::size_t>(border.row)]) += hold;
   }
   if (k > 0) complement_.compute(corner - border_rows_ * border_columns_);
   return true;

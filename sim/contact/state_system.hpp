@@ -62,7 +62,6 @@ class StateSystem {
   bool border_factor();
   [[nodiscard]] Eigen::VectorXd from_factor(const Eigen::VectorXd& load) const;
   [[nodiscard]] double scale() const;
-  [[nodiscard]] double hold(Eigen::Index row) const;
   [[nodiscard]] double coefficient(const Equation& equation, Eigen::Index unknown) const;
   [[nodiscard]] const Eigen::VectorXd& column(Eigen::Index row);
   [[nodiscard]] Eigen::VectorXd corrected_by(const Eigen::VectorXd& lack);

@@ -32,10 +32,10 @@ std::string ground_of(const Simulation& run, double accuracy, const std::string&
 }
 
 // Half a run tells nothing.
-StepError error_of(const Simulation& run, const Simulation& coarser) {
-  if (!has_ended(run)) return {never_compared, never_compared};
-  return {std::abs(run.failure_strain - coarser.failure_strain) / run.failure_strain,
-          std::abs(run.strength - coarser.strength) / run.strength};
+StepError error_of(const Simulation& finer, const Simulation& coarser) {
+  if (!has_ended(finer)) return {never_compared, never_compared};
+  return {std::abs(finer.failure_strain - coarser.failure_strain) / finer.failure_strain,
+          std::abs(finer.strength - coarser.strength) / finer.strength};
 }
 
 Simulation summarised_run(const Scene& scene, const Stepping& stepping, const Observer& observer) {

@@ -89,7 +89,7 @@ TEST(SwingingPieces, AreHeldByTheirNeighboursWithNextToNoFriction) {
 }
 
 // Without most of its joints, layers a thousand times as soft as their neighbours, slivers at the
-// ends: no way solves the second break of this wall.
+// ends: no way solves the fourth break of this wall.
 TEST(SwingingPieces, EndInTheLastRowWhereAnEventIsNotSolved) {
   Scene scene = test::small_scene(89.99, 6, 2);
   scene.assembly.fibre_length = 120e-6;
@@ -99,7 +99,7 @@ TEST(SwingingPieces, EndInTheLastRowWhereAnEventIsNotSolved) {
   scene.joints.scatter = 1.9;
   scene.joints.friction = 0.001;
   scene.joints.missing = 0.6;
-  scene.joints.seed = 3;
+  scene.joints.seed = 140;
   scene.loading.lateral = Lateral::free;
   scene.loading.max_strain = 1.0;
   std::vector<JointOutcome> last;
