@@ -68,11 +68,11 @@ RowVector2d condition(const StateSystem& system, const Branch& branch, const Cha
   const JointLaw& law = p.laws[change.joint];
   const JointState from = system.states()[change.joint];
   RowVector2d push = branch.r.row(row) + branch.cohesion.row(static_cast<Index>(change.joint));
-  if (from == JointState::open) return p.S(row, row) * branch.u.row(row);
+  if (from == JointState::open) return p.stiffness(row) * branch.u.row(row);
   if (from == JointState::stick)
     return law.friction * push + slip_sign(change.to) * branch.r.row(row + 1);
   if (change.to == JointState::open) return push;
-  return slip_sign(from) * p.S(row + 1, row + 1) * branch.u.row(row + 1);
+  return slip_sign(from) * p.stiffness(row + 1) * branch.u.row(row + 1);
 }
 
 // Where a condition stops to hold on the way; negative: nowhere. One that does not even hold where

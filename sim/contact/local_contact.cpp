@@ -35,7 +35,7 @@ States states_of(const LocalContact& p, const VectorXd& y, const States& now) {
   States states(now.size());
   for (std::size_t i = 0; i < now.size(); ++i) {
     const auto row = static_cast<Index>(2 * i);
-    const double stiffness = p.S(row, row);
+    const double stiffness = p.stiffness(row);
     states[i] = p.is_apart(i) ? JointState::open
                               : state_of(r.segment<2>(row), stiffness * u.segment<2>(row), now[i],
                                          p.laws[i], scale);
@@ -55,7 +55,7 @@ double law_missed(const LocalContact& p, const VectorXd& r, const VectorXd& gaps
   for (std::size_t i = 0; i < p.laws.size(); ++i) {
     const auto row = static_cast<Index>(2 * i);
     if (p.is_apart(i)) continue;
-    squared += law_residual(r.segment<2>(row), gaps.segment<2>(row), p.laws[i], p.S(row, row))
+    squared += law_residual(r.segment<2>(row), gaps.segment<2>(row), p.laws[i], p.stiffness(row))
                    .squaredNorm();
   }
   return std::sqrt(squared);

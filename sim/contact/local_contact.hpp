@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "sim/joint/cohesive_cone.hpp"
@@ -32,6 +34,10 @@ struct LocalContact {
   /// rounding. [N/m]
   double force_scale = 0.0;
 
+  /// Of a gap; that of a body that hangs on one joint costs nothing, but for rounding. [N/m²]
+  [[nodiscard]] double stiffness(Eigen::Index row) const {
+    return std::max(S(row, row), std::numeric_limits<double>::min());
+  }
   [[nodiscard]] bool is_apart(std::size_t joint) const {
     return !apart.empty() && apart[joint] != 0;
   }
