@@ -72,7 +72,7 @@ std::vector<LeftOut> left_out_by_choice(const Scene& scene, const Simulation& si
                     "less than 1e-6 of one is inside, and its neighbours fill the place"});
   if (simulation.regime == Regime::quasi_static) {
     if (scene.material.viscosity > 0.0)
-      list.push_back({"viscosity", "the quasi-static limit that was asked for has no rates"});
+      list.push_back({"viscosity", "the quasi-static limit has no rates"});
     if (scene.loading.start == Start::rest)
       list.push_back({"the start from rest", "the quasi-static limit has no motion"});
     if (scene.solver.step || scene.solver.contact == ContactMethod::gauss_seidel)
