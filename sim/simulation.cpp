@@ -79,6 +79,7 @@ bool steps_over_failure(const Simulation& run) {
 
 std::string Simulation::why_not_trusted() const {
   if (!has_ended(*this)) return explain(status);
+  if (status == SimulationStatus::severed) return "";  // however its pieces lie
   if (step_error && std::isnan(step_error->failure_strain))
     return "the error of the chosen time step is not known: no run of half of it has an answer";
   if (step_error && step_error->failure_strain > largest_step_error.failure_strain)

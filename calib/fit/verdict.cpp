@@ -126,6 +126,7 @@ Check check_failures(const CalibrationResult& result, long distinct) {
                    : 0.0;
   const std::string text =
       fmt::format("{} of {} different simulations failed", result.failed_simulations, distinct);
+  // Behind a semicolon, as all reasons do.
   const bool says_what_helps = result.most_failed_because.find("; ") != std::string::npos;
   if (result.failed_simulations == 0) return {"simulations", Outcome::pass, text + "."};
   if (share <= 0.05)

@@ -120,9 +120,11 @@ Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
   if (quick.worst_residual <= accurate || quick.status == SimulationStatus::cancelled) return quick;
   Simulation careful = break_event_by_event(scene, intact, true, observer);
   // Where a piece hangs on next to nothing either may miss an answer that the other finds.
-  const bool better = careful.worst_residual <= quick.worst_residual ||
-                      careful.status == SimulationStatus::cancelled;
-  return better ? careful : quick;
+  if (careful.worst_residual <= quick.worst_residual ||
+      careful.status == SimulationStatus::cancelled)
+    return careful;
+  // A watcher sees the answer last.
+  return observer ? break_event_by_event(scene, intact, false, observer) : quick;
 }
 
 }  // namespace havers::sim

@@ -40,6 +40,9 @@ TEST(Simulation, IsNotTrustedUnlessItsChecksHold) {
   EXPECT_TRUE(simulation.trusted());
   simulation.worst_residual = 2e-8;
   EXPECT_FALSE(simulation.trusted());
+  simulation.status = SimulationStatus::severed;  // it bears nothing, however its pieces lie
+  EXPECT_TRUE(simulation.trusted());
+  simulation.status = SimulationStatus::broken;
   simulation.worst_residual = 0.0;
   EXPECT_TRUE(simulation.trusted());
   simulation.step_error = StepError{.strength = 0.025};
