@@ -18,9 +18,13 @@ constexpr std::size_t rows_kept = 1000;
 std::optional<Response> response_of(const sim::Simulation& run) {
   if (run.status == sim::SimulationStatus::cancelled) return std::nullopt;
   Response response;
-  response.failed = !run.trusted();
+  // What falls apart before it is pulled is nobody's test.
+  const bool severed = run.status == sim::SimulationStatus::severed;
+  response.failed = severed || !run.trusted();
   response.broke = run.status == sim::SimulationStatus::broken;
-  response.why = run.why_not_trusted();
+  response.why = severed ? sim::explain(run.status) +
+                               "; with fewer of them or more fibres a chain is left that bears"
+                         : run.why_not_trusted();
   response.modulus = run.modulus;
   response.strength = run.strength;
   response.failure_strain = run.failure_strain;

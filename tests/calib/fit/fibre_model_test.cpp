@@ -1,4 +1,5 @@
 // The fibre model as a calibration uses it: one stored simulation serves every E and σ₁.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -46,6 +47,14 @@ TEST(FibreModel, IsNotScaledWhereTheLoadingIsFast) {
   auto scene = small_scene(0.0);
   scene.loading.strain_rate = 1000.0;
   EXPECT_FALSE(fibre_model().quasi_static(scene));
+}
+
+TEST(FibreModel, HasNoAnswerWhereNoJointIsLeft) {
+  auto scene = small_scene(0.0);
+  scene.joints.missing = 0.99;
+  const auto response = fibre_model().run(scene).value();
+  EXPECT_TRUE(response.failed);
+  EXPECT_THAT(response.why, testing::HasSubstr("sever the specimen"));
 }
 
 TEST(FibreModel, StopsInsideARunInStepsAndInTheLimit) {
