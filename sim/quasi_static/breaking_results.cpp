@@ -62,14 +62,17 @@ void BreakingRun::finish(Simulation& simulation) {
   take_note_of_penetration();
   simulation.worst_penetration = worst_penetration_;
   const double elastic = intact_->energy(last.displacements);
-  const double work = 0.5 * (last.force * intact_->assembly().width + last.reactions.dot(gaps()));
+  const bool bears = force_ != 0.0;
+  const double work =
+      bears ? 0.5 * (last.force * intact_->assembly().width + last.reactions.dot(gaps())) : 0.0;
   const double energy_scale = std::max(largest_energy_, std::abs(point().elastic));
   if (energy_scale > 0.0)
     simulation.energy_defect =
         scene_.material.young * strain_ * strain_ * std::abs(elastic - work) / energy_scale;
   simulation.worst_residual =
       std::max({simulation.worst_residual, intact_->answer().residual, last.residual,
-                worst_residual_ / scale, std::abs(last.force - force_) / intact_->answer().force});
+                worst_residual_ / scale,
+                bears ? std::abs(last.force - force_) / intact_->answer().force : 0.0});
   simulation.iterations = iterations_;
   simulation.events_without_contact = without_contact_;
 }

@@ -28,9 +28,10 @@ constexpr double most_growth = 10.0;  // of what is lacking: more, and rounding 
 
 // A tolerance below what rounding leaves is no reason to do without contact.
 constexpr double least_tolerance = 1e-8;
-// Of the intact specimen's force: where nothing bears any, where rounding may be all that is left,
-// and more than what is broken can bear.
-constexpr double nothing_borne = 1e-9, next_to_nothing = 1e-3, too_much = 2.0;
+// Of the intact specimen's force: where rounding may be all that is left, and more than what is
+// broken can bear.
+constexpr double next_to_nothing = 1e-3, too_much = 2.0;
+constexpr double hardly_stored = 1e-3;  // of the work of a force: then the force is rounding
 
 }  // namespace
 
@@ -200,17 +201,26 @@ bool BreakingRun::settle() {
   // By reciprocity the force at the end changes by r⁰·y/W, r⁰ being those of the intact structure.
   force_ = reference_.force +
            of_loose(intact_->answer().reactions).dot(moved) / intact_->assembly().width;
+  const double intact_force = intact_->answer().force;
+  const bool hardly_bears = std::abs(force_) <= next_to_nothing * intact_force;
+  const bool in_two = hardly_bears && severed();
   // Where a piece swings freely, its gaps change so much that digits are lost.
-  if (careful_ || lacking(reactions_).norm() > refined * intact_->answer().reactions.norm()) {
+  if (careful_ || (hardly_bears && !in_two) ||
+      lacking(reactions_).norm() > refined * intact_->answer().reactions.norm()) {
     refine();
     reactions_ = reference_.reactions;
     force_ = reference_.force;
   }
   joint_work_ = of_loose(reactions_).dot(y_);
   worst_residual_ = std::max(worst_residual_, law_missed(contact_, of_loose(reactions_), y_));
-  const double borne = std::abs(force_) / intact_->answer().force;
-  if (borne <= nothing_borne || (borne <= next_to_nothing && severed())) force_ = joint_work_ = 0.0;
-  return result.converged && std::abs(force_) <= too_much * intact_->answer().force;
+  if (in_two || (hardly_bears && bears_nothing())) force_ = joint_work_ = 0.0;
+  return result.converged && std::abs(force_) <= too_much * intact_force;
+}
+
+// Of a refined answer: work that is not stored is rounding.
+bool BreakingRun::bears_nothing() const {
+  const double work = 0.5 * std::abs(force_ * intact_->assembly().width + joint_work_);
+  return intact_->energy(reference_.displacements) <= hardly_stored * work;
 }
 
 // What gaps of the loose joints change in the reactions of all.

@@ -52,6 +52,7 @@ class BreakingRun {
   [[nodiscard]] DisjointSets pieces() const;
   [[nodiscard]] std::vector<char> apart() const;
   [[nodiscard]] bool severed() const;
+  [[nodiscard]] bool bears_nothing() const;
   [[nodiscard]] Eigen::VectorXd gaps() const;
   [[nodiscard]] Eigen::VectorXd reactions_to(const Eigen::VectorXd& y) const;
   [[nodiscard]] Eigen::VectorXd of_loose(const Eigen::VectorXd& of_all) const;

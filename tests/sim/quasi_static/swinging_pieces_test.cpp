@@ -167,6 +167,25 @@ TEST(SeveredSpecimen, BearsNothingAtAll) {
   }
 }
 
+// A row of fibres whose pieces still touch. What rounding leaves of the force would do work that
+// nothing stores, and more of it the further the ends are pulled.
+TEST(SeveredSpecimen, BearsNothingWhereItsPiecesTouch) {
+  for (const double degrees : {10.0, 36.0}) {
+    Scene scene = test::small_scene(degrees, 1, 8);
+    scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 3.0);
+    scene.joints.scatter = 1.2;
+    scene.loading.lateral = Lateral::free;
+    scene.loading.end_fraction = 0.0;
+    for (scene.joints.seed = 1; scene.joints.seed <= 40; ++scene.joints.seed) {
+      SCOPED_TRACE(testing::Message() << degrees << " degrees, seed " << scene.joints.seed);
+      const Simulation simulation = simulate(scene);
+      EXPECT_EQ(simulation.why_not_trusted(), "");
+      EXPECT_EQ(simulation.status, SimulationStatus::broken);
+      EXPECT_EQ(simulation.curve.back().stress_right, 0.0);
+    }
+  }
+}
+
 // Layers far apart in strength at a small angle: a run is done again with more care, and its first
 // answer is now and then the better one.
 TEST(SwingingPieces, AreWatchedLastAsTheyAreAnswered) {
