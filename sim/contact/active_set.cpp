@@ -1,6 +1,7 @@
 #include "sim/contact/active_set.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace havers::sim {
@@ -12,7 +13,10 @@ namespace {
 
 // Fewer that have opened are not worth a new factor, fewer that bear not some for each step.
 constexpr int worth_detaching = 24;
-constexpr int worth_searching = 48;
+constexpr std::size_t worth_searching = 48;
+// Paths of more that leave the bonded state at once are long, and may lead nowhere.
+constexpr std::size_t most_at_once = 200;
+constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
 constexpr double least_borne = 1e-9;  // of the reactions
 // Part of the stiffness that is less than what inertia adds, in all but the longest steps.
 constexpr double below_inertia = 1e-13;
@@ -22,8 +26,8 @@ Local at(const VectorXd& values, int joint) {
 }
 
 // Broken joints that have just broken, or press.
-int bearing(const JointStep& step) {
-  int count = 0;
+std::size_t bearing(const JointStep& step) {
+  std::size_t count = 0;
   for (int joint = 0; joint < static_cast<int>(step.broken.size()); ++joint)
     if (step.broken[static_cast<std::size_t>(joint)] != 0 &&
         at(step.reactions, joint).norm() > least_borne * step.force_scale)
@@ -95,10 +99,11 @@ bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded
   return local.converged;
 }
 
-bool ActiveSetSolver::loosen_violated(const JointStep& step, const VectorXd& reactions,
-                                      JointStepResult& result) {
+// Joints that hold and that their reactions overload, which changes their states.
+std::vector<int> ActiveSetSolver::violated(const JointStep& step, const VectorXd& reactions,
+                                           JointStepResult& result) const {
   const double scale = reactions.lpNorm<Eigen::Infinity>();  // 0 where there is no joint
-  std::vector<int> violated;
+  std::vector<int> joints;
   for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint) {
     const auto j = static_cast<std::size_t>(joint);
     if (detached(joint) || loose_.contains(joint)) continue;
@@ -106,10 +111,9 @@ bool ActiveSetSolver::loosen_violated(const JointStep& step, const VectorXd& rea
         state_of(at(reactions, joint), Local::Zero(), JointState::stick, step.laws[j], scale);
     if (state == JointState::stick) continue;
     result.states[j] = state;
-    violated.push_back(joint);
+    joints.push_back(joint);
   }
-  for (const int joint : violated) loose_.add(joint);
-  return !violated.empty();
+  return joints;
 }
 
 bool ActiveSetSolver::reattach_closed(const JointStepResult& result) {
@@ -130,22 +134,25 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
   // Sweeps lead nowhere where inertia is but a trace.
   const bool at_rest = std::ranges::any_of(
       bodies_->classes(), [](const BodyClass& bodies) { return bodies.op.at_rest; });
-  const bool search_first = detach_open_ && !at_rest && bearing(step) >= worth_searching;
-  JointStepResult result;
-  long iterations = 0;
-  const auto unless_solved = [&](const auto& solve) {
-    if (result.converged) return;
-    result = solve();
-    iterations += result.iterations;
-  };
-  if (search_first) unless_solved([&] { return search_.solve(step); });
-  unless_solved([&] { return solve_loose(step); });
-  if (!search_first) unless_solved([&] { return search_.solve(step); });
-  result.iterations = iterations;
+  const bool may_search = detach_open_ && !at_rest;
+  std::optional<JointStepResult> direct;
+  if (!may_search || bearing(step) < worth_searching)
+    direct = solve_loose(step, may_search ? most_at_once : any_number);
+  if (direct && direct->converged) return *direct;
+  JointStepResult result = search_.solve(step);
+  if (direct) {
+    result.iterations += direct->iterations;
+  } else if (!result.converged) {
+    const long iterations = result.iterations;
+    result = *solve_loose(step, any_number);
+    result.iterations += iterations;
+  }
   return result;
 }
 
-JointStepResult ActiveSetSolver::solve_loose(const JointStep& step) {
+// None where more than `most` joints leave the bonded state at once.
+std::optional<JointStepResult> ActiveSetSolver::solve_loose(const JointStep& step,
+                                                            std::size_t most) {
   detach_opened(step);
   // What is broken and not detached may move; after a rebuild it has to be said again.
   for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint)
@@ -160,17 +167,23 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step) {
     const StructureLoads bonded{step.forces, step.prescribed, jumps(step), step.force_scale};
     const StructureResponse bonded_response = structure_.solve(bonded);
     StructureResponse response;
+    std::vector<int> overloaded;
     do {  // again with those that the answer overloads, until none is
+      for (const int joint : overloaded) loose_.add(joint);
       VectorXd y;
       result.converged = settle_loose(step, bonded_response.reactions, result, y);
       response = bonded_response;
-      if (y.size() == 0 || y.isZero(0.0)) continue;
-      StructureLoads loads = bonded;
-      for (std::size_t i = 0; i < loose_.size(); ++i)
-        loads.jumps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) +=
-            y.segment<2>(2 * static_cast<Index>(i));
-      response = structure_.solve(loads);
-    } while (result.converged && loosen_violated(step, response.reactions, result));
+      if (y.size() > 0 && !y.isZero(0.0)) {
+        StructureLoads loads = bonded;
+        for (std::size_t i = 0; i < loose_.size(); ++i)
+          loads.jumps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) +=
+              y.segment<2>(2 * static_cast<Index>(i));
+        response = structure_.solve(loads);
+      }
+      if (!result.converged) break;
+      overloaded = violated(step, response.reactions, result);
+      if (overloaded.size() > most) return std::nullopt;
+    } while (!overloaded.empty());
     result.iterations += response.solves;
     result.displacements = std::move(response.displacements);
     result.reactions = std::move(response.reactions);

@@ -1,6 +1,9 @@
 // The direct joint solver: bonded joints by one sparse factor, the few others by an active set.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "sim/contact/joint_step.hpp"
 #include "sim/contact/loose_joints.hpp"
 #include "sim/contact/set_search.hpp"
@@ -25,12 +28,12 @@ class ActiveSetSolver : public JointSolver {
   [[nodiscard]] bool detached(int joint) const {
     return structure_.held()[static_cast<std::size_t>(joint)] == Held::not_at_all;
   }
-  JointStepResult solve_loose(const JointStep& step);
+  std::optional<JointStepResult> solve_loose(const JointStep& step, std::size_t most);
   [[nodiscard]] Eigen::VectorXd jumps(const JointStep& step) const;
   bool settle_loose(const JointStep& step, const Eigen::VectorXd& bonded_reactions,
                     JointStepResult& result, Eigen::VectorXd& y) const;
-  bool loosen_violated(const JointStep& step, const Eigen::VectorXd& reactions,
-                       JointStepResult& result);
+  std::vector<int> violated(const JointStep& step, const Eigen::VectorXd& reactions,
+                            JointStepResult& result) const;
   bool reattach_closed(const JointStepResult& result);
 
   const Bodies* bodies_;

@@ -28,9 +28,9 @@ constexpr double most_growth = 10.0;  // of what is lacking: more, and rounding 
 
 // A tolerance below what rounding leaves is no reason to do without contact.
 constexpr double least_tolerance = 1e-8;
-// Of the intact specimen's force: where rounding may be all that is left, and more than what is
-// broken can bear.
-constexpr double next_to_nothing = 1e-3, too_much = 2.0;
+// Of the intact specimen's force: where nothing bears any, where rounding may be all that is left,
+// and more than what is broken can bear.
+constexpr double nothing_borne = 1e-9, next_to_nothing = 1e-3, too_much = 2.0;
 constexpr double hardly_stored = 1e-3;  // of the work of a force: then the force is rounding
 
 }  // namespace
@@ -220,7 +220,8 @@ bool BreakingRun::settle() {
 // Of a refined answer: work that is not stored is rounding.
 bool BreakingRun::bears_nothing() const {
   const double work = 0.5 * std::abs(force_ * intact_->assembly().width + joint_work_);
-  return intact_->energy(reference_.displacements) <= hardly_stored * work;
+  return std::abs(force_) <= nothing_borne * intact_->answer().force ||
+         intact_->energy(reference_.displacements) <= hardly_stored * work;
 }
 
 // What gaps of the loose joints change in the reactions of all.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/scenes.hpp"
 
 namespace havers::sim {
@@ -65,6 +67,23 @@ TEST(SimulateDynamic, TiesAFibreAloneByGaussSeidelToo) {
   ASSERT_EQ(swept.curve.size(), direct.curve.size());
   for (std::size_t i = 0; i < swept.curve.size(); ++i)
     EXPECT_NEAR(swept.curve[i].stress_left, direct.curve[i].stress_left, 1e-6 * direct.strength);
+}
+
+// All joints between layers have the same threshold. Paths of so many at once lead nowhere here.
+TEST(SimulateDynamic, BreaksHundredsOfJointsInOneStep) {
+  Scene scene = test::small_scene(30.0, 14, 14);
+  scene.joints.scatter = 0.0;
+  scene.loading.strain_rate = 1000.0;
+  scene.solver.regime = Regime::dynamic;
+  scene.solver.step = 1e-9;
+  const Simulation simulation = simulate(scene);
+  EXPECT_EQ(simulation.why_not_trusted(), "");
+  int most = 0;
+  for (std::size_t i = 1; i < simulation.curve.size(); ++i)
+    most =
+        std::max(most, simulation.curve[i].broken_joints - simulation.curve[i - 1].broken_joints);
+  EXPECT_GT(most, 200);
+  EXPECT_LT(simulation.iterations, 5 * simulation.steps);
 }
 
 TEST(SimulateDynamic, GivesTheSameRunWhenNothingIsLeftOut) {
