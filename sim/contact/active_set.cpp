@@ -1,7 +1,6 @@
 #include "sim/contact/active_set.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace havers::sim {
@@ -14,9 +13,8 @@ namespace {
 // Fewer that have opened are not worth a new factor, fewer that bear not some for each step.
 constexpr int worth_detaching = 24;
 constexpr std::size_t worth_searching = 48;
-// Paths of more that leave the bonded state at once are long, and may lead nowhere.
+// Paths of more that leave the bonded state in a step are long, and may lead nowhere.
 constexpr std::size_t most_at_once = 200;
-constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
 constexpr double least_borne = 1e-9;  // of the reactions
 // Part of the stiffness that is less than what inertia adds, in all but the longest steps.
 constexpr double below_inertia = 1e-13;
@@ -73,7 +71,7 @@ VectorXd ActiveSetSolver::jumps(const JointStep& step) const {
 
 // The loose joints among themselves.
 bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded_reactions,
-                                   JointStepResult& result, VectorXd& y) const {
+                                   Effort effort, JointStepResult& result, VectorXd& y) const {
   const auto n = static_cast<Index>(loose_.size());
   LocalContact contact{loose_.stiffness(),
                        VectorXd(2 * n),
@@ -90,7 +88,7 @@ bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded
     contact.laws.push_back(step.laws[static_cast<std::size_t>(joint)]);
     states.push_back(result.states[static_cast<std::size_t>(joint)]);
   }
-  const LocalContactResult local = solve_local_contact(contact, states);
+  const LocalContactResult local = solve_local_contact(contact, states, effort);
   result.iterations += local.iterations;
   y = local.y;
   for (Index i = 0; i < n && local.converged; ++i)
@@ -135,24 +133,23 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
   const bool at_rest = std::ranges::any_of(
       bodies_->classes(), [](const BodyClass& bodies) { return bodies.op.at_rest; });
   const bool may_search = detach_open_ && !at_rest;
-  std::optional<JointStepResult> direct;
-  if (!may_search || bearing(step) < worth_searching)
-    direct = solve_loose(step, may_search ? most_at_once : any_number);
-  if (direct && direct->converged) return *direct;
-  JointStepResult result = search_.solve(step);
-  if (direct) {
-    result.iterations += direct->iterations;
-  } else if (!result.converged) {
-    const long iterations = result.iterations;
-    result = *solve_loose(step, any_number);
-    result.iterations += iterations;
-  }
+  JointStepResult result;
+  long iterations = 0;
+  const auto unless_solved = [&](const auto& solve) {
+    if (result.converged) return;
+    result = solve();
+    iterations += result.iterations;
+  };
+  if (may_search && bearing(step) < worth_searching)
+    unless_solved([&] { return solve_loose(step, Effort::little); });
+  if (may_search) unless_solved([&] { return search_.solve(step); });
+  unless_solved([&] { return solve_loose(step, Effort::all); });
+  if (!may_search) unless_solved([&] { return search_.solve(step); });
+  result.iterations = iterations;
   return result;
 }
 
-// None where more than `most` joints leave the bonded state at once.
-std::optional<JointStepResult> ActiveSetSolver::solve_loose(const JointStep& step,
-                                                            std::size_t most) {
+JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effort) {
   detach_opened(step);
   // What is broken and not detached may move; after a rebuild it has to be said again.
   for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint)
@@ -160,6 +157,7 @@ std::optional<JointStepResult> ActiveSetSolver::solve_loose(const JointStep& ste
         !loose_.contains(joint))
       loose_.add(joint);
 
+  const std::size_t before = loose_.size();
   JointStepResult result;
   do {
     result.states = step.states;
@@ -171,7 +169,7 @@ std::optional<JointStepResult> ActiveSetSolver::solve_loose(const JointStep& ste
     do {  // again with those that the answer overloads, until none is
       for (const int joint : overloaded) loose_.add(joint);
       VectorXd y;
-      result.converged = settle_loose(step, bonded_response.reactions, result, y);
+      result.converged = settle_loose(step, bonded_response.reactions, effort, result, y);
       response = bonded_response;
       if (y.size() > 0 && !y.isZero(0.0)) {
         StructureLoads loads = bonded;
@@ -182,8 +180,9 @@ std::optional<JointStepResult> ActiveSetSolver::solve_loose(const JointStep& ste
       }
       if (!result.converged) break;
       overloaded = violated(step, response.reactions, result);
-      if (overloaded.size() > most) return std::nullopt;
-    } while (!overloaded.empty());
+      result.converged =
+          effort == Effort::all || loose_.size() + overloaded.size() <= before + most_at_once;
+    } while (result.converged && !overloaded.empty());
     result.iterations += response.solves;
     result.displacements = std::move(response.displacements);
     result.reactions = std::move(response.reactions);

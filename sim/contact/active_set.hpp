@@ -1,10 +1,10 @@
 // The direct joint solver: bonded joints by one sparse factor, the few others by an active set.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "sim/contact/joint_step.hpp"
+#include "sim/contact/local_contact.hpp"
 #include "sim/contact/loose_joints.hpp"
 #include "sim/contact/set_search.hpp"
 
@@ -28,9 +28,9 @@ class ActiveSetSolver : public JointSolver {
   [[nodiscard]] bool detached(int joint) const {
     return structure_.held()[static_cast<std::size_t>(joint)] == Held::not_at_all;
   }
-  std::optional<JointStepResult> solve_loose(const JointStep& step, std::size_t most);
+  JointStepResult solve_loose(const JointStep& step, Effort effort);
   [[nodiscard]] Eigen::VectorXd jumps(const JointStep& step) const;
-  bool settle_loose(const JointStep& step, const Eigen::VectorXd& bonded_reactions,
+  bool settle_loose(const JointStep& step, const Eigen::VectorXd& bonded_reactions, Effort effort,
                     JointStepResult& result, Eigen::VectorXd& y) const;
   std::vector<int> violated(const JointStep& step, const Eigen::VectorXd& reactions,
                             JointStepResult& result) const;

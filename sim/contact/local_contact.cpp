@@ -112,8 +112,10 @@ LocalContactResult try_sets(const LocalContact& p, States states) {
   return result;
 }
 
-// Sets from the last one on; where these lead nowhere, paths.
-LocalContactResult solve_as_it_is(const LocalContact& problem, const States& states) {
+// Sets from the last one on; where these lead nowhere, paths, so many of them from all joints
+// sticking.
+LocalContactResult solve_as_it_is(const LocalContact& problem, const States& states,
+                                  int most_ways) {
   LocalContactResult result = try_sets(problem, states);
   if (result.converged) return result;
   int spent = result.iterations;
@@ -123,7 +125,7 @@ LocalContactResult solve_as_it_is(const LocalContact& problem, const States& sta
     spent += result.iterations;
   };
   if (const std::optional<Homotopy> near = from_states(system)) follow(*near, 1);
-  for (int way = 0; way < ways && !result.converged; ++way)
+  for (int way = 0; way < most_ways && !result.converged; ++way)
     follow(from_sticking(system, way), changes_of_first_way << way);
   result.iterations = spent;
   return result;
@@ -141,7 +143,7 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
     held.S.diagonal().array() += stiffness;
     LocalContactResult result{.states = states};
     for (int i = 0; i < times_moved && least > well_met; ++i) {
-      result = solve_as_it_is(held, result.states);
+      result = solve_as_it_is(held, result.states, ways);
       spent += result.iterations;
       if (!result.converged) break;
       const double residual = law_residual_of(problem, result.y);
@@ -157,11 +159,15 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
 
 }  // namespace
 
-LocalContactResult solve_local_contact(const LocalContact& problem, const States& states) {
+LocalContactResult solve_local_contact(const LocalContact& problem, const States& states,
+                                       Effort effort) {
   if (states.empty()) return {.converged = true, .y = {}, .states = {}, .iterations = 0};
-  LocalContactResult result = solve_as_it_is(problem, states);
+  LocalContactResult result = solve_as_it_is(problem, states, effort == Effort::little ? 1 : ways);
   const bool solved = result.converged && law_residual_of(problem, result.y) <= well_met;
-  return solved ? result : solve_with_springs(problem, states, std::move(result));
+  if (solved || effort == Effort::all)
+    return solved ? result : solve_with_springs(problem, states, std::move(result));
+  result.converged = false;
+  return result;
 }
 
 }  // namespace havers::sim

@@ -74,9 +74,16 @@ struct SingleJoint {
 SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const Local& u0,
                                const JointLaw& law);
 
+/// What is done before a problem counts as not solved.
+enum class Effort : char {
+  little,  ///< One path: where another solver may be quicker than more of them.
+  all
+};
+
 /// Active set started from `states`: each set is one linear solve (C2). Where sets do not lead to
 /// each other, homotopies (C4), at last with springs (C7).
 LocalContactResult solve_local_contact(const LocalContact& problem,
-                                       const std::vector<JointState>& states);
+                                       const std::vector<JointState>& states,
+                                       Effort effort = Effort::all);
 
 }  // namespace havers::sim

@@ -1,6 +1,8 @@
 #include "sim/contact/set_search.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 #include <utility>
 
 namespace havers::sim {
@@ -14,6 +16,9 @@ constexpr int sets_from_answers = 12;  // each answer being where the next sweep
 constexpr int sets_from_sweeps = 8;    // then sweeps go on from where they were, ever longer
 constexpr int most_sweeps = 200;       // between two sets
 constexpr int quiet_sweeps = 10;       // sweeps without a change of state
+// From the seventh set on answers say themselves what is next, if that is so little.
+constexpr int sets_by_sweeps_alone = 6;
+constexpr std::size_t most_changes = 50;
 // Part of the reactions that an answer may err by, where it breaks a law by more.
 constexpr double rough = 1e-4;
 constexpr double useful = 0.1;  // to start from, likewise
@@ -60,22 +65,23 @@ void SetSearch::answer(const JointStep& step, double accuracy, JointStepResult& 
   result.gaps = step.predicted + last_.gaps;
   result.reactions = last_.reactions;
   result.displacements = last_.displacements;
-  result.converged = is_lawful(step, result, accuracy);
+  result.converged = lawful(step, result, accuracy) == result.states;
 }
 
-// Whether the law leaves every joint in its state, where reactions err by part of the largest.
-bool SetSearch::is_lawful(const JointStep& step, const JointStepResult& result,
-                          double accuracy) const {
+// The states that the law gives joints with such an answer, where reactions err by part of the
+// largest.
+std::vector<JointState> SetSearch::lawful(const JointStep& step, const JointStepResult& result,
+                                          double accuracy) const {
+  std::vector<JointState> states(result.states.size());
   const double scale = accuracy / accuracy_of_forces *
                        std::max(step.force_scale, result.reactions.lpNorm<Eigen::Infinity>());
   for (std::size_t j = 0; j < step.laws.size(); ++j) {
     const auto row = static_cast<Index>(2 * j);
     const Local gap = result.gaps.segment<2>(row) - step.held_at.segment<2>(row);
-    if (state_of(result.reactions.segment<2>(row), stiffness_(static_cast<Index>(j)) * gap,
-                 result.states[j], step.laws[j], scale) != result.states[j])
-      return false;
+    states[j] = state_of(result.reactions.segment<2>(row), stiffness_(static_cast<Index>(j)) * gap,
+                         result.states[j], step.laws[j], scale);
   }
-  return true;
+  return states;
 }
 
 // Returns the sweeps spent.
@@ -102,6 +108,21 @@ bool SetSearch::settles(const JointStep& step, JointStepResult& result) {
   return result.converged;
 }
 
+// The same of those after it, each as the answer before asks, while that is ever less.
+bool SetSearch::settles_nearby(const JointStep& step, std::size_t most, JointStepResult& result) {
+  while (!settles(step, result)) {
+    if (!structure_->ok()) return false;
+    std::vector<JointState> next = lawful(step, result, rough);
+    const auto changes =
+        std::transform_reduce(next.begin(), next.end(), result.states.begin(), std::size_t{0},
+                              std::plus<>{}, std::not_equal_to<>{});
+    if (changes == 0 || changes > most) return false;
+    most = changes - 1;
+    result.states = std::move(next);
+  }
+  return true;
+}
+
 JointStepResult SetSearch::solve(const JointStep& step) {
   JointStepResult result;
   result.states = step.states;
@@ -112,7 +133,9 @@ JointStepResult SetSearch::solve(const JointStep& step) {
   sweeps_.start(step, step.reactions, tie_forces_);
   for (int set = 0, patience = 1; set < sets_from_answers + sets_from_sweeps; ++set) {
     result.iterations += look_for_states(step, patience, result.states);
-    if (settles(step, result) || !structure_->ok()) break;
+    if (settles_nearby(step, set < sets_by_sweeps_alone ? 0 : most_changes, result) ||
+        !structure_->ok())
+      break;
     if (set < sets_from_answers)
       sweeps_.start(step, last_.reactions, last_.tie_forces);
     else

@@ -22,8 +22,9 @@ class SetSearch {
   void take(const std::vector<JointState>& states);
   void answer(const JointStep& step, double accuracy, JointStepResult& result);
   bool settles(const JointStep& step, JointStepResult& result);
-  [[nodiscard]] bool is_lawful(const JointStep& step, const JointStepResult& result,
-                               double accuracy) const;
+  bool settles_nearby(const JointStep& step, std::size_t most, JointStepResult& result);
+  [[nodiscard]] std::vector<JointState> lawful(const JointStep& step, const JointStepResult& result,
+                                               double accuracy) const;
   int look_for_states(const JointStep& step, int patience, std::vector<JointState>& states);
 
   const Bodies* bodies_;
