@@ -113,6 +113,7 @@ bool SetSearch::settles_nearby(const JointStep& step, std::size_t most, JointSte
   while (!settles(step, result)) {
     if (!structure_->ok()) return false;
     std::vector<JointState> next = lawful(step, result, rough);
+    if (next == result.states) next = lawful(step, result, accuracy_of_forces);
     const auto changes =
         std::transform_reduce(next.begin(), next.end(), result.states.begin(), std::size_t{0},
                               std::plus<>{}, std::not_equal_to<>{});
