@@ -18,7 +18,7 @@ using Eigen::RowVector2d;
 using Eigen::VectorXd;
 using States = std::vector<JointState>;
 
-constexpr double farthest = 1e3;  // λ; a path that has gone up so far is not seen to come back
+constexpr double farthest = 1e4;  // λ; a path that has gone up so far is not seen to come back
 // Of the answers on the way, and of the last one where it is not solved for anew.
 constexpr double accuracy_on_the_way = 1e-11, accuracy_of_answer = 1e-13;
 

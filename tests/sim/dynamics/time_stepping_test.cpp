@@ -69,6 +69,17 @@ TEST(SimulateDynamic, TiesAFibreAloneByGaussSeidelToo) {
     EXPECT_NEAR(swept.curve[i].stress_left, direct.curve[i].stress_left, 1e-6 * direct.strength);
 }
 
+// The path of joints that break together goes up beyond λ = 1000 before it comes back.
+TEST(SimulateDynamic, FollowsAPathThatTurnsBackLate) {
+  Scene scene = test::small_scene(15.0, 14, 14);
+  scene.joints.scatter = 0.02;
+  scene.loading.strain_rate = 1000.0;
+  scene.solver.regime = Regime::dynamic;
+  scene.solver.step = 3e-9;
+  scene.loading.end_fraction = 0.8;
+  EXPECT_EQ(simulate(scene).why_not_trusted(), "");
+}
+
 // Joints between layers have nearly the same threshold. Paths of so many lead nowhere, and sweeps
 // end one joint from the answer.
 TEST(SimulateDynamic, BreaksHundredsOfJointsInAFewSteps) {
