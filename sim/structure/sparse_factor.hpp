@@ -1,15 +1,13 @@
-// Sparse factor of a saddle-point matrix (CHOLMOD), shared by threads once made.
+// Sparse factor of a saddle-point matrix, shared by threads once made.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <memory>
 #include <vector>
 
-namespace havers::sim {
+#include "sim/structure/elimination_tree.hpp"
 
-/// An order of elimination that leaves little fill. [rows of a symmetric matrix]
-std::vector<int> order_of_little_fill(const Eigen::SparseMatrix<double>& lower);
+namespace havers::sim {
 
 /// L⁻¹ P b of two columns with few entries: the rows that it reaches, in the order of elimination.
 struct Eliminated {
@@ -28,12 +26,9 @@ class SparseFactor {
   /// @param least_pivot  of a row of N; a smaller one is rounding, N is not independent
   SparseFactor(const Eigen::SparseMatrix<double>& lower, Eigen::Index multipliers,
                std::vector<int> order, double least_pivot = 0.0);
-  ~SparseFactor();
-  SparseFactor(SparseFactor&& other) noexcept;
-  SparseFactor& operator=(SparseFactor&& other) noexcept;
 
   /// Whether K was positive definite and N independent; only then may anything be solved.
-  [[nodiscard]] bool ok() const;
+  [[nodiscard]] bool ok() const { return ok_; }
 
   // All of these may be called by several threads at once.
   /// A⁻¹ b.
@@ -49,14 +44,23 @@ class SparseFactor {
   [[nodiscard]] Eigen::MatrixXd solve(const std::vector<const Eliminated*>& parts,
                                       const Eigen::MatrixXd& y) const;
 
-  [[nodiscard]] Eigen::Index rows() const { return static_cast<Eigen::Index>(place_.size()); }
+  [[nodiscard]] Eigen::Index rows() const { return static_cast<Eigen::Index>(tree_.place.size()); }
   [[nodiscard]] long nonzeros() const;  ///< Of L.
 
  private:
-  struct Factor;
-  std::unique_ptr<Factor> factor_;
-  std::vector<int> place_;          // of each row in P
-  Eigen::VectorXd inverse_pivots_;  // of D
+  struct Rest;
+  [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& lower, Eigen::Index multipliers,
+                               double least_pivot);
+  [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> values_of(const Panel& panel) const {
+    return {values_.data() + panel.values, static_cast<Eigen::Index>(panel.height), panel.columns};
+  }
+  void gather(const Panel& panel, const Panel* next, const Eigen::MatrixXd& x,
+              Eigen::Ref<Eigen::MatrixXd> part) const;
+  void substitute(Eigen::MatrixXd& x) const;
+
+  EliminationTree tree_;
+  std::vector<double> values_;  // of all panels
+  Eigen::VectorXd inverse_pivots_;
   bool ok_ = false;
 };
 

@@ -89,7 +89,7 @@ TEST(SwingingPieces, AreHeldByTheirNeighboursWithNextToNoFriction) {
 }
 
 // Without most of its joints, layers a thousand times as soft as their neighbours, slivers at the
-// ends: no way solves the fourth break of this wall.
+// ends: no way solves an event of some of these walls.
 TEST(SwingingPieces, EndInTheLastRowWhereAnEventIsNotSolved) {
   Scene scene = test::small_scene(89.99, 6, 2);
   scene.assembly.fibre_length = 120e-6;
@@ -99,25 +99,29 @@ TEST(SwingingPieces, EndInTheLastRowWhereAnEventIsNotSolved) {
   scene.joints.scatter = 1.9;
   scene.joints.friction = 0.001;
   scene.joints.missing = 0.6;
-  scene.joints.seed = 140;
   scene.loading.lateral = Lateral::free;
   scene.loading.max_strain = 1.0;
-  std::vector<JointOutcome> last;
-  const Simulation simulation = simulate(scene, [&](const Progress& progress) {
-    last = progress.joints();
-    return true;
-  });
-  EXPECT_EQ(simulation.status, SimulationStatus::not_converged);
-  ASSERT_EQ(last.size(), simulation.joints.size());
-  int broken = 0;
-  for (std::size_t j = 0; j < last.size(); ++j) {
-    const JointOutcome& joint = simulation.joints[j];
-    broken += joint.broken && !is_missing(joint.threshold) ? 1 : 0;
-    EXPECT_EQ(joint.broken, last[j].broken);
-    EXPECT_NEAR(joint.reaction_normal, last[j].reaction_normal, 1e-6 * joint.threshold.normal);
-    EXPECT_NEAR(joint.reaction_tangent, last[j].reaction_tangent, 1e-6 * joint.threshold.normal);
+  int unsolved = 0;
+  for (scene.joints.seed = 1; scene.joints.seed <= 3000 && unsolved == 0; ++scene.joints.seed) {
+    std::vector<JointOutcome> last;
+    const Simulation simulation = simulate(scene, [&](const Progress& progress) {
+      last = progress.joints();
+      return true;
+    });
+    if (simulation.status != SimulationStatus::not_converged) continue;
+    ++unsolved;
+    ASSERT_EQ(last.size(), simulation.joints.size());
+    int broken = 0;
+    for (std::size_t j = 0; j < last.size(); ++j) {
+      const JointOutcome& joint = simulation.joints[j];
+      broken += joint.broken && !is_missing(joint.threshold) ? 1 : 0;
+      EXPECT_EQ(joint.broken, last[j].broken);
+      EXPECT_NEAR(joint.reaction_normal, last[j].reaction_normal, 1e-6 * joint.threshold.normal);
+      EXPECT_NEAR(joint.reaction_tangent, last[j].reaction_tangent, 1e-6 * joint.threshold.normal);
+    }
+    EXPECT_EQ(broken, simulation.broken_joints);
   }
-  EXPECT_EQ(broken, simulation.broken_joints);
+  EXPECT_EQ(unsolved, 1);
 }
 
 // What rounding leaves is more than that: the run says so, and its answer stays the same.

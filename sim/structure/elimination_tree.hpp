@@ -1,0 +1,42 @@
+// In which order a sparse symmetric matrix is eliminated, and what that fills (CHOLMOD).
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace havers::sim {
+
+/// An order of elimination that leaves little fill. [rows of a symmetric matrix]
+std::vector<int> order_of_little_fill(const Eigen::SparseMatrix<double>& lower);
+
+/// Neighbouring columns of a factor that reach the same rows (a supernode).
+struct Panel {
+  int first, columns;      ///< In the order of elimination.
+  std::size_t at, height;  ///< Among the rows of all panels: their own, then those below.
+  std::size_t values;      ///< Before it, in all panels.
+  int parent = -1;         ///< The panel of the first row below.
+};
+
+/// The panels of a factor, children before their parents.
+struct EliminationTree {
+  std::vector<int> place;  ///< Of each row, in the order of elimination.
+  std::vector<Panel> panels;
+  std::vector<int> rows;   ///< Of all panels, by their places.
+  std::size_t values = 0;  ///< Of all panels.
+
+  [[nodiscard]] std::span<const int> rows_of(const Panel& panel) const {
+    return std::span(rows).subspan(panel.at, panel.height);
+  }
+  [[nodiscard]] const Panel* parent_of(const Panel& panel) const {
+    return panel.parent < 0 ? nullptr : &panels[static_cast<std::size_t>(panel.parent)];
+  }
+  [[nodiscard]] const Panel& panel_of(int column) const;
+};
+
+/// @param lower  lower triangle of a symmetric matrix; only where its entries are counts
+/// @param order  of elimination; rows that do not feel each other may change places
+EliminationTree elimination_tree(const Eigen::SparseMatrix<double>& lower, std::vector<int> order);
+
+}  // namespace havers::sim

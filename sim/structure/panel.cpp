@@ -1,0 +1,120 @@
+#include "sim/structure/panel.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace havers::sim {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Ref;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr Index in_block = 32;  // columns that are taken from those behind them as one product
+
+template <Index columns>
+void eliminate(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd>& x) {
+  const Index below = panel.rows() - first - columns;
+  for (Index c = 0; c < x.cols(); ++c) {
+    Eigen::Matrix<double, columns, 1> own = x.col(c).segment<columns>(first);
+    for (Index j = 0; j < columns; ++j)
+      for (Index i = j + 1; i < columns; ++i) own(i) -= panel(first + i, first + j) * own(j);
+    x.col(c).segment<columns>(first) = own;
+    x.col(c).tail(below).noalias() -=
+        panel.block<Eigen::Dynamic, columns>(first + columns, first, below, columns)
+            .lazyProduct(own);
+  }
+}
+
+// The sums of all columns and loads side by side, two terms of each at a time.
+template <Index columns, Index loads>
+void substitute(const Ref<const MatrixXd>& panel, Index first, Index load, Ref<MatrixXd>& x) {
+  using Two = Eigen::Map<const Eigen::Vector2d>;
+  const auto of = panel.middleCols<columns>(first);
+  auto known = x.middleCols<loads>(load);
+  Eigen::Matrix<double, 2, columns * loads> sums;
+  sums.setZero();
+  Index i = first + columns;
+  for (; i + 2 <= panel.rows(); i += 2)
+    for (Index j = 0; j < columns; ++j)
+      for (Index c = 0; c < loads; ++c)
+        sums.col(j + columns * c) +=
+            Two(&of.coeffRef(i, j)).cwiseProduct(Two(&known.coeffRef(i, c)));
+  for (Index c = 0; c < loads; ++c) {
+    Eigen::Matrix<double, columns, 1> own = known.col(c).template segment<columns>(first);
+    own -= sums.template middleCols<columns>(columns * c).colwise().sum().transpose();
+    if (i < panel.rows()) own -= of.row(i).transpose() * known(i, c);
+    for (Index j = columns - 1; j >= 0; --j)
+      for (Index k = j + 1; k < columns; ++k) own(j) -= of(first + k, j) * own(k);
+    known.col(c).template segment<columns>(first) = own;
+  }
+}
+
+template <Index columns>
+void substitute_all(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd>& x) {
+  Index c = 0;
+  for (; c + 2 <= x.cols(); c += 2) substitute<columns, 2>(panel, first, c, x);
+  if (c < x.cols()) substitute<columns, 1>(panel, first, c, x);
+}
+
+}  // namespace
+
+void factorise_panel(Ref<MatrixXd> panel) {
+  MatrixXd scaled;
+  for (Index begin = 0; begin < panel.cols(); begin += in_block) {
+    const Index end = std::min(begin + in_block, panel.cols());
+    for (Index j = begin; j < end; ++j) {
+      const double pivot = panel(j, j);
+      for (Index k = j + 1; k < end; ++k)
+        panel.col(k).tail(panel.rows() - k) -=
+            panel(k, j) / pivot * panel.col(j).tail(panel.rows() - k);
+      panel.col(j).tail(panel.rows() - j - 1) /= pivot;
+    }
+    const auto block = panel.bottomRows(panel.rows() - end).middleCols(begin, end - begin);
+    const Index left = panel.cols() - end;
+    scaled.noalias() =
+        block.topRows(left) * panel.diagonal().segment(begin, end - begin).asDiagonal();
+    panel.bottomRightCorner(panel.rows() - end, left).noalias() -= block * scaled.transpose();
+  }
+}
+
+void take_panel_from(Ref<MatrixXd> rest, const Ref<const MatrixXd>& panel) {
+  const auto below = panel.bottomRows(rest.rows());
+  rest.triangularView<Eigen::Lower>() -= below * panel.diagonal().asDiagonal() * below.transpose();
+}
+
+void eliminate_panel(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd> x) {
+  for (; first + 4 <= panel.cols(); first += 4) eliminate<4>(panel, first, x);
+  switch (panel.cols() - first) {
+    case 3:
+      return eliminate<3>(panel, first, x);
+    case 2:
+      return eliminate<2>(panel, first, x);
+    case 1:
+      return eliminate<1>(panel, first, x);
+    default:
+      return;
+  }
+}
+
+void substitute_panel(const Ref<const MatrixXd>& panel, Ref<MatrixXd> x) {
+  Index first = panel.cols() / 4 * 4;
+  switch (panel.cols() - first) {
+    case 3:
+      substitute_all<3>(panel, first, x);
+      break;
+    case 2:
+      substitute_all<2>(panel, first, x);
+      break;
+    case 1:
+      substitute_all<1>(panel, first, x);
+      break;
+    default:
+      break;
+  }
+  for (first -= 4; first >= 0; first -= 4) substitute_all<4>(panel, first, x);
+}
+
+}  // namespace havers::sim
