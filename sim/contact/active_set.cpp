@@ -163,31 +163,32 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effor
     result.states = step.states;
     if (!structure_.ok()) return result;
     const StructureLoads bonded{step.forces, step.prescribed, jumps(step), step.force_scale};
-    const StructureResponse bonded_response = structure_.solve(bonded);
-    StructureResponse response;
+    StructureResponse bonded_response = structure_.solve(bonded), loose_response;
+    StructureResponse* response = nullptr;
     std::vector<int> overloaded;
     do {  // again with those that the answer overloads, until none is
       for (const int joint : overloaded) loose_.add(joint);
       VectorXd y;
       result.converged = settle_loose(step, bonded_response.reactions, effort, result, y);
-      response = bonded_response;
+      response = &bonded_response;
       if (y.size() > 0 && !y.isZero(0.0)) {
         StructureLoads loads = bonded;
         for (std::size_t i = 0; i < loose_.size(); ++i)
           loads.jumps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) +=
               y.segment<2>(2 * static_cast<Index>(i));
-        response = structure_.solve(loads);
+        loose_response = structure_.solve(loads);
+        response = &loose_response;
       }
       if (!result.converged) break;
-      overloaded = violated(step, response.reactions, result);
+      overloaded = violated(step, response->reactions, result);
       result.converged =
           effort == Effort::all || loose_.size() + overloaded.size() <= before + most_at_once;
     } while (result.converged && !overloaded.empty());
-    result.iterations += response.solves;
-    result.displacements = std::move(response.displacements);
-    result.reactions = std::move(response.reactions);
-    result.gaps = step.predicted + response.gaps;
-    result.residual = std::max(joint_residual(step, result, stiffness_), response.residual);
+    result.iterations += response->solves;
+    result.displacements = std::move(response->displacements);
+    result.reactions = std::move(response->reactions);
+    result.gaps = step.predicted + response->gaps;
+    result.residual = std::max(joint_residual(step, result, stiffness_), response->residual);
   } while (result.converged && reattach_closed(result));
   return result;
 }

@@ -87,34 +87,13 @@ void take_panel_from(Ref<MatrixXd> rest, const Ref<const MatrixXd>& panel) {
 
 void eliminate_panel(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd> x) {
   for (; first + 4 <= panel.cols(); first += 4) eliminate<4>(panel, first, x);
-  switch (panel.cols() - first) {
-    case 3:
-      return eliminate<3>(panel, first, x);
-    case 2:
-      return eliminate<2>(panel, first, x);
-    case 1:
-      return eliminate<1>(panel, first, x);
-    default:
-      return;
-  }
+  for (; first < panel.cols(); ++first) eliminate<1>(panel, first, x);
 }
 
 void substitute_panel(const Ref<const MatrixXd>& panel, Ref<MatrixXd> x) {
-  Index first = panel.cols() / 4 * 4;
-  switch (panel.cols() - first) {
-    case 3:
-      substitute_all<3>(panel, first, x);
-      break;
-    case 2:
-      substitute_all<2>(panel, first, x);
-      break;
-    case 1:
-      substitute_all<1>(panel, first, x);
-      break;
-    default:
-      break;
-  }
-  for (first -= 4; first >= 0; first -= 4) substitute_all<4>(panel, first, x);
+  Index first = panel.cols();
+  for (; first % 4 != 0; --first) substitute_all<1>(panel, first - 1, x);
+  for (; first > 0; first -= 4) substitute_all<4>(panel, first - 4, x);
 }
 
 }  // namespace havers::sim

@@ -56,10 +56,14 @@ Structure::Structure(const Bodies& bodies, std::vector<Held> held)
     unknowns_of_port_.push_back({joint && b && !holds(port.unknown) ? next++ : port.unknown, -1});
   }
   unknowns_ = next + (assembly.ties.empty() ? 0 : 1);
+  tops_of_ties_.resize(assembly.ties.size());
   const std::vector<Port>& ports = bodies.ports();
   for (std::size_t i = 0; i < ports.size(); ++i)
-    if (ports[i].unknown >= joint_unknowns && ports[i].side == PortSide::b)
-      unknowns_of_port_[i][1] = unknowns_ - 1;
+    if (ports[i].unknown >= joint_unknowns && ports[i].side == PortSide::b) {
+      unknowns_of_port_[i][1] = static_cast<int>(unknowns_) - 1;
+      tops_of_ties_[static_cast<std::size_t>(ports[i].unknown - joint_unknowns)] =
+          static_cast<Index>(i);
+    }
   assemble();
 }
 
@@ -74,10 +78,9 @@ MatrixXd Structure::stiffened(const BodyOperator& op) const {
 
 VectorXd Structure::unknowns_to_ports(const VectorXd& unknowns) const {
   VectorXd p(ports());
-  for (Index i = 0; i < p.size(); ++i) {
-    const auto& [own, common] = unknowns_of_port_[static_cast<std::size_t>(i)];
-    p(i) = unknowns(own) + (common < 0 ? 0.0 : unknowns(common));
-  }
+  for (Index i = 0; i < p.size(); ++i)
+    p(i) = unknowns(unknowns_of_port_[static_cast<std::size_t>(i)][0]);
+  for (const Index top : tops_of_ties_) p(top) += unknowns(unknowns_ - 1);
   return p;
 }
 
@@ -87,16 +90,17 @@ VectorXd Structure::as_held(const VectorXd& displacements) const {
   for (Index i = 0; i < ports(); ++i)
     if (const auto& [own, common] = unknowns_of_port_[static_cast<std::size_t>(i)]; common < 0)
       unknowns(own) = displacements(i);
-  for (Index i = 0; i < ports(); ++i)
-    if (const auto& [own, common] = unknowns_of_port_[static_cast<std::size_t>(i)]; common >= 0)
-      unknowns(common) = displacements(i) - unknowns(own);
+  for (const Index top : tops_of_ties_)
+    unknowns(unknowns_ - 1) =
+        displacements(top) - unknowns(unknowns_of_port_[static_cast<std::size_t>(top)][0]);
   return unknowns_to_ports(unknowns);
 }
 
 VectorXd Structure::ports_to_unknowns(const VectorXd& forces) const {
   VectorXd f = VectorXd::Zero(unknowns_);
   for (Index i = 0; i < forces.size(); ++i)
-    for (const Index unknown : unknowns_of_port(i)) f(unknown) += forces(i);
+    f(unknowns_of_port_[static_cast<std::size_t>(i)][0]) += forces(i);
+  for (const Index top : tops_of_ties_) f(unknowns_ - 1) += forces(top);
   return f;
 }
 
@@ -194,14 +198,12 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads, PortState st
   return state;
 }
 
-// Forces on the b sides of joints, then of ties.
+// Forces on the b sides of the joints that hold.
 VectorXd Structure::reactions_of(const VectorXd& port_forces) const {
-  VectorXd r = VectorXd::Zero(2 * joints() + static_cast<Index>(bodies_->assembly().ties.size()));
-  const std::vector<Port>& ports = bodies_->ports();
-  for (std::size_t i = 0; i < ports.size(); ++i)
-    if (ports[i].side == PortSide::b &&
-        (ports[i].unknown >= 2 * joints() || holds(ports[i].unknown)))
-      r(ports[i].unknown) = port_forces(static_cast<Index>(i));
+  VectorXd r(2 * joints());
+  for (int unknown = 0; unknown < r.size(); ++unknown)
+    r(unknown) =
+        holds(unknown) ? port_forces(ports_of_[static_cast<std::size_t>(unknown)][1]) : 0.0;
   return r;
 }
 
@@ -237,7 +239,7 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
                                    (at_ports.offsets - prescribed));
     start.multipliers = loads.near->multipliers;
   }
-  const PortState state = solve_ports(at_ports, std::move(start));
+  PortState state = solve_ports(at_ports, std::move(start));
   VectorXd displacements = loads.prescribed;
   for (std::size_t k = 0; k < forces.size(); ++k) {  // (S4): recover the displacements
     const BodyClass& group = bodies_->classes()[k];
@@ -250,18 +252,18 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
     }
     bodies_->scatter(moved, group, displacements);
   }
-  const VectorXd all = reactions_of(state.forces);
-  VectorXd reactions = all.head(2 * joints());
+  VectorXd reactions = reactions_of(state.forces);
   for (int unknown = 0; unknown < reactions.size() && loads.given.size() > 0; ++unknown)
     if (!holds(unknown)) reactions(unknown) = loads.given(unknown);
   for (Index j = 0; j < joints() && loads.friction.size() > 0; ++j)
     if (held_[static_cast<std::size_t>(j)] == Held::normal)
       reactions(2 * j + 1) += loads.friction(j) * reactions(2 * j);
-  return {displacements,
-          reactions,
-          all.tail(all.size() - 2 * joints()),
-          gaps_of(state.displacements - prescribed),
-          state.multipliers,
+  state.displacements -= prescribed;
+  return {std::move(displacements),
+          std::move(reactions),
+          state.forces(tops_of_ties_),
+          gaps_of(state.displacements),
+          std::move(state.multipliers),
           state.solves,
           state.error};
 }

@@ -97,7 +97,7 @@ class Structure {
   [[nodiscard]] Eigen::Index ports() const {
     return static_cast<Eigen::Index>(unknowns_of_port_.size());
   }
-  [[nodiscard]] std::span<const Eigen::Index> unknowns_of_port(Eigen::Index port) const {
+  [[nodiscard]] std::span<const int> unknowns_of_port(Eigen::Index port) const {
     const auto& both = unknowns_of_port_[static_cast<std::size_t>(port)];
     return {both.data(), both[1] < 0 ? 1U : 2U};
   }
@@ -122,7 +122,8 @@ class Structure {
   std::vector<Held> held_;
   std::vector<std::array<Eigen::Index, 2>> ports_of_;  // sides a and b of each joint's component
   // A tie's top also moves with the distance common to all ties; for the others that is -1.
-  std::vector<std::array<Eigen::Index, 2>> unknowns_of_port_;
+  std::vector<std::array<int, 2>> unknowns_of_port_;
+  std::vector<Eigen::Index> tops_of_ties_;
   Eigen::Index unknowns_ = 0;
   double stiffness_ = 0.0;  // the largest of Z [N/m²]
   std::vector<const BodyOperator*> op_of_body_;
