@@ -9,52 +9,57 @@
 namespace havers::sim {
 namespace {
 
-// CHOLMOD keeps its settings and counts in a `common`.
-class Cholmod {
+// CHOLMOD's analysis of a matrix, and what it counts.
+class Analysis {
  public:
-  Cholmod(int ordering, int kind) {
+  explicit Analysis(const Eigen::SparseMatrix<double>& lower) {
+    assert(lower.isCompressed());
     cholmod_start(&common_);
     common_.nmethods = 1;
-    common_.method[0].ordering = ordering;
-    common_.supernodal = kind;
     common_.print = 0;
     // No panels of columns that only nearly reach the same rows.
     for (std::size_t& columns : common_.nrelax) columns = 0;
     for (double& zeros : common_.zrelax) zeros = 0.0;
+    // The view is not const; what it is given to only reads it.
+    view_.nrow = static_cast<std::size_t>(lower.rows());
+    view_.ncol = static_cast<std::size_t>(lower.cols());
+    view_.nzmax = static_cast<std::size_t>(lower.nonZeros());
+    view_.p = const_cast<int*>(lower.outerIndexPtr());  // NOLINT
+    view_.i = const_cast<int*>(lower.innerIndexPtr());  // NOLINT
+    view_.stype = -1;
+    view_.itype = CHOLMOD_INT;
+    view_.xtype = CHOLMOD_PATTERN;
+    view_.dtype = CHOLMOD_DOUBLE;
+    view_.sorted = 1;
+    view_.packed = 1;
   }
-  ~Cholmod() {
+  ~Analysis() {
     cholmod_free_factor(&factor_, &common_);
     cholmod_finish(&common_);
   }
-  Cholmod(const Cholmod&) = delete;
-  Cholmod& operator=(const Cholmod&) = delete;
+  Analysis(const Analysis&) = delete;
+  Analysis& operator=(const Analysis&) = delete;
 
-  /// @param order  if it is given
-  const cholmod_factor& analyse(const Eigen::SparseMatrix<double>& lower, int* order) {
-    assert(lower.isCompressed());
-    // The view is not const; what it is given to only reads it.
-    cholmod_sparse view{};
-    view.nrow = static_cast<std::size_t>(lower.rows());
-    view.ncol = static_cast<std::size_t>(lower.cols());
-    view.nzmax = static_cast<std::size_t>(lower.nonZeros());
-    view.p = const_cast<int*>(lower.outerIndexPtr());  // NOLINT
-    view.i = const_cast<int*>(lower.innerIndexPtr());  // NOLINT
-    view.stype = -1;
-    view.itype = CHOLMOD_INT;
-    view.xtype = CHOLMOD_PATTERN;
-    view.dtype = CHOLMOD_DOUBLE;
-    view.sorted = 1;
-    view.packed = 1;
-    cholmod_free_factor(&factor_, &common_);
-    factor_ = cholmod_analyze_p(&view, order, nullptr, 0, &common_);
+  /// @param order  given; null: of minimum degree
+  const cholmod_factor& factor(int* order, int kind) {
+    common_.supernodal = kind;
+    common_.method[0].ordering = order != nullptr ? CHOLMOD_GIVEN : CHOLMOD_AMD;
+    factor_ = cholmod_analyze_p(&view_, order, nullptr, 0, &common_);
     if (factor_ == nullptr) throw std::bad_alloc();
     return *factor_;
+  }
+  std::vector<int> least_degree_in(std::vector<int> parts) {
+    std::vector<int> order(view_.nrow);
+    if (cholmod_camd(&view_, nullptr, 0, parts.data(), order.data(), &common_) == 0)
+      throw std::bad_alloc();
+    return order;
   }
   [[nodiscard]] double operations() const { return common_.fl; }
   [[nodiscard]] double nonzeros() const { return common_.lnz; }
 
  private:
   cholmod_common common_{};
+  cholmod_sparse view_{};
   cholmod_factor* factor_ = nullptr;
 };
 
@@ -64,25 +69,19 @@ std::span<const int> span_of(const void* numbers, std::size_t count) {
 
 }  // namespace
 
-// Minimum degree is the quicker to find, and mostly the better one. Where much is left to do for
-// each nonzero, nested dissection is tried too.
-std::vector<int> order_of_little_fill(const Eigen::SparseMatrix<double>& lower) {
-  constexpr double much = 200.0;  // floating-point operations
-  Cholmod by_degree(CHOLMOD_AMD, CHOLMOD_SIMPLICIAL),
-      by_dissection(CHOLMOD_NESDIS, CHOLMOD_SIMPLICIAL);
-  const auto order_of = [](const cholmod_factor& factor) {
-    const auto order = span_of(factor.Perm, factor.n);
-    return std::vector<int>(order.begin(), order.end());
-  };
-  std::vector<int> order = order_of(by_degree.analyse(lower, nullptr));
-  if (by_degree.operations() <= much * by_degree.nonzeros()) return order;
-  const cholmod_factor& other = by_dissection.analyse(lower, nullptr);
-  return by_dissection.operations() < by_degree.operations() ? order_of(other) : order;
+Order least_degree_order(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& parts) {
+  Analysis analysis(lower);
+  std::vector<int> given;
+  if (!parts.empty()) given = analysis.least_degree_in(parts);
+  const cholmod_factor& L =
+      analysis.factor(given.empty() ? nullptr : given.data(), CHOLMOD_SIMPLICIAL);
+  const auto rows = span_of(L.Perm, L.n);
+  return {{rows.begin(), rows.end()}, analysis.nonzeros(), analysis.operations()};
 }
 
 EliminationTree elimination_tree(const Eigen::SparseMatrix<double>& lower, std::vector<int> order) {
-  Cholmod cholmod(CHOLMOD_GIVEN, CHOLMOD_SUPERNODAL);
-  const cholmod_factor& L = cholmod.analyse(lower, order.data());
+  Analysis analysis(lower);
+  const cholmod_factor& L = analysis.factor(order.data(), CHOLMOD_SUPERNODAL);
   EliminationTree tree;
   tree.place.resize(L.n);
   int next = 0;

@@ -8,8 +8,18 @@
 
 namespace havers::sim {
 
-/// An order of elimination that leaves little fill. [rows of a symmetric matrix]
-std::vector<int> order_of_little_fill(const Eigen::SparseMatrix<double>& lower);
+/// An order of elimination, and what it costs.
+struct Order {
+  std::vector<int> rows;
+  double nonzeros = 0.0;    ///< Of the factor.
+  double operations = 0.0;  ///< Of floating point, to find it.
+};
+
+/// An order of minimum degree (AMD).
+/// @param lower  lower triangle of a symmetric matrix; only where its entries are counts
+/// @param parts  of each row: lower ones come first (CAMD); empty: one part
+Order least_degree_order(const Eigen::SparseMatrix<double>& lower,
+                         const std::vector<int>& parts = {});
 
 /// Neighbouring columns of a factor that reach the same rows (a supernode).
 struct Panel {
@@ -35,7 +45,7 @@ struct EliminationTree {
   [[nodiscard]] const Panel& panel_of(int column) const;
 };
 
-/// @param lower  lower triangle of a symmetric matrix; only where its entries are counts
+/// @param lower  as above
 /// @param order  of elimination; rows that do not feel each other may change places
 EliminationTree elimination_tree(const Eigen::SparseMatrix<double>& lower, std::vector<int> order);
 

@@ -116,6 +116,7 @@ class Structure {
   [[nodiscard]] Eigen::Index first_multiplier(std::size_t body) const {
     return unknowns_ + bodies_->first_compatibility(static_cast<int>(body));
   }
+  [[nodiscard]] std::vector<int> order_of_unknowns(const Eigen::SparseMatrix<double>& matrix) const;
   [[nodiscard]] std::vector<int> elimination_order(const Eigen::SparseMatrix<double>& matrix) const;
 
   const Bodies* bodies_;

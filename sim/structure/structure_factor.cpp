@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sim/structure/disjoint_sets.hpp"
+#include "sim/structure/dissection.hpp"
 #include "sim/structure/structure.hpp"
 
 namespace havers::sim {
@@ -90,13 +91,35 @@ std::vector<Structure::Branch> Structure::network(const std::vector<int>& place)
   return branches;
 }
 
+// Minimum degree is the quicker to find, and mostly the better one. Where much is left to do for
+// each nonzero, nested dissection is tried too.
+std::vector<int> Structure::order_of_unknowns(const Eigen::SparseMatrix<double>& matrix) const {
+  constexpr double much = 200.0;  // operations
+  Order order = least_degree_order(matrix);
+  if (order.operations <= much * order.nonzeros) return order.rows;
+  std::vector<std::array<int, 2>> bodies_of(static_cast<std::size_t>(unknowns_), {-1, -1});
+  for (int body = 0; body < static_cast<int>(op_of_body_.size()); ++body) {
+    const Index ports = op_of_body_[static_cast<std::size_t>(body)]->impedance.rows();
+    for (Index port = bodies_->first_port(body); port < bodies_->first_port(body) + ports; ++port) {
+      auto& [a, b] = bodies_of[static_cast<std::size_t>(unknowns_of_port(port)[0])];
+      if (a < 0) a = body;
+      b = body;
+    }
+  }
+  if (!tops_of_ties_.empty()) bodies_of.pop_back();  // all feel it: it comes last
+  std::vector<int> parts = dissection(bodies_->assembly(), bodies_of);
+  parts.resize(static_cast<std::size_t>(unknowns_), static_cast<int>(parts.size()));
+  Order other = least_degree_order(matrix, parts);
+  return other.operations < order.operations ? other.rows : order.rows;
+}
+
 // The multipliers of two bodies that share a joint say the same of it with opposite signs: over all
 // bodies they are the nodes of a network, and the joints its branches. Where joints have been
 // eliminated, bodies that they connect have their pivots, but for one in each connected part that
 // no branch leads out of yet. So a body's multipliers follow the joint by which its part meets
 // another one, or a body without any; those of clipped bodies that are no such nodes come last.
 std::vector<int> Structure::elimination_order(const Eigen::SparseMatrix<double>& matrix) const {
-  std::vector<int> order = order_of_little_fill(matrix.topLeftCorner(unknowns_, unknowns_));
+  std::vector<int> order = order_of_unknowns(matrix.topLeftCorner(unknowns_, unknowns_));
   std::vector<int> place(static_cast<std::size_t>(matrix.rows()), 2 * static_cast<int>(unknowns_));
   for (std::size_t i = 0; i < order.size(); ++i)
     place[static_cast<std::size_t>(order[i])] = 2 * static_cast<int>(i);

@@ -97,7 +97,7 @@ TEST(SparseFactor, OutlivesTheThreadThatMadeIt) {
   EXPECT_NEAR(factor->solve(Eigen::VectorXd::Unit(links + 1, links))(links - 1), 1.0, 1e-14);
 }
 
-TEST(OrderOfLittleFill, LeavesNoneInAStar) {
+TEST(LeastDegreeOrder, LeavesNoFillInAStar) {
   constexpr int arms = 20;  // eliminated first, the centre would connect them all
   std::vector<Eigen::Triplet<double>> entries{{0, 0, arms + 1.0}};
   for (int i = 1; i <= arms; ++i) {
@@ -106,31 +106,16 @@ TEST(OrderOfLittleFill, LeavesNoneInAStar) {
   }
   Eigen::SparseMatrix<double> star(arms + 1, arms + 1);
   star.setFromTriplets(entries.begin(), entries.end());
-  EXPECT_EQ(SparseFactor(star, 0, order_of_little_fill(star)).nonzeros(), 2 * arms + 1);
-}
-
-// A cube of so many points that nested dissection is tried.
-TEST(OrderOfLittleFill, NamesEveryRowOnceInACube) {
-  constexpr int side = 18;
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto row = [](int x, int y, int z) { return x + side * (y + side * z); };
-  for (int z = 0; z < side; ++z)
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) {
-        const int here = row(x, y, z);
-        entries.emplace_back(here, here, 7.0);
-        if (x + 1 < side) entries.emplace_back(row(x + 1, y, z), here, -1.0);
-        if (y + 1 < side) entries.emplace_back(row(x, y + 1, z), here, -1.0);
-        if (z + 1 < side) entries.emplace_back(row(x, y, z + 1), here, -1.0);
-      }
-  constexpr int n = side * side * side;
-  Eigen::SparseMatrix<double> lower(n, n);
-  lower.setFromTriplets(entries.begin(), entries.end());
-  const std::vector<int> order = order_of_little_fill(lower);
-  std::vector<int> rows = order;
-  std::sort(rows.begin(), rows.end());
-  for (int i = 0; i < n; ++i) ASSERT_EQ(rows[static_cast<std::size_t>(i)], i);
-  EXPECT_LT(SparseFactor(lower, 0, order).nonzeros(), n * 82);  // by minimum degree 84 a row
+  const Order order = least_degree_order(star);
+  EXPECT_EQ(order.nonzeros, 2 * arms + 1);
+  EXPECT_EQ(SparseFactor(star, 0, order.rows).nonzeros(), 2 * arms + 1);
+  // The centre in a part before the others'.
+  std::vector<int> parts(arms + 1, 1);
+  parts[0] = 0;
+  const Order worst = least_degree_order(star, parts);
+  EXPECT_EQ(worst.rows[0], 0);
+  EXPECT_EQ(worst.nonzeros, (arms + 1) * (arms + 2) / 2);
+  EXPECT_EQ(SparseFactor(star, 0, worst.rows).nonzeros(), (arms + 1) * (arms + 2) / 2);
 }
 
 }  // namespace
