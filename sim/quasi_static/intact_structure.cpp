@@ -31,7 +31,7 @@ std::size_t bytes(const Eigen::MatrixX2d& column) {
 
 // To add up a column of reactions takes as long as a solve spends on so many nonzeros of the factor
 // a joint.
-constexpr long nonzeros_of_a_column = 2;
+constexpr long nonzeros_of_a_column = 3;
 
 // A trace of inertia, that of h c = 3e6 specimens, holds what hangs on a single joint or floats,
 // and nothing else feels it.

@@ -47,6 +47,17 @@ TEST(IntactStructure, BearsTheUniformStressWhereFibresAreAllButAlongASide) {
   }
 }
 
+// Large enough for nested dissection; by minimum degree there are 84 nonzeros a row. Its sides are
+// tied, and the distance common to all ties comes last.
+TEST(IntactStructure, OfALargeWallFillsLessWhereBodiesAreHalved) {
+  const auto intact = intact_structure(test::small_scene(30.0, 70, 50));
+  ASSERT_TRUE(intact->structure().ok());
+  ASSERT_FALSE(intact->assembly().ties.empty());
+  EXPECT_LT(intact->structure().factor().nonzeros(), 78 * intact->structure().factor().rows());
+  EXPECT_LT(intact->answer().residual, 1e-12);
+  EXPECT_NEAR(intact->answer().force / intact->assembly().height, 1.0, 1e-9);
+}
+
 TEST(IntactStructure, RemembersWhatItWasAsked) {
   const auto intact = intact_structure(test::small_scene(30.0));
   EXPECT_EQ(intact->jump(3), intact->jump(3));
