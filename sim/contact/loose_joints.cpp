@@ -9,16 +9,14 @@ namespace havers::sim {
 using Eigen::Index;
 
 LooseJoints::LooseJoints(const Structure& structure, Source source)
-    : structure_(&structure), source_(std::move(source)) {}
+    : structure_(&structure),
+      source_(std::move(source)),
+      is_loose_(static_cast<std::size_t>(structure.joints()), 0) {}
 
 LooseJoints::LooseJoints(const Structure& structure)
     : LooseJoints(structure, [&structure](int joint) {
         return std::make_shared<const Jump>(structure.jump(joint));
       }) {}
-
-bool LooseJoints::contains(int joint) const {
-  return std::find(joints_.begin(), joints_.end(), joint) != joints_.end();
-}
 
 void LooseJoints::add(int joint) {
   assert(!contains(joint));
@@ -28,6 +26,7 @@ void LooseJoints::add(int joint) {
     stiffness_.conservativeResize(size, size);
   }
   joints_.push_back(joint);
+  is_loose_[static_cast<std::size_t>(joint)] = 1;
   jumps_.push_back(source_(joint));
   for (std::size_t i = 0; i < joints_.size(); ++i)
     stiffness_.block<2, 2>(first, static_cast<Index>(2 * i)) =

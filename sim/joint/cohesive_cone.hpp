@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cassert>
+#include <cmath>
 
 #include "sim/scene.hpp"
 
@@ -27,10 +29,18 @@ JointLaw intact_law(const Threshold& threshold);
 JointLaw broken_law(double friction);
 
 /// How far inside the cone a reaction is, μ (R_N + c) − |R_T|; negative outside. [N/m]
-double cone_margin(const Local& reaction, const JointLaw& law);
+inline double cone_margin(const Local& reaction, const JointLaw& law) {
+  return law.friction * (reaction.x() + law.cohesion) - std::abs(reaction.y());
+}
 
 /// Nearest point of the shifted cone.
-Local project_on_cone(const Local& reaction, const JointLaw& law);
+inline Local project_on_cone(const Local& reaction, const JointLaw& law) {
+  const double mu = law.friction, n = reaction.x() + law.cohesion, t = std::abs(reaction.y());
+  if (t <= mu * n) return reaction;               // inside the cone
+  if (mu * t <= -n) return {-law.cohesion, 0.0};  // inside the polar cone: the tip
+  const double normal = (n + mu * t) / (1.0 + mu * mu);
+  return {normal - law.cohesion, std::copysign(mu * normal, reaction.y())};
+}
 
 /// Natural-map residual of the law; zero exactly where it holds (M11).
 ///
@@ -40,6 +50,11 @@ Local project_on_cone(const Local& reaction, const JointLaw& law);
 /// @param gap        u: gap along the normal and slip since the joint last held. [m]
 /// @param stiffness  k > 0, makes the two comparable: the force that a wrong gap would cause.
 /// [N/m²]
-Local law_residual(const Local& reaction, const Local& gap, const JointLaw& law, double stiffness);
+inline Local law_residual(const Local& reaction, const Local& gap, const JointLaw& law,
+                          double stiffness) {
+  assert(stiffness > 0.0);
+  const Local lifted(gap.x() + law.friction * std::abs(gap.y()), gap.y());
+  return reaction - project_on_cone(reaction - stiffness * lifted, law);
+}
 
 }  // namespace havers::sim

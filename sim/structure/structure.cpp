@@ -139,7 +139,10 @@ VectorXd Structure::in_forces(const VectorXd& forces, const VectorXd& gap) const
 Structure::Correction Structure::correct(const VectorXd& forces, const VectorXd& gap,
                                          const VectorXd& friction) const {
   VectorXd load(unknowns_ + gap.size());
-  load << -ports_to_unknowns(forces + stiffness_ * bodies_->compatibility_forces(gap)), -gap;
+  load << -(gap.isZero(0.0)
+                ? ports_to_unknowns(forces)
+                : ports_to_unknowns(forces + stiffness_ * bodies_->compatibility_forces(gap))),
+      -gap;
   const VectorXd answer = factor_->solve(load);
   Correction change;
   change.displacements = unknowns_to_ports(answer);
@@ -159,10 +162,12 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads, PortState st
   const bool rubs = loads.friction.size() > 0 && !loads.friction.isZero(0.0);
   const VectorXd friction = rubs ? loads.friction : VectorXd();
   state.forces = -loads.forces;
-  if (!state.displacements.isZero(0.0))
+  VectorXd gap = VectorXd::Zero(state.multipliers.size());
+  if (!state.displacements.isZero(0.0)) {
     state.forces += bodies_->port_forces(state.displacements, state.multipliers);
+    gap = bodies_->incompatibility(state.displacements);
+  }
   if (rubs) rub(friction, state.forces);
-  VectorXd gap = bodies_->incompatibility(state.displacements);
   std::vector<Correction> past;
   double before = loads.near ? 0.0 : 1.0;  // how they shrink is then seen from the second on
   while (factor_ && state.solves < (rubs ? max_solves_with_friction : max_solves)) {
