@@ -161,7 +161,13 @@ void Structure::assemble() {
   }
   if (unknowns_ == 0) return;
 
+  std::size_t most = 0;
+  for (const BodyClass& group : bodies_->classes()) {
+    const Index ports = group.op.impedance.rows(), ring = group.op.compatibility.rows();
+    most += group.bodies.size() * static_cast<std::size_t>(ports * (ports + 1) / 2 + ring * ports);
+  }
   std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(most);
   const auto add = [&](Index row, Index column, double value) {
     if (row >= column) entries.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
   };
