@@ -142,6 +142,9 @@ Eliminated SparseFactor::eliminate(std::vector<int> rows, const Eigen::MatrixX2d
     x(tree_.rows_of(*panel), Eigen::all) = part;
     for (int row = begin; row < panel->first + panel->columns; ++row) half.rows.push_back(row);
   }
+  assert(std::all_of(rows.begin(), rows.end(), [&](int row) {
+    return std::binary_search(half.rows.begin(), half.rows.end(), row);
+  }));
   half.values = x(half.rows, Eigen::all).transpose();
   x(half.rows, Eigen::all).setZero();
   return half;

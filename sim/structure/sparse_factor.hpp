@@ -36,7 +36,7 @@ class SparseFactor {
   /// Half a solve.
   /// @param rows  those of b that are not zero, `values` has one row for each. All of them must be
   /// coupled in A, as those of one body are: then L⁻¹ reaches one path through the tree of
-  /// elimination, from the first of them to its root, and `product` relies on that.
+  /// elimination, from the first of them to its root, and nothing else is looked at.
   [[nodiscard]] Eliminated eliminate(std::vector<int> rows, const Eigen::MatrixX2d& values) const;
   /// aᵀ A⁻¹ b.
   [[nodiscard]] Eigen::Matrix2d product(const Eliminated& a, const Eliminated& b) const;

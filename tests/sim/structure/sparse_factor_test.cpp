@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -65,6 +66,41 @@ TEST(SparseFactor, SolvesForFewEntriesAsForMany) {
   const Eigen::Vector4d y(1.0, -2.0, 0.5, 0.25);
   EXPECT_LT((factor.solve({&half, &other}, y) - x * y.head(2) - 0.25 * unit).norm(),
             1e-13 * x.norm());
+}
+
+// Panels of one column and of many, more than are taken from the others at once: (K Nᵀ; N 0) of a
+// grid with all of its sides coupled, or dense, solved for one load and for three.
+TEST(SparseFactor, SolvesWithPanelsOfAnyWidth) {
+  for (const int side : {3, 9, 40}) {
+    const int n = side * side, width = side < 40 ? n : side;  // the first two are dense
+    const auto entry = [&](int i, int j) { return 1.0 / (1.0 + std::abs(i - j)); };
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int j = 0; j < n; ++j) {
+      entries.emplace_back(j, j, 0.1 + 4.0 * std::log(width));
+      for (int i = j + 1; i < std::min(n, j / width * width + width); ++i)
+        entries.emplace_back(i, j, entry(i, j));
+      if (j + width < n) entries.emplace_back(j + width, j, -1.0);
+    }
+    constexpr int multipliers = 2;
+    for (int m = 0; m < multipliers; ++m)
+      for (int j = m; j < n; j += 3) entries.emplace_back(n + m, j, 1.0 + m);
+    Eigen::SparseMatrix<double> lower(n + multipliers, n + multipliers);
+    lower.setFromTriplets(entries.begin(), entries.end());
+    std::vector<int> order = least_degree_order(lower.topLeftCorner(n, n)).rows;
+    for (int m = 0; m < multipliers; ++m) order.push_back(n + m);
+    const SparseFactor factor(lower, multipliers, order);
+    ASSERT_TRUE(factor.ok()) << side;
+
+    const Eigen::MatrixXd dense = Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
+    const Eigen::VectorXd b = Eigen::VectorXd::Random(n + multipliers);
+    EXPECT_LT((dense * factor.solve(b) - b).norm(), 1e-12 * b.norm()) << side;
+    const Eliminated half = factor.eliminate({1, 0}, Eigen::Matrix2d{{1.0, 2.0}, {0.5, -1.0}});
+    const Eigen::MatrixXd y = Eigen::MatrixXd::Random(2, 3);
+    Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(n + multipliers, 3);
+    loads.row(1) = Eigen::RowVector2d(1.0, 2.0) * y;
+    loads.row(0) = Eigen::RowVector2d(0.5, -1.0) * y;
+    EXPECT_LT((dense * factor.solve({&half}, y) - loads).norm(), 1e-12 * loads.norm()) << side;
+  }
 }
 
 TEST(SparseFactor, SaysWhenItHasNoPivots) {
