@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
+#include <utility>
 
 namespace havers::sim {
 namespace {
@@ -18,39 +19,51 @@ class Halves {
     centres_.reserve(assembly.bodies.size());
     for (const Body& body : assembly.bodies) {
       Vector2d sum = Vector2d::Zero();
-      for (int i = 0; i < body.nodes; ++i)
-        sum += assembly.nodes[static_cast<std::size_t>(body.first_node + i)];
+      for (int node = body.first_node; node < body.first_node + body.nodes; ++node)
+        sum += assembly.nodes[static_cast<std::size_t>(node)];
       centres_.emplace_back(sum / body.nodes);
     }
     if (!assembly.joints.empty())
       axes_ = {assembly.joints.front().normal, assembly.joints.front().tangent()};
   }
 
+  // The last to come is cut first.
   std::vector<int> parts() {
+    struct Piece {
+      std::span<int> bodies;
+      std::vector<int> unknowns;
+    };
     std::vector<int> bodies(centres_.size()), unknowns(bodies_of_.size());
     std::iota(bodies.begin(), bodies.end(), 0);
     std::iota(unknowns.begin(), unknowns.end(), 0);
-    cut(bodies, unknowns);
+    std::vector<Piece> pieces{{bodies, std::move(unknowns)}};
+    int earlier = 0;
+    for (; !pieces.empty(); ++earlier) {
+      const Piece piece = std::move(pieces.back());
+      pieces.pop_back();
+      std::array<std::vector<int>, 3> sets;  // of the halves, and cut
+      if (piece.bodies.size() <= few) {
+        sets[2] = piece.unknowns;
+      } else {
+        cut(piece.bodies, piece.unknowns);
+        for (const int unknown : piece.unknowns) sets[side_of(unknown)].push_back(unknown);
+        const std::size_t half = piece.bodies.size() / 2;
+        pieces.push_back({piece.bodies.first(half), std::move(sets[0])});
+        pieces.push_back({piece.bodies.subspan(half), std::move(sets[1])});
+      }
+      for (const int unknown : sets[2]) part_[static_cast<std::size_t>(unknown)] = -earlier;
+    }
+    for (int& part : part_) part += earlier - 1;
     return std::move(part_);
   }
 
  private:
-  // Of unknowns, those of bodies.
+  // The way that fewer of the unknowns cross.
   void cut(std::span<int> bodies, const std::vector<int>& unknowns) {
-    std::array<std::vector<int>, 3> sets;  // of the halves, and cut
-    if (bodies.size() <= few) {
-      sets[2] = unknowns;
-    } else {
-      halve(bodies, axes_[0]);
-      const auto across = crossing(unknowns);
-      halve(bodies, axes_[1]);
-      if (across < crossing(unknowns)) halve(bodies, axes_[0]);
-      for (const int unknown : unknowns) sets[side_of(unknown)].push_back(unknown);
-      cut(bodies.first(bodies.size() / 2), sets[0]);
-      cut(bodies.subspan(bodies.size() / 2), sets[1]);
-    }
-    for (const int unknown : sets[2]) part_[static_cast<std::size_t>(unknown)] = next_;
-    ++next_;
+    halve(bodies, axes_[0]);
+    const auto across = crossing(unknowns);
+    halve(bodies, axes_[1]);
+    if (across < crossing(unknowns)) halve(bodies, axes_[0]);
   }
 
   void halve(std::span<int> bodies, const Vector2d& axis) {
@@ -78,7 +91,6 @@ class Halves {
   std::array<Vector2d, 2> axes_{Vector2d::UnitX(), Vector2d::UnitY()};
   std::vector<unsigned char> second_;  // whether a body is in the second half
   std::vector<int> part_;              // of each unknown
-  int next_ = 0;
 };
 
 }  // namespace
