@@ -1,14 +1,12 @@
 #include "sim/structure/panel.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace havers::sim {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Ref;
-using Eigen::VectorXd;
 
 namespace {
 

@@ -81,6 +81,7 @@ bool SparseFactor::factorise(const Eigen::SparseMatrix<double>& lower, Index mul
     take_panel_from(rest.of_rows, own);
     waiting.push_back(std::move(rest));
   }
+  assert(waiting.empty());
   return true;
 }
 

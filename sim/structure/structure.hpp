@@ -124,7 +124,7 @@ class Structure {
   std::vector<std::array<Eigen::Index, 2>> ports_of_;  // sides a and b of each joint's component
   // A tie's top also moves with the distance common to all ties; for the others that is -1.
   std::vector<std::array<int, 2>> unknowns_of_port_;
-  std::vector<Eigen::Index> tops_of_ties_;
+  std::vector<Eigen::Index> tops_of_ties_;  // their ports
   Eigen::Index unknowns_ = 0;
   double stiffness_ = 0.0;  // the largest of Z [N/m²]
   std::vector<const BodyOperator*> op_of_body_;

@@ -133,26 +133,5 @@ TEST(SparseFactor, OutlivesTheThreadThatMadeIt) {
   EXPECT_NEAR(factor->solve(Eigen::VectorXd::Unit(links + 1, links))(links - 1), 1.0, 1e-14);
 }
 
-TEST(LeastDegreeOrder, LeavesNoFillInAStar) {
-  constexpr int arms = 20;  // eliminated first, the centre would connect them all
-  std::vector<Eigen::Triplet<double>> entries{{0, 0, arms + 1.0}};
-  for (int i = 1; i <= arms; ++i) {
-    entries.emplace_back(i, i, 2.0);
-    entries.emplace_back(i, 0, -1.0);
-  }
-  Eigen::SparseMatrix<double> star(arms + 1, arms + 1);
-  star.setFromTriplets(entries.begin(), entries.end());
-  const Order order = least_degree_order(star);
-  EXPECT_EQ(order.nonzeros, 2 * arms + 1);
-  EXPECT_EQ(SparseFactor(star, 0, order.rows).nonzeros(), 2 * arms + 1);
-  // The centre in a part before the others'.
-  std::vector<int> parts(arms + 1, 1);
-  parts[0] = 0;
-  const Order worst = least_degree_order(star, parts);
-  EXPECT_EQ(worst.rows[0], 0);
-  EXPECT_EQ(worst.nonzeros, (arms + 1) * (arms + 2) / 2);
-  EXPECT_EQ(SparseFactor(star, 0, worst.rows).nonzeros(), (arms + 1) * (arms + 2) / 2);
-}
-
 }  // namespace
 }  // namespace havers::sim
