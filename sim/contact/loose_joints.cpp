@@ -28,9 +28,7 @@ void LooseJoints::add(int joint) {
   joints_.push_back(joint);
   is_loose_[static_cast<std::size_t>(joint)] = 1;
   jumps_.push_back(source_(joint));
-  for (std::size_t i = 0; i < joints_.size(); ++i)
-    stiffness_.block<2, 2>(first, static_cast<Index>(2 * i)) =
-        structure_->reactions_between(*jumps_.back(), *jumps_[i]);
+  stiffness_.block(first, 0, 2, first + 2) = structure_->reactions_of(*jumps_.back(), jumps_);
 }
 
 Eigen::MatrixXd LooseJoints::stiffness() const {

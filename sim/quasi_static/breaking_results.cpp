@@ -49,11 +49,12 @@ VectorXd BreakingRun::displacements() const {
 
 // What events computed is checked against the refined answer, ½ qᵀKq = ½ (F W ε + r·u) too.
 void BreakingRun::finish(Simulation& simulation) {
-  const double scale = intact_->answer().reactions.norm();
+  const double scale = intact_->answer().reactions.norm(), force = force_;
   if (!unsolved_) {
     refine();
-    worst_residual_ =
-        std::max(worst_residual_, law_missed(contact_, of_loose(reference_.reactions), y_));
+    if (y_ != y_at_reference_) take_reference();
+    force_ = force;
+    worst_residual_ = std::max(worst_residual_, law_missed(contact_, of_loose(reactions_), y_));
   }
   const UnitAnswer& last = reference_;
   reactions_ = last.reactions;

@@ -25,6 +25,7 @@ constexpr double together = 1e-9;
 constexpr double refined = 1e-11;
 constexpr int most_refinements = 5;
 constexpr double most_growth = 10.0;  // of what is lacking: more, and rounding leads a piece away
+constexpr double little = 1e-5;       // of the gaps: what so much changes is known to enough digits
 
 // A tolerance below what rounding leaves is no reason to do without contact.
 constexpr double least_tolerance = 1e-8;
@@ -111,10 +112,7 @@ void BreakingRun::take_back(const std::vector<std::size_t>& breaking, const Vect
   }
   y_.setZero(2 * static_cast<Index>(loose_.size()));
   y_.head(gaps_before.size()) = gaps_before;
-  reference_ = intact_->stretch(gaps());
-  y_at_reference_ = y_;
-  reactions_ = reference_.reactions;
-  force_ = reference_.force;
+  take_reference();
   joint_work_ = of_loose(reactions_).dot(y_);
 }
 
@@ -196,21 +194,14 @@ bool BreakingRun::settle() {
   }
   system_.set(result.states);
   y_ = result.y;
-  const VectorXd moved = y_ - y_at_reference_;
-  reactions_ = reference_.reactions + reactions_to(moved);
-  // By reciprocity the force at the end changes by r⁰·y/W, r⁰ being those of the intact structure.
-  force_ = reference_.force +
-           of_loose(intact_->answer().reactions).dot(moved) / intact_->assembly().width;
+  follow_gaps();
   const double intact_force = intact_->answer().force;
   const bool hardly_bears = std::abs(force_) <= next_to_nothing * intact_force;
   const bool in_two = hardly_bears && severed();
   // Where a piece swings freely, its gaps change so much that digits are lost.
   if (careful_ || (hardly_bears && !in_two) ||
-      lacking(reactions_).norm() > refined * intact_->answer().reactions.norm()) {
+      lacking(reactions_).norm() > refined * intact_->answer().reactions.norm())
     refine();
-    reactions_ = reference_.reactions;
-    force_ = reference_.force;
-  }
   joint_work_ = of_loose(reactions_).dot(y_);
   worst_residual_ = std::max(worst_residual_, law_missed(contact_, of_loose(reactions_), y_));
   if (in_two || (hardly_bears && bears_nothing())) force_ = joint_work_ = 0.0;
@@ -222,6 +213,23 @@ bool BreakingRun::bears_nothing() const {
   const double work = 0.5 * std::abs(force_ * intact_->assembly().width + joint_work_);
   return std::abs(force_) <= nothing_borne * intact_->answer().force ||
          intact_->energy(reference_.displacements) <= hardly_stored * work;
+}
+
+// What the gaps change is reckoned from the reference.
+void BreakingRun::follow_gaps() {
+  const VectorXd moved = y_ - y_at_reference_;
+  reactions_ = reference_.reactions + reactions_to(moved);
+  // By reciprocity the force at the end changes by r⁰·y/W, r⁰ being those of the intact structure.
+  force_ = reference_.force +
+           of_loose(intact_->answer().reactions).dot(moved) / intact_->assembly().width;
+}
+
+// The whole structure with the gaps.
+void BreakingRun::take_reference() {
+  reference_ = intact_->stretch(gaps());
+  y_at_reference_ = y_;
+  reactions_ = reference_.reactions;
+  force_ = reference_.force;
 }
 
 // What gaps of the loose joints change in the reactions of all.
@@ -254,12 +262,12 @@ VectorXd BreakingRun::gaps() const {
   return gaps;
 }
 
-// The whole structure with the gaps found, and again as long as it shows the joints other reactions
-// than they solved for among themselves. What follows is reckoned from there.
+// The whole structure with the gaps found. As long as it shows the joints other reactions than they
+// solved for among themselves, these do so again.
 void BreakingRun::refine() {
   const double scale = intact_->answer().reactions.norm();
-  reference_ = intact_->stretch(gaps());
-  VectorXd lack = lacking(reference_.reactions);
+  take_reference();
+  VectorXd lack = lacking(reactions_);
   for (int i = 0; i < most_refinements && lack.norm() > refined * scale; ++i) {
     contact_.r0 += lack;
     const LocalContactResult found =
@@ -268,18 +276,21 @@ void BreakingRun::refine() {
                    .states = system_.states()});
     if (!found.converged) break;
     const VectorXd y_before = std::exchange(y_, found.y);
-    UnitAnswer next = intact_->stretch(gaps());
-    VectorXd still_lacking = lacking(next.reactions);
+    const double moved = (y_ - y_at_reference_).norm() * contact_.S.diagonal().maxCoeff();
+    if (moved <= little * scale)
+      follow_gaps();
+    else
+      take_reference();
+    VectorXd still_lacking = lacking(reactions_);
     if (still_lacking.norm() > most_growth * lack.norm()) {
       y_ = y_before;
       contact_.r0 -= lack;
+      take_reference();
       break;
     }
     system_.set(found.states);
-    reference_ = std::move(next);
     lack = std::move(still_lacking);
   }
-  y_at_reference_ = y_;
 }
 
 }  // namespace havers::sim

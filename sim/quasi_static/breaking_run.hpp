@@ -57,6 +57,8 @@ class BreakingRun {
   [[nodiscard]] Eigen::VectorXd reactions_to(const Eigen::VectorXd& y) const;
   [[nodiscard]] Eigen::VectorXd of_loose(const Eigen::VectorXd& of_all) const;
   [[nodiscard]] Eigen::VectorXd lacking(const Eigen::VectorXd& reactions) const;
+  void follow_gaps();
+  void take_reference();
   void refine();
   LocalContactResult release(const StateSolution& known);
   LocalContactResult or_better(LocalContactResult result);
@@ -79,7 +81,7 @@ class BreakingRun {
   StateSystem system_{contact_};
   Eigen::VectorXd extra_;  // cohesion that lets those just broken bear what they bore [N/m]
   Eigen::VectorXd y_;      // gaps of the loose joints [m per unit strain]
-  // The intact structure, or the last refined answer: what changes is reckoned from it.
+  // The intact structure, or the last one solved with its gaps: what changes is reckoned from it.
   UnitAnswer reference_;
   Eigen::VectorXd y_at_reference_;
   Eigen::VectorXd reactions_;       // for E = 1 and ε = 1 [N/m]

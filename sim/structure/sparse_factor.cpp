@@ -86,11 +86,11 @@ bool SparseFactor::factorise(const Eigen::SparseMatrix<double>& lower, Index mul
 }
 
 // The values of the next panel are asked for while this one is worked on, where a factor is too
-// large to stay in the caches.
+// large to stay in a core's own cache.
 void SparseFactor::gather(const Panel& panel, const Panel* next, const MatrixXd& x,
                           Eigen::Ref<MatrixXd> part) const {
-  constexpr std::size_t in_caches = std::size_t{1} << 22U, in_a_line = 8, at_most = 4096;  // values
-  if (next != nullptr && values_.size() > in_caches) {
+  constexpr std::size_t in_cache = std::size_t{1} << 17U, in_a_line = 8, at_most = 8192;  // values
+  if (next != nullptr && values_.size() > in_cache) {
     const auto values = values_of(*next);
     const std::size_t count = std::min(at_most, static_cast<std::size_t>(values.size()));
     for (std::size_t i = 0; i < count; i += in_a_line) __builtin_prefetch(values.data() + i);
@@ -98,19 +98,20 @@ void SparseFactor::gather(const Panel& panel, const Panel* next, const MatrixXd&
   part = x(tree_.rows_of(panel), Eigen::all);
 }
 
-VectorXd SparseFactor::solve(const VectorXd& b) const {
+MatrixXd SparseFactor::solve(const Eigen::Ref<const MatrixXd>& b) const {
   assert(ok());
-  MatrixXd x(b.size(), 1), work(b.size(), 1);
-  x(tree_.place, 0) = b;
+  MatrixXd x(b.rows(), b.cols()), work(b.rows(), b.cols());
+  x(tree_.place, Eigen::all) = b;
   for (const Panel& panel : tree_.panels) {
+    if (x.middleRows(panel.first, panel.columns).isZero(0.0)) continue;
     auto part = work.topRows(static_cast<Index>(panel.height));
     gather(panel, &panel == &tree_.panels.back() ? nullptr : &panel + 1, x, part);
     eliminate_panel(values_of(panel), 0, part);
-    x(tree_.rows_of(panel), 0) = part;
+    x(tree_.rows_of(panel), Eigen::all) = part;
   }
-  x.array() *= inverse_pivots_.array();
+  x = inverse_pivots_.asDiagonal() * x;
   substitute(x);
-  return x(tree_.place, 0);
+  return x(tree_.place, Eigen::all);
 }
 
 void SparseFactor::substitute(MatrixXd& x) const {
@@ -151,35 +152,20 @@ Eliminated SparseFactor::eliminate(std::vector<int> rows, const Eigen::MatrixX2d
   return half;
 }
 
+Eliminated SparseFactor::over_pivots(Eliminated half) const {
+  half.values = half.values * inverse_pivots_(half.rows).asDiagonal();
+  return half;
+}
+
 // Two paths that have met go on as one, and before that there is nothing to multiply.
-Eigen::Matrix2d SparseFactor::product(const Eliminated& a, const Eliminated& b) const {
+Eigen::Matrix2d product(const Eliminated& a, const Eliminated& b) {
   std::size_t common = 0, beyond = std::min(a.rows.size(), b.rows.size()) + 1;
   while (beyond - common > 1) {
     const std::size_t middle = (common + beyond) / 2;
     (a.rows[a.rows.size() - middle] == b.rows[b.rows.size() - middle] ? common : beyond) = middle;
   }
   const auto n = static_cast<Index>(common);
-  const Index first_a = a.values.cols() - n, first_b = b.values.cols() - n;
-  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-  for (Index i = 0; i < n; ++i) {
-    const int row = a.rows[static_cast<std::size_t>(first_a + i)];
-    sum += a.values.col(first_a + i) * inverse_pivots_(row) * b.values.col(first_b + i).transpose();
-  }
-  return sum;
-}
-
-MatrixXd SparseFactor::solve(const std::vector<const Eliminated*>& parts, const MatrixXd& y) const {
-  assert(ok());
-  MatrixXd x = MatrixXd::Zero(rows(), y.cols());
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    for (Index c = 0; c < y.cols(); ++c) {
-      const Eigen::Vector2d factors = y.block<2, 1>(2 * static_cast<Index>(k), c);
-      for (std::size_t i = 0; i < parts[k]->rows.size(); ++i)
-        x(parts[k]->rows[i], c) += parts[k]->values.col(static_cast<Index>(i)).dot(factors);
-    }
-  x = inverse_pivots_.asDiagonal() * x;
-  substitute(x);
-  return x(tree_.place, Eigen::all);
+  return a.values.rightCols(n).lazyProduct(b.values.rightCols(n).transpose());
 }
 
 long SparseFactor::nonzeros() const {

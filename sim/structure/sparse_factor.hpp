@@ -15,6 +15,9 @@ struct Eliminated {
   Eigen::Matrix2Xd values;  ///< One row of b a column.
 };
 
+/// aᵀ A⁻¹ b of half solves, one of them over its pivots.
+Eigen::Matrix2d product(const Eliminated& a, const Eliminated& b);
+
 /// L D Lᵀ = P A Pᵀ of A = (K Nᵀ; N 0), K positive definite, the rows of N independent. There is no
 /// pivoting: the order has to make sure that no pivot of N is small, unless its row is a sum of
 /// others.
@@ -31,18 +34,15 @@ class SparseFactor {
   [[nodiscard]] bool ok() const { return ok_; }
 
   // All of these may be called by several threads at once.
-  /// A⁻¹ b.
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  /// A⁻¹ b, one load a column. What entries of b do not reach is left out of the first half.
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
   /// Half a solve.
   /// @param rows  those of b that are not zero, `values` has one row for each. All of them must be
   /// coupled in A, as those of one body are: then L⁻¹ reaches one path through the tree of
   /// elimination, from the first of them to its root, and nothing else is looked at.
   [[nodiscard]] Eliminated eliminate(std::vector<int> rows, const Eigen::MatrixX2d& values) const;
-  /// aᵀ A⁻¹ b.
-  [[nodiscard]] Eigen::Matrix2d product(const Eliminated& a, const Eliminated& b) const;
-  /// A⁻¹ Σ b y, y having two rows for each b.
-  [[nodiscard]] Eigen::MatrixXd solve(const std::vector<const Eliminated*>& parts,
-                                      const Eigen::MatrixXd& y) const;
+  /// Half a solve over the pivots, D⁻¹ L⁻¹ P b.
+  [[nodiscard]] Eliminated over_pivots(Eliminated half) const;
 
   [[nodiscard]] Eigen::Index rows() const { return static_cast<Eigen::Index>(tree_.place.size()); }
   [[nodiscard]] long nonzeros() const;  ///< Of L.

@@ -48,10 +48,13 @@ struct StructureLoads {
   const StructureResponse* near = nullptr;  ///< To much the same: where corrections start.
 };
 
-/// Unit jumps at a joint, normal and tangential, solved for half way: all that it takes to know
-/// what joints do to each other.
+/// Unit jumps at a joint, normal and tangential: their loads on the unknowns, one row of `load` for
+/// each in `rows`, and solved for half way, which is all that it takes to know what joints do to
+/// each other.
 struct Jump {
   int joint = 0;
+  std::vector<int> rows;
+  Eigen::MatrixX2d load;
   Eliminated half;
 };
 using SharedJump = std::shared_ptr<const Jump>;
@@ -75,8 +78,9 @@ class Structure {
 
   /// Unit jumps at a joint that holds fully (S8).
   [[nodiscard]] Jump jump(int joint) const;
-  /// Reactions of one such joint to unit jumps at another, a column for each. [N/m²]
-  [[nodiscard]] Eigen::Matrix2d reactions_between(const Jump& of, const Jump& to) const;
+  /// Reactions of one such joint to unit jumps at others, a column for each. [N/m²]
+  [[nodiscard]] Eigen::Matrix2Xd reactions_of(const Jump& jump,
+                                              const std::vector<SharedJump>& to) const;
   /// Reactions of all joints to jumps y [m] at some, normal and tangential of each; one answer a
   /// column. [N/m]
   [[nodiscard]] Eigen::MatrixXd reactions_to(const std::vector<SharedJump>& jumps,

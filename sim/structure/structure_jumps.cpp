@@ -34,33 +34,41 @@ Jump Structure::jump(int joint) const {
   }
   Eigen::MatrixX2d load(static_cast<Index>(rows.size()), 2);
   for (std::size_t i = 0; i < rows.size(); ++i) load.row(static_cast<Index>(i)) = -values[i];
-  return {joint, factor_->eliminate(std::move(rows), load)};
+  Eliminated half = factor_->eliminate(rows, load);
+  return {joint, std::move(rows), std::move(load), std::move(half)};
 }
 
-Eigen::Matrix2d Structure::reactions_between(const Jump& of, const Jump& to) const {
-  Eigen::Matrix2d reactions = -factor_->product(of.half, to.half);
+Eigen::Matrix2Xd Structure::reactions_of(const Jump& jump,
+                                         const std::vector<SharedJump>& to) const {
   const auto body_b = [&](int joint) {
     return bodies_->assembly().joints[static_cast<std::size_t>(joint)].body_b;
   };
-  const int body = body_b(of.joint);
-  if (body != body_b(to.joint)) return reactions;
+  const int body = body_b(jump.joint);
   const BodyOperator& op = *op_of_body_[static_cast<std::size_t>(body)];
   const Index first = bodies_->first_port(body);
-  for (const std::size_t i : {0U, 1U})
-    for (const std::size_t j : {0U, 1U}) {
-      const Index row = port_b(of.joint, i) - first, column = port_b(to.joint, j) - first;
-      reactions(static_cast<Index>(i), static_cast<Index>(j)) +=
-          op.impedance(row, column) +
-          stiffness_ * op.compatibility.col(row).dot(op.compatibility.col(column));
-    }
+  const Eliminated half = factor_->over_pivots(jump.half);
+  Eigen::Matrix2Xd reactions(2, 2 * static_cast<Index>(to.size()));
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    auto of_one = reactions.middleCols<2>(2 * static_cast<Index>(k));
+    of_one = -product(half, to[k]->half);
+    if (body != body_b(to[k]->joint)) continue;
+    for (const std::size_t i : {0U, 1U})
+      for (const std::size_t j : {0U, 1U}) {
+        const Index row = port_b(jump.joint, i) - first, column = port_b(to[k]->joint, j) - first;
+        of_one(static_cast<Index>(i), static_cast<Index>(j)) +=
+            op.impedance(row, column) +
+            stiffness_ * op.compatibility.col(row).dot(op.compatibility.col(column));
+      }
+  }
   return reactions;
 }
 
 MatrixXd Structure::reactions_to(const std::vector<SharedJump>& jumps, const MatrixXd& y) const {
-  std::vector<const Eliminated*> halves;
-  halves.reserve(jumps.size());
-  for (const SharedJump& jump : jumps) halves.push_back(&jump->half);
-  const MatrixXd unknowns = factor_->solve(halves, y);
+  MatrixXd loads = MatrixXd::Zero(factor_->rows(), y.cols());
+  for (std::size_t i = 0; i < jumps.size(); ++i)
+    loads(jumps[i]->rows, Eigen::all) +=
+        jumps[i]->load * y.middleRows<2>(2 * static_cast<Index>(i));
+  const MatrixXd unknowns = factor_->solve(loads);
   MatrixXd reactions(2 * joints(), y.cols());
   for (Index c = 0; c < y.cols(); ++c) {
     VectorXd displacements = unknowns_to_ports(unknowns.col(c));

@@ -52,20 +52,18 @@ TEST(SparseFactor, SolvesForFewEntriesAsForMany) {
   Eigen::MatrixX2d b = Eigen::MatrixX2d::Zero(links + 1, 2);
   b.row(7) = values.row(0);
   b.row(8) = values.row(1);
-  Eigen::MatrixX2d x(links + 1, 2);
-  for (const Eigen::Index c : {0, 1}) x.col(c) = factor.solve(b.col(c));
-  EXPECT_LT((factor.solve({&half}, Eigen::Matrix2d::Identity()) - x).norm(), 1e-13 * x.norm());
+  const Eigen::MatrixX2d x = factor.solve(b);
+  for (const Eigen::Index c : {0, 1})
+    EXPECT_LT((factor.solve(b.col(c)) - x.col(c)).norm(), 1e-13 * x.norm());
 
   // Of two that meet late, and of what must not find what the last one left behind.
   const Eliminated other = factor.eliminate({3}, Eigen::RowVector2d(1.0, -1.0));
   const Eigen::VectorXd unit = factor.solve(Eigen::VectorXd::Unit(links + 1, 3));
-  const Eigen::RowVector2d product = unit.transpose() * b;
-  EXPECT_LT((factor.product(other, half).row(0) - product).norm(), 1e-13 * product.norm());
-  EXPECT_LT((factor.product(half, other).col(1) + product.transpose()).norm(),
-            1e-13 * product.norm());
-  const Eigen::Vector4d y(1.0, -2.0, 0.5, 0.25);
-  EXPECT_LT((factor.solve({&half, &other}, y) - x * y.head(2) - 0.25 * unit).norm(),
-            1e-13 * x.norm());
+  const Eigen::RowVector2d expected = unit.transpose() * b;
+  EXPECT_LT((product(factor.over_pivots(other), half).row(0) - expected).norm(),
+            1e-13 * expected.norm());
+  EXPECT_LT((product(half, factor.over_pivots(other)).col(1) + expected.transpose()).norm(),
+            1e-13 * expected.norm());
 }
 
 // Panels of one column and of many, more than are taken from the others at once: (K Nᵀ; N 0) of a
@@ -92,14 +90,18 @@ TEST(SparseFactor, SolvesWithPanelsOfAnyWidth) {
     ASSERT_TRUE(factor.ok()) << side;
 
     const Eigen::MatrixXd dense = Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
-    const Eigen::VectorXd b = Eigen::VectorXd::Random(n + multipliers);
-    EXPECT_LT((dense * factor.solve(b) - b).norm(), 1e-12 * b.norm()) << side;
-    const Eliminated half = factor.eliminate({1, 0}, Eigen::Matrix2d{{1.0, 2.0}, {0.5, -1.0}});
-    const Eigen::MatrixXd y = Eigen::MatrixXd::Random(2, 3);
-    Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(n + multipliers, 3);
-    loads.row(1) = Eigen::RowVector2d(1.0, 2.0) * y;
-    loads.row(0) = Eigen::RowVector2d(0.5, -1.0) * y;
-    EXPECT_LT((dense * factor.solve({&half}, y) - loads).norm(), 1e-12 * loads.norm()) << side;
+    for (const int loads : {1, 3}) {
+      const Eigen::MatrixXd b = Eigen::MatrixXd::Random(n + multipliers, loads);
+      EXPECT_LT((dense * factor.solve(b) - b).norm(), 1e-12 * b.norm()) << side;
+    }
+    const Eigen::Matrix2d values{{1.0, 2.0}, {0.5, -1.0}};
+    Eigen::MatrixX2d few = Eigen::MatrixX2d::Zero(n + multipliers, 2);
+    few(std::vector{1, 0}, Eigen::all) = values;
+    const Eigen::MatrixX2d x = factor.solve(few);
+    EXPECT_LT((dense * x - few).norm(), 1e-12 * few.norm()) << side;
+    const Eliminated half = factor.eliminate({1, 0}, values);
+    EXPECT_LT((product(factor.over_pivots(half), half) - few.transpose() * x).norm(), 1e-12)
+        << side;
   }
 }
 

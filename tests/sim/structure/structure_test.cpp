@@ -208,7 +208,7 @@ TEST_P(TinyStructure, AnswersJumpsAsTheFullEquationsDo) {
     const SharedJump jump = jump_at(joint);
     const Eigen::MatrixXd reactions = structure.reactions_to({jump}, Eigen::Matrix2d::Identity());
     for (const SharedJump& to : {jump, other}) {
-      const Eigen::Matrix2d at_once = structure.reactions_between(*to, *jump);
+      const Eigen::Matrix2d at_once = structure.reactions_of(*to, {jump});
       EXPECT_LT((at_once - reactions.middleRows<2>(2 * to->joint)).norm(), 1e-9 * at_once.norm());
     }
     for (const Index component : {0, 1}) {
