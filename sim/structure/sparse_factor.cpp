@@ -86,10 +86,10 @@ bool SparseFactor::factorise(const Eigen::SparseMatrix<double>& lower, Index mul
 }
 
 // The values of the next panel are asked for while this one is worked on, where a factor is too
-// large to stay in a core's own cache.
+// large to stay in the caches near a core.
 void SparseFactor::gather(const Panel& panel, const Panel* next, const MatrixXd& x,
                           Eigen::Ref<MatrixXd> part) const {
-  constexpr std::size_t in_cache = std::size_t{1} << 17U, in_a_line = 8, at_most = 8192;  // values
+  constexpr std::size_t in_cache = std::size_t{1} << 19U, in_a_line = 8, at_most = 8192;  // values
   if (next != nullptr && values_.size() > in_cache) {
     const auto values = values_of(*next);
     const std::size_t count = std::min(at_most, static_cast<std::size_t>(values.size()));
