@@ -94,7 +94,7 @@ std::vector<Structure::Branch> Structure::network(const std::vector<int>& place)
 // Minimum degree is the quicker to find, and mostly the better one. Where much is left to do for
 // each nonzero, nested dissection is tried too.
 std::vector<int> Structure::order_of_unknowns(const Eigen::SparseMatrix<double>& matrix) const {
-  constexpr double much = 200.0;  // operations
+  constexpr double much = 150.0;  // operations
   Order order = least_degree_order(matrix);
   if (order.operations <= much * order.nonzeros) return order.rows;
   std::vector<std::array<int, 2>> bodies_of(static_cast<std::size_t>(unknowns_), {-1, -1});
