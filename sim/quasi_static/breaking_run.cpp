@@ -27,10 +27,6 @@ constexpr int most_refinements = 5;
 constexpr double most_growth = 10.0;  // of what is lacking: more, and rounding leads a piece away
 constexpr double little = 1e-5;       // of the gaps: what so much changes is known to enough digits
 
-// Columns of more loose joints take longer to add up than a solve (21 x 30 fibres), or to find than
-// they save (42 x 60).
-constexpr std::size_t most_columns = 48;
-
 // A tolerance below what rounding leaves is no reason to do without contact.
 constexpr double least_tolerance = 1e-8;
 // Of the intact specimen's force: where nothing bears any, where rounding may be all that is left,
@@ -129,7 +125,7 @@ void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {
     const std::size_t joint = breaking[static_cast<std::size_t>(i - old)];
     const auto row = static_cast<Index>(2 * joint);
     loose_.add(static_cast<int>(joint));
-    if (loose_.size() <= most_columns)
+    if (loose_.size() <= intact_->columns_of_a_solve())
       columns_.push_back(intact_->column(loose_.jumps().back()));
     else
       columns_.clear();

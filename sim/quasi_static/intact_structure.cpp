@@ -29,6 +29,10 @@ std::size_t bytes(const Eigen::MatrixX2d& column) {
   return sizeof(double) * static_cast<std::size_t>(column.size());
 }
 
+// To add up a column of reactions takes as long as a solve spends on so many nonzeros of the factor
+// a joint.
+constexpr long nonzeros_of_a_column = 3;
+
 // A trace of inertia, that of h c = 3e6 specimens, holds what hangs on a single joint or floats,
 // and nothing else feels it.
 Shift quasi_static_shift(const Assembly& assembly) {
@@ -104,6 +108,11 @@ IntactStructure::Column IntactStructure::column(const SharedJump& jump) const {
   return remembered_in(columns_, jump->joint, [&]() -> Eigen::MatrixX2d {
     return structure_.reactions_to({jump}, Eigen::Matrix2d::Identity());
   });
+}
+
+std::size_t IntactStructure::columns_of_a_solve() const {
+  const Eigen::Index joints = std::max<Eigen::Index>(1, structure_.joints());
+  return static_cast<std::size_t>(structure_.factor().nonzeros() / (nonzeros_of_a_column * joints));
 }
 
 // What was found for a joint before, or is now; kept while there is room.

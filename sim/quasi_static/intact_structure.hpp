@@ -55,6 +55,9 @@ class IntactStructure {
   using Column = std::shared_ptr<const Eigen::MatrixX2d>;
   [[nodiscard]] Column column(const SharedJump& jump) const;
 
+  /// So many columns are added up in the time of Structure::reactions_to.
+  [[nodiscard]] std::size_t columns_of_a_solve() const;
+
  private:
   template <class Value>
   using Memory = std::map<int, std::shared_ptr<const Value>>;

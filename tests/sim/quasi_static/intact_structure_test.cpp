@@ -74,6 +74,8 @@ TEST(IntactStructure, AddsColumnsUpToWhatASolveFinds) {
     sum += *intact->column(jumps.back()) * y.segment<2>(2 * joint);
   }
   EXPECT_LT((intact->structure().reactions_to(jumps, y) - sum).norm(), 1e-11 * sum.norm());
+  EXPECT_GT(intact->columns_of_a_solve(), 10);
+  EXPECT_LT(intact->columns_of_a_solve(), jumps.size());
 }
 
 }  // namespace
