@@ -20,6 +20,7 @@
 #include "cli/version.hpp"
 #include "io/config/nearest.hpp"
 #include "io/input_error.hpp"
+#include "sim/memory.hpp"
 
 namespace havers::cli {
 namespace {
@@ -141,6 +142,7 @@ int when_printed(int exit_code) {
 }  // namespace havers::cli
 
 int main(int argc, char** argv) {
+  havers::sim::keep_freed_memory();
   try {
     return havers::cli::when_printed(havers::cli::program(argc, argv));
   } catch (...) {  // not even the command line could be read: out of memory

@@ -44,7 +44,7 @@ ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, bool detach_open)
       stiffness_(joint_stiffness(bodies)) {}
 
 void ActiveSetSolver::rebuild(std::vector<Held> held) {
-  structure_ = Structure(*bodies_, std::move(held));
+  structure_.hold(std::move(held));
   loose_ = LooseJoints(structure_);
 }
 

@@ -39,7 +39,10 @@ SetSearch::SetSearch(const Bodies& bodies)
 void SetSearch::take(const std::vector<JointState>& states) {
   std::vector<Held> held(states.size());
   std::transform(states.begin(), states.end(), held.begin(), held_in);
-  if (!structure_ || structure_->held() != held) structure_.emplace(*bodies_, std::move(held));
+  if (!structure_)
+    structure_.emplace(*bodies_, std::move(held));
+  else if (structure_->held() != held)
+    structure_->hold(std::move(held));
 }
 
 // Of the structure as it is, for the result's states.

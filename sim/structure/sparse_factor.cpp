@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <memory>
 #include <utility>
 
 #include "sim/structure/panel.hpp"
@@ -14,10 +15,65 @@ using Eigen::VectorXd;
 
 namespace {
 
+// What panels take from rows below them, for their parents to add: the last ones' come first. One
+// block of memory, as fresh pages cost more than what is done in them.
+class Fronts {
+ public:
+  using Matrix = Eigen::Map<MatrixXd>;
+
+  explicit Fronts(const EliminationTree& tree) {
+    std::size_t size = 0, most = 0;
+    std::vector<std::size_t> of_children(tree.panels.size(), 0);
+    for (std::size_t p = 0; p < tree.panels.size(); ++p) {
+      const Panel& panel = tree.panels[p];
+      const std::size_t own = size_of(panel);
+      most = std::max(most, size + own);
+      size += own - of_children[p];
+      if (panel.parent >= 0) of_children[static_cast<std::size_t>(panel.parent)] += own;
+    }
+    values_ = std::make_unique_for_overwrite<double[]>(most);  // NOLINT(*-avoid-c-arrays)
+  }
+
+  [[nodiscard]] bool empty() const { return panels_.empty(); }
+  [[nodiscard]] const Panel& last() const { return *panels_.back(); }
+  /// Of a panel above the last one: lower triangle, zero.
+  Matrix begin(const Panel& panel) {
+    Matrix front = at(end_, panel);
+    for (Index j = 0; j < front.cols(); ++j) front.col(j).tail(front.rows() - j).setZero();
+    return front;
+  }
+  [[nodiscard]] Matrix of_last() { return at(end_ - size_of(last()), last()); }
+  void pop() {
+    end_ -= size_of(last());
+    panels_.pop_back();
+  }
+  /// What was begun, in the place of those that have been popped since.
+  void push(const Panel& panel, const Matrix& front) {
+    double* const to = values_.get() + end_;
+    if (to != front.data()) std::copy(front.data(), front.data() + front.size(), to);
+    end_ += size_of(panel);
+    panels_.push_back(&panel);
+  }
+
+ private:
+  static std::size_t size_of(const Panel& panel) {
+    const std::size_t below = panel.height - static_cast<std::size_t>(panel.columns);
+    return below * below;
+  }
+  Matrix at(std::size_t begin, const Panel& panel) {
+    const auto below = static_cast<Index>(panel.height) - panel.columns;
+    return {values_.get() + begin, below, below};
+  }
+
+  std::unique_ptr<double[]> values_;  // NOLINT(*-avoid-c-arrays)
+  std::size_t end_ = 0;
+  std::vector<const Panel*> panels_;
+};
+
 // What a child takes from rows of its parent, and from rows below that.
 // @param where  each of these rows is
-void add(const Eigen::Ref<const MatrixXd>& taken, const std::vector<Index>& where,
-         Eigen::Ref<MatrixXd> own, Eigen::Ref<MatrixXd> below) {
+void add(const Fronts::Matrix& taken, const std::vector<Index>& where, Eigen::Ref<MatrixXd> own,
+         Fronts::Matrix& below) {
   for (Index j = 0; j < taken.cols(); ++j) {
     const Index column = where[static_cast<std::size_t>(j)];
     double* const to =
@@ -29,17 +85,13 @@ void add(const Eigen::Ref<const MatrixXd>& taken, const std::vector<Index>& wher
 }  // namespace
 
 SparseFactor::SparseFactor(const Eigen::SparseMatrix<double>& lower, Index multipliers,
-                           std::vector<int> order, double least_pivot)
+                           std::vector<int> order, double least_pivot, std::vector<double> memory)
     : tree_(elimination_tree(lower, std::move(order))),
-      values_(tree_.values, 0.0),
-      inverse_pivots_(lower.rows()),
-      ok_(factorise(lower, multipliers, least_pivot)) {}
-
-// What a panel takes from the rows below it, for its parent to add.
-struct SparseFactor::Rest {
-  const Panel* panel;
-  MatrixXd of_rows;
-};
+      values_(std::move(memory)),
+      inverse_pivots_(lower.rows()) {
+  values_.assign(tree_.values, 0.0);
+  ok_ = factorise(lower, multipliers, least_pivot);
+}
 
 // Multifrontal: a panel is complete when its children have handed on what they take from it.
 bool SparseFactor::factorise(const Eigen::SparseMatrix<double>& lower, Index multipliers,
@@ -51,7 +103,7 @@ bool SparseFactor::factorise(const Eigen::SparseMatrix<double>& lower, Index mul
   VectorXd sign = VectorXd::Ones(n);
   sign(std::span(tree_.place).last(static_cast<std::size_t>(multipliers))).setConstant(-1.0);
 
-  std::vector<Rest> waiting;  // for the parent: the last ones' comes first
+  Fronts fronts(tree_);
   std::vector<Index> where(tree_.place.size()), on;
   for (const Panel& panel : tree_.panels) {
     Index height = 0;
@@ -61,15 +113,14 @@ bool SparseFactor::factorise(const Eigen::SparseMatrix<double>& lower, Index mul
       for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, panel.first + j); entry;
            ++entry)
         own(where[static_cast<std::size_t>(entry.row())], j) = entry.value();
-    const Index below = height - own.cols();
-    Rest rest{&panel, MatrixXd::Zero(below, below)};
-    for (; !waiting.empty() && tree_.parent_of(*waiting.back().panel) == &panel;
-         waiting.pop_back()) {
-      const auto& [child, taken] = waiting.back();
+    Fronts::Matrix below = fronts.begin(panel);
+    for (; !fronts.empty() && tree_.parent_of(fronts.last()) == &panel; fronts.pop()) {
+      const Fronts::Matrix taken = fronts.of_last();
       on.clear();
-      for (const int row : tree_.rows_of(*child).last(static_cast<std::size_t>(taken.rows())))
+      for (const int row :
+           tree_.rows_of(fronts.last()).last(static_cast<std::size_t>(taken.rows())))
         on.push_back(where[static_cast<std::size_t>(row)]);
-      add(taken, on, own, rest.of_rows);
+      add(taken, on, own, below);
     }
 
     factorise_panel(own);
@@ -77,11 +128,11 @@ bool SparseFactor::factorise(const Eigen::SparseMatrix<double>& lower, Index mul
     const auto signs = sign.segment(panel.first, panel.columns).array();
     if (!(pivots * signs > (signs < 0.0).cast<double>() * least_pivot).all()) return false;
     inverse_pivots_.segment(panel.first, panel.columns) = pivots.inverse();
-    if (below == 0) continue;
-    take_panel_from(rest.of_rows, own);
-    waiting.push_back(std::move(rest));
+    if (below.size() == 0) continue;
+    take_panel_from(below, own);
+    fronts.push(panel, below);
   }
-  assert(waiting.empty());
+  assert(fronts.empty());
   return true;
 }
 

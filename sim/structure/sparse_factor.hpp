@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <utility>
 #include <vector>
 
 #include "sim/structure/elimination_tree.hpp"
@@ -27,8 +28,12 @@ class SparseFactor {
   /// @param multipliers  rows of N; they come last in A
   /// @param order  of elimination: each row of N behind some of those it has entries with
   /// @param least_pivot  of a row of N; a smaller one is rounding, N is not independent
+  /// @param memory  that of a factor which is no longer needed: fresh memory takes as long as the
+  /// factor
   SparseFactor(const Eigen::SparseMatrix<double>& lower, Eigen::Index multipliers,
-               std::vector<int> order, double least_pivot = 0.0);
+               std::vector<int> order, double least_pivot = 0.0, std::vector<double> memory = {});
+  /// For another factor; this one can do nothing more.
+  [[nodiscard]] std::vector<double> memory() && { return std::move(values_); }
 
   /// Whether K was positive definite and N independent; only then may anything be solved.
   [[nodiscard]] bool ok() const { return ok_; }
@@ -48,7 +53,6 @@ class SparseFactor {
   [[nodiscard]] long nonzeros() const;  ///< Of L.
 
  private:
-  struct Rest;
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& lower, Eigen::Index multipliers,
                                double least_pivot);
   [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> values_of(const Panel& panel) const {

@@ -1,6 +1,7 @@
 #include "sim/structure/structure.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -39,15 +40,21 @@ struct Structure::PortState {
   double error = 0.0;  // of the forces, relative, as far as the corrections tell
 };
 
-Structure::Structure(const Bodies& bodies, std::vector<Held> held)
-    : bodies_(&bodies), held_(std::move(held)) {
-  const Assembly& assembly = bodies.assembly();
-  held_.resize(assembly.joints.size(), Held::fully);
+Structure::Structure(const Bodies& bodies, std::vector<Held> held) : bodies_(&bodies) {
+  held.resize(bodies.assembly().joints.size(), Held::fully);
+  hold(std::move(held));
+}
+
+void Structure::hold(std::vector<Held> held) {
+  const Assembly& assembly = bodies_->assembly();
+  assert(held.size() == assembly.joints.size());
+  held_ = std::move(held);
   const int joint_unknowns = 2 * static_cast<int>(assembly.joints.size());
   int next = joint_unknowns + static_cast<int>(assembly.ties.size());
 
   ports_of_.resize(static_cast<std::size_t>(joint_unknowns));
-  for (const Port& port : bodies.ports()) {
+  unknowns_of_port_.clear();
+  for (const Port& port : bodies_->ports()) {
     const bool joint = port.unknown < joint_unknowns, b = port.side == PortSide::b;
     if (joint)
       ports_of_[static_cast<std::size_t>(port.unknown)][b ? 1 : 0] =
@@ -57,7 +64,7 @@ Structure::Structure(const Bodies& bodies, std::vector<Held> held)
   }
   unknowns_ = next + (assembly.ties.empty() ? 0 : 1);
   tops_of_ties_.resize(assembly.ties.size());
-  const std::vector<Port>& ports = bodies.ports();
+  const std::vector<Port>& ports = bodies_->ports();
   for (std::size_t i = 0; i < ports.size(); ++i)
     if (ports[i].unknown >= joint_unknowns && ports[i].side == PortSide::b) {
       unknowns_of_port_[i][1] = static_cast<int>(unknowns_) - 1;

@@ -66,6 +66,8 @@ class Structure {
  public:
   /// @param held  One per joint; empty: all hold fully.
   explicit Structure(const Bodies& bodies, std::vector<Held> held = {});
+  /// The same bodies held in another way; memory is used again.
+  void hold(std::vector<Held> held);
 
   /// Whether it can be solved; bodies without ports need no factor.
   [[nodiscard]] bool ok() const { return factor_ ? factor_->ok() : unknowns_ == 0; }

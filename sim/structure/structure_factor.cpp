@@ -159,6 +159,12 @@ void Structure::assemble() {
       stiffness_ = std::max(stiffness_, bodies.op.impedance.diagonal().maxCoeff());
     for (const int body : bodies.bodies) op_of_body_[static_cast<std::size_t>(body)] = &bodies.op;
   }
+  std::vector<double> memory;
+  const auto take_back_memory = [&] {
+    if (factor_) memory = std::move(*factor_).memory();
+    factor_.reset();
+  };
+  take_back_memory();
   if (unknowns_ == 0) return;
 
   std::size_t most = 0;
@@ -190,12 +196,13 @@ void Structure::assemble() {
   matrix.setFromTriplets(entries.begin(), entries.end());
   const std::vector<int> order = elimination_order(matrix);
   const double least = least_pivot / stiffness_;
-  factor_.emplace(matrix, bodies_->compatibilities(), order, least);
+  factor_.emplace(matrix, bodies_->compatibilities(), order, least, std::move(memory));
   // A mechanism has nothing but its trace of inertia. The factor may hold it, for the corrections
   // take what it adds away from everything that bears a load.
   for (double hold = 1e-13; !factor_->ok() && hold < most_hold; hold *= 10.0) {
     matrix.diagonal().head(unknowns_).array() += hold * stiffness_;
-    factor_.emplace(matrix, bodies_->compatibilities(), order, least);
+    take_back_memory();
+    factor_.emplace(matrix, bodies_->compatibilities(), order, least, std::move(memory));
   }
 }
 

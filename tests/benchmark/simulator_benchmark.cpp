@@ -5,6 +5,7 @@
 
 #include "sim/bench/watched_run.hpp"
 #include "sim/contact/active_set.hpp"
+#include "sim/memory.hpp"
 #include "sim/quasi_static/breaking_sequence.hpp"
 #include "tests/support/bonded_wall.hpp"
 #include "tests/support/scenes.hpp"
@@ -174,3 +175,10 @@ BENCHMARK(QuasiStaticSeedAgain)->Apply(walls_and_angles)->Iterations(24);
 
 }  // namespace
 }  // namespace havers::sim
+
+int main(int argc, char** argv) {
+  havers::sim::keep_freed_memory();  // as havers does
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+}
