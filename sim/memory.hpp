@@ -1,11 +1,17 @@
-// What a process does with memory that it has freed.
+// How memory is asked for: fresh pages can take as long as what is done in them.
 #pragma once
+
+#include <cstddef>
 
 namespace havers::sim {
 
-/// Keeps freed memory for what comes next, up to 1 GiB, instead of handing it back to the system:
-/// simulations ask for the same blocks again and again, and fresh pages can take as long as what is
-/// done in them. For all threads; to be called by a program as it starts.
+/// Keeps freed memory for what comes next, up to 1 GiB, instead of handing it back to the system,
+/// as simulations ask for the same blocks again and again. For all threads; to be called by a
+/// program as it starts.
 void keep_freed_memory();
+
+/// Asks for large pages (of 2 MiB) behind a block that nothing has touched yet; a smaller block is
+/// left as it is.
+void ask_for_large_pages(void* block, std::size_t bytes);
 
 }  // namespace havers::sim

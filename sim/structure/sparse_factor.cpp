@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "sim/memory.hpp"
 #include "sim/structure/panel.hpp"
 
 namespace havers::sim {
@@ -32,6 +33,7 @@ class Fronts {
       if (panel.parent >= 0) of_children[static_cast<std::size_t>(panel.parent)] += own;
     }
     values_ = std::make_unique_for_overwrite<double[]>(most);  // NOLINT(*-avoid-c-arrays)
+    ask_for_large_pages(values_.get(), most * sizeof(double));
   }
 
   [[nodiscard]] bool empty() const { return panels_.empty(); }
@@ -89,6 +91,9 @@ SparseFactor::SparseFactor(const Eigen::SparseMatrix<double>& lower, Index multi
     : tree_(elimination_tree(lower, std::move(order))),
       values_(std::move(memory)),
       inverse_pivots_(lower.rows()) {
+  values_.clear();
+  values_.reserve(tree_.values);
+  ask_for_large_pages(values_.data(), tree_.values * sizeof(double));
   values_.assign(tree_.values, 0.0);
   ok_ = factorise(lower, multipliers, least_pivot);
 }

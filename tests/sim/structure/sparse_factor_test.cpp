@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace havers::sim {
@@ -102,6 +103,18 @@ TEST(SparseFactor, SolvesWithPanelsOfAnyWidth) {
     const Eliminated half = factor.eliminate({1, 0}, values);
     EXPECT_LT((product(factor.over_pivots(half), half) - few.transpose() * x).norm(), 1e-12)
         << side;
+  }
+}
+
+// Of a smaller one, and of one that has left more behind than is needed.
+TEST(SparseFactor, UsesTheMemoryOfAnotherAgain) {
+  const Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(links + 1, -1.0, 2.0);
+  const Eigen::VectorXd alone = SparseFactor(chain(), 1, end_first()).solve(load);
+  for (const std::size_t values : {1U, 1000U}) {
+    SparseFactor factor(chain(), 1, end_first(), 0.0, std::vector<double>(values, 7.0));
+    EXPECT_EQ(factor.solve(load), alone);
+    SparseFactor next(chain(), 1, end_first(), 0.0, std::move(factor).memory());
+    EXPECT_EQ(next.solve(load), alone);
   }
 }
 

@@ -172,6 +172,22 @@ TEST_P(TinyStructure, LetsJointsOpenAndSlide) {
   EXPECT_LE(structure.solve(loads).solves, found.solves);
 }
 
+TEST_P(TinyStructure, HeldInAnotherWayIsAsOneMadeForThat) {
+  std::vector<Held> held(assembly.joints.size(), Held::fully);
+  for (std::size_t j = 0; j < held.size(); j += 3) held[j] = Held::not_at_all;
+  held[1] = Held::normal;
+  Structure structure(bodies);
+  const StructureLoads loads = random_loads(bodies, 7);
+  for (const auto& now : {held, std::vector<Held>(held.size(), Held::not_at_all), held}) {
+    structure.hold(now);
+    const Structure made(bodies, now);
+    ASSERT_EQ(structure.ok(), made.ok());
+    EXPECT_EQ(structure.held(), now);
+    if (!made.ok()) continue;
+    EXPECT_EQ(structure.solve(loads).reactions, made.solve(loads).reactions);
+  }
+}
+
 // There is nothing to correct, and no correction to be smaller than.
 TEST_P(TinyStructure, BearsNothingWhereNothingActsWhereverItStarts) {
   const Structure structure(bodies);
