@@ -71,7 +71,7 @@ void Structure::hold(std::vector<Held> held) {
       tops_of_ties_[static_cast<std::size_t>(ports[i].unknown - joint_unknowns)] =
           static_cast<Index>(i);
     }
-  assemble();
+  factorise();
 }
 
 bool Structure::holds(int unknown) const {

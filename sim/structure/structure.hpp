@@ -116,7 +116,8 @@ class Structure {
   [[nodiscard]] Eigen::VectorXd as_held(const Eigen::VectorXd& displacements) const;
   [[nodiscard]] Eigen::VectorXd ports_to_unknowns(const Eigen::VectorXd& forces) const;
   [[nodiscard]] Eigen::VectorXd reactions_of(const Eigen::VectorXd& port_forces) const;
-  void assemble();
+  [[nodiscard]] Eigen::SparseMatrix<double> mixed_form() const;
+  void factorise();
   [[nodiscard]] std::vector<char> conducting() const;
   [[nodiscard]] std::vector<Branch> network(const std::vector<int>& place) const;
   [[nodiscard]] Eigen::Index first_multiplier(std::size_t body) const {

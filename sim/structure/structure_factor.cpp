@@ -151,22 +151,8 @@ std::vector<int> Structure::elimination_order(const Eigen::SparseMatrix<double>&
 }
 
 // (S7): the mixed form with NᵀN added to Z, which changes nothing where Np = 0 and makes the block
-// of the unknowns positive definite.
-void Structure::assemble() {
-  op_of_body_.resize(bodies_->assembly().bodies.size());
-  for (const BodyClass& bodies : bodies_->classes()) {
-    if (bodies.op.impedance.size() > 0)
-      stiffness_ = std::max(stiffness_, bodies.op.impedance.diagonal().maxCoeff());
-    for (const int body : bodies.bodies) op_of_body_[static_cast<std::size_t>(body)] = &bodies.op;
-  }
-  std::vector<double> memory;
-  const auto take_back_memory = [&] {
-    if (factor_) memory = std::move(*factor_).memory();
-    factor_.reset();
-  };
-  take_back_memory();
-  if (unknowns_ == 0) return;
-
+// of the unknowns positive definite; its lower triangle.
+Eigen::SparseMatrix<double> Structure::mixed_form() const {
   std::size_t most = 0;
   for (const BodyClass& group : bodies_->classes()) {
     const Index ports = group.op.impedance.rows(), ring = group.op.compatibility.rows();
@@ -192,18 +178,36 @@ void Structure::assemble() {
     }
   }
   const Index n = unknowns_ + bodies_->compatibilities();
-  Eigen::SparseMatrix<double> matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
+  Eigen::SparseMatrix<double> lower(n, n);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  return lower;
+}
+
+// In the memory of the factor before, if there is one.
+void Structure::factorise() {
+  op_of_body_.resize(bodies_->assembly().bodies.size());
+  for (const BodyClass& bodies : bodies_->classes()) {
+    if (bodies.op.impedance.size() > 0)
+      stiffness_ = std::max(stiffness_, bodies.op.impedance.diagonal().maxCoeff());
+    for (const int body : bodies.bodies) op_of_body_[static_cast<std::size_t>(body)] = &bodies.op;
+  }
+  if (unknowns_ == 0) {
+    factor_.reset();
+    return;
+  }
+  Eigen::SparseMatrix<double> matrix = mixed_form();
   const std::vector<int> order = elimination_order(matrix);
-  const double least = least_pivot / stiffness_;
-  factor_.emplace(matrix, bodies_->compatibilities(), order, least, std::move(memory));
+  const auto try_to = [&] {
+    std::vector<double> memory;
+    if (factor_) memory = std::move(*factor_).memory();
+    factor_.emplace(matrix, bodies_->compatibilities(), order, least_pivot / stiffness_,
+                    std::move(memory));
+    return factor_->ok();
+  };
   // A mechanism has nothing but its trace of inertia. The factor may hold it, for the corrections
   // take what it adds away from everything that bears a load.
-  for (double hold = 1e-13; !factor_->ok() && hold < most_hold; hold *= 10.0) {
+  for (double hold = 1e-13; !try_to() && hold < most_hold; hold *= 10.0)
     matrix.diagonal().head(unknowns_).array() += hold * stiffness_;
-    take_back_memory();
-    factor_.emplace(matrix, bodies_->compatibilities(), order, least, std::move(memory));
-  }
 }
 
 }  // namespace havers::sim
