@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "sim/outcome.hpp"
 
@@ -56,6 +57,19 @@ std::string explain(SimulationStatus status) {
   return "unknown";
 }
 
+std::string explain(const Simulation& simulation) {
+  if (simulation.status != SimulationStatus::broken || simulation.end_fraction_used == 0.0)
+    return explain(simulation.status);
+  return fmt::format("after a break both sides bear less than {:.3g} of the strength",
+                     simulation.end_fraction_used);
+}
+
+std::string step_in_words(double step) {
+  for (const auto& [unit, symbol] : {std::pair(1.0, "s"), {1e-3, "ms"}, {1e-6, "µs"}, {1e-9, "ns"}})
+    if (step >= unit) return fmt::format("{:.3g} {}", step / unit, symbol);
+  return fmt::format("{:.3g} ps", step / 1e-12);
+}
+
 namespace {
 // Changes by the last halving of a chosen step that are still trusted. Waves between breaks change
 // the peak of the stress more than its place. [-]
@@ -98,6 +112,18 @@ std::string Simulation::why_not_trusted() const {
   if (energy_gain > largest_energy_gain)
     return "a break added to the energy stored: friction let the contacts take another answer";
   return std::isfinite(strength) ? "" : explain(SimulationStatus::not_finite);
+}
+
+std::string Simulation::reservation() const {
+  if (step_error) return "";
+  return fmt::format("the time step: {} was given, and its error is not known",
+                     step_in_words(step));
+}
+
+StepError Simulation::error_beyond_accuracy() const {
+  const auto beyond = [&](double error) { return error > step_accuracy ? error : 0.0; };
+  const StepError error = step_error.value_or(StepError{});
+  return {.failure_strain = beyond(error.failure_strain), .strength = beyond(error.strength)};
 }
 
 }  // namespace havers::sim

@@ -29,6 +29,9 @@ enum class SimulationStatus {
 std::string to_string(SimulationStatus status);
 std::string explain(SimulationStatus status);
 
+/// A time step as it is said everywhere: "20 ns", "4.58 ms". [s]
+std::string step_in_words(double step);
+
 /// One row of the response. Energies are per unit thickness.
 struct CurvePoint {
   double time = 0.0;          ///< [s]
@@ -78,12 +81,16 @@ struct Simulation {
   double failure_strain = 0.0;      ///< Strain there. [-]
   double modulus = 0.0;             ///< Secant at half the first break's strain. [Pa]
   double first_break_strain = 0.0;  ///< NaN when nothing broke. [-]
-  int broken_joints = 0;
+  int broken_joints = 0;  ///< Of the last row: what an avalanche breaks thereafter is not counted.
+  /// Part of the strength down to which the run was followed: the scene's `end_fraction`, or more
+  /// where the rest of an avalanche is left out. Section 6. [-]
+  double end_fraction_used = 0.0;
 
   /// What the last halving of a chosen step changed; 0 in the quasi-static limit, none where the
   /// step was given.
   std::optional<StepError> step_error = StepError{};
   double leapt_strain = 0.0;    ///< What was stretched without steps, before the first break. [-]
+  double step_accuracy = 0.0;   ///< Of both by a chosen step, as asked for. [-]
   int steps = 0;                ///< Time steps, or events of the quasi-static sequence.
   long iterations = 0;          ///< Of the contact solver, all steps together.
   double energy_defect = 0.0;   ///< Largest relative defect of (M4) over the steps; quasi-static:
@@ -104,7 +111,15 @@ struct Simulation {
   /// The check that does not hold, as a sentence; empty when all do. What helps, where that is
   /// known, stands behind a semicolon.
   [[nodiscard]] std::string why_not_trusted() const;
+  /// What a trusted run is to be trusted but for: a time step that was given, whose error nobody
+  /// knows. A noun with what is to be said of it; empty where there is nothing.
+  [[nodiscard]] std::string reservation() const;
+  /// What the last halving of a chosen step changed, where that is more than was asked for; else 0.
+  [[nodiscard]] StepError error_beyond_accuracy() const;
 };
+
+/// Why a simulation ended, with the part of the strength down to which it was followed.
+std::string explain(const Simulation& simulation);
 
 /// What a caller may watch while a simulation runs.
 struct Progress {

@@ -19,7 +19,7 @@ nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& s
   Provenance origin = provenance;
   return {
       {"status", sim::to_string(simulation.status)},
-      {"status_text", sim::explain(simulation.status)},
+      {"status_text", sim::explain(simulation)},
       {"trusted", simulation.trusted()},
       {"regime", json_of(regime)},
       {"regime_ground", simulation.regime_ground},
@@ -33,6 +33,7 @@ nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& s
       {"modulus_Pa", number(simulation.modulus)},
       {"first_break_strain", number(simulation.first_break_strain)},
       {"broken_joints", simulation.broken_joints},
+      {"end_fraction_used", number(simulation.end_fraction_used)},
       {"steps", simulation.steps},
       {"iterations", simulation.iterations},
       {"energy_defect", number(simulation.energy_defect)},

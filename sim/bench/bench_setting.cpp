@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "sim/bench/watched_run.hpp"
 #include "sim/simulate.hpp"
 
@@ -21,13 +19,6 @@ BenchSetting stepped(BenchSetting setting, double step) {
 BenchSetting on_mesh(BenchSetting setting, int refinement) {
   setting.refinement = refinement;
   return setting;
-}
-
-// "20 ns", "4.58 ms".
-std::string in_words(double step) {
-  for (const auto& [unit, symbol] : {std::pair(1.0, "s"), {1e-3, "ms"}, {1e-6, "µs"}, {1e-9, "ns"}})
-    if (step >= unit) return fmt::format("{:.3g} {}", step / unit, symbol);
-  return fmt::format("{:.3g} ps", step / 1e-12);
 }
 
 // Of a scene in the limit. On finer meshes the limit has no other error than that of the mesh.
@@ -65,7 +56,7 @@ std::string to_string(const BenchSetting& setting) {
       fmt::format("{}, {} triangles a fibre", setting.leave_out ? "" : ", nothing left out",
                   8 * setting.refinement * setting.refinement);
   if (setting.regime == Regime::quasi_static) return "quasi-static" + rest;
-  const std::string step = setting.step ? "h = " + in_words(*setting.step) : "h chosen";
+  const std::string step = setting.step ? "h = " + step_in_words(*setting.step) : "h chosen";
   if (setting.contact == ContactMethod::gauss_seidel)
     return fmt::format("Gauss-Seidel {:.0e}, {}{}", setting.tolerance, step, rest);
   return fmt::format("active set, {}{}", step, rest);

@@ -28,7 +28,8 @@ std::string ground_of(const Simulation& run, double accuracy, const std::string&
         100.0 * run.step_error->failure_strain, 100.0 * run.step_error->strength);
   if (run.step_error->largest() > accuracy)
     halved += fmt::format(", more than the {:g} % asked for", 100.0 * accuracy);
-  return fmt::format("; the step of {:.3g} ns is chosen{}{}", 1e9 * run.step, halved, finer_failed);
+  return fmt::format("; the step of {} is chosen{}{}", step_in_words(run.step), halved,
+                     finer_failed);
 }
 
 // Half a run tells nothing.

@@ -37,7 +37,7 @@ SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepp
         !observer({simulation.curve.back(), simulation.curve.size() - 1,
                    [&run] { return run.outcomes(); }, [&run] { return run.displacements(); }}))
       return SimulationStatus::cancelled;
-    if (has_failed(simulation, scene.loading.end_fraction)) return SimulationStatus::broken;
+    if (has_failed(simulation, simulation.end_fraction_used)) return SimulationStatus::broken;
     if (run.steps() == stepping.most) return SimulationStatus::step_limit;
     if (stepping.leap && run.steps() == 2) simulation.leapt_strain = run.leap();
   }
@@ -51,9 +51,9 @@ Simulation simulate_dynamic(const Scene& scene, const Observer& observer) {
   Simulation run = run_in_steps(scene, {*scene.solver.step}, observer);
   run.step_error.reset();
   run.regime_ground = fmt::format(
-      "; the step of {:.3g} ns is given, and its error is not known: a run without step_s chooses "
-      "its own and says it",
-      1e9 * run.step);
+      "; the step of {} is given, and its error is not known: a run without step_s chooses its own "
+      "and says it",
+      step_in_words(run.step));
   return run;
 }
 
@@ -62,6 +62,7 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
   Simulation simulation;
   simulation.regime = Regime::dynamic;
   simulation.step = stepping.step;
+  simulation.end_fraction_used = scene.loading.end_fraction;
   DynamicRun run(scene, assembly, simulation.step);
   simulation.status = follow_in_time(scene, run, stepping, observer, simulation);
   run.finish(simulation);

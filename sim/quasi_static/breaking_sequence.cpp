@@ -52,7 +52,7 @@ bool goes_on(const Observer& observer, const BreakingRun& run, const Simulation&
 // From break to break, until the run ends.
 SimulationStatus follow_events(const Scene& scene, BreakingRun& run, const Observer& observer,
                                Simulation& simulation) {
-  const double end_fraction = end_fraction_used(scene);
+  const double end_fraction = simulation.end_fraction_used;
   simulation.curve.push_back(run.point());
   for (;;) {
     const double event = run.next_event();
@@ -86,9 +86,9 @@ std::vector<LeftOut> left_out_in_the_limit(const Scene& scene, const IntactStruc
   if (intact.stress_is_known())
     list.push_back({"rounding in the joint forces of the intact specimen",
                     "its stress is uniform, and a solve finds that to 1e-6 or better"});
-  if (end_fraction_used(scene) > scene.loading.end_fraction)
+  if (simulation.end_fraction_used > scene.loading.end_fraction)
     list.push_back(
-        {fmt::format("the avalanche below {:g} of the strength", end_fraction_used(scene)),
+        {fmt::format("the avalanche below {:.3g} of the strength", simulation.end_fraction_used),
          "one of 7212 with such thresholds became stronger thereafter, by 0.015 %"});
   return list;
 }
@@ -98,6 +98,7 @@ Simulation break_event_by_event(const Scene& scene,
                                 const Observer& observer) {
   Simulation simulation;
   simulation.regime = Regime::quasi_static;
+  simulation.end_fraction_used = end_fraction_used(scene);
   simulation.dropped = intact->assembly().dropped;
   if (!intact->structure().ok()) {
     simulation.status = SimulationStatus::not_determined;

@@ -83,6 +83,7 @@ TEST(Simulate, EndsWhenTheSpecimenIsBroken) {
     EXPECT_EQ(simulation.status, SimulationStatus::broken);
     EXPECT_TRUE(simulation.trusted());
     const double part = simulation.regime == Regime::dynamic ? 0.3 : end_fraction_used(scene);
+    EXPECT_EQ(simulation.end_fraction_used, part);
     EXPECT_LT(simulation.curve.back().stress_right, part * simulation.strength);
     EXPECT_LT(simulation.curve.back().stress_left, part * simulation.strength);
     EXPECT_GT(simulation.broken_joints, 0);

@@ -53,5 +53,34 @@ TEST(Simulation, IsNotTrustedUnlessItsChecksHold) {
   EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("not known"));
 }
 
+TEST(Simulation, IsTrustedButForAStepThatWasGiven) {
+  Simulation simulation;
+  simulation.status = SimulationStatus::broken;
+  simulation.step = 2e-8;
+  EXPECT_EQ(simulation.reservation(), "");
+  simulation.step_error.reset();
+  EXPECT_TRUE(simulation.trusted());
+  EXPECT_EQ(simulation.reservation(), "the time step: 20 ns was given, and its error is not known");
+  EXPECT_EQ(simulation.error_beyond_accuracy().largest(), 0.0);
+}
+
+TEST(Simulation, KnowsWhatAChosenStepLeavesBeyondTheAccuracyAskedFor) {
+  Simulation simulation;
+  simulation.step_accuracy = 1e-3;
+  simulation.step_error = StepError{.failure_strain = 9e-4, .strength = 0.029};
+  EXPECT_EQ(simulation.error_beyond_accuracy().failure_strain, 0.0);
+  EXPECT_EQ(simulation.error_beyond_accuracy().strength, 0.029);
+  EXPECT_EQ(simulation.reservation(), "");
+}
+
+TEST(Simulation, SaysToWhichPartOfTheStrengthItWasFollowed) {
+  Simulation simulation;
+  simulation.end_fraction_used = 0.85;
+  simulation.status = SimulationStatus::strain_limit;
+  EXPECT_EQ(explain(simulation), explain(SimulationStatus::strain_limit));
+  simulation.status = SimulationStatus::broken;
+  EXPECT_EQ(explain(simulation), "after a break both sides bear less than 0.85 of the strength");
+}
+
 }  // namespace
 }  // namespace havers::sim

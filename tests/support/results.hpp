@@ -201,6 +201,8 @@ inline sim::Simulation simulation_sample(const sim::Assembly& assembly) {
   s.status = sim::SimulationStatus::broken;
   s.regime_ground = "inertia carries more than 1 % of the strength at 1000 1/s";
   s.step = 2e-8;
+  s.step_accuracy = 1e-3;
+  s.end_fraction_used = 0.3;
   s.displacements = Eigen::VectorXd::Zero(2 * static_cast<Eigen::Index>(assembly.nodes.size()));
   s.joints.resize(assembly.joints.size());
   const auto right = [&](const sim::Body& body) {

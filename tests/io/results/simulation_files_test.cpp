@@ -113,6 +113,7 @@ TEST(SimulationJson, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(json["modulus_Pa"], 13e9);
   EXPECT_TRUE(json["first_break_strain"].is_null());
   EXPECT_EQ(json["broken_joints"], simulation.broken_joints);
+  EXPECT_EQ(json["end_fraction_used"], 0.3);
   EXPECT_EQ(json["steps"], 400);
   EXPECT_EQ(json["energy_defect"], 3.2e-14);
   EXPECT_EQ(json["worst_residual"], 6.1e-10);
