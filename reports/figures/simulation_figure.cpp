@@ -19,10 +19,12 @@ set ylabel 'Stress (MPa)'
 plot {left}$curve using ($1*100):($2*1e-6) with lines lw 1.8 lc rgb blue title '{right}'
 {middle}
 set ylabel 'Broken joints'
-set yrange [0:*]
-plot $head_tail using ($1*100):2 with steps lw 1.8 lc rgb red title 'head to tail', \
+{counts}
+plot $head_tail using ($1*100):2 with steps lw 1.8 lc rgb red title 'head-tail', \
   $flank using ($1*100):2 with steps lw 1.8 dt 2 lc rgb blue title 'flank'
 {bottom}
+set yrange [0:*]
+set ytics autofreq
 set xtics format '%g'
 set xlabel 'Strain (%)' offset 0,0.5
 set ylabel 'Energy ({unit}J/m)'
@@ -86,9 +88,8 @@ std::string curve_data(const std::vector<sim::CurvePoint>& curve) {
   return block + "EOD\n";
 }
 
-// Joints of a kind, counted as they break; those missing from the start are no breaks.
-std::string breaks_data(const SimulationReport& report, sim::JointKind kind,
-                        std::string_view name) {
+// Strains at which joints of a kind broke, in order; those missing from the start are no breaks.
+std::vector<double> break_strains(const SimulationReport& report, sim::JointKind kind) {
   std::vector<double> strains;
   for (std::size_t j = 0; j < report.simulation.joints.size(); ++j) {
     const sim::JointOutcome& joint = report.simulation.joints[j];
@@ -96,12 +97,23 @@ std::string breaks_data(const SimulationReport& report, sim::JointKind kind,
       strains.push_back(joint.broken_at_strain);
   }
   std::ranges::sort(strains);
+  return strains;
+}
+
+// Joints of a kind, counted as they break.
+std::string breaks_data(const std::vector<double>& strains, double end, std::string_view name) {
   std::string block = fmt::format("${} << EOD\n0 0\n", name);
   for (std::size_t i = 0; i < strains.size(); ++i)
     if (i + 1 == strains.size() || strains[i + 1] != strains[i])
       block += fmt::format("{:.9g} {}\n", strains[i], i + 1);
-  return block +
-         fmt::format("{:.9g} {}\nEOD\n", report.simulation.curve.back().strain, strains.size());
+  return block + fmt::format("{:.9g} {}\nEOD\n", end, strains.size());
+}
+
+// An axis from 0 on with tics at whole numbers; of few counts gnuplot would show halves.
+std::string count_axis(std::size_t most) {
+  constexpr std::size_t few = 5;
+  return fmt::format("set yrange [0:{}]{}", most == 0 ? "1" : "*",
+                     most < few ? "\nset ytics 1" : "");
 }
 
 double largest_energy(const std::vector<sim::CurvePoint>& curve) {
@@ -125,12 +137,14 @@ Figure simulation_figure(const SimulationReport& report, const std::string& id) 
   if (range.empty()) return figure;
   const bool dynamic = simulation.regime == sim::Regime::dynamic;
   const Prefix prefix = prefix_for(largest_energy(simulation.curve));
+  const std::vector<double> head_tail = break_strains(report, sim::JointKind::head_tail),
+                            flank = break_strains(report, sim::JointKind::flank);
   figure.commands =
-      curve_data(with_parabolas(simulation)) +
-      breaks_data(report, sim::JointKind::head_tail, "head_tail") +
-      breaks_data(report, sim::JointKind::flank, "flank") +
+      curve_data(with_parabolas(simulation)) + breaks_data(head_tail, strain.back(), "head_tail") +
+      breaks_data(flank, strain.back(), "flank") +
       fmt::format(simulation_commands, fmt::arg("range", range),
                   fmt::arg("top", panel(0.66, 0.955)), fmt::arg("middle", panel(0.41, 0.595)),
+                  fmt::arg("counts", count_axis(std::max(head_tail.size(), flank.size()))),
                   fmt::arg("bottom", panel(0.095, 0.345)),
                   fmt::arg("left", dynamic ? left_side : ""),
                   fmt::arg("right", dynamic ? "right side" : "stress"),

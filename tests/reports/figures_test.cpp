@@ -128,6 +128,20 @@ TEST(Figure, CountsBrokenJointsOfEitherKindAsTheyBreak) {
   EXPECT_GT(broken[sim::JointKind::flank], 0);
 }
 
+TEST(Figure, CountsInWholeNumbersAlone) {
+  const sim::Scene scene = test::small_scene();
+  const sim::Assembly assembly = sim::build_assembly(scene.assembly, scene.loading.lateral);
+  const auto commands = [&](std::size_t broken) {
+    sim::Simulation simulation = test::simulation_sample(assembly);
+    for (std::size_t j = 0; j < simulation.joints.size(); ++j)
+      simulation.joints[j] = {.threshold = {1.0, 1.0}, .broken = j < broken};
+    return simulation_figure({scene, assembly, simulation, {}}, "c").commands;
+  };
+  EXPECT_FALSE(contains(commands(assembly.joints.size()), "set ytics 1\n"));
+  EXPECT_TRUE(contains(commands(1), "set yrange [0:*]\nset ytics 1\n"));
+  EXPECT_TRUE(contains(commands(0), "set yrange [0:1]\nset ytics 1\n"));
+}
+
 TEST(Figure, LetsNoNameReachTheCommandsOfGnuplot) {
   auto sample = test::fit_sample();
   sample.study.name = "'; system('false'); \n exit status 3 `false`";
