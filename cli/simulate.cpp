@@ -45,9 +45,10 @@ sim::Simulation watched_run(const sim::Scene& scene, io::SnapshotRecorder& snaps
   });
 }
 
-void write_results(const OutputFolder& output, const sim::Scene& scene,
+void write_results(const OutputFolder& output, const io::SceneFile& file,
                    const sim::Simulation& simulation, const io::SnapshotRecorder& snapshots,
                    const io::Provenance& provenance) {
+  const sim::Scene& scene = file.scene;
   const sim::Assembly assembly = sim::build_assembly(scene.assembly, scene.loading.lateral);
   io::write_curve(output.stage("curve.csv"), simulation);
   io::write_joints(output.stage("joints.csv"), assembly, simulation);
@@ -59,7 +60,8 @@ void write_results(const OutputFolder& output, const sim::Scene& scene,
     io::write_file(output.stage("avalanche.svg"), reports::avalanche_svg(assembly, simulation));
     io::write_file(output.stage("report.html"),
                    reports::simulation_page({scene, assembly, simulation, page_facts(provenance),
-                                             provenance.wall_seconds}));
+                                             provenance.wall_seconds,
+                                             file.inputs.front().filename().string()}));
   }
   io::write_file(output.stage("result.json"),
                  io::json_text(io::simulation_json(scene, simulation, provenance)));
@@ -77,22 +79,61 @@ std::string steps_text(const sim::Simulation& run) {
                                                      error.failure_strain, error.strength));
 }
 
-void print_summary(const sim::Simulation& run, double wall_seconds, bool verbose) {
-  if (run.trusted())
-    fmt::print("to be trusted: {}\n", sim::explain(run.status));
-  else
-    fmt::print("NOT to be trusted: {}\n", run.why_not_trusted());
-  fmt::print("strength       {:.4g} MPa at a strain of {:.4g} %\n", 1e-6 * run.strength,
-             100.0 * run.failure_strain);
+std::string headline(const sim::Simulation& run) {
+  if (!run.trusted()) return "NOT to be trusted: " + run.why_not_trusted();
+  const std::string reservation = run.reservation();
+  return reservation.empty()
+             ? "to be trusted: " + explain(run)
+             : fmt::format("to be trusted but for {}; {}", reservation, explain(run));
+}
+
+std::string by_step(double error) {
+  return error > 0.0 ? fmt::format(" (± {:.2g} % by the step)", 100.0 * error) : "";
+}
+
+// Of a run that did not break the largest stress is a bound, and its strain says nothing.
+std::string strength_text(const sim::Scene& scene, const sim::Simulation& run) {
+  const sim::StepError error = run.error_beyond_accuracy();
+  const std::string strength =
+      fmt::format("{:.4g} MPa{}", 1e-6 * run.strength, by_step(error.strength));
+  if (run.status == sim::SimulationStatus::severed) return strength;
+  if (run.status == sim::SimulationStatus::broken)
+    return fmt::format("{} at a strain of {:.4g} %{}", strength, 100.0 * run.failure_strain,
+                       by_step(error.failure_strain));
+  const bool to_the_limit = run.status == sim::SimulationStatus::strain_limit;
+  return fmt::format("at least {}\nfailure strain -, not reached{}", strength,
+                     to_the_limit ? fmt::format(" within the strain limit of {:.4g} %",
+                                                100.0 * scene.loading.max_strain)
+                                  : "");
+}
+
+std::string breaks_text(const sim::Scene& scene, const sim::Simulation& run) {
+  std::string breaks = fmt::format("{} of {}", run.broken_joints, run.joints.size());
+  if (run.broken_joints > 0)
+    breaks += fmt::format(", the first at {:.4g} %", 100.0 * run.first_break_strain);
+  if (run.status == sim::SimulationStatus::broken &&
+      run.end_fraction_used > scene.loading.end_fraction)
+    breaks += fmt::format(
+        "; counted down to {:.3g} of the strength (solver.leave_out = false follows on, to {:g})",
+        run.end_fraction_used, scene.loading.end_fraction);
+  return breaks;
+}
+
+std::string small(double value) {
+  return value == 0.0 ? "0" : fmt::format("{:.1e}", value);
+}
+
+void print_summary(const sim::Scene& scene, const sim::Simulation& run, double wall_seconds,
+                   bool verbose) {
+  fmt::print("{}\n", headline(run));
+  fmt::print("strength       {}\n", strength_text(scene, run));
   fmt::print("modulus        {:.4g} GPa\n", 1e-9 * run.modulus);
-  fmt::print("broken joints  {} of {}", run.broken_joints, run.joints.size());
-  if (run.broken_joints > 0) fmt::print(", the first at {:.4g} %", 100.0 * run.first_break_strain);
-  fmt::print("\nregime         {}: {}\n",
+  fmt::print("broken joints  {}\n", breaks_text(scene, run));
+  fmt::print("regime         {}: {}\n",
              run.regime == sim::Regime::dynamic ? "dynamic" : "quasi-static", run.regime_ground);
-  fmt::print(
-      "time           {:.3g} s for {}; energy defect {:.1e}, residual {:.1e}, penetration "
-      "{:.1e} m\n",
-      wall_seconds, steps_text(run), run.energy_defect, run.worst_residual, run.worst_penetration);
+  fmt::print("time           {:.3g} s for {}; energy defect {}, residual {}, penetration {} m\n",
+             wall_seconds, steps_text(run), small(run.energy_defect), small(run.worst_residual),
+             small(run.worst_penetration));
   if (!verbose) return;
   for (const sim::LeftOut& left_out : run.left_out)
     fmt::print("left out       {}: {}\n", left_out.what, left_out.why);
@@ -118,13 +159,13 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
                     sim::explain(simulation.status)));
   snapshots.finish(simulation);
   const io::Provenance provenance = provenance_of(common, file.inputs, watch);
-  write_results(output, file.scene, simulation, snapshots, provenance);
+  write_results(output, file, simulation, snapshots, provenance);
   output.publish();
 
   if (common.json)
     fmt::print("{}", io::json_text(io::simulation_json(file.scene, simulation, provenance)));
   else
-    print_summary(simulation, provenance.wall_seconds, common.verbose);
+    print_summary(file.scene, simulation, provenance.wall_seconds, common.verbose);
   if (simulation.status == sim::SimulationStatus::cancelled)
     note(common,
          "stopped by you; the rows until then are written. A simulation starts anew: add --force "

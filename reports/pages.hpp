@@ -26,6 +26,7 @@ struct SimulationReport {
   const sim::Simulation& simulation;
   Provenance provenance;
   double wall_seconds = std::numeric_limits<double>::quiet_NaN();  ///< NaN where not recorded. [s]
+  std::string file{};  ///< Of the scene; empty: the page does without its name.
 };
 
 struct FitReport {

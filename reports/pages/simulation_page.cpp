@@ -10,18 +10,40 @@
 namespace havers::reports {
 namespace {
 
+using Status = sim::SimulationStatus;
+
+bool has_no_bounds(const sim::Simulation& s) {
+  return s.status == Status::broken || s.status == Status::severed;
+}
+
+std::string by_step(double error) {
+  return error > 0.0 ? fmt::format(" (± {} by the step)", quantity(error / in::percent, "%", 2))
+                     : "";
+}
+
 std::string sentence_of(const sim::Simulation& s) {
   if (!s.trusted()) return fmt::format("Not to be trusted: {}.", typeset(s.why_not_trusted()));
-  if (s.status == sim::SimulationStatus::severed)
+  if (s.status == Status::severed)
     return "Missing joints sever the specimen: it bears nothing. To be trusted.";
-  const std::string at = fmt::format("{} at {} strain", quantity(s.strength / in::MPa, "MPa"),
-                                     quantity(s.failure_strain / in::percent, "%", 3));
-  return s.status == sim::SimulationStatus::broken
-             ? fmt::format("The specimen broke: strength {}. To be trusted.", at)
+  const sim::StepError error = s.error_beyond_accuracy();
+  const std::string at = fmt::format(
+      "{}{} at {} strain{}", quantity(s.strength / in::MPa, "MPa"), by_step(error.strength),
+      quantity(s.failure_strain / in::percent, "%", 3), by_step(error.failure_strain));
+  const std::string reservation =
+      s.reservation().empty() ? "" : " but for " + typeset(s.reservation());
+  return s.status == Status::broken
+             ? fmt::format("The specimen broke: strength {}. To be trusted{}.", at, reservation)
              : fmt::format(
                    "The specimen did not break: its strength is at least {}. To be trusted as a "
-                   "lower bound.",
-                   at);
+                   "lower bound{}.",
+                   at, reservation);
+}
+
+// A time step that leaves an error in the answer, or one that is not known, is not all good.
+std::string grade_of(const sim::Simulation& s) {
+  if (!s.trusted()) return "bad";
+  const bool exact = s.reservation().empty() && s.error_beyond_accuracy().largest() == 0.0;
+  return exact ? "good" : "mixed";
 }
 
 std::string step_error_of(const sim::Simulation& s) {
@@ -40,25 +62,82 @@ std::string cost_of(const SimulationReport& report) {
   return fmt::format(
       "Status {}: {}. {} wall time, for a relative energy defect of {}, a residual of at most {} "
       "and a penetration of at most {}.{}",
-      to_string(s.status), explain(s.status), duration(report.wall_seconds),
-      number(s.energy_defect, 3), number(s.worst_residual, 3),
-      quantity(s.worst_penetration / in::um, "µm", 3), step_error_of(s));
+      to_string(s.status), explain(s), duration(report.wall_seconds), number(s.energy_defect, 3),
+      number(s.worst_residual, 3), quantity(s.worst_penetration / in::um, "µm", 3),
+      step_error_of(s));
+}
+
+// Of a run that did not break the strain of the largest stress says nothing.
+std::string failure_strain_of(const SimulationReport& report) {
+  const sim::Simulation& s = report.simulation;
+  if (s.status == Status::broken) return quantity(s.failure_strain / in::percent, "%");
+  if (s.status == Status::severed) return "–";
+  if (s.status != Status::strain_limit) return "not reached";
+  return fmt::format("not reached within the strain limit of {}",
+                     setting(report.scene.loading.max_strain / in::percent, "%"));
+}
+
+// Whether the rest of an avalanche is left out.
+bool ends_early(const SimulationReport& report) {
+  return report.simulation.end_fraction_used > report.scene.loading.end_fraction;
+}
+
+std::string broken_joints_of(const SimulationReport& report) {
+  const sim::Simulation& s = report.simulation;
+  std::string joints = fmt::format("{} of {}", s.broken_joints, report.assembly.joints.size());
+  if (s.status == Status::broken && ends_early(report))
+    joints +=
+        fmt::format(", counted down to {} of the strength", setting(s.end_fraction_used, "", 3));
+  return joints;
+}
+
+// A run that leaps to its first break takes no steps on the way there.
+std::string steps_of(const sim::Simulation& s) {
+  if (s.regime == sim::Regime::quasi_static) return std::to_string(s.steps);
+  const std::string step = typeset(sim::step_in_words(s.step));
+  return s.leapt_strain > 0.0 ? fmt::format("{}, of {} from the first break on", s.steps, step)
+                              : fmt::format("{} of {}", s.steps, step);
 }
 
 Facts key_numbers(const SimulationReport& report) {
   const sim::Simulation& s = report.simulation;
   const bool dynamic = s.regime == sim::Regime::dynamic;
   return {
-      {"Strength", quantity(s.strength / in::MPa, "MPa")},
-      {"Failure strain", quantity(s.failure_strain / in::percent, "%")},
+      {has_no_bounds(s) ? "Strength" : "Strength, at least", quantity(s.strength / in::MPa, "MPa")},
+      {"Failure strain", failure_strain_of(report)},
       {"Modulus", quantity(s.modulus / in::GPa, "GPa")},
       {"Strain of the first break", quantity(s.first_break_strain / in::percent, "%")},
-      {"Broken joints", fmt::format("{} of {}", s.broken_joints, report.assembly.joints.size())},
+      {"Broken joints", broken_joints_of(report)},
       {"Regime",
        fmt::format("{}: {}", dynamic ? "dynamic" : "quasi-static", typeset(s.regime_ground))},
-      {dynamic ? "Time steps" : "Events",
-       dynamic ? fmt::format("{} of {}", s.steps, prefixed(s.step, "s")) : std::to_string(s.steps)},
+      {dynamic ? "Time steps" : "Events", steps_of(s)},
       {"Contact iterations", std::to_string(s.iterations)}};
+}
+
+// Under the figure of the assembly: when it looked so.
+std::string end_of(const SimulationReport& report) {
+  const sim::Simulation& s = report.simulation;
+  if (s.status != Status::broken) return "The assembly at the end of the run.";
+  const std::string part = setting(s.end_fraction_used, "", 3);
+  return ends_early(report)
+             ? fmt::format(
+                   "The assembly when both sides first bear less than {} of the strength, where "
+                   "the "
+                   "run ends: what the avalanche breaks thereafter is neither shown nor counted "
+                   "(solver.leave_out = false follows it on, to {}).",
+                   part, setting(report.scene.loading.end_fraction))
+             : fmt::format(
+                   "The assembly when both sides first bear less than {} of the strength, where "
+                   "the "
+                   "run ends.",
+                   part);
+}
+
+std::string followed_to(const SimulationReport& report) {
+  const std::string part = setting(report.simulation.end_fraction_used, "", 3);
+  return ends_early(report) ? fmt::format("{} of the strength ({} where nothing is left out)", part,
+                                          setting(report.scene.loading.end_fraction))
+                            : part + " of the strength";
 }
 
 std::string to_string(sim::Distribution distribution) {
@@ -92,8 +171,8 @@ std::string unusual(const sim::JointOptions& joints) {
   return words;
 }
 
-Facts scene_facts(const sim::Scene& scene) {
-  const auto& [assembly, material, joints, loading, solver] = scene;
+Facts scene_facts(const SimulationReport& report) {
+  const auto& [assembly, material, joints, loading, solver] = report.scene;
   return {
       {"Assembly",
        fmt::format("{} layers of {} fibres, {} by {}, at {}, {} triangles a fibre", assembly.layers,
@@ -115,12 +194,11 @@ Facts scene_facts(const sim::Scene& scene) {
                                        to_string(joints.distribution), setting(joints.scatter),
                                        setting(joints.missing / in::percent, "%"), joints.seed)
                          : "one per joint, given"},
-      {"Loading",
-       fmt::format("{} 1/s, {} sides, {} start, up to {} strain, followed to {} of the strength",
-                   setting(loading.strain_rate),
-                   loading.lateral == sim::Lateral::periodic ? "periodic" : "free",
-                   loading.start == sim::Start::uniform ? "uniform" : "rest",
-                   setting(loading.max_strain / in::percent, "%"), setting(loading.end_fraction))},
+      {"Loading", fmt::format("{} 1/s, {} sides, {} start, up to {} strain, followed to {}",
+                              setting(loading.strain_rate),
+                              loading.lateral == sim::Lateral::periodic ? "periodic" : "free",
+                              loading.start == sim::Start::uniform ? "uniform" : "rest",
+                              setting(loading.max_strain / in::percent, "%"), followed_to(report))},
       {"Tolerance", setting(solver.tolerance)}};
 }
 
@@ -129,16 +207,17 @@ Facts scene_facts(const sim::Scene& scene) {
 std::string simulation_page(const SimulationReport& report) {
   const sim::Simulation& simulation = report.simulation;
   return render_page(
-      "havers simulate", "simulation",
-      {{"grade", text(simulation.trusted() ? "good" : "bad")},
+      "havers simulate" + (report.file.empty() ? "" : ": " + report.file), "simulation",
+      {{"grade", text(grade_of(simulation))},
        {"sentence", text(sentence_of(simulation))},
        {"detail", text(cost_of(report))},
        {"facts", mstch::node{fact_list(key_numbers(report))}},
        {"curve", text(draw(simulation_figure(report, "curve")))},
+       {"in_time", mstch::node{simulation.regime == sim::Regime::dynamic}},
+       {"end", text(end_of(report))},
        {"fracture", text(fracture_svg(report.assembly, simulation))},
        {"left_out", left_out_section(simulation.left_out)},
-       {"scene",
-        mstch::node{mstch::map{{"facts", mstch::node{fact_list(scene_facts(report.scene))}}}}}},
+       {"scene", mstch::node{mstch::map{{"facts", mstch::node{fact_list(scene_facts(report))}}}}}},
       report.provenance);
 }
 

@@ -27,8 +27,8 @@ TEST(Simulate, LeavesTheFilesOfTheContract) {
   const auto result = nlohmann::json::parse(test::read_text(folder / "out/result.json"));
   for (const char* key :
        {"status", "trusted", "strength_Pa", "failure_strain", "modulus_Pa", "first_break_strain",
-        "broken_joints", "steps", "energy_defect", "worst_residual", "worst_penetration_m",
-        "wall_s", "left_out", "scene", "provenance"})
+        "broken_joints", "end_fraction_used", "steps", "energy_defect", "worst_residual",
+        "worst_penetration_m", "wall_s", "left_out", "scene", "provenance"})
     EXPECT_TRUE(result.contains(key)) << key;
   EXPECT_EQ(result["status"], "broken");
   EXPECT_NEAR(result["modulus_Pa"].get<double>() / 13e9, 1.0, 1e-9);
@@ -60,6 +60,46 @@ TEST(Simulate, PrintsTheStepsErrorBesideTheTime) {
             std::string::npos);
   EXPECT_NE(time_of(impact).find("steps, whose error is not known"), std::string::npos);
   EXPECT_NE(time_of("").find(" events"), std::string::npos);
+}
+
+TEST(Simulate, IsTrustedButForAStepThatWasGiven) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "scene.toml", test::small_scene());
+  const auto answer = run_havers(folder, std::string("simulate scene.toml -o out") + impact);
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_TRUE(
+      answer.out.starts_with("to be trusted but for the time step: 20 ns was given, and its "
+                             "error is not known; after a break"))
+      << answer.out;
+}
+
+TEST(Simulate, SaysDownToWhereBrokenJointsAreCounted) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "scene.toml", test::small_scene());
+  const auto out = [&](const std::string& settings) {
+    return run_havers(folder, "simulate scene.toml -o out --force" + settings).out;
+  };
+  const std::string early = out("");
+  EXPECT_NE(early.find("bear less than 0.688 of the strength\n"), std::string::npos) << early;
+  EXPECT_NE(early.find("; counted down to 0.688 of the strength (solver.leave_out = false follows "
+                       "on, to 0.3)\n"),
+            std::string::npos)
+      << early;
+  const std::string whole = out(" --set solver.leave_out=false");
+  EXPECT_NE(whole.find("bear less than 0.3 of the strength\n"), std::string::npos) << whole;
+  EXPECT_EQ(whole.find("counted down"), std::string::npos) << whole;
+}
+
+TEST(Simulate, GivesABoundOfTheStrengthOfARunThatDidNotBreak) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "scene.toml", test::small_scene());
+  const std::string out =
+      run_havers(folder, "simulate scene.toml -o out --set loading.max_strain=1e-4").out;
+  EXPECT_NE(out.find("\nstrength       at least 1.3 MPa\n"), std::string::npos) << out;
+  EXPECT_NE(out.find("\nfailure strain -, not reached within the strain limit of 0.01 %\n"),
+            std::string::npos)
+      << out;
+  EXPECT_NE(out.find("penetration 0 m\n"), std::string::npos) << out;
 }
 
 TEST(Simulate, JsonIsTheResultFile) {

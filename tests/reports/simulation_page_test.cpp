@@ -45,6 +45,78 @@ TEST(SimulationPage, SaysWhatHalvingTheStepChangedOrThatItIsNotKnown) {
   EXPECT_FALSE(contains(page(), "time step is"));
 }
 
+TEST(SimulationPage, IsNotGreenWhereTheStepLeavesAnErrorOrOneThatIsNotKnown) {
+  const auto assembly = small_assembly();
+  auto simulation = test::simulation_sample(assembly);
+  const auto page = [&] { return simulation_page({sim::Scene{}, assembly, simulation, {}}); };
+  simulation.step_error = {.failure_strain = 6.5e-4, .strength = 9e-4};
+  EXPECT_TRUE(contains(page(), "verdict good"));
+  simulation.step_error = {.failure_strain = 6.5e-4, .strength = 0.022};
+  EXPECT_TRUE(contains(page(), "verdict mixed"));
+  EXPECT_TRUE(contains(page(),
+                       "strength 38.90\u00a0MPa (± 2.2\u00a0% by the step) at "
+                       "0.300\u00a0% strain. To be trusted."));
+  simulation.step_error.reset();
+  EXPECT_TRUE(contains(page(), "verdict mixed"));
+  EXPECT_TRUE(contains(
+      page(), "To be trusted but for the time step: 20 ns was given, and its error is not known."));
+}
+
+TEST(SimulationPage, NamesTheScenesFile) {
+  const auto assembly = small_assembly();
+  const auto simulation = test::simulation_sample(assembly);
+  const std::string page =
+      simulation_page({sim::Scene{}, assembly, simulation, {}, 1.0, "bar & wall.toml"});
+  EXPECT_TRUE(contains(page, "<title>havers simulate: bar &amp; wall.toml</title>"));
+  EXPECT_TRUE(contains(page, "<h1>havers simulate: bar &amp; wall.toml</h1>"));
+}
+
+TEST(SimulationPage, SaysDownToWhereItWasFollowed) {
+  const auto assembly = small_assembly();
+  auto simulation = test::simulation_sample(assembly);
+  const auto page = [&] { return simulation_page({sim::Scene{}, assembly, simulation, {}}); };
+  EXPECT_TRUE(contains(page(), "both sides first bear less than 0.3 of the strength, where"));
+  EXPECT_FALSE(contains(page(), "solver.leave_out"));
+  simulation.end_fraction_used = 0.85;
+  for (const char* words :
+       {"followed to 0.85 of the strength (0.3 where nothing is left out)",
+        "after a break both sides bear less than 0.85 of the strength",
+        "neither shown nor counted (solver.leave_out = false follows it on, to 0.3)",
+        ", counted down to 0.85 of the strength"})
+    EXPECT_TRUE(contains(page(), words)) << words;
+}
+
+TEST(SimulationPage, CountsStepsFromTheFirstBreakOnWhereTheRunLeapsToIt) {
+  const auto assembly = small_assembly();
+  auto simulation = test::simulation_sample(assembly);
+  simulation.step = 3.06e-11;
+  const auto page = [&] { return simulation_page({sim::Scene{}, assembly, simulation, {}}); };
+  EXPECT_TRUE(contains(page(), ">400 of 30.6 ps<"));
+  simulation.leapt_strain = 1e-3;
+  EXPECT_TRUE(contains(page(), ">400, of 30.6 ps from the first break on<"));
+}
+
+TEST(SimulationPage, GivesABoundOfTheStrengthOfARunThatDidNotBreak) {
+  const auto assembly = small_assembly();
+  auto simulation = test::simulation_sample(assembly);
+  const auto page = [&] { return simulation_page({sim::Scene{}, assembly, simulation, {}}); };
+  EXPECT_FALSE(contains(page(), "at least"));
+  simulation.status = sim::SimulationStatus::strain_limit;
+  EXPECT_TRUE(contains(page(), "<th>Strength, at least</th>"));
+  EXPECT_TRUE(contains(page(), "not reached within the strain limit of 5\u00a0%"));
+  simulation.status = sim::SimulationStatus::step_limit;
+  EXPECT_TRUE(contains(page(), "<td>not reached</td>"));
+}
+
+TEST(SimulationPage, SaysWhichSidesStressIsTheStrength) {
+  const auto assembly = small_assembly();
+  auto simulation = test::simulation_sample(assembly);
+  const auto page = [&] { return simulation_page({sim::Scene{}, assembly, simulation, {}}); };
+  EXPECT_TRUE(contains(page(), "The strength is the largest stress of the right side."));
+  simulation.regime = sim::Regime::quasi_static;  // both sides bear the same
+  EXPECT_FALSE(contains(page(), "right side"));
+}
+
 TEST(SimulationPage, ShowsWhatTheSceneSets) {
   const auto assembly = small_assembly();
   sim::Scene scene;
