@@ -48,19 +48,21 @@ std::string unknown_word(const CLI::App& app) {
   const std::vector<CLI::App*> commands = app.get_subcommands();
   const CLI::App& used = commands.empty() ? app : *commands.front();
   const std::vector<std::string> rest = used.remaining();
+  if (rest.empty()) return "";
   const auto is_option = [](const std::string& word) { return word.starts_with("-"); };
-  const auto option = std::ranges::find_if(rest, is_option);
   std::set<std::string, std::less<>> known;
-  if (option != rest.end()) {
-    for (const CLI::Option* one : used.get_options())
-      for (const std::string& name : one->get_lnames()) known.insert("--" + name);
-    const std::string hint = io::did_you_mean(option->substr(0, option->find('=')), known);
-    return fmt::format("{} is no option of {}{}", *option, used.get_name(),
-                       hint.empty() ? "" : ", " + hint);
+  if (commands.empty() && !is_option(rest.front())) {  // its options are those of no command yet
+    for (const CLI::App* command : app.get_subcommands({})) known.insert(command->get_name());
+    return fmt::format("{} is no command, {}", rest.front(),
+                       io::nearest_or_all(rest.front(), known));
   }
-  if (rest.empty() || !commands.empty()) return "";
-  for (const CLI::App* command : app.get_subcommands({})) known.insert(command->get_name());
-  return fmt::format("{} is no command, {}", rest.front(), io::nearest_or_all(rest.front(), known));
+  const auto option = std::ranges::find_if(rest, is_option);
+  if (option == rest.end()) return "";
+  for (const CLI::Option* one : used.get_options())
+    for (const std::string& name : one->get_lnames()) known.insert("--" + name);
+  const std::string hint = io::did_you_mean(option->substr(0, option->find('=')), known);
+  return fmt::format("{} is no option of {}{}", *option, used.get_name(),
+                     hint.empty() ? "" : ", " + hint);
 }
 
 // CLI11 answers -h and --version through exceptions too; those are successes.

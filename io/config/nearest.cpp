@@ -26,6 +26,11 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return of[a.size()][b.size()];
 }
 
+// The dashes of an option are no part of its name.
+std::size_t letters(std::string_view word) {
+  return word.size() - std::min(word.find_first_not_of('-'), word.size());
+}
+
 }  // namespace
 
 std::string did_you_mean(std::string_view word,
@@ -35,7 +40,7 @@ std::string did_you_mean(std::string_view word,
   };
   const auto found = std::ranges::min_element(candidates, closer);
   if (found != candidates.end() &&
-      3 * distance(word, *found) <= 2 + std::max(word.size(), found->size()))
+      3 * distance(word, *found) <= 2 + std::max(letters(word), letters(*found)))
     return fmt::format("did you mean {}?", *found);
   const auto without_unit = [&](const std::string& key) {
     return key.starts_with(std::string(word) + "_");

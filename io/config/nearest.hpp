@@ -7,8 +7,8 @@
 namespace havers::io {
 
 /// "did you mean X?" of the candidate with the fewest letters to insert, drop or replace; none
-/// where these are more than about a third of the word, unless it lacks only the unit: "width" of
-/// "width_mm".
+/// where these are more than about a third of the word without its dashes, unless it lacks only the
+/// unit: "width" of "width_mm".
 std::string did_you_mean(std::string_view word,
                          const std::set<std::string, std::less<>>& candidates);
 

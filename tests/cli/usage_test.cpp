@@ -124,6 +124,10 @@ TEST(Usage, WordsThatNothingKnowsAreNamedWithTheNearest) {
       {"check a.toml --sed 3", "--sed is no option of check, did you mean --seed?"},
       {"fit a.toml --outptu=b", "--outptu=b is no option of fit, did you mean --output?"},
       {"--verison", "--verison is no option of havers, did you mean --version?"},
+      {"simulat x.toml -o out", "simulat is no command, did you mean simulate?"},
+      {"-o out simulat x.toml", "-o is no option of havers"},
+      {"check a.toml --foo", "--foo is no option of check"},
+      {"check a.toml --forse", "--forse is no option of check, did you mean --force?"},
       {"check a.toml --frobnicate", "--frobnicate is no option of check"}};
   for (const auto& [arguments, sentence] : wrong) {
     const auto answer = run_havers(folder, arguments);
