@@ -64,7 +64,7 @@ void print_summary(const sim::WorkPrecision& study) {
 
 int bench_scene(const BenchArguments& arguments, const CommonOptions& common) {
   if (arguments.scene.empty())
-    throw io::InputError("havers bench", "no scene is given", "havers bench SCENE.toml -o DIR");
+    throw io::InputError("bench", "no scene is given", "havers bench SCENE.toml -o DIR");
   const Stopwatch watch;
   io::SceneFile file = io::read_scene(arguments.scene, common.set);
   if (common.seed) file.scene.joints.seed = *common.seed;
