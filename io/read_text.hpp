@@ -5,7 +5,8 @@
 
 namespace havers::io {
 
-/// All of a file. @throws InputError with the hint when it cannot be read.
+/// All of a file. @throws InputError when it is not there or a folder, with the hint of what is
+/// expected there, and when it cannot be read.
 std::string read_text(const std::filesystem::path& file, const std::string& hint);
 
 }  // namespace havers::io

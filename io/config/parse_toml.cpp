@@ -15,7 +15,10 @@ namespace {
 toml::table parse_file(const std::filesystem::path& file) {
   const std::string text = read_text(file, "a TOML file is expected there");
   try {
-    return toml::parse(text, file.string());
+    toml::table table = toml::parse(text, file.string());
+    if (table.empty())
+      throw InputError(file.string(), "is empty", "a study, scene or sweep is expected there");
+    return table;
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
     throw InputError(fmt::format("{}:{}:{}", file.string(), at.line, at.column),

@@ -15,8 +15,8 @@ inline constexpr std::string_view override_mark = "--set ";
 /// Whether the command line gave the node.
 bool is_override(const toml::node& node);
 
-/// No file: the overrides alone. @throws InputError when the file cannot be read or is not TOML,
-/// and for overrides that are not key=value.
+/// No file: the overrides alone. @throws InputError when the file cannot be read, is not TOML or
+/// holds no key, and for overrides that are not key=value.
 toml::table parse_toml(const std::filesystem::path& file, const Overrides& overrides);
 
 }  // namespace havers::io

@@ -185,6 +185,18 @@ TEST(Usage, NamesOfFilesNeedNotBeUtf8) {
   EXPECT_EQ(nlohmann::json::parse(test::read_text(folder / "out/import.json")), json);
 }
 
+TEST(Usage, AMissingFileAFolderAndOneThatIsForbiddenAreToldApart) {
+  const auto folder = own_folder();
+  std::filesystem::create_directory(folder / "sub");
+  const auto said = [&](const std::string& file) {
+    return run_havers(folder, "check " + file).err;
+  };
+  EXPECT_EQ(said("none.toml"), "havers: none.toml: is not there (a TOML file is expected there)\n");
+  EXPECT_EQ(said("sub"), "havers: sub: is a folder (a TOML file is expected there)\n");
+  std::filesystem::create_symlink("loop.toml", folder / "loop.toml");
+  EXPECT_TRUE(said("loop.toml").starts_with("havers: loop.toml: cannot be read: "));
+}
+
 TEST(Usage, MissingFilesAreNamed) {
   const auto folder = own_folder();
   for (const char* arguments :
@@ -216,10 +228,13 @@ TEST(Check, SaysNoProblemsOrAllOfThem) {
   auto answer = run_havers(folder, "check good.toml");
   EXPECT_EQ(answer.exit_code, 0);
   EXPECT_EQ(answer.out, "no problems in this scene\n");
-  test::write_text(folder / "empty.toml", "");
-  EXPECT_EQ(run_havers(folder, "check empty.toml").out, "no problems in this scene\n");
-  answer = run_havers(folder, "check empty.toml --json");
+  answer = run_havers(folder, "check good.toml --json");
   EXPECT_EQ(nlohmann::json::parse(answer.out).at("kind"), "scene");
+
+  test::write_text(folder / "empty.toml", "# layers = 3\n");
+  answer = run_havers(folder, "check empty.toml");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_TRUE(answer.err.starts_with("havers: empty.toml: is empty (")) << answer.err;
 
   answer = run_havers(folder, "check bad.toml");
   EXPECT_EQ(answer.exit_code, 2);

@@ -100,8 +100,14 @@ snapshots = 5
   EXPECT_EQ(file.snapshots, 5);
 }
 
-TEST_F(ReadScene, OfAnEmptyFileIsTheDefaultScene) {
-  const SceneFile file = read("");
+TEST_F(ReadScene, RefusesAFileWithoutKeys) {
+  for (const char* text : {"", "\n\n", "# layers = 4\n"})
+    EXPECT_THAT(complaints(text),
+                ElementsAre("scene.toml: is empty (a study, scene or sweep is expected there)"));
+}
+
+TEST_F(ReadScene, WithoutAKeyInItsTableIsTheDefaultScene) {
+  const SceneFile file = read("[assembly]\n");
   EXPECT_EQ(file.scene.assembly.layers, 30);
   EXPECT_EQ(file.scene.joints.flank, 10e6);
   EXPECT_FALSE(file.scene.joints.reinforced_boundary.has_value());
@@ -210,9 +216,9 @@ TEST_F(ReadScene, SaysWhereTheFileIsNotToml) {
 
 TEST_F(ReadScene, SaysThatTheFileIsNotThere) {
   EXPECT_THAT(test::complaints_of(folder, [&] { read_scene(folder.path() / "none.toml"); }),
-              ElementsAre("none.toml: cannot be read (a TOML file is expected there)"));
+              ElementsAre("none.toml: is not there (a TOML file is expected there)"));
   EXPECT_THAT(test::complaints_of(folder, [&] { read_scene(folder.path() / "."); }),
-              ElementsAre(HasSubstr("cannot be read")));
+              ElementsAre(HasSubstr(": is a folder (a TOML file is expected there)")));
 }
 
 TEST_F(ReadScene, LetsTheCommandLineOverrideTheFile) {
@@ -235,11 +241,11 @@ TEST_F(ReadScene, BlamesTheCommandLineForWhatItOverrides) {
                   "--set joints.scatter: is 3, must be at least 0 and below 2 (the length of the "
                   "interval of threshold factors)",
                   "--set joints.frction: is not a known key (did you mean friction?)"));
-  EXPECT_THAT(complaints("", {"joints.seed=18446744073709551615"}),
+  EXPECT_THAT(complaints("[joints]\n", {"joints.seed=18446744073709551615"}),
               ElementsAre("--set joints.seed: is 18446744073709551615, must be at most 2^63 - "
                           "1"));
-  EXPECT_THAT(complaints("", {"joints.seed=9223372036854775807"}), ElementsAre());
-  EXPECT_THAT(complaints("", {"joints.scatter", "=3"}),
+  EXPECT_THAT(complaints("[joints]\n", {"joints.seed=9223372036854775807"}), ElementsAre());
+  EXPECT_THAT(complaints("[joints]\n", {"joints.scatter", "=3"}),
               ElementsAre("--set joints.scatter: has no value (write --set joints.scatter=0.3)",
                           HasSubstr("--set : is not TOML")));
 }

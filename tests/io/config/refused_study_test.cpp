@@ -71,7 +71,9 @@ TEST_F(RefusedStudy, IsNoSceneAndNoSweep) {
 }
 
 TEST_F(RefusedStudy, AsksForSpecimens) {
-  EXPECT_THAT(complaints(""),
+  EXPECT_THAT(complaints(""), ElementsAre("study.toml: is empty (a study, scene or sweep is "
+                                          "expected there)"));
+  EXPECT_THAT(complaints("[study]\n"),
               ElementsAre("study.toml: specimen: is missing (write one [[specimen]] for each "
                           "test)"));
   EXPECT_THAT(

@@ -165,7 +165,7 @@ TEST(FitFolder, SaysWhatIsWrongWithAFolder) {
                                          "it otherwise (run the fit again"));
   write_folder(folder, sample(), {});
   std::filesystem::remove(folder.path() / "curves/A1.csv");
-  EXPECT_THAT(refusal(folder), HasSubstr("A1.csv: cannot be read"));
+  EXPECT_THAT(refusal(folder), HasSubstr("A1.csv: is not there"));
 }
 
 TEST(ImportJson, HoldsTheKeysOfTheContract) {

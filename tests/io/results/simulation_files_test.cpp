@@ -168,7 +168,7 @@ TEST(Thresholds, MustNameEveryJointOnce) {
               HasSubstr("t.csv:2: column f_T is empty, must be a number"));
   EXPECT_THAT(refused(""), HasSubstr("t.csv: is empty (the columns needed are joint,f_N,f_T)"));
   EXPECT_THAT(complaint([&] { read_thresholds(folder.path() / "none.csv"); }),
-              HasSubstr("none.csv: cannot be read"));
+              HasSubstr("none.csv: is not there (a CSV file"));
 }
 
 TEST(WriteFile, ReplacesAFileWhole) {
