@@ -36,6 +36,19 @@ void read_plan(TableReader& top, calib::Sweep& sweep) {
                                                : "only keys of the scene can");
 }
 
+// Every point puts its own value on top.
+void refuse_settings_of_varied_keys(const Overrides& overrides, const calib::SweepPlan& plan) {
+  std::vector<Problem> problems;
+  for (const std::string& setting : overrides) {
+    std::string key = setting.substr(0, setting.find('='));
+    key.erase(key.find_last_not_of(' ') + 1);
+    if (std::ranges::find(plan.keys, key, &calib::SweepKey::name) != plan.keys.end())
+      problems.push_back({std::string(override_mark) + key, "sets nothing: the sweep varies it",
+                          fmt::format("--set 'sweep.keys.\"{}\"=[...]' gives its values", key)});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
 // Keys of a scene or of a sample that were pasted along.
 std::vector<std::string> idle_keys_of_sweep(TableReader& top, const calib::SweepPlan& plan) {
   std::vector<std::string> warnings;
@@ -134,6 +147,7 @@ SweepFile read_sweep(const std::filesystem::path& file, const Overrides& overrid
   SweepFile read{.sweep = {}, .inputs = {file}};
   calib::Sweep& sweep = read.sweep;
   read_plan(top, sweep);
+  refuse_settings_of_varied_keys(overrides, sweep.plan);
   if (!sweep.plan.problems().empty()) {  // no points, so the scene is read as it stands
     sim::Scene scene;
     read_scene_tables(top, scene);

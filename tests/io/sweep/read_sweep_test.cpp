@@ -123,6 +123,22 @@ TEST(ReadSweep, NamesAMarginThatCannotBe) {
   EXPECT_NO_THROW(read_sweep(folder.write("s.toml", text + "\"above\"\n")));
 }
 
+TEST(ReadSweep, RefusesASettingOfAKeyThatVaries) {
+  const ScratchFolder folder;
+  const auto file = folder.write("s.toml", good);
+  EXPECT_THAT(complaints_of(folder, [&] { read_sweep(file, {"joints.scatter = 0.3"}); }),
+              ElementsAre("--set joints.scatter: sets nothing: the sweep varies it (--set "
+                          "'sweep.keys.\"joints.scatter\"=[...]' gives its values)"));
+  EXPECT_EQ(read_sweep(file, {"sweep.keys.\"joints.scatter\"=[0.3]"}).sweep.points.size(), 2U);
+}
+
+TEST(ReadSweep, RefusesAFileWithoutKeys) {
+  const ScratchFolder folder;
+  const auto file = folder.write("s.toml", "# nothing yet\n");
+  EXPECT_THAT(complaints_of(folder, [&] { read_sweep(file); }),
+              ElementsAre(HasSubstr("s.toml: is empty (")));
+}
+
 TEST(ReadSweep, NamesWhatIsWrongWithThePlan) {
   const ScratchFolder folder;
   const auto file = folder.write("s.toml", "[sweep]\nseeds = 0\n");
