@@ -8,6 +8,8 @@
 
 #include "io/machine/facts.hpp"
 #include "io/machine/number.hpp"
+#include "io/machine/units.hpp"
+#include "io/machine/vocabulary.hpp"
 
 namespace havers::io {
 namespace {
@@ -143,11 +145,23 @@ void SpecimenTables::take_header_row(const Row& row) {
   if (two_rows || header_.size() >= longest_header) end_header();
 }
 
-// A header that leads to no table with names was a row of text among the numbers.
+// Whether its names speak of a quantity or a unit that is known, or are those of the table before.
+bool SpecimenTables::names_a_specimen(const Table& table) const {
+  const std::vector<Column>& before = specimens_[current_].file.columns;
+  const auto speaks = [](const std::string& name) {
+    return quantity_of_name(name) != Quantity::other;
+  };
+  const auto is_known = [](const std::string& unit) { return find_unit(unit).has_value(); };
+  return std::ranges::any_of(table.names, speaks) || std::ranges::any_of(table.units, is_known) ||
+         std::ranges::equal(table.names, before, {}, {}, &Column::name);
+}
+
+// A header that leads to no table of a specimen was a row of text among the numbers.
 void SpecimenTables::end_header() {
   const Preview preview{dialect_, std::exchange(header_, {})};
   const std::optional<Table> table = recognise_table(preview);
-  if (!table || table->names.empty() || table->layout == results_layout) {
+  if (!table || table->names.empty() || table->layout == results_layout ||
+      !names_a_specimen(*table)) {
     const SpecimenColumns& specimen = specimens_[current_];
     const Channel& channel = specimen.channels.front();
     const PreviewRow& row = preview.rows.front();

@@ -36,6 +36,7 @@ class SpecimenTables {
   bool take_row(const Row& row);
   [[nodiscard]] bool begins_header(const Row& row) const;
   void take_header_row(const Row& row);
+  [[nodiscard]] bool names_a_specimen(const Table& table) const;
   void end_header();
   void take_held_back_numbers(const std::vector<PreviewRow>& rows, std::size_t first_line);
 

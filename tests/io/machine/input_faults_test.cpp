@@ -64,6 +64,12 @@ TEST(InputFaults, NamesTextWhereANumberShouldBe) {
   EXPECT_EQ(complaint_of(header + "2,,4\n"), "test.csv:4: column \"Load\": \"\" is empty");
 }
 
+// Words that name no quantity are no header of a further specimen.
+TEST(InputFaults, NamesARowOfTextAmongTheNumbers) {
+  EXPECT_EQ(complaint_of(header + "2,3,4\nx,y,z\n3,4,5\n4,5,6\n5,6,7\n"),
+            "test.csv:5: column \"Time\": \"x\" is not a number");
+}
+
 TEST(InputFaults, NamesNumbersThatAreNone) {
   EXPECT_EQ(complaint_of(header + "2,NaN,4\n"),
             "test.csv:4: column \"Load\": \"NaN\" is not a finite number");
