@@ -8,8 +8,8 @@
 namespace havers::io {
 
 struct ImportSettings {
-  ReadOptions columns{};
-  ReadOptions gauge_columns{.logger = true};
+  ReadOptions columns{.alone = true};
+  ReadOptions gauge_columns{.logger = true, .alone = true};
   calib::ReductionOptions reduction;
 };
 

@@ -82,7 +82,7 @@ std::string unknown_unit(const Column& column) {
 }
 
 std::string unit_hint_of(Quantity quantity, const ReadOptions& options) {
-  return fmt::format("say {}_unit = ... in {}", to_string(quantity), hint_table(options));
+  return "say " + column_setting(options, to_string(quantity) + "_unit", "...");
 }
 
 // Factor to SI; the warnings say what was assumed.
@@ -137,9 +137,9 @@ std::string other_choice(const TestFile& file, std::size_t taken, std::size_t ot
                          const ReadOptions& options) {
   const Column& column = file.columns[other];
   return fmt::format(
-      R"(columns "{}" and "{}" both hold {}: "{}" is used ({} = {} in {} takes the other))",
+      R"(columns "{}" and "{}" both hold {}: "{}" is used ({} takes the other))",
       file.columns[taken].name, column.name, to_string(column.quantity), file.columns[taken].name,
-      to_string(key_of(column.quantity)), other + 1, hint_table(options));
+      column_setting(options, to_string(key_of(column.quantity)), std::to_string(other + 1)));
 }
 
 // The best columns first; a second column of a quantity is not used, and that is said unless the
@@ -194,41 +194,44 @@ void name_unknown_units(TestFile& file, const std::string& where, const ReadOpti
   }
 }
 
-constexpr const char* volt_hint =
-    "say what a volt is in [specimen.columns], as in force_unit = \"500 N/V\"";
+const char* volt_hint(const ReadOptions& options) {
+  return options.alone ? "say what a volt is, as in --set columns.force_unit='500 N/V'"
+                       : "say what a volt is in [specimen.columns], as in force_unit = \"500 N/V\"";
+}
 
 // A signal in volts is of use only where another signal tells its factor.
 // Where nothing at all was recognised, the numbers may tell.
-void need_load(TestFile& file, const Table& table, bool has_logger, Chosen& chosen) {
+void need_load(TestFile& file, const Table& table, const ReadOptions& options, Chosen& chosen) {
   const std::string where = place_of(file, table);
   const bool loaded = chosen.contains(Quantity::force) || chosen.contains(Quantity::stress);
-  if (!loaded && has_logger && chosen.contains(Quantity::load_volts)) return;
+  if (!loaded && options.has_logger && chosen.contains(Quantity::load_volts)) return;
   for (const Quantity quantity : {Quantity::load_volts, Quantity::volts}) {
     const auto volts = chosen.find(quantity);
     if (volts == chosen.end()) continue;
     const std::string what =
         fmt::format("column \"{}\" is in volts", file.columns[volts->second].name);
-    if (!loaded) throw InputError(where, what, volt_hint);
-    file.test.warnings.push_back(fmt::format("{}: not used ({})", what, volt_hint));
+    if (!loaded) throw InputError(where, what, volt_hint(options));
+    file.test.warnings.push_back(fmt::format("{}: not used ({})", what, volt_hint(options)));
     chosen.erase(volts);
   }
   if (loaded) return;
   throw InputError(
       where, "no column holds a force or a stress",
-      fmt::format("the columns are {}; name it in [specimen.columns]{}", list_of(file.columns),
+      fmt::format("the columns are {}; name it {}{}", list_of(file.columns), column_place(options),
                   chosen.empty() && !table.guess.empty()
                       ? "; from the numbers it may be " + table.guess
                       : ""));
 }
 
-void need_gauge(const TestFile& file, const std::string& where, const Chosen& chosen) {
+void need_gauge(const TestFile& file, const std::string& where, const ReadOptions& options,
+                const Chosen& chosen) {
   const bool measures = std::ranges::any_of(chosen, [](const auto& entry) {
     return entry.first != Quantity::time && entry.first != Quantity::stress;
   });
   if (chosen.contains(Quantity::time) && measures) return;
   throw InputError(
       where, "a logger's file needs a time and a gauge",
-      "the columns are " + list_of(file.columns) + "; name them in [specimen.gauge_columns]");
+      "the columns are " + list_of(file.columns) + "; name them " + column_place(options));
 }
 
 }  // namespace
@@ -245,9 +248,9 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   name_doubts(file, options, chosen);
   name_unknown_units(file, where, options, chosen);
   if (options.logger)
-    need_gauge(file, where, chosen);
+    need_gauge(file, where, options, chosen);
   else
-    need_load(file, table, options.has_logger, chosen);
+    need_load(file, table, options, chosen);
   std::vector<Channel> channels;
   for (const auto& [quantity, column] : chosen)
     channels.push_back({quantity, table.first_column + column, column,

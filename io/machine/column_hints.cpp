@@ -77,8 +77,17 @@ std::string list_of(const std::vector<Column>& columns) {
   return columns.size() > most ? text + ", ..." : text;
 }
 
-std::string_view hint_table(const ReadOptions& options) {
-  return options.logger ? "[specimen.gauge_columns]" : "[specimen.columns]";
+std::string column_setting(const ReadOptions& options, std::string_view key,
+                           std::string_view value) {
+  const std::string_view table = options.logger ? "gauge_columns" : "columns";
+  return options.alone ? fmt::format("--set {}.{}={}", table, key, value)
+                       : fmt::format("{} = {} in [specimen.{}]", key, value, table);
+}
+
+std::string column_place(const ReadOptions& options) {
+  const std::string_view table = options.logger ? "gauge_columns" : "columns";
+  return options.alone ? fmt::format("by --set {}.KEY=VALUE", table)
+                       : fmt::format("in [specimen.{}]", table);
 }
 
 void take_units(TestFile& file, const std::string& where, const ReadOptions& options) {
@@ -94,8 +103,8 @@ void take_units(TestFile& file, const std::string& where, const ReadOptions& opt
       throw InputError(
           where,
           fmt::format("no column's name speaks of {0}, but {0}_unit is given", to_string(quantity)),
-          fmt::format("say {} = ... in {}; the columns are {}", to_string(quantity),
-                      hint_table(options), list_of(file.columns)));
+          fmt::format("say {}; the columns are {}",
+                      column_setting(options, to_string(quantity), "..."), list_of(file.columns)));
   }
 }
 
@@ -111,11 +120,11 @@ Chosen take_hints(TestFile& file, const std::string& where, const ReadOptions& o
     const std::optional<Quantity> held = held_in(column.unit, quantity);
     if (!held && !hint.unit.empty()) throw wrong_unit(where, hint.unit, quantity);
     if (!held && find_unit(column.unit))
-      throw InputError(where,
-                       fmt::format("column \"{}\" is in {}, which is no unit of {}",
-                                   excerpt(column.name), excerpt(column.unit), to_string(quantity)),
-                       fmt::format("name another, or say {}_unit = ... in {}", to_string(quantity),
-                                   hint_table(options)));
+      throw InputError(
+          where,
+          fmt::format("column \"{}\" is in {}, which is no unit of {}", excerpt(column.name),
+                      excerpt(column.unit), to_string(quantity)),
+          "name another, or say " + column_setting(options, to_string(quantity) + "_unit", "..."));
     column.quantity = held.value_or(quantity);
     chosen[column.quantity] = *found;
   }

@@ -20,8 +20,13 @@ Quantity in_volts(Quantity quantity);
 /// The names and units of the columns, for a sentence.
 std::string list_of(const std::vector<Column>& columns);
 
-/// The table of a study in which the user speaks of the columns.
-std::string_view hint_table(const ReadOptions& options);
+/// How the user says something of the columns: "force = 2 in [specimen.columns]" or, of a test that
+/// is in no study, "--set columns.force=2".
+std::string column_setting(const ReadOptions& options, std::string_view key,
+                           std::string_view value);
+
+/// Where the user speaks of the columns: "in [specimen.columns]", "by --set columns.KEY=VALUE".
+std::string column_place(const ReadOptions& options);
 
 /// Gives the columns that their names tell the user's units. @throws InputError when a unit is not
 /// one of its quantity, or no column has such a name.

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "io/input_error.hpp"
+#include "io/machine/column_hints.hpp"
 #include "io/machine/guess.hpp"
 #include "io/machine/layout.hpp"
 #include "io/machine/specimen_tables.hpp"
@@ -44,9 +45,9 @@ void name_columns(Table& table, const std::string& name, const Preview& preview,
                   const ReadOptions& options) {
   if (!table.names.empty()) return;
   if (options.columns.empty())
-    throw InputError(
-        fmt::format("{}:{}", name, table.first_line), "the columns have no names",
-        "say which is which in [specimen.columns]; from the numbers it may be " + table.guess);
+    throw InputError(fmt::format("{}:{}", name, table.first_line), "the columns have no names",
+                     fmt::format("say which is which {}; from the numbers it may be {}",
+                                 column_place(options), table.guess));
   const auto first = std::ranges::find(preview.rows, table.first_line, &PreviewRow::line);
   for (std::size_t i = 0; i < first->cells.size(); ++i) {
     table.names.push_back(std::to_string(i + 1));

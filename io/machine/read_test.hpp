@@ -46,6 +46,7 @@ struct ReadOptions {
   std::string specimen{};   ///< Its name in a file of several, or its number from 1.
   bool logger = false;      ///< The file of a second logger: time and a gauge, no force.
   bool has_logger = false;  ///< A second logger's file tells what a volt of the load is.
+  bool alone = false;       ///< In no study: what is said of columns is said by --set.
   std::optional<double> width{}, thickness{}, gauge_length{};  ///< Instead of the file's. [m]
 };
 

@@ -65,6 +65,21 @@ TEST(WrittenUnits, ThatAreNotKnownAreNamed) {
             "[specimen.columns])");
 }
 
+TEST(WrittenUnits, AreSaidByTheCommandLineOfATestInNoStudy) {
+  EXPECT_EQ(refusal_of("Time (s);Load (daX)", {.alone = true}),
+            "unit \"daX\" of column \"Load\" is not known (say --set columns.force_unit=...)");
+  EXPECT_EQ(
+      refusal_of("Time (s);Extension (mm)", {.alone = true}),
+      "no column holds a force or a stress (the columns are Time (s), Extension (mm); name it "
+      "by --set columns.KEY=VALUE)");
+  EXPECT_EQ(refusal_of("Time (s);Load (V)", {.alone = true}),
+            "column \"Load\" is in volts (say what a volt is, as in --set "
+            "columns.force_unit='500 N/V')");
+  EXPECT_EQ(test_of("Load (N);Load 2 (N)", {.alone = true}).warnings.at(0),
+            "columns \"Load\" and \"Load 2\" both hold force: \"Load\" is used (--set "
+            "columns.force=2 takes the other)");
+}
+
 TEST(WrittenUnits, AreOverruledByTheUser) {
   for (const char* column : {"Load", "Load (daX)", "2"}) {
     const ReadOptions options{{{Quantity::force, {column, "kN"}}}};
