@@ -35,7 +35,7 @@ std::string state_of(const sim::BenchRow& row) {
   if (row.trusted == row.runs) return "";
   return row.out_of_time == 0
              ? "  not trusted"
-             : fmt::format("  stopped at {:.3g} % strain", 100.0 * row.reached.median);
+             : fmt::format("  stopped at {:.3g} % strain", 100.0 * row.stopped_at.median);
 }
 
 void print_row(const sim::BenchRow& row, bool reference) {
@@ -56,7 +56,9 @@ void print_summary(const sim::WorkPrecision& study) {
       summary(study), "regime", "contact", "tolerance", "step (ns)", "refinement", "leave out",
       "forces", "strength", "strain", "curve", "wall (s)", "CPU (s)", "iterations");
   for (const sim::BenchRow& row : study.rows) print_row(row, &row == &study.rows.front());
-  fmt::print("Errors of joint forces, strength, failure strain and curve are relative.\n");
+  fmt::print(
+      "Errors of joint forces, strength, failure strain and curve are relative{}.\n",
+      study.closed_form ? ", those of forces, before the first break, to their closed form" : "");
   if (study.omissions) fmt::print("{}\n", explain(*study.omissions));
 }
 

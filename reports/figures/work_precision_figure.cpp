@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "reports/bench_pages.hpp"
 #include "reports/figures/gnuplot.hpp"
@@ -16,7 +17,7 @@ constexpr double smallest_error = 1e-15;
 
 // Point types are gnuplot's of full points; one less is the hollow one.
 struct Series {
-  std::string_view title, look;
+  std::string_view title, size, colour;
   int point;
   bool (*holds)(const sim::BenchSetting& setting);
 };
@@ -26,14 +27,14 @@ bool steps_in_time(const sim::BenchSetting& s, sim::ContactMethod method) {
 }
 
 constexpr std::array<Series, 5> all_series{{
-    {"active set", "ps 1 lc rgb blue", 7,
+    {"active set", "1", "blue", 7,
      [](const auto& s) { return steps_in_time(s, sim::ContactMethod::active_set); }},
-    {"nothing left out", "ps 1.1 lc rgb orange", 11, [](const auto& s) { return !s.leave_out; }},
-    {"Gauss-Seidel", "ps 1.1 lc rgb red", 9,
+    {"nothing left out", "1.1", "orange", 11, [](const auto& s) { return !s.leave_out; }},
+    {"Gauss-Seidel", "1.1", "red", 9,
      [](const auto& s) { return steps_in_time(s, sim::ContactMethod::gauss_seidel); }},
-    {"quasi-static", "ps 1 lc rgb green", 5,
+    {"quasi-static", "1", "green", 5,
      [](const auto& s) { return s.regime == sim::Regime::quasi_static && s.leave_out; }},
-    {"finer mesh", "ps 1.2 lc rgb purple", 13, nullptr},
+    {"finer mesh", "1.2", "purple", 13, nullptr},
 }};
 
 bool belongs(const sim::BenchSetting& setting, const sim::BenchSetting& reference,
@@ -46,38 +47,82 @@ double drawn(double error) {
   return std::max(error, smallest_error);
 }
 
-// CPU time and error, median, least and largest of each; nothing where the error is not known.
+// CPU time and error, median, least and largest of each.
 std::string line_of(const sim::BenchSpread& cpu, const sim::BenchSpread& error) {
-  if (!std::isfinite(error.median)) return {};
   return fmt::format("{:.4g} {:.4g} {:.4g} {:.4g} {:.4g} {:.4g}\n", cpu.median, drawn(error.median),
                      cpu.low, cpu.high, drawn(error.low), drawn(error.high));
 }
 
-std::string work_panel(const sim::WorkPrecision& study, const std::string& name,
-                       sim::BenchSpread sim::BenchErrors::*error) {
-  std::string data, plots;
-  for (const Series& series : all_series) {
-    std::array<std::string, 2> lines;                      // not all runs to be trusted; all
-    for (std::size_t i = 1; i < study.rows.size(); ++i) {  // the reference has no error
-      const sim::BenchRow& row = study.rows[i];
-      if (belongs(row.setting, study.reference, series))
-        lines.at(row.trusted == row.runs ? 1 : 0) += line_of(row.cpu, row.errors.*error);
+bool differ_in_step_alone(sim::BenchSetting a, const sim::BenchSetting& b) {
+  const bool both_given = a.step && b.step;
+  a.step = b.step;
+  return both_given && a == b;
+}
+
+// One quantity's errors, as commands of gnuplot.
+class ErrorPanel {
+ public:
+  ErrorPanel(const sim::WorkPrecision& study, std::string name,
+             sim::BenchSpread sim::BenchErrors::*error)
+      : study_(study), name_(std::move(name)), error_(error) {}
+
+  std::string commands() {
+    for (const Series& series : all_series) {
+      add_lines(series);
+      add_points(series);
     }
+    return plots_.empty() ? std::string() : data_ + plots_ + "\n";
+  }
+
+ private:
+  [[nodiscard]] std::vector<const sim::BenchRow*> rows_of(const Series& series) const {
+    std::vector<const sim::BenchRow*> rows;
+    for (std::size_t i = 1; i < study_.rows.size(); ++i)  // the reference has no error
+      if (belongs(study_.rows[i].setting, study_.reference, series) &&
+          std::isfinite((study_.rows[i].errors.*error_).median))
+        rows.push_back(&study_.rows[i]);
+    return rows;
+  }
+
+  // Through the steps of one solver, tolerance and mesh; an empty line of the data ends a line.
+  void add_lines(const Series& series) {
+    std::string lines;
+    const sim::BenchRow* before = nullptr;
+    for (const sim::BenchRow* row : rows_of(series)) {
+      if (before != nullptr && !differ_in_step_alone(row->setting, before->setting)) lines += "\n";
+      lines += line_of(row->cpu, row->errors.*error_);
+      before = row;
+    }
+    plot(lines, fmt::format("using 1:2 with lines lw 0.8 lc rgb {} notitle", series.colour));
+  }
+
+  // Hollow where not all runs are to be trusted.
+  void add_points(const Series& series) {
+    std::array<std::string, 2> points;
+    for (const sim::BenchRow* row : rows_of(series))
+      points.at(row->trusted == row->runs ? 1 : 0) += line_of(row->cpu, row->errors.*error_);
     std::string_view title = series.title;
     for (const int full : {1, 0}) {
-      const std::string& points = lines.at(static_cast<std::size_t>(full));
-      if (points.empty()) continue;
-      const std::string block = fmt::format("${}{}", name, std::ranges::count(data, '$'));
-      data += fmt::format("{} << EOD\n{}EOD\n", block, points);
-      plots +=
-          fmt::format("{}{} using 1:2:3:4:5:6 with xyerrorbars lw 1.2 pt {} {} {}",
-                      plots.empty() ? "plot " : ", ", block, series.point - 1 + full, series.look,
-                      title.empty() ? "notitle" : fmt::format("title '{}'", title));
-      title = {};
+      const std::string& data = points.at(static_cast<std::size_t>(full));
+      plot(data, fmt::format("using 1:2:3:4:5:6 with xyerrorbars lw 1.2 pt {} ps {} lc rgb {} {}",
+                             series.point - 1 + full, series.size, series.colour,
+                             title.empty() ? "notitle" : fmt::format("title '{}'", title)));
+      if (!data.empty()) title = {};
     }
   }
-  return plots.empty() ? std::string() : data + plots + "\n";
-}
+
+  void plot(const std::string& data, const std::string& how) {
+    if (data.empty()) return;
+    const std::string block = fmt::format("${}{}", name_, std::ranges::count(data_, '$'));
+    data_ += fmt::format("{} << EOD\n{}EOD\n", block, data);
+    plots_ += fmt::format("{}{} {}", plots_.empty() ? "plot " : ", ", block, how);
+  }
+
+  const sim::WorkPrecision& study_;
+  std::string name_;
+  sim::BenchSpread sim::BenchErrors::*error_;
+  std::string data_, plots_;
+};
 
 }  // namespace
 
@@ -85,8 +130,10 @@ std::string work_precision_svg(const sim::WorkPrecision& study) {
   Figure figure{.id = "work",
                 .description = "Error against CPU time of every setting, logarithmic on both axes",
                 .height = 720};
-  const std::string forces = work_panel(study, "forces", &sim::BenchErrors::bonded_forces);
-  const std::string strain = work_panel(study, "strain", &sim::BenchErrors::failure_strain);
+  const std::string forces =
+      ErrorPanel(study, "forces", &sim::BenchErrors::bonded_forces).commands();
+  const std::string strain =
+      ErrorPanel(study, "strain", &sim::BenchErrors::failure_strain).commands();
   if (strain.empty()) return draw(figure);
   figure.commands =
       "set multiplot\nset logscale xy\nset format y '10^{%L}'\nset format x '%g'\n"

@@ -35,7 +35,7 @@ std::string state_of(const sim::BenchRow& row, double time_limit) {
   if (row.out_of_time == 0)
     return fmt::format("{} of {} not to be trusted", row.runs - row.trusted, row.runs);
   return fmt::format("{} of {} stopped after {}, at a strain of {}", row.out_of_time, row.runs,
-                     duration(time_limit), quantity(row.reached.median / in::percent, "%", 3));
+                     duration(time_limit), quantity(row.stopped_at.median / in::percent, "%", 3));
 }
 
 // A reference that errors cannot be measured against is bad; that nothing else comes near is not
@@ -99,10 +99,14 @@ std::string work_precision_page(const WorkPrecisionReport& report) {
       "havers bench: error against run time", "bench",
       {{"sentence", text(typeset(summary(study)))},
        {"detail",
-        text(fmt::format("{} × {} fibres, {}. Errors are relative to {}, of the same seed: {}.",
+        text(fmt::format("{} × {} fibres, {}. Errors are relative to {}, of the same seed: {}.{}",
                          report.scene.assembly.fibres, report.scene.assembly.layers,
                          count(static_cast<long>(study.seeds.size()), "seed"),
-                         study.reference_ground, setting_text(study.reference)))},
+                         study.reference_ground, setting_text(study.reference),
+                         study.closed_form
+                             ? " Those of joint forces before the first break are relative to "
+                               "their closed form."
+                             : ""))},
        {"grade", text(grade_of(study))},
        {"figure", text(work_precision_svg(study))},
        {"strain", text(quantity(study.bonded_strain / in::percent, "%", 3))},
@@ -120,7 +124,8 @@ std::string stability_page(const StabilityReport& report) {
                                 [](const sim::StabilityResult& r) { return r.as_it_must; });
   return render_page("havers bench: stiff and extreme scenes", "stability",
                      {{"sentence", text(sim::summary(report.results))},
-                      {"detail", text("")},
+                      {"detail", text("h c/L is the time step over L/c, the time that a wave takes "
+                                      "along a fibre.")},
                       {"grade", text(good ? "good" : "bad")},
                       {"rows", mstch::node{rows}}},
                      report.provenance);

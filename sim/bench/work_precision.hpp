@@ -29,13 +29,14 @@ struct BenchRow {
   int runs = 0, trusted = 0;  ///< Seeds, and those whose run is to be trusted.
   int out_of_time = 0;        ///< Seeds whose run was stopped at the time limit.
   BenchSpread reached;        ///< Strain of the last row. [-]
+  BenchSpread stopped_at;     ///< The same, of those alone that were stopped at the time limit. [-]
   BenchErrors errors;
   BenchSpread wall, cpu;  ///< [s]
   BenchSpread steps, iterations;
   BenchSpread same_breaks;  ///< Joints broken in the reference's order before they part.
 };
 
-/// The setting of least CPU time whose median error is below a target.
+/// The setting of least CPU time whose error is below a target for every seed.
 struct CheapestSetting {
   std::string quantity;                 ///< "joint forces", "strength", "failure strain"
   double target = 0.0;                  ///< [-]
@@ -60,7 +61,9 @@ struct WorkPrecision {
   BenchSetting reference;
   std::string reference_ground;  ///< What the errors are measured against, in a sentence.
   double bonded_strain = 0.0;    ///< Where forces before the first break are compared. [-]
-  double time_limit = 0.0;       ///< Wall time of a run, but for the reference's. [s]
+  /// Whether those are compared with their closed form instead of with the reference's.
+  bool closed_form = false;
+  double time_limit = 0.0;  ///< Wall time of a run, but for the reference's. [s]
   std::vector<std::uint64_t> seeds;
   std::vector<BenchRow> rows;  ///< The first is the reference.
   std::vector<CheapestSetting> cheapest;
@@ -85,7 +88,8 @@ inline bool reference_is_trusted(const WorkPrecision& study) {
   return !study.rows.empty() && study.rows.front().trusted == study.rows.front().runs;
 }
 
-/// The cheapest row whose failure strain is right to 0.1 %; none where the reference alone is.
+/// The cheapest row whose failure strain is right to 0.1 % for every seed; none where the reference
+/// alone is.
 std::optional<std::size_t> cheapest_for_failure(const WorkPrecision& study);
 
 /// The outcome in a sentence.

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "reports/bench_pages.hpp"
@@ -138,6 +139,42 @@ TEST(WorkPrecisionPage, ShowsFailureStrainsWhereNoForcesOfTheIntactSpecimenAre) 
   EXPECT_FALSE(contains(page, "Relative error of joint forces"));
 }
 
+TEST(WorkPrecisionPage, SaysWhatForcesBeforeTheFirstBreakAreComparedWith) {
+  sim::WorkPrecision study = work_precision_sample();
+  const std::string_view words = "before the first break are relative to their closed form";
+  EXPECT_FALSE(contains(work_precision_page({{}, study, {}}), words));
+  study.closed_form = true;
+  EXPECT_TRUE(contains(work_precision_page({{}, study, {}}), words));
+}
+
+// Pieces of the thin lines in both panels, of rows with these settings.
+long pieces_of_lines(const std::vector<sim::BenchSetting>& settings) {
+  sim::WorkPrecision study = work_precision_sample();
+  const sim::BenchRow row = study.rows[1];
+  study.rows.resize(1);
+  for (const sim::BenchSetting& setting : settings) {
+    study.rows.push_back(row);
+    const double cpu = 0.1 * static_cast<double>(study.rows.size());
+    study.rows.back().setting = setting;
+    study.rows.back().cpu = {cpu, cpu, cpu};
+  }
+  const std::string svg = work_precision_svg(study), line = "stroke-width=\"0.80\"";
+  long pieces = 0;
+  for (std::size_t at = svg.find(line); at != std::string::npos; at = svg.find(line, at + 1))
+    pieces += std::ranges::count(svg.substr(at, svg.find("</g>", at) - at), 'L');
+  return pieces;
+}
+
+TEST(WorkPrecisionFigure, JoinsTheStepsOfOneSolverToleranceAndMesh) {
+  const auto sweeps = [](double tolerance, double step) {
+    return sim::BenchSetting{
+        .contact = sim::ContactMethod::gauss_seidel, .tolerance = tolerance, .step = step};
+  };
+  EXPECT_EQ(pieces_of_lines({{.step = 2e-8}, {.step = 5e-9}}), 2);
+  EXPECT_EQ(pieces_of_lines({{.step = 2e-8}, {}}), 0) << "a chosen step is none of them";
+  EXPECT_EQ(pieces_of_lines({sweeps(1e-4, 2e-8), sweeps(1e-4, 5e-9), sweeps(1e-6, 2e-8)}), 2);
+}
+
 TEST(WorkPrecisionPage, IsNotGreenWithoutAReference) {
   sim::WorkPrecision study = work_precision_sample();
   EXPECT_TRUE(contains(work_precision_page({{}, study, {}}), "verdict good"));
@@ -148,10 +185,11 @@ TEST(WorkPrecisionPage, IsNotGreenWithoutAReference) {
 TEST(WorkPrecisionPage, IsNotGreenWhereNothingComesNearTheReference) {
   sim::WorkPrecision study = work_precision_sample();
   study.cheapest.front().row = {};
-  study.rows[1].errors.failure_strain = {0.0042, 0.001, 0.005};
+  study.rows[1].errors.failure_strain = {0.0005, 0.0001, 0.0042};
   const std::string page = work_precision_page({{}, study, {}});
   EXPECT_TRUE(contains(page, "verdict mixed"));
-  EXPECT_TRUE(contains(page, "0.1 %; the nearest comes to 0.42 %: active set, h = 20 ns, "));
+  EXPECT_TRUE(
+      contains(page, "0.1 % for every seed; the nearest comes to 0.42 %: active set, h = 20 ns, "));
 }
 
 TEST(WorkPrecisionPage, SaysHowFarRunsCameThatWereStopped) {
@@ -159,7 +197,8 @@ TEST(WorkPrecisionPage, SaysHowFarRunsCameThatWereStopped) {
   study.time_limit = 20.0;
   sim::BenchRow& stopped = study.rows.back();
   stopped.out_of_time = 1;
-  stopped.reached = {0.0021, 0.0021, 0.0021};
+  stopped.reached = {0.004, 0.0021, 0.004};  // of all seeds
+  stopped.stopped_at = {0.0021, 0.0021, 0.0021};
   EXPECT_TRUE(contains(work_precision_page({{}, study, {}}),
                        "1 of 1 stopped after 20.0\u00a0s, at a strain of 0.210\u00a0%"));
 }

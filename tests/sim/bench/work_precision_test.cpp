@@ -26,6 +26,7 @@ TEST(WorkPrecision, FindsTheReferenceWithoutErrorAndTheDirectSolverExactBeforeTh
   EXPECT_EQ(study.rows.size(), bench_settings(tiny(Regime::dynamic)).size() + 1);
   const BenchRow& reference = study.rows.front();
   EXPECT_LT(reference.errors.bonded_forces.high, 1e-9);  // against the closed form
+  EXPECT_TRUE(study.closed_form);
   EXPECT_EQ(reference.errors.failure_strain.high, 0.0);
   EXPECT_TRUE(reference_is_trusted(study));
   for (const BenchRow& row : study.rows) {
@@ -66,7 +67,7 @@ TEST(WorkPrecision, TakesTheCostOfOmissionsFromRunsNotFromSteps) {
 }
 
 TEST(WorkPrecision, NamesTheCheapestSettingThatReachesATarget) {
-  const WorkPrecision study = compare_settings(tiny(Regime::quasi_static), {.seeds = 1});
+  const WorkPrecision study = compare_settings(tiny(Regime::quasi_static), {.seeds = 3});
   ASSERT_EQ(study.cheapest.size(), 9U);
   for (const CheapestSetting& cheapest : study.cheapest) {
     if (!cheapest.row) continue;
@@ -74,6 +75,10 @@ TEST(WorkPrecision, NamesTheCheapestSettingThatReachesATarget) {
     EXPECT_GT(*cheapest.row, 0U) << "the reference itself";
     EXPECT_EQ(row.setting.refinement, study.reference.refinement);
     EXPECT_EQ(row.trusted, row.runs);
+    const BenchSpread& error = cheapest.quantity == "strength"         ? row.errors.strength
+                               : cheapest.quantity == "failure strain" ? row.errors.failure_strain
+                                                                       : row.errors.bonded_forces;
+    EXPECT_LE(error.high, cheapest.target) << "for every seed";
   }
   EXPECT_TRUE(reference_is_trusted(study));
   for (const BenchRow& row : study.rows)
@@ -127,13 +132,32 @@ TEST(WorkPrecision, NamesTheNearestWhereNothingReachesTheTarget) {
   WorkPrecision study = compare_settings(tiny(Regime::quasi_static), {.seeds = 1});
   for (CheapestSetting& cheapest : study.cheapest) cheapest.row.reset();
   EXPECT_FALSE(cheapest_for_failure(study));
-  for (BenchRow& row : study.rows) row.errors.failure_strain.median = 0.02;
-  study.rows[2].errors.failure_strain.median = 0.0042;
+  for (BenchRow& row : study.rows) row.errors.failure_strain = {0.001, 0.001, 0.02};
+  study.rows[2].errors.failure_strain.high = 0.0042;  // the worst seed counts
   EXPECT_TRUE(
-      summary(study).starts_with("No setting but the reference gives the failure strain to 0.1 %; "
-                                 "the nearest comes to 0.42 %: " +
+      summary(study).starts_with("No setting but the reference gives the failure strain to 0.1 % "
+                                 "for every seed; the nearest comes to 0.42 %: " +
                                  to_string(study.rows[2].setting)))
       << summary(study);
+}
+
+// From rest waves run before the first break.
+TEST(WorkPrecision, MeasuresForcesAgainstTheReferenceWhereTheyHaveNoClosedForm) {
+  Scene scene = tiny(Regime::dynamic);
+  scene.loading.start = Start::rest;
+  const WorkPrecision study = compare_settings(scene, {.seeds = 1});
+  EXPECT_TRUE(study.complete);
+  EXPECT_FALSE(study.closed_form);
+}
+
+TEST(WorkPrecision, TellsWhereRunsWereStoppedFromThoseAlone) {
+  const WorkPrecision stopped =
+      compare_settings(tiny(Regime::dynamic), {.seeds = 1, .time_limit = 0.0});
+  EXPECT_TRUE(std::isnan(stopped.rows.front().stopped_at.median)) << "the reference has no limit";
+  const auto row =
+      std::ranges::find_if(stopped.rows, [](const BenchRow& r) { return r.out_of_time == 1; });
+  ASSERT_NE(row, stopped.rows.end());
+  EXPECT_EQ(row->stopped_at.median, row->reached.median);
 }
 
 TEST(BenchSetting, RefinesTheMeshAtTheLongestAndTheShortestStep) {
