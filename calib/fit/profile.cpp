@@ -12,6 +12,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr std::array<double, 4> parts{-1.0, -0.5, 0.5, 1.0};  // of Wald's half width
+constexpr std::array<double, 2> further{1.5, 2.0};  // one after the other, where 1 is not enough
 // Others that would move less than this part of their half width stay, which saves simulations.
 constexpr double worth_moving = 0.03;
 
@@ -44,19 +45,15 @@ VectorXd follow(const Eigen::MatrixXd& jacobian, const std::vector<Index>& other
   return -jacobian(Eigen::all, others).colPivHouseholderQr().solve(residuals);
 }
 
-std::vector<Held> held_points(const FitProblem& problem, const Answer& answer) {
+// Unknown k at a part of its half width from the answer, the others where the slopes send them.
+Held held_at(const FitProblem& problem, const Answer& answer, Index k, double part) {
   const auto& jacobian = answer.slopes.jacobian;
-  std::vector<Held> held;
-  for (Index k = 0; k < jacobian.cols(); ++k)
-    for (const double part : parts) {
-      const double shift = part * answer.uncertainty.half_width[k];
-      const auto others = without(jacobian.cols(), k);
-      Point point = answer.best.point;
-      add_worth(answer, others, follow(jacobian, others, jacobian.col(k) * shift), point);
-      point[answer.active[static_cast<std::size_t>(k)]] += shift;
-      held.push_back({k, inside_bounds(problem.unknowns, point)});
-    }
-  return held;
+  const double shift = part * answer.uncertainty.half_width[k];
+  const auto others = without(jacobian.cols(), k);
+  Point point = answer.best.point;
+  add_worth(answer, others, follow(jacobian, others, jacobian.col(k) * shift), point);
+  point[answer.active[static_cast<std::size_t>(k)]] += shift;
+  return {k, inside_bounds(problem.unknowns, point)};
 }
 
 std::vector<Evaluation> evaluate(Trail& trail, const std::vector<Held>& held) {
@@ -86,62 +83,108 @@ double signed_root(double side, double rise) {
 /// Position and signed root of the rise, in order of position.
 using Root = std::pair<double, double>;
 
-// Where the signed root reaches ±quantile, from the answer outwards; the last stretch is prolonged.
-double crossing(const std::vector<Root>& roots, double quantile, bool upper) {
+double quantile_of(const Answer& answer, Index k) {
+  return answer.uncertainty.half_width[k] / answer.uncertainty.standard_error[k];
+}
+
+// Simulates what is held, twice, and adds what it finds to the roots of its unknown.
+void add_roots(Trail& trail, const Answer& answer, const std::vector<Held>& held,
+               std::vector<std::vector<Root>>& roots) {
+  const auto first = evaluate(trail, held);
+  const auto second = evaluate(trail, corrected(trail.problem(), answer, held, first));
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const auto k = static_cast<std::size_t>(held[i].fixed);
+    const double at = held[i].point[answer.active[k]], centre = answer.best.point[answer.active[k]];
+    const double cost = std::min(first[i].cost, second[i].cost);
+    if (std::isfinite(cost) && at != centre)
+      roots[k].emplace_back(at, signed_root(at - centre, cost - answer.best.cost));
+  }
+  for (auto& of_one : roots) std::ranges::sort(of_one);
+}
+
+// From the answer outwards.
+std::vector<Root> side_of(const std::vector<Root>& roots, bool upper) {
   std::vector<Root> side;
   for (const Root& root : roots)
     if (upper ? root.second >= 0.0 : root.second <= 0.0) side.push_back(root);
   if (!upper) std::ranges::reverse(side);
+  return side;
+}
+
+// Where the signed root reaches ±quantile, NaN where it does not.
+double crossing(const std::vector<Root>& roots, double quantile, bool upper) {
+  const auto side = side_of(roots, upper);
   for (std::size_t i = 1; i < side.size(); ++i) {
     const auto [from, low] = side[i - 1];
     const auto [to, high] = side[i];
-    const bool last = i + 1 == side.size();
-    if (std::abs(high) < quantile && !last) continue;
-    if (std::abs(high) <= std::abs(low)) return std::numeric_limits<double>::quiet_NaN();
+    if (std::abs(high) < quantile) continue;
     return from + (to - from) * (quantile - std::abs(low)) / (std::abs(high) - std::abs(low));
   }
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+// Further out on the sides where the cost has not risen to the level, but for those that end at a
+// bound.
+std::vector<Held> held_further(const FitProblem& problem, const Answer& answer,
+                               const std::vector<std::vector<Root>>& roots, double part) {
+  std::vector<Held> held;
+  for (std::size_t k = 0; k < roots.size(); ++k)
+    for (const bool upper : {false, true}) {
+      const auto i = static_cast<Index>(k);
+      const auto& unknown = problem.unknowns[static_cast<std::size_t>(answer.active[k])];
+      const double last = side_of(roots[k], upper).back().first;
+      const bool bound = upper ? last >= unknown.upper : last <= unknown.lower;
+      if (bound || std::isfinite(crossing(roots[k], quantile_of(answer, i), upper))) continue;
+      held.push_back(held_at(problem, answer, i, upper ? part : -part));
+    }
+  return held;
+}
+
+std::vector<std::vector<Root>> trace(Trail& trail, const Answer& answer) {
+  std::vector<std::vector<Root>> roots;
+  for (const Index unknown : answer.active) roots.push_back({{answer.best.point[unknown], 0.0}});
+  std::vector<Held> held;
+  for (std::size_t k = 0; k < roots.size(); ++k)
+    for (const double part : parts)
+      held.push_back(held_at(trail.problem(), answer, static_cast<Index>(k), part));
+  add_roots(trail, answer, held, roots);
+  for (const double part : further) {
+    held = held_further(trail.problem(), answer, roots, part);
+    if (!held.empty()) add_roots(trail, answer, held, roots);
+  }
+  return roots;
+}
+
+Profile profile_of(const Unknown& unknown, const Answer& answer, Index k,
+                   const std::vector<Root>& roots) {
+  Profile profile{.parameter = unknown.label};
+  for (const auto& [at, root] : roots) {
+    profile.value.push_back(value_in_unit(unknown, at));
+    profile.rise.push_back(0.5 * root * root);
+  }
+  const double quantile = quantile_of(answer, k);
+  profile.level = 0.5 * quantile * quantile;
+  const double centre = answer.best.point[answer.active[static_cast<std::size_t>(k)]];
+  const auto end = [&](bool upper) {
+    double at = crossing(roots, quantile, upper);
+    if (!answer.elsewhere.empty())
+      at = upper ? std::max(at, centre + answer.uncertainty.upper[k])
+                 : std::min(at, centre + answer.uncertainty.lower[k]);
+    return value_in_unit(unknown, std::clamp(at, unknown.lower, unknown.upper));
+  };
+  profile.interval_95 = {end(false), end(true)};
+  return profile;
 }
 
 }  // namespace
 
 std::vector<Profile> profiles_of(Trail& trail, const Answer& answer) {
   const auto& problem = trail.problem();
-  const auto held = held_points(problem, answer);
-  const auto first = evaluate(trail, held);
-  const auto better = corrected(problem, answer, held, first);
-  const auto second = evaluate(trail, better);
-
+  const auto roots = trace(trail, answer);
   std::vector<Profile> profiles;
-  for (std::size_t k = 0; k < answer.active.size(); ++k) {
-    const auto& unknown = problem.unknowns[static_cast<std::size_t>(answer.active[k])];
-    const double centre = answer.best.point[answer.active[k]];
-    std::vector<Root> roots{{centre, 0.0}};
-    for (std::size_t i = k * parts.size(); i < (k + 1) * parts.size(); ++i) {
-      const double cost = std::min(first[i].cost, second[i].cost);
-      const double at = held[i].point[answer.active[k]];
-      if (std::isfinite(cost) && at != centre)
-        roots.emplace_back(at, signed_root(at - centre, cost - answer.best.cost));
-    }
-    std::ranges::sort(roots);
-    Profile profile{.parameter = unknown.label};
-    for (const auto& [at, root] : roots) {
-      profile.value.push_back(value_in_unit(unknown, at));
-      profile.rise.push_back(0.5 * root * root);
-    }
-    const auto i = static_cast<Index>(k);
-    const double quantile = answer.uncertainty.half_width[i] / answer.uncertainty.standard_error[i];
-    profile.level = 0.5 * quantile * quantile;
-    const auto end = [&](bool upper) {
-      double at = crossing(roots, quantile, upper);
-      if (!answer.elsewhere.empty())
-        at = upper ? std::max(at, centre + answer.uncertainty.upper[i])
-                   : std::min(at, centre + answer.uncertainty.lower[i]);
-      return value_in_unit(unknown, std::clamp(at, unknown.lower, unknown.upper));
-    };
-    profile.interval_95 = {end(false), end(true)};
-    profiles.push_back(std::move(profile));
-  }
+  for (std::size_t k = 0; k < roots.size(); ++k)
+    profiles.push_back(profile_of(problem.unknowns[static_cast<std::size_t>(answer.active[k])],
+                                  answer, static_cast<Index>(k), roots[k]));
   return profiles;
 }
 
