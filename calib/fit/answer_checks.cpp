@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "calib/fit/model_checks.hpp"
 #include "calib/fit/plain_law.hpp"
 #include "calib/fit/specimen_effect.hpp"
 
@@ -12,12 +14,18 @@ namespace havers::calib {
 namespace {
 
 Check not_fitted(const char* check) {
-  return {check, Outcome::warn, "No parameter was fitted with an interval: nothing to look at."};
+  return {check, Outcome::pass, "Not checked: no parameter was fitted with an interval.", false};
 }
 
 double width(const CalibratedParameter& parameter, const std::array<double, 2>& interval) {
   const bool logarithmic = parameter.interval_95[0] > 0.0 && interval[0] > 0.0;
   return logarithmic ? std::log(interval[1] / interval[0]) : interval[1] - interval[0];
+}
+
+// "1.4", or "0.95 to 1.4".
+std::string times_text(double least, double most) {
+  const std::string low = fmt::format("{:.2g}", least), high = fmt::format("{:.2g}", most);
+  return low == high ? low : fmt::format("{} to {}", low, high);
 }
 
 }  // namespace
@@ -42,8 +50,8 @@ Check check_randomness(const CalibrationResult& result) {
   const std::string numbers = fmt::format(
       "{} fresh seeds per specimen move no parameter by more than {:.2g} standard errors, their "
       "cost is {:.3g}; "
-      "the replicates' chance makes {:.2g} % of the variance.{}",
-      r.replicates, r.fresh_shift, r.fresh_cost, 100.0 * r.simulator_share, gain);
+      "the replicates' chance makes {} of the variance.{}",
+      r.replicates, r.fresh_shift, r.fresh_cost, percent_text(r.simulator_share), gain);
   if (r.fresh_shift <= 1.0 && r.simulator_share <= 0.5) return {name, Outcome::pass, numbers};
   return {name, Outcome::warn,
           numbers + fmt::format(" Raise calibrate.options.replicates to {}.",
@@ -72,10 +80,10 @@ Check check_confirmation(const CalibrationResult& result) {
   if (compared == 0)
     return {name, Outcome::warn, "Every simulation in time failed: the limit stands unconfirmed."};
   const std::string text = fmt::format(
-      "{} replicates step by step in time differ from the quasi-static limit by at most {:.2g} % "
-      "in strength and {:.2g} % in failure strain; single waves of the break, too short for a "
-      "testing machine, rise {:.2g} % higher",
-      compared, 100.0 * strength, 100.0 * strain, 100.0 * wave);
+      "{} replicates step by step in time differ from the quasi-static limit by at most {} "
+      "in strength and {} in failure strain; single waves of the break, too short for a "
+      "testing machine, rise {} higher",
+      compared, percent_text(strength), percent_text(strain), percent_text(wave));
   if (std::max(strength, strain) <= close) return {name, Outcome::pass, text + "."};
   return {name, Outcome::warn, text + ": inertia matters; fit with solver.regime = \"dynamic\"."};
 }
@@ -130,18 +138,23 @@ Check check_intervals(const CalibrationResult& result) {
   if (result.fitted.empty()) return not_fitted(name);
   std::string differ;
   int compared = 0;
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (const auto& parameter : result.parameters) {
     if (!parameter.identifiable || !parameter.profile_missing.empty()) continue;
     ++compared;
     const double part =
         width(parameter, parameter.profile_95) / width(parameter, parameter.slopes_95);
+    least = std::min(least, part);
+    most = std::max(most, part);
     if (part < 0.5 || part > 2.0)
       differ += fmt::format("{}{} ({:.2g} times as wide)", differ.empty() ? "" : ", ",
                             parameter.name, part);
   }
   if (compared == 0) return {name, Outcome::pass, "No profile was asked for or could be had."};
   if (differ.empty())
-    return {name, Outcome::pass, "Profile likelihood gives intervals about as wide."};
+    return {name, Outcome::pass,
+            fmt::format("Profile likelihood gives intervals {} times as wide as the slopes do.",
+                        times_text(least, most))};
   return {
       name, Outcome::warn,
       fmt::format("Profile likelihood gives other intervals: {}. Believe the wider one.", differ)};
@@ -192,8 +205,8 @@ std::string weibull_sentence(const CalibrationResult& result) {
   if (measured.size() < 5 || simulated.size() < 5) return "";
   const Weibull tests = weibull(measured), model = weibull(simulated);
   return fmt::format(
-      " As Weibull's modulus, the strengths over those predicted have {:.3g} (95 % interval {:.3g} "
-      "to {:.3g}), the replicates {:.3g}.",
+      " The scatter of the measured strengths about those predicted is that of a Weibull modulus "
+      "of {:.3g} (95 % interval {:.3g} to {:.3g}), the scatter of the replicates that of {:.3g}.",
       tests.modulus, tests.modulus * std::exp(-1.96 * tests.error),
       tests.modulus * std::exp(1.96 * tests.error), model.modulus);
 }

@@ -70,6 +70,11 @@ double chance(const Grouped& grouped, double parameters) {
 
 }  // namespace
 
+std::string percent_text(double part) {
+  const double percent = 100.0 * part;
+  return percent < 99.5 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.0f} %", percent);
+}
+
 Check check_brittle(const FitProblem& problem, const Answer& answer) {
   if (answer.best.predictions.empty()) return nothing_compared("brittle");
   double measured = 0.0, simulated = 0.0, variance = 0.0;
@@ -146,8 +151,12 @@ std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer
   }
   const double freedom = terms - static_cast<double>(answer.active.size());
   if (freedom < 1.0) return "";
-  return fmt::format(" Were they alike, χ² would be {:.3g} on {:g} degrees of freedom ({}).", sum,
-                     freedom, chance_text(gsl_cdf_chisq_Q(sum, freedom)));
+  const double chance = gsl_cdf_chisq_Q(sum, freedom);
+  return fmt::format(" Were they alike, χ² would be {:.3g} on {:g} degrees of freedom ({}){}.", sum,
+                     freedom, chance_text(chance),
+                     chance < significance
+                         ? ": they are not, which widens the intervals and rejects nothing"
+                         : "");
 }
 
 }  // namespace
@@ -158,18 +167,18 @@ Check check_specimen_spread(const FitProblem& problem, const Answer& answer) {
     return {name, Outcome::warn,
             "Fewer than three specimens: how much they differ beyond noise cannot be told, and the "
             "intervals do not "
-            "hold it. Test more."};
-  const Landmarks percent = 100.0 * answer.weights.specimen;
+            "include it. Test more."};
+  const Landmarks& part = answer.weights.specimen;
   const auto text = fmt::format(
-      "Specimens differ by {:.2g} % in modulus and {:.2g} % in strength (standard deviations) "
+      "Specimens differ by {} in modulus and {} in strength (standard deviations) "
       "beyond noise, scatter and "
       "the model's own randomness",
-      percent[modulus], percent[strength]);
+      percent_text(part[modulus]), percent_text(part[strength]));
   const auto chi_squared = chi_squared_sentence(problem, answer);
-  if (std::max(percent[modulus], percent[strength]) > 30.0)
+  if (std::max(part[modulus], part[strength]) > 0.3)
     return {name, Outcome::warn,
-            text + ": are they of one kind? The intervals hold it." + chi_squared};
-  return {name, Outcome::pass, text + "; the intervals hold it." + chi_squared};
+            text + ": are they of one kind? The intervals include it." + chi_squared};
+  return {name, Outcome::pass, text + "; the intervals include it." + chi_squared};
 }
 
 Check check_validation(const CalibrationResult& result) {

@@ -1,9 +1,14 @@
 // Whether the model may be believed: the checks of the verdict that compare it with the tests.
 #pragma once
 
+#include <string>
+
 #include "calib/fit/answer.hpp"
 
 namespace havers::calib {
+
+/// "2.6 %", "280 %": a part in plain digits.
+std::string percent_text(double part);
 
 /// The measured curves are as straight up to the break as the model's (F13).
 Check check_brittle(const FitProblem& problem, const Answer& answer);

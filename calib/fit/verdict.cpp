@@ -104,18 +104,19 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer) {
     text += fmt::format("{} is left out: {}. It stays at {}. ", unknown.label, because,
                         where_left(unknown, answer.best.point[index]));
   }
-  const bool asked = !problem.study.calibrate.automatic;
-  return {"identifiable", asked ? Outcome::warn : Outcome::pass,
+  const bool asked = !problem.study.calibrate.automatic, none_fitted = answer.active.empty();
+  return {"identifiable", asked || none_fitted ? Outcome::warn : Outcome::pass,
           text + "What is left out has no interval; specimens at another orientation may tell it." +
-              (asked ? " The intervals of the others hold wherever the specimens allow it to be."
-                     : "")};
+              (asked && !none_fitted
+                   ? " The intervals of the others hold wherever the specimens allow it to be."
+                   : "")};
 }
 
 // Where there is no answer, nothing of it passes.
-void leave_unchecked(std::vector<Check>& checks) {
+void leave_unchecked(std::vector<Check>& checks, const char* because) {
   for (Check& check : checks) {
-    if (check.outcome != Outcome::pass) continue;
-    check.text = "Not checked: there is no answer.";
+    if (check.outcome != Outcome::pass || !check.done) continue;
+    check.text = fmt::format("Not checked: {}.", because);
     check.done = false;
   }
 }
@@ -159,7 +160,10 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_confirmation(result));
   checks.push_back(check_validation(result));
   checks.push_back(check_censored(problem, answer));
-  if (answer.best.failed) leave_unchecked(checks);
+  if (answer.best.failed)
+    leave_unchecked(checks, "there is no answer");
+  else if (answer.active.empty())
+    leave_unchecked(checks, "no parameter is fitted");
   checks.push_back(check_failures(result, result.distinct_simulations));
   return checks;
 }

@@ -113,7 +113,33 @@ TEST(Verdict, SaysWhereAParameterStaysThatIsLeftOut) {
   EXPECT_THAT(stays_at(0.01), testing::HasSubstr("found it. It stays at 0.01, a bound." + rest));
   EXPECT_THAT(stays_at(0.5), testing::HasSubstr("found it. It stays at 0.5." + rest));
   EXPECT_THAT(stays_at(problem.unknowns[0].start), testing::HasSubstr(", the value of [model]."));
-  EXPECT_TRUE(says(check_of(result, "inside bounds"), "No fitted parameter"));
+}
+
+TEST(Verdict, TicksNothingOfAFitThatHasNoParameter) {
+  Study study = test::synthetic_study({0.0});
+  study.calibrate.parameters = {"scatter"};
+  const FitProblem problem{.study = study, .unknowns = unknowns_of(study)};
+  Answer answer{.status = CalibrationStatus::nothing_to_fit};
+  answer.left = {{0, "nothing changes with it"}};
+  answer.best.point = Point::Constant(1, 0.01);
+  answer.best.failed = false;
+  CalibrationResult result;
+  result.verdict = verdict_of(problem, answer, result);
+  for (const Check& check : result.verdict)
+    if (check.outcome == Outcome::pass && check.check != "simulations") {
+      EXPECT_FALSE(check.done) << check.check;
+      EXPECT_TRUE(says(check, "Not checked: ")) << check.text;
+    }
+  EXPECT_EQ(check_of(result, "inside bounds").text, "Not checked: no parameter is fitted.");
+  const Check left = check_of(result, "identifiable");
+  EXPECT_EQ(left.outcome, Outcome::warn);
+  EXPECT_FALSE(says(left, "the others")) << left.text;
+}
+
+TEST(Verdict, WritesPercentagesInPlainDigits) {
+  EXPECT_EQ(percent_text(0.026), "2.6 %");
+  EXPECT_EQ(percent_text(0.996), "100 %");
+  EXPECT_EQ(percent_text(2.8), "280 %");
 }
 
 TEST(Verdict, SendsNobodyToTheBoundsWhereTheTimeStepIsTheReason) {
