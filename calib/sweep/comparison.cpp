@@ -35,11 +35,21 @@ Statistics at(const Evidence& evidence, std::size_t point) {
 
 struct Pair {
   std::size_t first, second;
+  bool step = false;
 };
 
-// Points that differ in the key alone: every pair, or only that of the smallest and the largest.
+// Of points in order every pair, or that of the ends and those of neighbours.
+void add_pairs(const std::vector<std::size_t>& points, bool of_ends, std::vector<Pair>& pairs) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = i + 1; j < points.size(); ++j) {
+      const bool ends = i == 0 && j + 1 == points.size();
+      if (!of_ends || ends || j == i + 1) pairs.push_back({points[i], points[j], of_ends && !ends});
+    }
+}
+
+// Points that differ in the key alone.
 std::vector<Pair> pairs_of(const Evidence& evidence, const PointGroup& group, std::size_t column,
-                           bool ends_only) {
+                           bool of_ends) {
   std::map<std::string, std::vector<std::size_t>> alike;
   for (const std::size_t point : group.points) {
     const bool zipped = evidence.plan.sampling == Sampling::list;
@@ -51,10 +61,7 @@ std::vector<Pair> pairs_of(const Evidence& evidence, const PointGroup& group, st
       const double number = evidence.points[p].numbers[column];
       return std::isnan(number) ? 0.0 : number;
     });
-    for (std::size_t i = 0; i < points.size(); ++i)
-      for (std::size_t j = i + 1; j < points.size(); ++j)
-        if (!ends_only || (i == 0 && j + 1 == points.size()))
-          pairs.push_back({points[i], points[j]});
+    add_pairs(points, of_ends, pairs);
   }
   return pairs;
 }
@@ -79,14 +86,15 @@ Comparison difference(const Evidence& evidence, Pair pair, std::size_t column, d
                               others.empty() || zipped ? "" : ", " + others),
           .value = std::expm1(log_ratio),
           .low = std::expm1(log_ratio - half),
-          .high = std::expm1(log_ratio + half)};
+          .high = std::expm1(log_ratio + half),
+          .step = pair.step};
 }
 
 std::vector<Comparison> differences(const Evidence& evidence, const PointGroup& group) {
   const std::size_t column = column_of(evidence.plan, evidence.request.keys.front());
-  const bool ends_only =
+  const bool of_ends =
       evidence.request.test == FindingTest::rises || evidence.request.test == FindingTest::falls;
-  const std::vector<Pair> pairs = pairs_of(evidence, group, column, ends_only);
+  const std::vector<Pair> pairs = pairs_of(evidence, group, column, of_ends);
   std::vector<Comparison> all;
   all.reserve(pairs.size());
   for (const Pair pair : pairs)

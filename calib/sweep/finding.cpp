@@ -42,17 +42,30 @@ double excess(const Comparison& comparison, Bracket range) {
   return std::max(range.low - comparison.value, comparison.value - range.high);
 }
 
-// Every interval inside: agrees. One wholly outside: disagrees.
+bool inside(const Comparison& c, Bracket range) {
+  return c.low >= range.low && c.high <= range.high;
+}
+
+bool outside(const Comparison& c, Bracket range) {
+  return c.high < range.low || c.low > range.high;
+}
+
+// Every interval inside: agrees. One wholly outside: disagrees; where it is that of a step between
+// neighbours only, what the ends say is in doubt.
 FindingOutcome outcome_of(const std::vector<Comparison>& comparisons, Bracket range) {
-  const auto inside = [range](const Comparison& c) {
-    return c.low >= range.low && c.high <= range.high;
-  };
-  const auto outside = [range](const Comparison& c) {
-    return c.high < range.low || c.low > range.high;
-  };
-  if (std::ranges::any_of(comparisons, outside)) return FindingOutcome::disagrees;
-  return std::ranges::all_of(comparisons, inside) ? FindingOutcome::agrees
-                                                  : FindingOutcome::undecided;
+  bool agrees = true;
+  for (const Comparison& c : comparisons) {
+    if (!c.step && outside(c, range)) return FindingOutcome::disagrees;
+    agrees = agrees && (c.step ? !outside(c, range) : inside(c, range));
+  }
+  return agrees ? FindingOutcome::agrees : FindingOutcome::undecided;
+}
+
+// What speaks most against the claim; a step does only where its interval lies wholly outside.
+Comparison worst_of(const std::vector<Comparison>& comparisons, Bracket range) {
+  return *std::ranges::max_element(comparisons, {}, [range](const Comparison& c) {
+    return c.step && !outside(c, range) ? -infinity : excess(c, range);
+  });
 }
 
 FindingOutcome opposite(FindingOutcome outcome) {
@@ -68,9 +81,9 @@ std::string ground_of(const FindingRequest& request) {
     case FindingTest::matters:
       return fmt::format("a difference beyond ±{:g} %", percent);
     case FindingTest::rises:
-      return "all differences above 0";
+      return "all differences from end to end above 0, none between neighbours below";
     case FindingTest::falls:
-      return "all differences below 0";
+      return "all differences from end to end below 0, none between neighbours above";
     case FindingTest::linear:
       return fmt::format("all means within ±{:g} % of the line", percent);
     case FindingTest::steady:
@@ -105,24 +118,25 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
   finding.response = request.response;
   finding.ground = ground_of(request);
   finding.value = finding.low = finding.high = std::numeric_limits<double>::quiet_NaN();
-  finding.inertia_low = infinity;
+  finding.inertia_low = finding.inertia_high = finding.value;
   for (const std::size_t point : group.points) {
     finding.runs += static_cast<long>(values_of(evidence.runs, point, request.response).size());
     const double inertia = evidence.points[point].inertia_number;
-    finding.inertia_low = std::min(finding.inertia_low, inertia);
-    finding.inertia_high = std::max(finding.inertia_high, inertia);
+    finding.inertia_low = std::fmin(finding.inertia_low, inertia);
+    finding.inertia_high = std::fmax(finding.inertia_high, inertia);
   }
   const std::vector<Comparison> comparisons = comparisons_of(evidence, group);
   finding.comparisons = static_cast<int>(comparisons.size());
   if (!comparisons.empty()) {
     const Bracket range = range_of(request);
-    const auto worst = std::ranges::max_element(
-        comparisons, {}, [range](const Comparison& c) { return excess(c, range); });
-    finding.what = worst->what;
-    finding.value = worst->value;
-    finding.low = worst->low;
-    finding.high = worst->high;
+    const Comparison worst = worst_of(comparisons, range);
+    finding.what = worst.what;
+    finding.value = worst.value;
+    finding.low = worst.low;
+    finding.high = worst.high;
     finding.outcome = outcome_of(comparisons, range);
+    if (worst.step && finding.outcome == FindingOutcome::undecided)
+      finding.ground += "; this step goes the other way";
     if (request.test == FindingTest::matters) finding.outcome = opposite(finding.outcome);
   }
   finding.meaning = meaning_of(request, finding.outcome);

@@ -12,7 +12,7 @@ namespace havers::calib {
 enum class FindingTest {
   same,     ///< Whatever the key, within the margin of one another.
   matters,  ///< The key makes a difference beyond the margin.
-  rises,    ///< From the key's smallest value to its largest.
+  rises,    ///< From the key's smallest value to its largest, and nowhere falls in between.
   falls,
   linear,  ///< Linear in the keys, within the margin of the mean.
   steady,  ///< The coefficient of variation over the seeds is below the margin.
@@ -47,7 +47,7 @@ struct Finding {
   std::string meaning;                        ///< The words given for this outcome.
   int comparisons = 0;
   long runs = 0;                                 ///< That the judgement rests on.
-  double inertia_low = 0.0, inertia_high = 0.0;  ///< I (M12) of its points. [-]
+  double inertia_low = 0.0, inertia_high = 0.0;  ///< I (M12) of its points; NaN: none has one. [-]
 };
 
 /// The claim, once for each value of `per`.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/simulate.hpp"
+
 namespace havers::calib {
 namespace {
 
@@ -23,6 +25,12 @@ double linear_until(const Response& response) {
 }
 
 }  // namespace
+
+double inertia_of(const sim::Scene& scene) {
+  return scene.solver.regime == sim::Regime::quasi_static
+             ? not_measured
+             : sim::choose_regime(scene).inertia_number;
+}
 
 std::array<double, measure_count> measures_of(const Response& response, const Pattern* pattern) {
   std::array<double, measure_count> measures{};

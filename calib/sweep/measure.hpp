@@ -32,8 +32,11 @@ struct SweepPoint {
   std::vector<double> numbers;      ///< The same as numbers; NaN for words.
   sim::Scene scene;
   int level = 1;
-  double inertia_number = 0.0;  ///< I (M12). [-]
+  double inertia_number = 0.0;  ///< I (M12), by `inertia_of`. [-]
 };
+
+/// I (M12) of a scene; NaN where the scene asks for the quasi-static limit, which no rate enters.
+double inertia_of(const sim::Scene& scene);
 
 struct SweepRun {
   std::size_t point = 0;

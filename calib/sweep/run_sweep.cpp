@@ -117,7 +117,7 @@ void climb(SweepResult& result, std::size_t first) {
     SweepPoint above = result.points[point];
     if (result.summaries[point][Measure::strength].n < 2) continue;
     above.scene = scale_above(above.scene, result.summaries[point]);
-    above.inertia_number = sim::choose_regime(above.scene).inertia_number;
+    above.inertia_number = inertia_of(above.scene);
     ++above.level;
     result.points.push_back(std::move(above));
   }

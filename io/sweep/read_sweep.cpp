@@ -10,7 +10,6 @@
 #include "io/config/parse_toml.hpp"
 #include "io/config/scene_tables.hpp"
 #include "io/sweep/sweep_keys.hpp"
-#include "sim/simulate.hpp"
 
 namespace havers::io {
 namespace {
@@ -119,7 +118,7 @@ calib::SweepPoint read_point(SweepFile& read, Overrides overrides,
     if (std::ranges::find(read.inputs, input) == read.inputs.end()) read.inputs.push_back(input);
   for (const std::string& value : values) point.numbers.push_back(number_in(value));
   point.values = std::move(values);
-  point.inertia_number = sim::choose_regime(point.scene).inertia_number;
+  point.inertia_number = calib::inertia_of(point.scene);
   return point;
 }
 

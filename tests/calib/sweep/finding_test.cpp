@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "tests/support/sweeps.hpp"
 
 namespace havers::calib {
@@ -55,6 +57,38 @@ TEST(Finding, RisesAndFallsTellTheSign) {
   EXPECT_EQ(found(FindingTest::rises, 0.0, 1.0).outcome, FindingOutcome::undecided);
 }
 
+// Judged over x = 0, 1, 2 by strengths of these means.
+Finding rising(std::vector<double> means, double sd) {
+  const KnownSweep known({{"x", {"0", "1", "2"}}}, 20, [&](const SweepPoint& p, int k) {
+    return means.at(static_cast<std::size_t>(p.numbers[0])) + sd * deviation(k);
+  });
+  FindingRequest request;
+  request.test = FindingTest::rises;
+  request.keys = {"x"};
+  return judge(request, known.plan, known.points, known.runs).front();
+}
+
+TEST(Finding, IsUndecidedWhereTheEndsRiseAndAStepBetweenNeighboursFalls) {
+  const Finding finding = rising({100.0, 135.0, 104.0}, 1.0);
+  EXPECT_EQ(finding.outcome, FindingOutcome::undecided);
+  EXPECT_EQ(finding.what, "x = 2 against 1");
+  EXPECT_LT(finding.high, 0.0);
+  EXPECT_THAT(finding.ground, testing::EndsWith("this step goes the other way"));
+  EXPECT_EQ(finding.comparisons, 3);
+}
+
+TEST(Finding, AgreesWhereAStepFallsByNoMoreThanChance) {
+  const Finding finding = rising({100.0, 110.2, 110.0}, 1.0);
+  EXPECT_EQ(finding.outcome, FindingOutcome::agrees);
+  EXPECT_EQ(finding.what, "x = 2 against 0");
+  EXPECT_GT(finding.low, 0.0);
+}
+
+TEST(Finding, DisagreesWhereTheEndsFallWhateverTheStepsDo) {
+  const Finding finding = rising({100.0, 135.0, 96.0}, 1.0);
+  EXPECT_EQ(finding.outcome, FindingOutcome::disagrees);
+}
+
 TEST(Finding, SteadyIsAboutTheCoefficientOfVariation) {
   EXPECT_EQ(found(FindingTest::steady, 0.0, 1.0).outcome, FindingOutcome::agrees);
   EXPECT_EQ(found(FindingTest::steady, 0.0, 15.0).outcome, FindingOutcome::disagrees);
@@ -95,6 +129,19 @@ TEST(Finding, IsJudgedForEveryValueOfPerWithTheOtherKeysHeld) {
   ASSERT_EQ(findings.size(), 2U);
   EXPECT_EQ(findings[0].outcome, FindingOutcome::agrees);
   EXPECT_EQ(findings[1].outcome, FindingOutcome::disagrees);
+}
+
+TEST(Finding, HasNoInertiaNumberWhereNoneOfItsPointsHasOne) {
+  KnownSweep known({{"x", {"0", "1"}}}, 20, [](const SweepPoint&, int k) { return deviation(k); });
+  FindingRequest request;
+  request.keys = {"x"};
+  for (SweepPoint& point : known.points) point.inertia_number = std::nan("");
+  EXPECT_TRUE(
+      std::isnan(judge(request, known.plan, known.points, known.runs).front().inertia_high));
+  known.points.back().inertia_number = 0.1;
+  const Finding finding = judge(request, known.plan, known.points, known.runs).front();
+  EXPECT_EQ(finding.inertia_low, 0.1);
+  EXPECT_EQ(finding.inertia_high, 0.1);
 }
 
 TEST(Finding, GivesTheWordsOfItsOutcome) {

@@ -121,14 +121,24 @@ TEST(RunSweep, TheScaleAboveHasTheStrengthsAsThresholds) {
 TEST(RunSweep, TheScaleAboveHasAnInertiaNumberOfItsOwn) {
   Sweep sweep = small_sweep();
   sweep.levels = 2;
-  for (SweepPoint& point : sweep.points)
-    point.inertia_number = sim::choose_regime(point.scene).inertia_number;
+  for (SweepPoint& point : sweep.points) {
+    point.scene.solver.regime = sim::Regime::automatic;
+    point.scene.loading.strain_rate = 1e-3;
+    point.inertia_number = inertia_of(point.scene);
+  }
   const SweepResult result = run_sweep(sweep, nullptr, 1, {});
   const SweepPoint &below = result.points.at(1), &above = result.points.at(3);
   EXPECT_NEAR(above.inertia_number * above.scene.joints.head_tail,
               below.inertia_number * below.scene.joints.head_tail,
               1e-12 * below.inertia_number * below.scene.joints.head_tail);
   EXPECT_NE(above.inertia_number, below.inertia_number);
+}
+
+TEST(RunSweep, HasNoInertiaNumberWhereTheSceneAsksForTheQuasiStaticLimit) {
+  sim::Scene scene = small_sweep().points.front().scene;
+  EXPECT_TRUE(std::isnan(inertia_of(scene)));
+  scene.solver.regime = sim::Regime::dynamic;
+  EXPECT_EQ(inertia_of(scene), sim::choose_regime(scene).inertia_number);
 }
 
 }  // namespace
