@@ -11,8 +11,9 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr std::array<double, 4> parts{-1.0, -0.5, 0.5, 1.0};  // of Wald's half width
-constexpr std::array<double, 2> further{1.5, 2.0};  // one after the other, where 1 is not enough
+// Of Wald's half width; a tenth more, so that what is nearly a parabola meets its level.
+constexpr std::array<double, 4> parts{-1.1, -0.5, 0.5, 1.1};
+constexpr std::array<double, 2> further{1.5, 2.0};  // one after the other, where that is not enough
 // Others that would move less than this part of their half width stay, which saves simulations.
 constexpr double worth_moving = 0.03;
 

@@ -1,5 +1,5 @@
 // What is said of the answer after it is found: other intervals, other specimens, other seeds.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +29,29 @@ TEST(Hindsight, ProfilesAgreeWithTheSlopesWhereTheCostIsAParabola) {
     EXPECT_GT(profile.rise.front(), 0.5 * profile.level);
     EXPECT_EQ(profile.rise[2], 0.0);
   }
+}
+
+// From a little below the answer on nothing depends on the ratio: the cost rises no further.
+TEST(Hindsight, AProfileGoesFurtherWhereTheCostIsTooLowAndIsOpenWhereItStaysLow) {
+  const auto study = test::synthetic_study(test::three_orientations);
+  const auto known = test::parameter_of(test::fit(study), "ratio");
+  const double least = known.value - 0.6 * (known.value - known.slopes_95[0]);
+  auto simulator = test::ClosedForm{}.simulator();
+  simulator.run = [least](sim::Scene scene) {
+    if (sim::ratio(scene.assembly, scene.joints) < least) apply(scene, "ratio", least);
+    return test::ClosedForm{}(scene);
+  };
+  const auto result = calibrate_with(simulator, study);
+  const auto ratio = test::parameter_of(result, "ratio");
+  const auto profile = std::ranges::find(result.profiles, "ratio", &Profile::parameter);
+  ASSERT_NE(profile, result.profiles.end());
+  EXPECT_EQ(profile->value.size(), 7U);
+  EXPECT_LT(profile->rise.front(), profile->level);
+  EXPECT_GE(profile->rise.back(), profile->level);
+  EXPECT_TRUE(std::isnan(profile->interval_95[0]));
+  EXPECT_EQ(ratio.interval_95[0], ratio.bounds[0]);
+  EXPECT_LT(ratio.interval_95[1], profile->value.back());
+  EXPECT_THAT(ratio.profile_missing, testing::HasSubstr("does not rise enough"));
 }
 
 TEST(Hindsight, NoProfileIsMadeThatWasNotAskedFor) {
