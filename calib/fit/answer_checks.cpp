@@ -22,9 +22,9 @@ double width(const CalibratedParameter& parameter, const std::array<double, 2>& 
   return logarithmic ? std::log(interval[1] / interval[0]) : interval[1] - interval[0];
 }
 
-// "1.4", or "0.95 to 1.4".
+// "1.40", or "0.95 to 1.40".
 std::string times_text(double least, double most) {
-  const std::string low = fmt::format("{:.2g}", least), high = fmt::format("{:.2g}", most);
+  const std::string low = fmt::format("{:.2f}", least), high = fmt::format("{:.2f}", most);
   return low == high ? low : fmt::format("{} to {}", low, high);
 }
 
