@@ -21,7 +21,7 @@ set minussign
 set border 3 lc rgb '#444444' lw 1
 set tics nomirror out scale 0.6 textcolor rgb '#222222'
 set grid lc rgb '#e4e4e4' lw 0.6 lt 1
-set key at graph 0, graph 1.03 left bottom horizontal Left reverse samplen 1.6 noenhanced
+set key at graph 0, graph 1.03 left bottom horizontal Left reverse samplen 3 noenhanced
 set style fill solid 1.0 noborder
 set lmargin at screen 0.145
 set rmargin at screen 0.965

@@ -21,7 +21,7 @@ std::string profile_panel(const calib::Profile& profile, std::size_t number) {
 }  // namespace
 
 Figure profile_figure(const std::vector<calib::Profile>& profiles, const std::string& id) {
-  constexpr double panel_height = 170.0, axis = 48.0;
+  constexpr double panel_height = 170.0, axis = 62.0;
   const double height = static_cast<double>(profiles.size()) * (panel_height + axis);
   Figure figure{.id = id,
                 .description = "Rise of the cost along each parameter, the others refitted",

@@ -63,6 +63,13 @@ struct Box {
     constexpr double height = 12.0;
     return std::abs(x - other.x) < 0.5 * (width + other.width) && std::abs(y - other.y) < height;
   }
+
+  // How far the middle of another is from this name.
+  [[nodiscard]] double distance(const Box& other) const {
+    constexpr double half_height = 6.0;
+    return std::hypot(std::max(0.0, std::abs(x - other.x) - 0.5 * width),
+                      std::max(0.0, std::abs(y - other.y) - half_height));
+  }
 };
 
 Box point_box(const calib::SpecimenResult& specimen, const Range& range) {
@@ -83,8 +90,19 @@ Box name_box(const calib::SpecimenResult& specimen, const Box& point, Side side)
   return {point.x + sign * (gap + 0.5 * letters), point.y - sign * 8.0, letters};
 }
 
+// Whether a reader would take the name for that of another point, or not read it at all.
+bool misleads(const Box& name, std::size_t own, const std::vector<Box>& taken, std::size_t points) {
+  constexpr double clearly = 1.25;
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    if (name.meets(taken[i])) return true;
+    if (i < points && i != own && name.distance(taken[i]) < clearly * name.distance(taken[own]))
+      return true;
+  }
+  return false;
+}
+
 // A name stands on the side of the line where its point is, or on the other, or nowhere: it meets
-// neither another name nor another's point.
+// neither another name nor another's point, and is nearest to its own.
 std::map<std::string, Side> sides_of(const Groups& groups, const Range& range) {
   std::vector<const calib::SpecimenResult*> all;
   for (const auto& [group, members] : groups) all.insert(all.end(), members.begin(), members.end());
@@ -97,7 +115,7 @@ std::map<std::string, Side> sides_of(const Groups& groups, const Range& range) {
     Side& side = sides[all[i]->id] = Side::none;
     for (const Side tried : {below ? Side::right : Side::left, below ? Side::left : Side::right}) {
       const Box name = name_box(*all[i], taken[i], tried);
-      if (std::ranges::any_of(taken, [&](const Box& other) { return name.meets(other); })) continue;
+      if (misleads(name, i, taken, all.size())) continue;
       side = tried;
       taken.push_back(name);
       break;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <span>
 
 #include "reports/figures/figures.hpp"
 #include "reports/figures/thin.hpp"
@@ -16,11 +18,16 @@ set xlabel 'Strain (%)' offset 0,0.5
 set ylabel 'Engineering stress (MPa)'
 set yrange [{lowest}:{highest}]
 set object 1 rectangle from first {low},graph 0 to first {high},graph 1 fc rgb '#f4efe2' fs solid noborder behind
-plot $raw using ($1*100):($2*1e-6) with lines lw 3.2 lc rgb '#c4c4c4' title '{as_read}', \
+plot $raw using ($1*100):($2*1e-6) with lines lw 3.2 lc rgb '#c4c4c4' title '{as_read}', {after_break}\
   $used using ($1*100):($2*1e-6) with lines lw 1.4 lc rgb blue title 'as used', \
   $line using ($1*100):($2*1e-6) with lines lw 2.2 lc rgb orange title 'modulus; window shaded', \
   $peak using ($1*100):($2*1e-6) with points pt 12 ps 1.3 lw 1.6 lc rgb red title 'strength'
 )gnuplot";
+
+// The parted specimen draws no line back through the loading.
+constexpr std::string_view after_break_plot =
+    "$rest using ($1*100):($2*1e-6) with points pt 7 ps 0.25 lc rgb '#a8a8a8' "
+    "title 'read after the break', ";
 
 constexpr std::string_view time_commands = R"gnuplot(
 unset object 1
@@ -50,9 +57,20 @@ std::string time_panel(const std::vector<double>& read, const std::vector<double
          std::string(time_commands);
 }
 
+// How many rows were read until the last that is used; all where no time tells.
+std::size_t rows_until_break(const calib::RawTest& raw, const calib::MeasuredTest& test) {
+  if (raw.time.empty() || test.time.empty()) return raw.rows();
+  return static_cast<std::size_t>(std::ranges::upper_bound(raw.time, test.time.back()) -
+                                  raw.time.begin());
+}
+
 // The recorded channels on the axes of a stress-strain plot, the load with the sign that it was
-// used with; empty where one was not recorded.
-Points raw_points(const calib::RawTest& raw, const calib::MeasuredTest& test) {
+// used with, until the break and after it; empty where one was not recorded.
+struct RawPoints {
+  Points loading, after_break;
+};
+
+RawPoints raw_points(const calib::RawTest& raw, const calib::MeasuredTest& test) {
   std::vector<double> strain = raw.strain, stress = raw.stress;
   if (strain.empty() && raw.gauge_length)
     for (const double extension : raw.extension) strain.push_back(extension / *raw.gauge_length);
@@ -62,7 +80,10 @@ Points raw_points(const calib::RawTest& raw, const calib::MeasuredTest& test) {
   }
   if (test.load_turned)
     for (double& value : stress) value = -value;
-  return thin(strain, stress, 2000);
+  const std::size_t rows = std::min(strain.size(), stress.size());
+  const std::size_t kept = std::min(rows, rows_until_break(raw, test));
+  const std::span<const double> x(strain.data(), rows), y(stress.data(), rows);
+  return {thin(x.first(kept), y.first(kept), 2000), thin(x.subspan(kept), y.subspan(kept), 2000)};
 }
 
 constexpr std::string_view record_commands = R"gnuplot(
@@ -121,13 +142,15 @@ Figure test_figure(const ImportReport& report, const std::string& id) {
     draw_record(report.raw, figure);
     return figure;
   }
-  const Points raw = raw_points(report.raw, test);
+  const auto [raw, rest] = raw_points(report.raw, test);
   const Points used = thin(test.strain, test.stress);
   if (used.x.empty()) return figure;
-  const auto strains = near_curve(raw.x, used.x);
-  auto stresses = near_curve(raw.y, used.y);
-  stresses.insert(stresses.end(), used.y.begin(), used.y.end());
-  const std::string range = x_range({strains, used.x}, 100.0);
+  std::vector<double> stresses = used.y, strains = used.x;
+  for (const Points* part : {&raw, &rest}) {
+    std::ranges::copy(near_curve(part->x, used.x), std::back_inserter(strains));
+    std::ranges::copy(near_curve(part->y, used.y), std::back_inserter(stresses));
+  }
+  const std::string range = x_range({strains}, 100.0);
   if (range.empty()) return figure;
   const auto [lowest, highest] = std::ranges::minmax(stresses);
   const Points line = modulus_line(test);
@@ -136,12 +159,13 @@ Figure test_figure(const ImportReport& report, const std::string& id) {
   if (shared_times) figure.height = 580;
   figure.commands =
       (shared_times ? "set multiplot\n" : "") + data_block("raw", {raw.x, raw.y}) +
-      data_block("used", {used.x, used.y}) + data_block("line", {line.x, line.y}) +
-      data_block("peak", {peak_strain, peak_stress}) + range +
-      (shared_times ? panel(0.41, 0.92) : panel(0.155, 0.88)) +
+      data_block("rest", {rest.x, rest.y}) + data_block("used", {used.x, used.y}) +
+      data_block("line", {line.x, line.y}) + data_block("peak", {peak_strain, peak_stress}) +
+      range + (shared_times ? panel(0.41, 0.92) : panel(0.155, 0.88)) +
       fmt::format(test_commands, fmt::arg("low", 100.0 * test.window_low),
                   fmt::arg("high", 100.0 * test.window_high),
                   fmt::arg("as_read", test.load_turned ? "as read, sign turned" : "as read"),
+                  fmt::arg("after_break", rest.x.empty() ? "" : after_break_plot),
                   fmt::arg("lowest", (std::min(0.0, lowest) - 0.03 * highest) / in::MPa),
                   fmt::arg("highest", 1.06 * highest / in::MPa)) +
       (shared_times ? time_panel(report.raw.time, test.time) : "");

@@ -77,6 +77,21 @@ TEST(Figure, NamesNeighboursOnEitherSide) {
   for (const auto& specimen : specimens) EXPECT_TRUE(contains(svg, specimen.id)) << specimen.id;
 }
 
+// To the right of the first, "longer" would stand beside the second point.
+TEST(Figure, GivesNoPointTheNameOfAnother) {
+  std::vector<calib::SpecimenResult> specimens;
+  for (const double strength : {40.0, 44.2, 60.0}) {
+    calib::SpecimenResult& specimen = specimens.emplace_back();
+    specimen.id = fmt::format("longer{}", specimens.size());
+    specimen.measured.strength = 1e6 * strength;
+    specimen.strength.mean = 0.99e6 * strength;
+  }
+  specimens[1].strength.mean = 38.9e6;
+  const std::string commands = strength_figure(specimens, "strength").commands;
+  EXPECT_FALSE(contains(commands, "\"longer1\" \"\"")) << commands;
+  EXPECT_TRUE(contains(commands, "\"\" \"longer1\"")) << commands;
+}
+
 TEST(Figure, ShowsBothSidesOnlyWhereTheyDiffer) {
   const sim::Assembly assembly;
   auto simulation = test::simulation_sample(assembly);

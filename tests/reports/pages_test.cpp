@@ -64,6 +64,16 @@ TEST(TestSvg, StandsOnItsOwn) {
   EXPECT_LT(svg.size(), 200'000U);
 }
 
+// The parted specimen goes back in strain: a line would look like a second loading.
+TEST(TestSvg, DrawsWhatWasReadAfterTheBreakApart) {
+  const auto raw = test::raw_test(13e9, 43e6, 1);
+  auto measured = test::measured_test(13e9, 43e6, 1);
+  measured.time = raw.time;
+  EXPECT_FALSE(contains(test_svg({"A1.csv", raw, measured}), ">read after the break<"));
+  measured.time.resize(raw.time.size() / 2);
+  EXPECT_TRUE(contains(test_svg({"A1.csv", raw, measured}), ">read after the break<"));
+}
+
 TEST(TestSvg, DrawsTheStepsOfAClockThatRepeatsItself) {
   auto raw = test::raw_test(13e9, 43e6, 1);
   const auto measured = test::measured_test(13e9, 43e6, 1);
