@@ -171,9 +171,7 @@ std::vector<SweepPanel> sweep_figures(const calib::Sweep& sweep, const calib::Sw
   std::vector<SweepPanel> panels;
   for (const PointGroup& group : calib::groups_of(result.points, sweep.plan, wanted.per)) {
     const Panel panel{sweep, result, wanted, group};
-    SweepPanel made{.at = wanted.per.empty()
-                              ? ""
-                              : fmt::format("{} = {}", name_of_key(wanted.per), bare(group.value)),
+    SweepPanel made{.at = wanted.per.empty() ? "" : place(wanted.per, group.value),
                     .figure = {.id = fmt::format("{}-{}", id, panels.size()),
                                .description = wanted.caption,
                                .width = wanted.per.empty() ? 640 : 420,

@@ -22,11 +22,6 @@ mstch::node cell(std::string value) {
   return mstch::map{{"text", text(std::move(value))}};
 }
 
-std::string percent_interval(const calib::Finding& finding) {
-  return fmt::format("{} % ({})", number(100.0 * finding.value, 3),
-                     interval(100.0 * finding.low, 100.0 * finding.high));
-}
-
 std::string value_of(const calib::Finding& finding) {
   const MeasureWords words = words_of(finding.response);
   const bool absolute =
@@ -36,9 +31,10 @@ std::string value_of(const calib::Finding& finding) {
       : finding.test == calib::FindingTest::linear ? words.name + ", away from the line"
       : absolute                                   ? words.name
                                                    : words.name + ", difference";
-  if (!absolute) return fmt::format("{}: {}", what, percent_interval(finding));
-  return fmt::format("{}: {} ({}) {}", what, number(finding.value / words.scale, 3),
-                     interval(finding.low / words.scale, finding.high / words.scale), words.unit);
+  const double scale = absolute ? words.scale : in::percent;
+  return fmt::format("{}: {}", what,
+                     with_interval(finding.value / scale, finding.low / scale, finding.high / scale,
+                                   absolute ? words.unit : "%"));
 }
 
 std::string inertia_of(const calib::Finding& finding) {
@@ -61,14 +57,20 @@ std::string place_of(const calib::Sweep& sweep, const calib::Finding& finding) {
   for (const calib::FindingRequest& request : sweep.findings)
     if (request.id == finding.id && request.claim == finding.claim && !request.per.empty() &&
         !finding.at.empty())
-      return fmt::format("{}: {} = {}", sweep.name, name_of_key(request.per), bare(finding.at));
+      return fmt::format("{}: {}", sweep.name, place(request.per, finding.at));
   return sweep.name;
 }
 
 std::string words_for(std::string what, const calib::SweepPlan& plan) {
-  for (const calib::SweepKey& key : plan.keys)
-    for (std::size_t at = what.find(key.name); at != std::string::npos; at = what.find(key.name))
-      what.replace(at, key.name.size(), name_of_key(key.name));
+  for (const calib::SweepKey& key : plan.keys) {
+    const std::string named = key.name + " = ";
+    for (std::size_t at = what.find(named); at != std::string::npos; at = what.find(named)) {
+      const std::size_t value = at + named.size();
+      const std::size_t end =
+          std::min({what.find(", ", value), what.find(" against ", value), what.size()});
+      what.replace(at, end - at, place(key.name, what.substr(value, end - value)));
+    }
+  }
   return what;
 }
 
@@ -90,28 +92,29 @@ std::vector<Row> rows_of(const std::vector<SweepReport>& sweeps) {
 mstch::array finding_rows(const std::vector<Row>& rows) {
   mstch::array list;
   for (const auto& [finding, sweep] : rows)
-    list.emplace_back(mstch::map{
-        {"grade", text(grade_of(finding->outcome))},
-        {"mark", text(mark_of(finding->outcome))},
-        {"outcome", text(to_string(finding->outcome))},
-        {"id", text(finding->id)},
-        {"claim", text(finding->claim)},
-        {"at", text(place_of(*sweep, *finding))},
-        {"inertia", text(inertia_of(*finding))},
-        {"value", text(value_of(*finding))},
-        {"what", text(words_for(finding->what, sweep->plan))},
-        {"ground", text("asked: " + finding->ground)},
-        {"meaning", finding->meaning.empty() ? mstch::node{false} : text(finding->meaning)},
-        {"runs", text(std::to_string(finding->runs))}});
+    list.emplace_back(
+        mstch::map{{"grade", text(grade_of(finding->outcome))},
+                   {"mark", text(mark_of(finding->outcome))},
+                   {"outcome", text(to_string(finding->outcome))},
+                   {"id", text(finding->id)},
+                   {"claim", text(typeset(finding->claim))},
+                   {"at", text(place_of(*sweep, *finding))},
+                   {"inertia", text(inertia_of(*finding))},
+                   {"value", text(value_of(*finding))},
+                   {"what", text(words_for(finding->what, sweep->plan))},
+                   {"ground", text(typeset("asked: " + finding->ground))},
+                   {"meaning", finding->meaning.empty() ? mstch::node{false}
+                                                        : text(typeset(finding->meaning))},
+                   {"runs", text(std::to_string(finding->runs))}});
   return list;
 }
 
-// An id holds when all its rows agree, is contradicted when all disagree; else it depends.
+// An id holds when all its rows agree, is contradicted when all disagree; else it is mixed.
 std::string sentence_of(const std::vector<Row>& rows, long runs) {
   if (rows.empty()) return fmt::format("{} of the model.", count(runs, "run"));
   std::map<std::string, std::set<FindingOutcome>> outcomes;
   for (const Row& row : rows) outcomes[row.finding->id].insert(row.finding->outcome);
-  std::array<std::string, 3> names;  // holds, contradicted, depends
+  std::array<std::string, 3> names;  // holds, contradicted, mixed
   std::array<int, 3> counts{};
   for (const auto& [id, set] : outcomes) {
     const bool one = set.size() == 1;
@@ -123,8 +126,8 @@ std::string sentence_of(const std::vector<Row>& rows, long runs) {
   }
   std::string sentence =
       fmt::format("Of {}: ", count(static_cast<long>(outcomes.size()), "finding"));
-  const std::array<std::string_view, 3> say{"agree", "disagree", "depend or cannot be decided"},
-      of_one{"agrees", "disagrees", "depends or cannot be decided"};
+  const std::array<std::string_view, 3> say{"agree", "disagree", "are mixed or undecided"},
+      of_one{"agrees", "disagrees", "is mixed or undecided"};
   bool first = true;
   for (std::size_t kind = 0; kind < 3; ++kind) {
     if (counts.at(kind) == 0) continue;
@@ -163,8 +166,8 @@ std::string coefficients_of(const calib::Law& law) {
     const double half = law.confidence_factor * law.standard_errors[i] / scale;
     const std::string name =
         i < law.request.terms.size() ? name_of_key(law.request.terms[i]) : "constant";
-    all += fmt::format("{}{}: {} ({})", all.empty() ? "" : "; ", name, number(value, 3),
-                       interval(value - half, value + half));
+    all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", name,
+                       with_interval(value, value - half, value + half));
   }
   return all;
 }
@@ -174,13 +177,11 @@ mstch::array law_rows(const std::vector<calib::Law>& laws) {
   for (const calib::Law& law : laws)
     list.emplace_back(mstch::map{
         {"law", text(law_text(law))},
-        {"at", text(law.request.per.empty()
-                        ? ""
-                        : fmt::format("{} = {}", name_of_key(law.request.per), bare(law.at)))},
+        {"at", text(law.request.per.empty() ? "" : place(law.request.per, law.at))},
         {"coefficients", text(coefficients_of(law))},
         {"explained", text(number(law.explained, 3))},
         {"lack",
-         text(fmt::format("{} ({})", number(law.lack_of_fit, 3), number(law.lack_of_fit_p, 2)))},
+         text(fmt::format("{} ({})", number(law.lack_of_fit, 3), chance(law.lack_of_fit_p)))},
         {"runs", text(std::to_string(law.runs))}});
   return list;
 }
@@ -240,7 +241,7 @@ mstch::array figures_of(const SweepReport& report) {
       panels.emplace_back(mstch::map{{"svg", text(draw(panel.figure))}, {"at", text(panel.at)}});
     figures.emplace_back(mstch::map{{"layout", text(panels.size() > 1 ? "images" : "one")},
                                     {"panels", mstch::node{panels}},
-                                    {"caption", text(wanted.caption)}});
+                                    {"caption", text(typeset(wanted.caption))}});
   }
   return figures;
 }
@@ -251,7 +252,7 @@ mstch::node sweep_part(const SweepReport& report) {
     rows.push_back(point_row(report, i));
   return mstch::map{
       {"name", text(report.sweep.name)},
-      {"about", text(fmt::format("{} {}, {} each.", report.sweep.text,
+      {"about", text(fmt::format("{} {}, {} each.", typeset(report.sweep.text),
                                  count(static_cast<long>(report.result.points.size()), "point"),
                                  count(report.sweep.plan.seeds, "run")))},
       {"figures", mstch::node{figures_of(report)}},

@@ -13,6 +13,9 @@ std::string name_of_key(const std::string& key);
 /// A TOML value without its quotes.
 std::string bare(const std::string& value);
 
+/// "θ = 45°", "ratio r = 3": a key at a value, the unit behind it.
+std::string place(const std::string& key, const std::string& value);
+
 /// A measure as tables and axes show it.
 struct MeasureWords {
   std::string name, unit;

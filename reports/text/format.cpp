@@ -115,6 +115,19 @@ std::string interval(double low, double high) {
   return fmt::format("{} to {}", fixed(low, decimals), fixed(high, decimals));
 }
 
+std::string with_interval(double value, double low, double high, std::string_view unit) {
+  const double width = high - low, most = std::max(std::abs(low), std::abs(high));
+  const bool plainly = std::isfinite(value) && std::isfinite(width) && width > 0.0 &&
+                       shows_plainly(std::max(std::abs(value), most), width);
+  const std::string shown = plainly ? fixed(value, decimals_for(width)) : number(value, 3);
+  const std::string space = unit.empty() ? "" : "\u00a0";
+  return fmt::format("{}{}{} ({})", shown, space, unit, interval(low, high));
+}
+
+std::string chance(double p) {
+  return p < 1e-6 ? "p < 10⁻⁶" : fmt::format("p = {}", number(p, 2));
+}
+
 std::string count(long n, std::string_view noun) {
   return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
 }

@@ -38,6 +38,12 @@ std::string plus_minus(double value, double error);
 /// "12.74 to 13.30", to two digits of the width; "–" when an end is not known.
 std::string interval(double low, double high);
 
+/// "12.90 (12.74 to 13.05)": value with the decimals of its interval, each with the unit.
+std::string with_interval(double value, double low, double high, std::string_view unit = {});
+
+/// "p = 0.013"; no test is good enough for less than 10⁻⁶.
+std::string chance(double p);
+
 /// "1 joint", "2 joints".
 std::string count(long n, std::string_view noun);
 

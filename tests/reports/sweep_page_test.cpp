@@ -2,8 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "reports/figures/avalanche.hpp"
 #include "reports/sweep/sweep_figure.hpp"
+#include "reports/sweep/sweep_words.hpp"
 #include "tests/support/sweeps.hpp"
 
 namespace havers::reports {
@@ -59,7 +62,7 @@ TEST(SweepPage, IsGreenOnlyWhereEveryFindingAgrees) {
               HasSubstr("verdict good"));
   known.result.findings.back().outcome = calib::FindingOutcome::undecided;
   EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
-              AllOf(HasSubstr("verdict mixed"), HasSubstr("1 depends or cannot be decided (F7)")));
+              AllOf(HasSubstr("verdict mixed"), HasSubstr("1 is mixed or undecided (F7)")));
 }
 
 TEST(SweepPage, GivesEveryLawWithItsIntervals) {
@@ -67,6 +70,29 @@ TEST(SweepPage, GivesEveryLawWithItsIntervals) {
   const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
   EXPECT_THAT(page, HasSubstr("scatter d: −10.0 ("));
   EXPECT_THAT(page, HasSubstr("ratio r = 3"));
+}
+
+TEST(SweepPage, TypesetsClaimsAndChancesThatAreNextToNothing) {
+  Case known;
+  known.result.findings.front().claim = "and grows with d (1.8e-6 d)";
+  known.result.laws.front().lack_of_fit_p = 0.0;
+  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
+  EXPECT_THAT(page, HasSubstr("1.8 × 10⁻⁶ d"));
+  EXPECT_THAT(page, HasSubstr("(p &lt; 10⁻⁶)"));
+}
+
+TEST(SweepPage, HasADashForTheInertiaNumberOfTheQuasiStaticLimit) {
+  Case known;
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  known.result.findings.front().inertia_low = known.result.findings.front().inertia_high = none;
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+              HasSubstr("I = –<"));
+}
+
+TEST(SweepWords, PutTheUnitBehindTheValue) {
+  EXPECT_EQ(place("assembly.orientation_deg", "45"), "θ = 45°");
+  EXPECT_EQ(place("joints.ratio", "3"), "ratio r = 3");
+  EXPECT_EQ(place("joints.distribution", "\"weibull\""), "distribution = weibull");
 }
 
 TEST(SweepFigures, HaveAPanelForEveryValueOfPer) {

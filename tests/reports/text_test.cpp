@@ -98,6 +98,17 @@ TEST(Interval, ShowsTwoDigitsOfItsWidth) {
   EXPECT_EQ(interval(2.0, 2.0), "2.000 to 2.000");
 }
 
+TEST(WithInterval, GivesTheValueTheDecimalsOfItsInterval) {
+  EXPECT_EQ(with_interval(-25.979, -26.015, -25.943, "%"), "−25.979\u00a0% (−26.015 to −25.943)");
+  EXPECT_EQ(with_interval(12.9, 12.7, 13.3), "12.90 (12.70 to 13.30)");
+  EXPECT_EQ(with_interval(1.0, nan, nan), "1.00 (–)");
+}
+
+TEST(Chance, IsNeverZero) {
+  EXPECT_EQ(chance(0.0134), "p = 0.013");
+  EXPECT_EQ(chance(0.0), "p < 10⁻⁶");
+}
+
 TEST(Count, KnowsThePlural) {
   EXPECT_EQ(count(1, "pore"), "1 pore");
   EXPECT_EQ(count(0, "pore"), "0 pores");
