@@ -130,8 +130,9 @@ void print_test(const Imported& imported) {
   const calib::MeasuredTest& test = imported.reduction.test;
   if (!test.strain.empty()) {
     fmt::print(
-        "  strength {}{:.3f} MPa at a strain of {:.4f} %{}\n", test.broke ? "" : "at least ",
-        1e-6 * test.strength, 100.0 * test.failure_strain,
+        "  strength {}{:.3f} +- {:.3f} MPa at a strain of {:.4f} %{}\n",
+        test.broke ? "" : "at least ", 1e-6 * test.strength, 1e-6 * test.strength_standard_error,
+        100.0 * test.failure_strain,
         test.max_force > 0.0 && test.area > 0.0
             ? fmt::format(", largest force {:.2f} N on {:.4f} mm2", test.max_force, 1e6 * test.area)
             : "");

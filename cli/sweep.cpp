@@ -2,6 +2,8 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -15,6 +17,7 @@
 #include "io/store/sqlite_store.hpp"
 #include "io/sweep/read_sweep.hpp"
 #include "io/sweep/sweep_files.hpp"
+#include "io/sweep/sweep_keys.hpp"
 #include "reports/sweep/sweep_page.hpp"
 
 namespace havers::cli {
@@ -137,15 +140,43 @@ void write_all(const OutputFolder& output, const SweepArguments& arguments,
   io::write_file(output.stage("result.json"), io::json_text(json_of_all(all, provenance)));
 }
 
+struct Unit {
+  double scale;
+  const char* name;
+};
+
+// Of the value that a claim was judged by: a part of something, but for means.
+Unit unit_of(const calib::Finding& finding) {
+  const bool mean =
+      finding.test == calib::FindingTest::above || finding.test == calib::FindingTest::below;
+  if (mean && finding.response == calib::Measure::strength) return {1e6, " MPa"};
+  if (mean && finding.response == calib::Measure::modulus) return {1e9, " GPa"};
+  const bool counted = finding.response == calib::Measure::head_tail_broken ||
+                       finding.response == calib::Measure::flank_broken;
+  return mean && counted ? Unit{1.0, ""} : Unit{0.01, " %"};
+}
+
+// "strength 12.3 % (11.9 to 12.7)", to two digits of the interval's width.
+std::string found(const calib::Finding& finding) {
+  const Unit unit = unit_of(finding);
+  const double width = (finding.high - finding.low) / unit.scale;
+  const int decimals = std::isfinite(width) && width > 0.0
+                           ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(width))))
+                           : 3;
+  return fmt::format("{} {:.{}f}{} ({:.{}f} to {:.{}f})", io::word(finding.response),
+                     finding.value / unit.scale, decimals, unit.name, finding.low / unit.scale,
+                     decimals, finding.high / unit.scale, decimals);
+}
+
 void print_summary(const std::vector<Done>& all, double wall_seconds) {
   fmt::print("{}: {} runs, {} failed, in {:.3g} s\n",
              trusted(all) ? "to be trusted" : "NOT to be trusted: too many runs failed",
              runs_of(all), failed_of(all), wall_seconds);
   for (const Done& one : all)
     for (const calib::Finding& finding : one.result.findings)
-      fmt::print("{:<6}{:<12}{:<11}{:>11.4g} ({:.4g} to {:.4g}; {} runs)  {}\n", finding.id,
-                 calib::to_string(finding.outcome), finding.at, finding.value, finding.low,
-                 finding.high, finding.runs, finding.claim);
+      fmt::print("{:<6}{:<12}{:<11}{}; {} runs  {}\n", finding.id,
+                 calib::to_string(finding.outcome), finding.at, found(finding), finding.runs,
+                 finding.claim);
 }
 
 int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
