@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <sstream>
 
 #include "reports/figures/figures.hpp"
 #include "reports/pages/page.hpp"
@@ -40,9 +43,82 @@ mstch::array parameter_rows(const std::vector<FitReport>& fits) {
   return rows;
 }
 
-mstch::map fit_content(const FitReport& fit) {
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
+// What was given on the command line beside the study: "--set model.x=1", "--seed 2".
+std::string settings_of(const FitReport& fit) {
+  std::vector<std::string> settings;
+  for (const auto& [name, value] : fit.provenance) {
+    if (name != "Command") continue;
+    std::istringstream words(value);
+    for (std::string word, next; words >> word;)
+      if ((word == "--set" || word == "--seed") && words >> next)
+        settings.push_back(word + " " + next);
+  }
+  return settings.empty() ? "none" : joined(settings);
+}
+
+std::string parameters_of(const FitReport& fit) {
+  std::vector<std::string> symbols;
+  for (const auto& parameter : fit.result.parameters) symbols.push_back(symbol_of(parameter.name));
+  return joined(symbols);
+}
+
+std::string specimens_of(const FitReport& fit) {
+  std::vector<std::string> ids;
+  for (const auto& specimen : fit.result.specimens)
+    ids.push_back(specimen.id + (specimen.use == calib::Use::fit ? "" : " (validation)"));
+  return joined(ids);
+}
+
+// Files by their names, whose contents or presence differ.
+std::string files_unlike(const FitReport& fit, const FitReport& first) {
+  const auto digests = [](const FitReport& of) {
+    std::map<std::string, std::string> files;
+    for (const auto& [name, value] : of.provenance)
+      if (value.starts_with("SHA-256")) files[base_name(name)] = value;
+    return files;
+  };
+  const auto these = digests(fit), those = digests(first);
+  std::set<std::string> unlike;
+  for (const auto& [files, others] : {std::pair{&these, &those}, std::pair{&those, &these}})
+    for (const auto& [name, digest] : *files)
+      if (const auto found = others->find(name); found == others->end() || found->second != digest)
+        unlike.insert(name);
+  return joined({unlike.begin(), unlike.end()});
+}
+
+std::string program_of(const FitReport& fit) {
+  for (const auto& [name, value] : fit.provenance)
+    if (name == "Program") return value;
+  return "";
+}
+
+// In what a fit differs from the first of the page, but for its outcome.
+std::string differs_in(const FitReport& fit, const FitReport& first) {
+  std::vector<std::string> parts;
+  const auto compare = [&](const char* what, std::string (*of)(const FitReport&)) {
+    if (of(fit) != of(first)) parts.push_back(fmt::format("{}: {}", what, of(fit)));
+  };
+  compare("parameters", parameters_of);
+  compare("specimens", specimens_of);
+  compare("settings", settings_of);
+  if (const std::string files = files_unlike(fit, first); !files.empty())
+    parts.push_back("contents of " + files);
+  compare("program", program_of);
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : "; ") + part;
+  return text.empty() ? "nothing" : text;
+}
+
+mstch::map fit_content(const FitReport& fit, const FitReport& first) {
   const calib::CalibrationResult& result = fit.result;
   return {{"name", text(fit.study.name)},
+          {"differs", text(&fit == &first ? "–" : differs_in(fit, first))},
           {"outcome", text(result.trusted() ? "pass" : "fail")},
           {"grade", text(result.trusted() ? "good" : "bad")},
           {"sentence", text(fit_sentence(result))},
@@ -60,7 +136,7 @@ std::string comparison_page(const std::vector<FitReport>& reports) {
   mstch::array fits;
   Provenance provenance;
   for (const FitReport& fit : reports) {
-    fits.emplace_back(fit_content(fit));
+    fits.emplace_back(fit_content(fit, reports.front()));
     for (const auto& [name, value] : fit.provenance)
       provenance.emplace_back(fmt::format("{}: {}", fit.study.name, name), value);
   }

@@ -2,17 +2,23 @@
 
 #include <cmath>
 
+#include "calib/experiment/quality.hpp"
 #include "reports/figures/figures.hpp"
+#include "reports/pages/fit_specimen.hpp"
 #include "reports/pages/page.hpp"
-#include "reports/text/base64.hpp"
 #include "reports/text/format.hpp"
 #include "reports/text/parameter_label.hpp"
 
 namespace havers::reports {
 namespace {
 
+// An end that is not known leaves the interval open.
 std::string interval_or(const std::array<double, 2>& ends, const std::string& missing) {
-  return missing.empty() ? interval(ends[0], ends[1]) : "– (" + missing + ")";
+  if (missing.empty()) return interval(ends[0], ends[1]);
+  const std::string known = std::isfinite(ends[1])   ? "at most " + number(ends[1])
+                            : std::isfinite(ends[0]) ? "at least " + number(ends[0])
+                                                     : "–";
+  return fmt::format("{} ({})", known, missing);
 }
 
 // What the fit asked for, fitted or not.
@@ -37,83 +43,6 @@ mstch::map parameter_row(const calib::CalibratedParameter& p,
            text(held ? "" : fmt::format("{} to {}", setting(p.bounds[0]), setting(p.bounds[1])))},
           {"note", text(note)},
           {"held", text(typeset(with_symbols(p.left_out_because, parameters)))}};
-}
-
-// What a measured and a simulated quantity are called and shown in.
-struct Compared {
-  std::string quantity, unit;
-  double scale;
-  double measured, measured_error;
-  calib::Spread simulated;
-  double residual;
-};
-
-std::vector<Compared> compared(const calib::SpecimenResult& s) {
-  const double not_measured = std::numeric_limits<double>::quiet_NaN();
-  return {{"Modulus", "GPa", in::GPa, s.measured.modulus, s.measured.modulus_standard_error,
-           s.modulus, s.residual[0]},
-          {"Strength", "MPa", in::MPa, s.measured.strength, s.measured.strength_standard_error,
-           s.strength, s.residual[1]},
-          {"Failure strain", "%", in::percent, s.measured.failure_strain, not_measured,
-           s.failure_strain, s.residual[2]}};
-}
-
-mstch::array comparison_rows(const calib::SpecimenResult& specimen) {
-  mstch::array rows;
-  for (const Compared& c : compared(specimen))
-    rows.emplace_back(mstch::map{
-        {"quantity", text(c.quantity)},
-        {"unit", text(c.unit)},
-        {"measured", text(plus_minus(c.measured / c.scale, c.measured_error / c.scale))},
-        {"simulated", text(plus_minus(c.simulated.mean / c.scale, c.simulated.sd / c.scale))},
-        {"residual", text(number(c.residual, 2))}});
-  return rows;
-}
-
-mstch::array overview_cells(const calib::SpecimenResult& specimen) {
-  mstch::array cells;
-  for (const Compared& c : compared(specimen)) {
-    cells.push_back(text(number(c.measured / c.scale)));
-    cells.push_back(text(number(c.simulated.mean / c.scale)));
-  }
-  return cells;
-}
-
-const calib::Specimen* find_specimen(const calib::Study& study, const std::string& id) {
-  for (const calib::Specimen& specimen : study.specimens)
-    if (specimen.id == id) return &specimen;
-  return nullptr;
-}
-
-// Overlays and numbers of the sections, whichever of the two is there.
-mstch::array section_items(const FitReport& report, const std::string& id) {
-  const calib::Specimen* specimen = find_specimen(report.study, id);
-  const auto found = report.overlays.find(id);
-  const std::size_t numbers = specimen == nullptr ? 0 : specimen->sections.size();
-  const std::size_t images = found == report.overlays.end() ? 0 : found->second.size();
-  mstch::array items;
-  for (std::size_t i = 0; i < std::max(numbers, images); ++i)
-    items.emplace_back(
-        mstch::map{{"png", text(i < images ? base64(found->second[i]) : "")},
-                   {"caption", text(i < numbers ? section_caption(specimen->sections[i]) : "")}});
-  return items;
-}
-
-// What is left of a logarithm of 1.
-double without_rounding(double logarithm) {
-  return std::abs(logarithm) < 1e-12 ? 0.0 : logarithm;
-}
-
-mstch::array term_rows(const calib::SpecimenResult& specimen) {
-  mstch::array rows;
-  for (const calib::TermResult& term : specimen.terms)
-    rows.emplace_back(mstch::map{{"term", text(term.term)},
-                                 {"measured", text(number(term.measured))},
-                                 {"simulated", text(number(without_rounding(term.simulated)))},
-                                 {"sd", text(number(term.sd, 2))},
-                                 {"residual", text(number(term.residual, 2))},
-                                 {"share", text(number(term.share / in::percent, 2))}});
-  return rows;
 }
 
 // Of the fitted parameters on each other, one row each.
@@ -193,46 +122,6 @@ mstch::node knowledge(const calib::CalibrationResult& result) {
        text(result.profiles.empty() ? "" : draw(profile_figure(result.profiles, "profiles")))}}});
 }
 
-// The test as read and as used, then the clocks of a second logger.
-mstch::array test_items(const FitReport& report, const std::string& id) {
-  mstch::array items;
-  const auto found = report.tests.find(id);
-  if (found == report.tests.end()) return items;
-  for (const std::string& figure : found->second)
-    items.emplace_back(mstch::map{
-        {"figure", text(figure)},
-        {"caption",
-         text(items.empty() ? "The test as read, and as used after the corrections."
-                            : "The clocks of machine and logger: as recorded, aligned, and the "
-                              "difference that is left.")}});
-  return items;
-}
-
-mstch::map specimen_content(const FitReport& report, std::size_t index) {
-  const calib::SpecimenResult& s = report.result.specimens[index];
-  const std::string use = s.use == calib::Use::fit ? "fit" : "validate";
-  const std::string porosity = quantity(s.porosity / in::percent, "%", 3);
-  return {{"id", text(s.id)},
-          {"use", text(use)},
-          {"orientation", text(degrees(s.orientation))},
-          {"porosity", text(porosity)},
-          {"scatter", text(number(s.scatter, 3))},
-          {"overview", mstch::node{overview_cells(s)}},
-          {"summary", text(fmt::format("{}{}, θ = {}, porosity {}, scatter d = {}", use,
-                                       s.measured.broke ? "" : ", not broken",
-                                       degrees(s.orientation), porosity, number(s.scatter, 3)))},
-          {"figure", text(draw(specimen_figure(s, fmt::format("s{}", index))))},
-          {"rows", mstch::node{comparison_rows(s)}},
-          {"terms", section(term_rows(s))},
-          {"failed", text(s.failed_simulations == 0 ? ""
-                                                    : count(s.failed_simulations, "simulation") +
-                                                          " of this specimen failed.")},
-          {"corrections", correction_section(s.measured.corrections)},
-          {"warnings", text_section(s.measured.warnings)},
-          {"tests", section(test_items(report, s.id))},
-          {"sections", section(section_items(report, s.id))}};
-}
-
 // What Ceres adds are its own numbers, to seven digits.
 std::string first_sentence(const std::string& message) {
   return message.substr(0, message.find(". "));
@@ -250,6 +139,21 @@ mstch::array stage_rows(const std::vector<calib::StageLog>& stages) {
   return rows;
 }
 
+// Tests whose numbers are not those of bone: the first thing to look at, whatever came of them.
+mstch::array doubts_of(const calib::CalibrationResult& result) {
+  mstch::array doubts;
+  for (const calib::SpecimenResult& specimen : result.specimens)
+    for (const std::string& warning : specimen.measured.warnings)
+      if (warning.find(calib::not_of_bone) != std::string::npos)
+        doubts.push_back(text(fmt::format("{}: {}.", specimen.id, typeset(warning))));
+  return doubts;
+}
+
+// Whether starts came as low as the lowest, to half a standard deviation's cost.
+bool starts_agree(const calib::CalibrationResult& result) {
+  return result.starts.size() > 1 && result.starts[1] < result.starts[0] + 0.5;
+}
+
 }  // namespace
 
 std::string fit_page(const FitReport& report) {
@@ -264,6 +168,7 @@ std::string fit_page(const FitReport& report) {
       {{"grade", text(result.trusted() ? "good" : "bad")},
        {"sentence", text(fit_sentence(result))},
        {"detail", text(status_sentence(result))},
+       {"doubts", mstch::node{doubts_of(result)}},
        {"checks", check_section(result.verdict)},
        {"parameters", mstch::node{parameters}},
        {"strength_figure", text(draw(strength_figure(result.specimens, "strength")))},
@@ -271,7 +176,9 @@ std::string fit_page(const FitReport& report) {
        {"knowledge", knowledge(result)},
        {"waterfall",
         text(result.starts.empty() ? "" : draw(waterfall_figure(result, "waterfall")))},
+       {"flat", mstch::node{starts_agree(result)}},
        {"search", text(search_sentence(report))},
+       {"weighed_anew", mstch::node{result.stages.size() > 1}},
        {"stages", mstch::node{stage_rows(result.stages)}},
        {"left_out", left_out_section(result.left_out)}},
       report.provenance);

@@ -116,11 +116,11 @@ std::string search_sentence(const FitReport& report) {
 std::string section_caption(const calib::SectionPorosity& section) {
   return fmt::format(
       "{}: porosity {} %, {} on {} mm² of bone, standard deviation {} in windows of one fibre; {}, "
-      "threshold {}, pixel {}",
+      "threshold at a depth of {} (0 bone, 1 pore), pixel {}",
       base_name(section.file),
       plus_minus(section.porosity / in::percent, section.porosity_standard_error / in::percent),
       count(section.pore_count, "pore"), number(section.bone_area / in::mm2, 3),
-      number(section.window_sd, 3), section.method, number(section.threshold, 3),
+      number(section.window_sd, 3), section.method, number(1.0 - section.threshold, 3),
       quantity(section.pixel_size / in::um, "µm", 3));
 }
 
@@ -142,13 +142,24 @@ std::string base_name(const std::string& path) {
 
 std::string render_page(const std::string& title, const std::string& name, mstch::map content,
                         const Provenance& provenance) {
+  constexpr std::string_view digest = "SHA-256 ";
+  Facts facts, digests;
+  for (const auto& [fact, value] : provenance)
+    if (value.starts_with(digest))
+      digests.emplace_back(fact, value.substr(digest.size()));
+    else
+      facts.emplace_back(fact, value);
   const std::string body = mstch::render(templates().at(name), content, templates());
-  return mstch::render(templates().at("page"),
-                       mstch::map{{"title", text(title)},
-                                  {"body", text(body)},
-                                  {"has_provenance", mstch::node{!provenance.empty()}},
-                                  {"provenance", mstch::node{fact_list(provenance)}}},
-                       templates());
+  return mstch::render(
+      templates().at("page"),
+      mstch::map{{"title", text(title)},
+                 {"body", text(body)},
+                 {"has_provenance", mstch::node{!provenance.empty()}},
+                 {"provenance", mstch::node{fact_list(facts)}},
+                 {"has_digests", mstch::node{!digests.empty()}},
+                 {"digest_count", text(count(static_cast<long>(digests.size()), "input file"))},
+                 {"digests", mstch::node{fact_list(digests)}}},
+      templates());
 }
 
 }  // namespace havers::reports

@@ -137,6 +137,62 @@ TEST(FitPage, EscapesWhatUsersWrote) {
   EXPECT_TRUE(contains(page, "&lt;script&gt;"));
 }
 
+TEST(FitPage, TellsWhatIsNotOfBoneRightUnderTheVerdict) {
+  auto sample = test::fit_sample();
+  sample.result.specimens.front().measured.warnings = {
+      "a strength of 77542 MPa is not that of compact bone (1 to 1000 MPa): check the units"};
+  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  EXPECT_LT(page.find("A1: a strength of 77542 MPa"), page.find("goodness of fit"));
+}
+
+TEST(FitPage, LeavesAnIntervalOpenWhereItsProfileHasNoEnd) {
+  auto sample = test::fit_sample();
+  sample.result.fitted = {"young_GPa"};
+  sample.result.parameters.front().profile_95 = {test::nan, 14.2};
+  sample.result.parameters.front().profile_missing = "the cost does not rise enough";
+  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}),
+                       "at most 14.20 (the cost does not rise enough)"));
+}
+
+TEST(FitPage, SpeaksOfAFlatStretchOnlyWhereThereIsOne) {
+  auto sample = test::fit_sample();
+  sample.result.starts = {8.0, 8.1, 20.0};
+  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), "The flat stretch"));
+  sample.result.starts = {8.0, 12.0, 20.0};
+  EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), "The flat stretch"));
+}
+
+// Both would be called failure strain, and their residuals have opposite signs.
+TEST(FitPage, NamesTheTermThatStandsForTheFailureStrainByWhatItIs) {
+  auto sample = test::fit_sample();
+  sample.result.specimens.front().terms = {{.term = "strength"}, {.term = "failure strain"}};
+  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  EXPECT_TRUE(contains(page, "<th>ln (strength &#x2F; (modulus × failure strain))</th>"));
+  EXPECT_TRUE(contains(page, "<th>ln strength (Pa)</th>"));
+}
+
+TEST(ComparisonPage, SaysInWhatFitsDiffer) {
+  const auto one = test::fit_sample();
+  auto two = test::fit_sample();
+  two.result.parameters.pop_back();
+  const Provenance first{{"Command", "havers fit a -o b"}, {"in/a.csv", "SHA-256 12"}};
+  const Provenance second{{"Command", "havers fit a -o c --set model.x=1"},
+                          {"elsewhere/a.csv", "SHA-256 34"}};
+  const std::string page =
+      comparison_page({{one.study, one.result, {}, first}, {two.study, two.result, {}, second}});
+  expect_sound(page);
+  EXPECT_TRUE(contains(page, "parameters: E, σ₁; settings: --set model.x=1; contents of a.csv<"));
+}
+
+TEST(Provenance, KeepsDigestsFolded) {
+  const auto sample = test::fit_sample();
+  const std::string page =
+      fit_page({sample.study, sample.result, {}, {{"Program", "havers"}, {"a", "SHA-256 12"}}});
+  expect_sound(page);
+  EXPECT_LT(page.find("<summary>SHA-256 of 1 input file"),
+            page.find("<td class=\"hash\">12"));
+}
+
 TEST(FitPage, SurvivesAResultOfNothing) {
   expect_sound(fit_page({calib::Study{}, calib::CalibrationResult{}, {}, {}}));
 }
