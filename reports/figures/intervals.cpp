@@ -64,7 +64,7 @@ std::string fit_names(const std::vector<FitReport>& fits) {
 
 Figure intervals_figure(const std::vector<FitReport>& fits, const std::string& id) {
   const auto panels = by_parameter(fits);
-  const double axis = 52.0, rows = 26.0 * static_cast<double>(fits.size()) + 12.0;
+  const double axis = 62.0, rows = 26.0 * static_cast<double>(fits.size()) + 12.0;
   const double height = static_cast<double>(panels.size()) * (axis + rows);
   Figure figure{.id = id,
                 .description = "95 % intervals of the parameters of every fit",

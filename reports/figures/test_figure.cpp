@@ -161,7 +161,7 @@ Figure test_figure(const ImportReport& report, const std::string& id) {
       (shared_times ? "set multiplot\n" : "") + data_block("raw", {raw.x, raw.y}) +
       data_block("rest", {rest.x, rest.y}) + data_block("used", {used.x, used.y}) +
       data_block("line", {line.x, line.y}) + data_block("peak", {peak_strain, peak_stress}) +
-      range + (shared_times ? panel(0.41, 0.92) : panel(0.155, 0.88)) +
+      range + (shared_times ? panel(0.41, 0.885) : panel(0.155, 0.84)) +
       fmt::format(test_commands, fmt::arg("low", 100.0 * test.window_low),
                   fmt::arg("high", 100.0 * test.window_high),
                   fmt::arg("as_read", test.load_turned ? "as read, sign turned" : "as read"),
