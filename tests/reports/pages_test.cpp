@@ -100,6 +100,8 @@ TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
   EXPECT_TRUE(contains(page, "The bone touches the edge of the image."));
   EXPECT_TRUE(contains(page, "outer third"));
   EXPECT_TRUE(contains(page, ">threshold<"));
+  EXPECT_TRUE(contains(page, "at a depth of 0.490, 0 bone, 1 pore"));
+  EXPECT_TRUE(contains(page, "lacunae below 15 µm"));
   EXPECT_TRUE(contains(page, "Pores are smaller than the window of one fibre"));
   EXPECT_EQ(after(page, "<img", " ").size(), 2U);
 
