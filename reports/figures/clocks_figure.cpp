@@ -54,7 +54,7 @@ Figure clocks_figure(const calib::ClockFit& clocks, const std::string& id) {
           commands, fmt::arg("aligned_range", aligned_range),
           fmt::arg("recorded_range", x_range({clocks.machine.time, clocks.logger.time}, 1.0)),
           fmt::arg("tics", few_tics(clocks.residual.part, 100.0)),
-          fmt::arg("top", panel(0.73, 0.90)), fmt::arg("middle", panel(0.36, 0.57)),
+          fmt::arg("top", panel(0.765, 0.91)), fmt::arg("middle", panel(0.355, 0.555)),
           fmt::arg("bottom", panel(0.11, 0.32)));
   return figure;
 }
