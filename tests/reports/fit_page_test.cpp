@@ -189,8 +189,7 @@ TEST(Provenance, KeepsDigestsFolded) {
   const std::string page =
       fit_page({sample.study, sample.result, {}, {{"Program", "havers"}, {"a", "SHA-256 12"}}});
   expect_sound(page);
-  EXPECT_LT(page.find("<summary>SHA-256 of 1 input file"),
-            page.find("<td class=\"hash\">12"));
+  EXPECT_LT(page.find("<summary>SHA-256 of 1 input file"), page.find("<td class=\"hash\">12"));
 }
 
 TEST(FitPage, SurvivesAResultOfNothing) {
