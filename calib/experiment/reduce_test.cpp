@@ -91,7 +91,7 @@ std::string take_modulus(MeasuredTest& test, const ReductionOptions& options, Mo
 }
 
 // (X9) The modulus line is made to pass through the origin. What lies before the origin then is
-// slack.
+// slack, unless it is but rounding.
 void remove_toe(MeasuredTest& test, const Line& line) {
   const double shift = line.intercept / line.slope;
   for (double& strain : test.strain) strain += shift;
@@ -99,8 +99,9 @@ void remove_toe(MeasuredTest& test, const Line& line) {
   test.window_high += shift;
   std::string detail = fmt::format(
       "strain shifted by {:+.5f} % so that the modulus line passes through zero", shift * percent);
+  const double rounding = 1e-12 * test.window_high;
   const auto origin =
-      std::ranges::find_if(test.strain, [](double strain) { return strain >= 0.0; });
+      std::ranges::find_if(test.strain, [&](double strain) { return strain >= -rounding; });
   if (const auto slack = static_cast<std::size_t>(origin - test.strain.begin()); slack > 0) {
     drop_first(test, slack);
     detail += fmt::format("; {} {} before it dropped", slack, slack == 1 ? "row" : "rows");

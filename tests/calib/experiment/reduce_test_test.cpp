@@ -169,6 +169,16 @@ TEST(ReduceTest, StaysWithinOnePercentOfASpecimenAsALaboratoryRecordsIt) {
   }
 }
 
+TEST(ReduceTest, TakesRoundingBeforeTheOriginForNoSlack) {
+  const TensileTruth truth;
+  for (const double shift : {-1e-18, 1e-18}) {
+    RawTest raw = record(truth);
+    for (double& strain : raw.strain) strain += shift;
+    raw.strain.front() = -1e-18;
+    EXPECT_EQ(reduced(raw, {.cut_after_break = false}).stress.size(), raw.rows()) << shift;
+  }
+}
+
 TEST(ReduceTest, CutsWhatFollowsTheBreak) {
   const TensileTruth truth;
   const RawTest raw = record(truth);
