@@ -94,8 +94,7 @@ std::string by_step(double error) {
 // Of a run that did not break the largest stress is a bound, and its strain says nothing.
 std::string strength_text(const sim::Scene& scene, const sim::Simulation& run) {
   const sim::StepError error = run.error_beyond_accuracy();
-  const std::string strength =
-      fmt::format("{:.4g} MPa{}", 1e-6 * run.strength, by_step(error.strength));
+  std::string strength = fmt::format("{:.4g} MPa{}", 1e-6 * run.strength, by_step(error.strength));
   if (run.status == sim::SimulationStatus::severed) return strength;
   if (run.status == sim::SimulationStatus::broken)
     return fmt::format("{} at a strain of {:.4g} %{}", strength, 100.0 * run.failure_strain,

@@ -44,9 +44,7 @@ mstch::array parameter_rows(const std::vector<FitReport>& fits) {
 }
 
 std::string joined(const std::vector<std::string>& parts) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
-  return text;
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 // What was given on the command line beside the study: "--set model.x=1", "--seed 2".
