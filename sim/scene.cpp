@@ -193,17 +193,6 @@ void check_number_of_steps(const Scene& scene, Checker& checker) {
         "start = \"uniform\" with leave_out = true leaps to the first break");
 }
 
-// The first row would lie beyond the last.
-void check_length_of_step(const Scene& scene, Checker& checker) {
-  if (!scene.solver.step || choose_regime(scene).regime == Regime::quasi_static) return;
-  const double strain = *scene.solver.step * scene.loading.strain_rate;
-  if (strain > scene.loading.max_strain)
-    checker.say("solver.step_s",
-                fmt::format("is {:g}: one step stretches by {:.2g}, beyond max_strain = {:g}",
-                            *scene.solver.step, strain, scene.loading.max_strain),
-                "leave step_s out, and the step is chosen");
-}
-
 // Needs a scene that is otherwise sound: it lays the assembly to count its joints.
 void check_thresholds(const Scene& scene, Checker& checker) {
   const std::vector<Threshold>& given = scene.joints.thresholds;
@@ -242,7 +231,6 @@ std::vector<Scene::Problem> Scene::problems() const {
   check_loading(loading, checker);
   check_solver(solver, checker);
   if (checker.found().empty()) check_number_of_steps(*this, checker);
-  if (checker.found().empty()) check_length_of_step(*this, checker);
   if (checker.found().empty() && !joints.thresholds.empty()) check_thresholds(*this, checker);
   return checker.found();
 }

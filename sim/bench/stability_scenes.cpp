@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -42,13 +41,14 @@ Scene quasi_static(Scene scene) {
   return scene;
 }
 
-// Steps of h c/L = `size`, the first break or the strain limit in the eleventh.
+// Steps of h c/L = `size`, the first break in the eleventh.
 Scene dynamic(double size, Scene scene) {
   const double h = size * scene.assembly.fibre_length / wave_speed(scene.material);
   const double first = first_break_by_uniform_stress(scene);
   scene.solver.regime = Regime::dynamic;
   scene.solver.step = h;
-  scene.loading.strain_rate = std::min(first, scene.loading.max_strain) / (10.5 * h);
+  scene.loading.strain_rate =
+      (std::isfinite(first) ? first : scene.loading.max_strain) / (10.5 * h);
   return scene;
 }
 

@@ -64,24 +64,6 @@ TEST(Scene, RefusesAStepThatLeadsNowhere) {
   EXPECT_TRUE(scene.problems().empty());
 }
 
-// Its first row would be the last, whatever breaks on the way.
-TEST(Scene, RefusesAStepThatStretchesBeyondTheStrainLimit) {
-  Scene scene;
-  scene.loading.strain_rate = 1e3;
-  scene.loading.max_strain = 0.05;
-  scene.solver.step = 5.1e-5;
-  ASSERT_EQ(scene.problems().size(), 1U);
-  EXPECT_EQ(scene.problems().front().key, "solver.step_s");
-  EXPECT_EQ(scene.problems().front().what,
-            "is 5.1e-05: one step stretches by 0.051, beyond max_strain = 0.05");
-  EXPECT_EQ(scene.problems().front().hint, "leave step_s out, and the step is chosen");
-  scene.solver.regime = Regime::quasi_static;  // without steps
-  EXPECT_TRUE(scene.problems().empty());
-  scene.solver.regime = Regime::dynamic;
-  scene.solver.step = 4.9e-5;
-  EXPECT_TRUE(scene.problems().empty());
-}
-
 // Nothing is leapt over from rest, and the curve of all those steps would fill the memory.
 TEST(Scene, RefusesARateThatLeadsNowhereFromRest) {
   Scene scene;
