@@ -55,7 +55,7 @@ std::string settings_of(const FitReport& fit) {
     std::istringstream words(value);
     for (std::string word, next; words >> word;)
       if ((word == "--set" || word == "--seed") && words >> next)
-        settings.push_back(word + " " + next);
+        settings.push_back(fmt::format("{} {}", word, next));
   }
   return settings.empty() ? "none" : joined(settings);
 }
