@@ -13,7 +13,10 @@ namespace {
 // Fewer that have opened are not worth a new factor, fewer that bear not some for each step.
 constexpr int worth_detaching = 24;
 constexpr std::size_t worth_searching = 48;
-// Paths of more that leave the bonded state in a step are long, and may lead nowhere.
+// Joints that may leave the bonded state in a step before sets are searched: none where inertia is
+// such a part of the stiffness (h c/l up to 13) that sweeps are quick, as friction may leave
+// several answers, and sweeps find the nearest; else so many, as paths of more are long.
+constexpr double worth_sweeping = 1e-3;
 constexpr std::size_t most_at_once = 200;
 constexpr double least_borne = 1e-9;  // of the reactions
 // Part of the stiffness that is less than what inertia adds, in all but the longest steps.
@@ -21,6 +24,13 @@ constexpr double below_inertia = 1e-13;
 
 Local at(const VectorXd& values, int joint) {
   return values.segment<2>(2 * static_cast<Index>(joint));
+}
+
+// Of the bodies that it holds best: slivers are stiff.
+double inertia_part(const Bodies& bodies) {
+  double part = 0.0;
+  for (const BodyClass& group : bodies.classes()) part = std::max(part, group.op.inertia_part);
+  return part;
 }
 
 // Broken joints that have just broken, or press.
@@ -38,6 +48,7 @@ std::size_t bearing(const JointStep& step) {
 ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, bool detach_open)
     : bodies_(&bodies),
       detach_open_(detach_open),
+      most_new_(inertia_part(bodies) > worth_sweeping ? 0 : most_at_once),
       structure_(bodies),
       loose_(structure_),
       search_(bodies),
@@ -130,9 +141,8 @@ bool ActiveSetSolver::reattach_closed(const JointStepResult& result) {
 // Either way may find the set that the other misses.
 JointStepResult ActiveSetSolver::solve(const JointStep& step) {
   // Sweeps lead nowhere where inertia is but a trace.
-  const bool at_rest = std::ranges::any_of(
-      bodies_->classes(), [](const BodyClass& bodies) { return bodies.op.at_rest; });
-  const bool may_search = detach_open_ && !at_rest;
+  const bool may_search = std::ranges::none_of(
+      bodies_->classes(), [](const BodyClass& bodies) { return bodies.op.at_rest(); });
   JointStepResult result;
   long iterations = 0;
   const auto unless_solved = [&](const auto& solve) {
@@ -140,24 +150,33 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
     result = solve();
     iterations += result.iterations;
   };
-  if (may_search && bearing(step) < worth_searching)
-    unless_solved([&] { return solve_loose(step, Effort::little); });
-  if (may_search) unless_solved([&] { return search_.solve(step); });
+  const bool few_move = bearing(step) < worth_searching;
+  if (may_search && few_move) unless_solved([&] { return solve_loose(step, Effort::little); });
+  if (may_search) unless_solved([&] { return search(step, few_move && most_new_ == 0); });
   unless_solved([&] { return solve_loose(step, Effort::all); });
-  if (!may_search) unless_solved([&] { return search_.solve(step); });
+  if (!may_search) unless_solved([&] { return search_.solve(step, false); });
   result.iterations = iterations;
   return result;
+}
+
+JointStepResult ActiveSetSolver::search(const JointStep& step, bool nearest) {
+  JointStepResult found = search_.solve(step, nearest);
+  if (detach_open_ || !found.converged) return found;
+  JointStep from_there = step;  // with the open joints in the factor
+  from_there.states = std::move(found.states);
+  return solve_loose(from_there, Effort::all);
 }
 
 JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effort) {
   detach_opened(step);
   // What is broken and not detached may move; after a rebuild it has to be said again.
-  for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint)
-    if (step.broken[static_cast<std::size_t>(joint)] != 0 && !detached(joint) &&
-        !loose_.contains(joint))
-      loose_.add(joint);
+  for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint) {
+    const auto j = static_cast<std::size_t>(joint);
+    const bool moves = step.broken[j] != 0 || step.states[j] != JointState::stick;
+    if (moves && !detached(joint) && !loose_.contains(joint)) loose_.add(joint);
+  }
 
-  const std::size_t before = loose_.size();
+  const std::size_t most = effort == Effort::all ? step.laws.size() : loose_.size() + most_new_;
   JointStepResult result;
   do {
     result.states = step.states;
@@ -181,8 +200,7 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effor
       }
       if (!result.converged) break;
       overloaded = violated(step, response->reactions, result);
-      result.converged =
-          effort == Effort::all || loose_.size() + overloaded.size() <= before + most_at_once;
+      result.converged = loose_.size() + overloaded.size() <= most;
     } while (result.converged && !overloaded.empty());
     result.iterations += response->solves;
     result.displacements = std::move(response->displacements);

@@ -10,10 +10,10 @@
 
 namespace havers::sim {
 
-/// Everything bonded is one triangular solve (S5). A few joints that leave the bonded state are
-/// loosened one by one and solved among themselves (C1); where many move, sets are searched with a
-/// factor each. Joints that opened for good are detached from the factor. The answer does not
-/// depend on what is loose or detached, only its cost does.
+/// Everything bonded is one triangular solve (S5). A few joints that move are loosened one by one
+/// and solved among themselves (C1); where many move, or more leave the bonded state, sets are
+/// searched with a factor each. Joints that opened for good are detached from the factor. The
+/// answer does not depend on what is loose or detached, only its cost does.
 class ActiveSetSolver : public JointSolver {
  public:
   /// @param detach_open  false: broken joints stay in the factor for good (section 7, for
@@ -28,6 +28,7 @@ class ActiveSetSolver : public JointSolver {
   [[nodiscard]] bool detached(int joint) const {
     return structure_.held()[static_cast<std::size_t>(joint)] == Held::not_at_all;
   }
+  JointStepResult search(const JointStep& step, bool nearest);
   JointStepResult solve_loose(const JointStep& step, Effort effort);
   [[nodiscard]] Eigen::VectorXd jumps(const JointStep& step) const;
   bool settle_loose(const JointStep& step, const Eigen::VectorXd& bonded_reactions, Effort effort,
@@ -38,7 +39,8 @@ class ActiveSetSolver : public JointSolver {
 
   const Bodies* bodies_;
   bool detach_open_;
-  Structure structure_;  // holds all but the joints that opened for good
+  std::size_t most_new_;  // joints in a step that are loosened before sets are searched
+  Structure structure_;   // holds all but the joints that opened for good
   LooseJoints loose_;
   SetSearch search_;
   Eigen::VectorXd stiffness_;

@@ -16,6 +16,9 @@ constexpr int sets_from_answers = 12;  // each answer being where the next sweep
 constexpr int sets_from_sweeps = 8;    // then sweeps go on from where they were, ever longer
 constexpr int most_sweeps = 200;       // between two sets
 constexpr int quiet_sweeps = 10;       // sweeps without a change of state
+// What a set leads to need not be the nearest answer: where few joints move, so many sets are taken
+// first from sweeps that go on, and that are so many times as long.
+constexpr int sets_nearby = 2, patience_nearby = 5;
 // From the seventh set on answers say themselves what is next, if that is so little.
 constexpr int sets_by_sweeps_alone = 6;
 constexpr std::size_t most_changes = 50;
@@ -127,7 +130,7 @@ bool SetSearch::settles_nearby(const JointStep& step, std::size_t most, JointSte
   return true;
 }
 
-JointStepResult SetSearch::solve(const JointStep& step) {
+JointStepResult SetSearch::solve(const JointStep& step, bool nearest) {
   JointStepResult result;
   result.states = step.states;
   // What has broken since the last step changes its set.
@@ -135,15 +138,19 @@ JointStepResult SetSearch::solve(const JointStep& step) {
   if (std::exchange(broken_, broken) == broken && settles(step, result)) return result;
   // Friction may leave several solutions: towards the one nearest to the last.
   sweeps_.start(step, step.reactions, tie_forces_);
-  for (int set = 0, patience = 1; set < sets_from_answers + sets_from_sweeps; ++set) {
+  int set = nearest ? -sets_nearby : 0;
+  for (int patience = nearest ? patience_nearby : 1; set < sets_from_answers + sets_from_sweeps;
+       ++set) {
     result.iterations += look_for_states(step, patience, result.states);
     if (settles_nearby(step, set < sets_by_sweeps_alone ? 0 : most_changes, result) ||
         !structure_->ok())
       break;
-    if (set < sets_from_answers)
-      sweeps_.start(step, last_.reactions, last_.tie_forces);
-    else
+    if (set < -1 || set >= sets_from_answers) {
       patience *= 2;
+    } else {
+      sweeps_.start(step, last_.reactions, last_.tie_forces);
+      patience = 1;
+    }
   }
   return result;
 }

@@ -16,7 +16,9 @@ class SetSearch {
   explicit SetSearch(const Bodies& bodies);
 
   /// `converged` is false where a handful of sets did not do; the answer is then worthless.
-  JointStepResult solve(const JointStep& step);
+  /// @param nearest  Friction may leave several answers: whether to spend more on that which is
+  /// nearest to the last step's.
+  JointStepResult solve(const JointStep& step, bool nearest);
 
  private:
   void take(const std::vector<JointState>& states);

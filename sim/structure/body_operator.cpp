@@ -12,10 +12,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// Inertia below this part of the stiffness is lost in its rounding where a body moves as a whole.
-// [-]
-constexpr double inertia_trace = 1e-6;
-
 std::vector<Index> free_dofs(const std::vector<char>& held) {
   std::vector<Index> free;
   for (std::size_t i = 0; i < held.size(); ++i)
@@ -87,9 +83,9 @@ BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
   body.compatibility = split.impossible;
   body.rigid = body.inertia = MatrixXd(p, 0);
   body.held = free.size() != held.size();
-  body.at_rest = shift.alpha * matrices.mass.maxCoeff() < inertia_trace * A.diagonal().maxCoeff();
+  body.inertia_part = shift.alpha * matrices.mass.maxCoeff() / A.diagonal().maxCoeff();
   const MatrixXd motions = motions_left(matrices.motions, held);
-  if (body.at_rest && motions.cols() > 0) {
+  if (body.at_rest() && motions.cols() > 0) {
     const Eigen::ColPivHouseholderQR<MatrixXd> at_ports(ports * motions);
     body.rigid = MatrixXd(at_ports.householderQ()).leftCols(at_ports.rank());
     const MatrixXd moved = motions * at_ports.solve(body.rigid);

@@ -20,7 +20,7 @@ struct Shift {
 struct BodyOperator {
   BodyMatrices matrices;
   bool held = false;           ///< Whether the boundary holds some of its degrees of freedom.
-  bool at_rest = false;        ///< Whether inertia is but a trace of Ā.
+  double inertia_part = 0.0;   ///< Largest entry of αM, of Ā's. [-]
   Eigen::MatrixXd shifted;     ///< Ā, n × n. [N/m²]
   Eigen::MatrixXd ports;       ///< B, p × n. [-]
   Eigen::MatrixXd compliance;  ///< G, n × n: answer to loads with the ports held. [m²/N]
@@ -30,6 +30,9 @@ struct BodyOperator {
                             ///< that the boundary leaves to the body, at its ports. [-]
   Eigen::MatrixXd inertia;  ///< Z times these, free of rounding in K. [N/m²]
   Eigen::MatrixXd compatibility;  ///< N, orthonormal rows: N p = 0 for every p = B δ. [-]
+
+  /// Whether inertia is but a trace of Ā, lost in its rounding where the body moves as a whole.
+  [[nodiscard]] bool at_rest() const { return inertia_part < 1e-6; }
 };
 
 /// @param held  1 for a degree of freedom that the boundary prescribes, n values.
