@@ -13,11 +13,12 @@ namespace {
 // Fewer that have opened are not worth a new factor, fewer that bear not some for each step.
 constexpr int worth_detaching = 24;
 constexpr std::size_t worth_searching = 48;
-// Joints that may leave the bonded state in a step before sets are searched: none where inertia is
-// such a part of the stiffness (h c/l up to 13) that sweeps are quick, as friction may leave
-// several answers, and sweeps find the nearest; else so many, as paths of more are long.
-constexpr double worth_sweeping = 1e-3;
+// Paths of more that leave the bonded state in a step are long, and may lead nowhere.
 constexpr std::size_t most_at_once = 200;
+// Part of the stiffness that inertia is, beyond which sweeps are quick.
+constexpr double worth_sweeping = 1e-3;
+// Friction that was seen to leave several answers; sweeps find the nearest.
+constexpr double strong_friction = 1.25;
 constexpr double least_borne = 1e-9;  // of the reactions
 // Part of the stiffness that is less than what inertia adds, in all but the longest steps.
 constexpr double below_inertia = 1e-13;
@@ -43,12 +44,26 @@ std::size_t bearing(const JointStep& step) {
   return count;
 }
 
+bool friction_is_strong(const JointStep& step) {
+  return std::ranges::any_of(step.laws,
+                             [](const JointLaw& law) { return law.friction > strong_friction; });
+}
+
+// Joints that an answer overloads for the first time.
+std::size_t leaving(const JointStep& step, const JointStepResult& result) {
+  std::size_t count = 0;
+  for (std::size_t j = 0; j < result.states.size(); ++j)
+    if (step.broken[j] == 0 && result.states[j] != JointState::stick) ++count;
+  return count;
+}
+
 }  // namespace
 
 ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, bool detach_open)
-    : bodies_(&bodies),
-      detach_open_(detach_open),
-      most_new_(inertia_part(bodies) > worth_sweeping ? 0 : most_at_once),
+    : detach_open_(detach_open),
+      inertia_part_(inertia_part(bodies)),
+      may_search_(std::ranges::none_of(bodies.classes(),
+                                       [](const BodyClass& group) { return group.op.at_rest(); })),
       structure_(bodies),
       loose_(structure_),
       search_(bodies),
@@ -140,9 +155,7 @@ bool ActiveSetSolver::reattach_closed(const JointStepResult& result) {
 
 // Either way may find the set that the other misses.
 JointStepResult ActiveSetSolver::solve(const JointStep& step) {
-  // Sweeps lead nowhere where inertia is but a trace.
-  const bool may_search = std::ranges::none_of(
-      bodies_->classes(), [](const BodyClass& bodies) { return bodies.op.at_rest(); });
+  const bool few_bear = bearing(step) < worth_searching;
   JointStepResult result;
   long iterations = 0;
   const auto unless_solved = [&](const auto& solve) {
@@ -150,11 +163,17 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
     result = solve();
     iterations += result.iterations;
   };
-  const bool few_move = bearing(step) < worth_searching;
-  if (may_search && few_move) unless_solved([&] { return solve_loose(step, Effort::little); });
-  if (may_search) unless_solved([&] { return search(step, few_move && most_new_ == 0); });
-  unless_solved([&] { return solve_loose(step, Effort::all); });
-  if (!may_search) unless_solved([&] { return search_.solve(step, false); });
+  const auto loosening = [&](std::size_t joints) {
+    return solve_loose(step, Effort::little, joints);
+  };
+  if (few_bear && inertia_part_ > worth_sweeping && friction_is_strong(step)) {
+    unless_solved([&] { return loosening(0); });
+    if (leaving(step, result) < worth_searching) unless_solved([&] { return search(step, true); });
+  }
+  if (few_bear && may_search_) unless_solved([&] { return loosening(most_at_once); });
+  if (may_search_) unless_solved([&] { return search(step, false); });
+  unless_solved([&] { return solve_loose(step, Effort::all, step.laws.size()); });
+  if (!may_search_) unless_solved([&] { return search(step, false); });
   result.iterations = iterations;
   return result;
 }
@@ -164,10 +183,14 @@ JointStepResult ActiveSetSolver::search(const JointStep& step, bool nearest) {
   if (detach_open_ || !found.converged) return found;
   JointStep from_there = step;  // with the open joints in the factor
   from_there.states = std::move(found.states);
-  return solve_loose(from_there, Effort::all);
+  JointStepResult result = solve_loose(from_there, Effort::all, step.laws.size());
+  result.iterations += found.iterations;
+  return result;
 }
 
-JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effort) {
+// Not converged where more joints than that leave the bonded state.
+JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effort,
+                                             std::size_t most_leave) {
   detach_opened(step);
   // What is broken and not detached may move; after a rebuild it has to be said again.
   for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint) {
@@ -176,7 +199,7 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effor
     if (moves && !detached(joint) && !loose_.contains(joint)) loose_.add(joint);
   }
 
-  const std::size_t most = effort == Effort::all ? step.laws.size() : loose_.size() + most_new_;
+  const std::size_t most = loose_.size() + most_leave;
   JointStepResult result;
   do {
     result.states = step.states;

@@ -11,9 +11,9 @@
 namespace havers::sim {
 
 /// Everything bonded is one triangular solve (S5). A few joints that move are loosened one by one
-/// and solved among themselves (C1); where many move, or more leave the bonded state, sets are
-/// searched with a factor each. Joints that opened for good are detached from the factor. The
-/// answer does not depend on what is loose or detached, only its cost does.
+/// and solved among themselves (C1); where many bear or leave the bonded state, or friction may
+/// leave several answers, sets are searched with a factor each (C5). Joints that opened for good
+/// are detached from the factor: what is loose or detached changes the cost, not the answer.
 class ActiveSetSolver : public JointSolver {
  public:
   /// @param detach_open  false: broken joints stay in the factor for good (section 7, for
@@ -29,7 +29,7 @@ class ActiveSetSolver : public JointSolver {
     return structure_.held()[static_cast<std::size_t>(joint)] == Held::not_at_all;
   }
   JointStepResult search(const JointStep& step, bool nearest);
-  JointStepResult solve_loose(const JointStep& step, Effort effort);
+  JointStepResult solve_loose(const JointStep& step, Effort effort, std::size_t most_leave);
   [[nodiscard]] Eigen::VectorXd jumps(const JointStep& step) const;
   bool settle_loose(const JointStep& step, const Eigen::VectorXd& bonded_reactions, Effort effort,
                     JointStepResult& result, Eigen::VectorXd& y) const;
@@ -37,10 +37,10 @@ class ActiveSetSolver : public JointSolver {
                             JointStepResult& result) const;
   bool reattach_closed(const JointStepResult& result);
 
-  const Bodies* bodies_;
   bool detach_open_;
-  std::size_t most_new_;  // joints in a step that are loosened before sets are searched
-  Structure structure_;   // holds all but the joints that opened for good
+  double inertia_part_;
+  bool may_search_;      // sweeps lead nowhere where inertia is but a trace
+  Structure structure_;  // holds all but the joints that opened for good
   LooseJoints loose_;
   SetSearch search_;
   Eigen::VectorXd stiffness_;

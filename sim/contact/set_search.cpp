@@ -16,9 +16,9 @@ constexpr int sets_from_answers = 12;  // each answer being where the next sweep
 constexpr int sets_from_sweeps = 8;    // then sweeps go on from where they were, ever longer
 constexpr int most_sweeps = 200;       // between two sets
 constexpr int quiet_sweeps = 10;       // sweeps without a change of state
-// What a set leads to need not be the nearest answer: where few joints move, so many sets are taken
-// first from sweeps that go on, and that are so many times as long.
-constexpr int sets_nearby = 2, patience_nearby = 5;
+// Where the nearest answer is looked for, the first sweeps are so many times as long, and go on to
+// the second set: what the answer of a set leads to may be another.
+constexpr int patience_for_nearest = 5;
 // From the seventh set on answers say themselves what is next, if that is so little.
 constexpr int sets_by_sweeps_alone = 6;
 constexpr std::size_t most_changes = 50;
@@ -138,19 +138,16 @@ JointStepResult SetSearch::solve(const JointStep& step, bool nearest) {
   if (std::exchange(broken_, broken) == broken && settles(step, result)) return result;
   // Friction may leave several solutions: towards the one nearest to the last.
   sweeps_.start(step, step.reactions, tie_forces_);
-  int set = nearest ? -sets_nearby : 0;
-  for (int patience = nearest ? patience_nearby : 1; set < sets_from_answers + sets_from_sweeps;
-       ++set) {
+  int patience = nearest ? patience_for_nearest : 1;
+  const int most_sets = sets_from_answers + (nearest ? 0 : sets_from_sweeps);
+  for (int set = 0; set < most_sets; ++set) {
     result.iterations += look_for_states(step, patience, result.states);
     if (settles_nearby(step, set < sets_by_sweeps_alone ? 0 : most_changes, result) ||
         !structure_->ok())
       break;
-    if (set < -1 || set >= sets_from_answers) {
-      patience *= 2;
-    } else {
-      sweeps_.start(step, last_.reactions, last_.tie_forces);
-      patience = 1;
-    }
+    const bool go_on = (nearest && set == 0) || set >= sets_from_answers;
+    if (!go_on) sweeps_.start(step, last_.reactions, last_.tie_forces);
+    patience = go_on ? 2 * patience : 1;
   }
   return result;
 }

@@ -16,8 +16,8 @@ class SetSearch {
   explicit SetSearch(const Bodies& bodies);
 
   /// `converged` is false where a handful of sets did not do; the answer is then worthless.
-  /// @param nearest  Friction may leave several answers: whether to spend more on that which is
-  /// nearest to the last step's.
+  /// @param nearest  Whether to sweep longer for the answer nearest to the last step's, as friction
+  /// may leave several.
   JointStepResult solve(const JointStep& step, bool nearest);
 
  private:

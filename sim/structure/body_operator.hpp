@@ -20,7 +20,7 @@ struct Shift {
 struct BodyOperator {
   BodyMatrices matrices;
   bool held = false;           ///< Whether the boundary holds some of its degrees of freedom.
-  double inertia_part = 0.0;   ///< Largest entry of αM, of Ā's. [-]
+  double inertia_part = 0.0;   ///< αM in Ā, by their largest entries. [-]
   Eigen::MatrixXd shifted;     ///< Ā, n × n. [N/m²]
   Eigen::MatrixXd ports;       ///< B, p × n. [-]
   Eigen::MatrixXd compliance;  ///< G, n × n: answer to loads with the ports held. [m²/N]

@@ -100,7 +100,7 @@ TEST(SimulateDynamic, BreaksHundredsOfJointsInAFewSteps) {
       most = std::max(most,
                       simulation.curve[i].broken_joints - simulation.curve[i - 10].broken_joints);
     EXPECT_GT(most, 200) << wall.degrees;
-    EXPECT_LT(simulation.iterations, 20 * simulation.steps) << wall.degrees;
+    EXPECT_LT(simulation.iterations, 10 * simulation.steps) << wall.degrees;
   }
 }
 
