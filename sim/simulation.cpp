@@ -66,7 +66,7 @@ std::string explain(const Simulation& simulation) {
 
 std::string step_in_words(double step) {
   for (const auto& [unit, symbol] : {std::pair(1.0, "s"), {1e-3, "ms"}, {1e-6, "µs"}, {1e-9, "ns"}})
-    if (step >= unit) return fmt::format("{:.3g} {}", step / unit, symbol);
+    if (step >= 0.9995 * unit) return fmt::format("{:.3g} {}", step / unit, symbol);
   return fmt::format("{:.3g} ps", step / 1e-12);
 }
 

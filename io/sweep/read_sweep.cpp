@@ -37,14 +37,13 @@ void read_plan(TableReader& top, calib::Sweep& sweep) {
 
 // Every point puts its own value on top.
 void refuse_settings_of_varied_keys(const Overrides& overrides, const calib::SweepPlan& plan) {
+  const toml::table set = parse_toml({}, overrides);
   std::vector<Problem> problems;
-  for (const std::string& setting : overrides) {
-    std::string key = setting.substr(0, setting.find('='));
-    key.erase(key.find_last_not_of(' ') + 1);
-    if (std::ranges::find(plan.keys, key, &calib::SweepKey::name) != plan.keys.end())
-      problems.push_back({std::string(override_mark) + key, "sets nothing: the sweep varies it",
-                          fmt::format("--set 'sweep.keys.\"{}\"=[...]' gives its values", key)});
-  }
+  for (const calib::SweepKey& key : plan.keys)
+    if (set.at_path(key.name))
+      problems.push_back(
+          {std::string(override_mark) + key.name, "sets nothing: the sweep varies it",
+           fmt::format("--set 'sweep.keys.\"{}\"=[...]' gives its values", key.name)});
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 

@@ -17,7 +17,7 @@ constexpr std::size_t worth_searching = 48;
 constexpr std::size_t most_at_once = 200;
 // Part of the stiffness that inertia is, beyond which sweeps are quick.
 constexpr double worth_sweeping = 1e-3;
-// Friction that was seen to leave several answers; sweeps find the nearest.
+// Cohesive friction that was seen to leave several answers; sweeps find the nearest.
 constexpr double strong_friction = 1.25;
 constexpr double least_borne = 1e-9;  // of the reactions
 // Part of the stiffness that is less than what inertia adds, in all but the longest steps.
@@ -27,7 +27,7 @@ Local at(const VectorXd& values, int joint) {
   return values.segment<2>(2 * static_cast<Index>(joint));
 }
 
-// Of the bodies that it holds best: slivers are stiff.
+// Of the bodies that inertia holds best: slivers are stiff.
 double inertia_part(const Bodies& bodies) {
   double part = 0.0;
   for (const BodyClass& group : bodies.classes()) part = std::max(part, group.op.inertia_part);
@@ -45,11 +45,12 @@ std::size_t bearing(const JointStep& step) {
 }
 
 bool friction_is_strong(const JointStep& step) {
-  return std::ranges::any_of(step.laws,
-                             [](const JointLaw& law) { return law.friction > strong_friction; });
+  return std::ranges::any_of(step.laws, [](const JointLaw& law) {
+    return law.cohesion > 0.0 && law.friction > strong_friction;
+  });
 }
 
-// Joints that an answer overloads for the first time.
+// Joints that leave the bonded state in an answer.
 std::size_t leaving(const JointStep& step, const JointStepResult& result) {
   std::size_t count = 0;
   for (std::size_t j = 0; j < result.states.size(); ++j)
@@ -61,7 +62,7 @@ std::size_t leaving(const JointStep& step, const JointStepResult& result) {
 
 ActiveSetSolver::ActiveSetSolver(const Bodies& bodies, bool detach_open)
     : detach_open_(detach_open),
-      inertia_part_(inertia_part(bodies)),
+      sweeps_are_quick_(inertia_part(bodies) > worth_sweeping),
       may_search_(std::ranges::none_of(bodies.classes(),
                                        [](const BodyClass& group) { return group.op.at_rest(); })),
       structure_(bodies),
@@ -166,7 +167,7 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
   const auto loosening = [&](std::size_t joints) {
     return solve_loose(step, Effort::little, joints);
   };
-  if (few_bear && inertia_part_ > worth_sweeping && friction_is_strong(step)) {
+  if (few_bear && sweeps_are_quick_ && friction_is_strong(step)) {
     unless_solved([&] { return loosening(0); });
     if (leaving(step, result) < worth_searching) unless_solved([&] { return search(step, true); });
   }
@@ -199,7 +200,6 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effor
     if (moves && !detached(joint) && !loose_.contains(joint)) loose_.add(joint);
   }
 
-  const std::size_t most = loose_.size() + most_leave;
   JointStepResult result;
   do {
     result.states = step.states;
@@ -223,11 +223,12 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effor
       }
       if (!result.converged) break;
       overloaded = violated(step, response->reactions, result);
-      result.converged = loose_.size() + overloaded.size() <= most;
+      result.converged = leaving(step, result) <= most_leave;
     } while (result.converged && !overloaded.empty());
     result.iterations += response->solves;
     result.displacements = std::move(response->displacements);
     result.reactions = std::move(response->reactions);
+    result.tie_forces = std::move(response->tie_forces);
     result.gaps = step.predicted + response->gaps;
     result.residual = std::max(joint_residual(step, result, stiffness_), response->residual);
   } while (result.converged && reattach_closed(result));

@@ -13,7 +13,8 @@ namespace havers::sim {
 /// Everything bonded is one triangular solve (S5). A few joints that move are loosened one by one
 /// and solved among themselves (C1); where many bear or leave the bonded state, or friction may
 /// leave several answers, sets are searched with a factor each (C5). Joints that opened for good
-/// are detached from the factor: what is loose or detached changes the cost, not the answer.
+/// are detached from the factor: what is loose or detached changes the cost, not the answer where
+/// there is but one.
 class ActiveSetSolver : public JointSolver {
  public:
   /// @param detach_open  false: broken joints stay in the factor for good (section 7, for
@@ -38,7 +39,7 @@ class ActiveSetSolver : public JointSolver {
   bool reattach_closed(const JointStepResult& result);
 
   bool detach_open_;
-  double inertia_part_;
+  bool sweeps_are_quick_;
   bool may_search_;      // sweeps lead nowhere where inertia is but a trace
   Structure structure_;  // holds all but the joints that opened for good
   LooseJoints loose_;

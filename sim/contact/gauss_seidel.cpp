@@ -24,12 +24,11 @@ GaussSeidelSolver::GaussSeidelSolver(const Bodies& bodies, double tolerance, int
     : tolerance_(tolerance),
       max_sweeps_(max_sweeps),
       sweeps_(bodies),
-      tie_forces_(VectorXd::Zero(static_cast<Index>(bodies.assembly().ties.size()))),
       stiffness_(joint_stiffness(bodies)) {}
 
 JointStepResult GaussSeidelSolver::solve(const JointStep& step) {
   JointStepResult result;
-  sweeps_.start(step, step.reactions, tie_forces_);
+  sweeps_.start(step, step.reactions, step.tie_forces);
   const auto measure = [&] {
     result.reactions = sweeps_.reactions();
     result.gaps = sweeps_.gaps(step);
@@ -44,7 +43,7 @@ JointStepResult GaussSeidelSolver::solve(const JointStep& step) {
     if (result.iterations % sweeps_between_checks == sweeps_between_checks - 1) measure();
   }
   measure();
-  tie_forces_ = sweeps_.tie_forces();
+  result.tie_forces = sweeps_.tie_forces();
   result.displacements = sweeps_.displacements(step);
   const double unsure = tolerance_ * result.reactions.lpNorm<Eigen::Infinity>();
   for (std::size_t j = 0; j < step.laws.size(); ++j) {

@@ -17,7 +17,6 @@ class GaussSeidelSolver : public JointSolver {
   double tolerance_;
   int max_sweeps_;
   JointSweeps sweeps_;
-  Eigen::VectorXd tie_forces_;  // of the last step, where the next one starts
   Eigen::VectorXd stiffness_;
 };
 

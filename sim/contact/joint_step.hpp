@@ -22,6 +22,7 @@ struct JointStep {
   std::vector<char> broken;        ///< 1 for a joint whose cohesion is gone.
   std::vector<JointState> states;  ///< Of the last step: where a solver starts.
   Eigen::VectorXd reactions;       ///< Of the last step. [N/m]
+  Eigen::VectorXd tie_forces;      ///< Likewise; empty before the first. [N/m]
   double force_scale = 0.0;        ///< Largest norm of the reactions so far. [N/m]
 };
 
@@ -29,6 +30,7 @@ struct JointStepResult {
   bool converged = false;
   Eigen::VectorXd displacements;  ///< δ. [m]
   Eigen::VectorXd reactions;      ///< r. [N/m]
+  Eigen::VectorXd tie_forces;     ///< [N/m]
   Eigen::VectorXd gaps;           ///< Total, at the end of the step. [m]
   std::vector<JointState> states;
   long iterations = 0;

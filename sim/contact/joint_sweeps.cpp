@@ -98,7 +98,8 @@ void JointSweeps::start(const JointStep& step, VectorXd reactions, const VectorX
   states_ = step.states;
   between_ties_ = VectorXd::Zero(static_cast<Index>(ties_.size()));
   double sum = 0.0;  // an equation's force acts on its own tie and, the other way, on the next
-  for (Index i = 0; i < between_ties_.size(); ++i) between_ties_(i) = sum += tie_forces(i);
+  for (Index i = 0; i < between_ties_.size() && tie_forces.size() > 0; ++i)
+    between_ties_(i) = sum += tie_forces(i);
   p_ = bodies_->port_displacements(displacements(step));
 }
 

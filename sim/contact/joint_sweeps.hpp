@@ -15,7 +15,7 @@ class JointSweeps {
  public:
   explicit JointSweeps(const Bodies& bodies);
 
-  /// Starts from given reactions of the joints and forces of the ties. [N/m]
+  /// Starts from given reactions of the joints and forces of the ties, if any. [N/m]
   void start(const JointStep& step, Eigen::VectorXd reactions, const Eigen::VectorXd& tie_forces);
   /// One sweep; returns whether a joint's state changed.
   bool sweep(const JointStep& step);

@@ -34,10 +34,7 @@ Held held_in(JointState state) {
 }  // namespace
 
 SetSearch::SetSearch(const Bodies& bodies)
-    : bodies_(&bodies),
-      sweeps_(bodies),
-      tie_forces_(VectorXd::Zero(static_cast<Index>(bodies.assembly().ties.size()))),
-      stiffness_(joint_stiffness(bodies)) {}
+    : bodies_(&bodies), sweeps_(bodies), stiffness_(joint_stiffness(bodies)) {}
 
 void SetSearch::take(const std::vector<JointState>& states) {
   std::vector<Held> held(states.size());
@@ -109,7 +106,7 @@ bool SetSearch::settles(const JointStep& step, JointStepResult& result) {
   result.converged = result.converged && last_.residual < 1e-9;
   if (result.converged) {
     result.residual = std::max(joint_residual(step, result, stiffness_), last_.residual);
-    tie_forces_ = last_.tie_forces;
+    result.tie_forces = last_.tie_forces;
   }
   return result.converged;
 }
@@ -133,11 +130,11 @@ bool SetSearch::settles_nearby(const JointStep& step, std::size_t most, JointSte
 JointStepResult SetSearch::solve(const JointStep& step, bool nearest) {
   JointStepResult result;
   result.states = step.states;
-  // What has broken since the last step changes its set.
+  // What has broken since changes the last step's set.
   const auto broken = std::ranges::count(step.broken, 1);
-  if (std::exchange(broken_, broken) == broken && settles(step, result)) return result;
+  if (!nearest && std::exchange(broken_, broken) == broken && settles(step, result)) return result;
   // Friction may leave several solutions: towards the one nearest to the last.
-  sweeps_.start(step, step.reactions, tie_forces_);
+  sweeps_.start(step, step.reactions, step.tie_forces);
   int patience = nearest ? patience_for_nearest : 1;
   const int most_sets = sets_from_answers + (nearest ? 0 : sets_from_sweeps);
   for (int set = 0; set < most_sets; ++set) {

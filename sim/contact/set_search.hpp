@@ -33,9 +33,8 @@ class SetSearch {
   JointSweeps sweeps_;
   std::optional<Structure> structure_;       // of the last set
   StructureResponse last_{.residual = 1.0};  // answer, where the next one starts
-  Eigen::VectorXd tie_forces_;               // of the last step's answer [N/m]
   Eigen::VectorXd stiffness_;
-  std::ptrdiff_t broken_ = 0;  // joints, at the last step
+  std::ptrdiff_t broken_ = 0;  // joints, when its set was last tried
 };
 
 }  // namespace havers::sim

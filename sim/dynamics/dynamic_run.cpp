@@ -138,6 +138,7 @@ bool DynamicRun::advance() {
   ++steps_;
   slope_ = result.reactions - step_.reactions;
   step_.reactions = result.reactions;
+  step_.tie_forces = result.tie_forces;
   break_joints(result);
   step_.force_scale = std::max(step_.force_scale, result.reactions.norm());
   return result.converged;

@@ -126,9 +126,10 @@ TEST(ReadSweep, NamesAMarginThatCannotBe) {
 TEST(ReadSweep, RefusesASettingOfAKeyThatVaries) {
   const ScratchFolder folder;
   const auto file = folder.write("s.toml", good);
-  EXPECT_THAT(complaints_of(folder, [&] { read_sweep(file, {"joints.scatter = 0.3"}); }),
-              ElementsAre("--set joints.scatter: sets nothing: the sweep varies it (--set "
-                          "'sweep.keys.\"joints.scatter\"=[...]' gives its values)"));
+  for (const char* setting : {"joints.scatter = 0.3", "joints = {scatter = 0.3}"})
+    EXPECT_THAT(complaints_of(folder, [&] { read_sweep(file, {setting}); }),
+                ElementsAre("--set joints.scatter: sets nothing: the sweep varies it (--set "
+                            "'sweep.keys.\"joints.scatter\"=[...]' gives its values)"));
   EXPECT_EQ(read_sweep(file, {"sweep.keys.\"joints.scatter\"=[0.3]"}).sweep.points.size(), 2U);
 }
 

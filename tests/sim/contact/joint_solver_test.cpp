@@ -145,6 +145,18 @@ TEST_P(EveryJointSolver, AgreesWithTheActiveSet) {
   }
 }
 
+// Friction leaves several answers here, of which sweeps find the nearest to the last step's.
+TEST_P(EveryJointSolver, TakesTheAnswerOfSweepsWhereFrictionIsStrong) {
+  scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 0.5);
+  for (const double strain : {0.0008, 0.001, 0.0015}) {
+    const JointStep step = stretch(strain);
+    const JointStepResult found = solver->solve(step);
+    const JointStepResult truth = gauss_seidel.make(bodies)->solve(step);
+    EXPECT_TRUE(truth.converged);
+    EXPECT_LT((found.reactions - truth.reactions).norm(), 1e-7 * truth.reactions.norm());
+  }
+}
+
 // Nor does it matter how joints are numbered, not even where all break together.
 TEST_P(EveryJointSolver, DoesNotKnowTheOrderOfJoints) {
   std::vector<std::size_t> order(assembly.joints.size());
