@@ -55,7 +55,9 @@ Command bench_command(CLI::App& app, CommonOptions& common) {
   parser->add_option("--seeds", arguments->seeds, "runs of each setting (default: 3)")
       ->type_name("N")
       ->check(count());
-  parser->add_option("--studies", arguments->studies, "studies of known truth (default: 20 with --calibration, 100 with --coverage)")
+  parser
+      ->add_option("--studies", arguments->studies,
+                   "studies of known truth (default: 20 with --calibration, 100 with --coverage)")
       ->type_name("N")
       ->check(count());
   parser
