@@ -9,7 +9,8 @@
 namespace havers::calib {
 namespace {
 
-// 8 layers of 5 fibres at 45 degrees: avalanches of such walls may stop below where a run ends otherwise.
+// 8 layers of 5 fibres at 45 degrees: avalanches of such walls may stop below where a run ends
+// otherwise.
 Study one_oblique_bar() {
   Study study;
   study.model.assembly.layers = 8;
