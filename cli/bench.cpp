@@ -52,7 +52,9 @@ Command bench_command(CLI::App& app, CommonOptions& common) {
   const auto chosen = std::make_shared<const Flag*>(nullptr);
   parser->add_option("SCENE", arguments->scene, "scene file (TOML)");
   add_output(*parser, arguments->folder, "folder for the results")->required();
-  parser->add_option("--seeds", arguments->seeds, "runs of each setting (default: 3)")
+  parser
+      ->add_option("--seeds", arguments->seeds,
+                   "runs of each setting, with --porosity drawn sections of each kind (default: 3)")
       ->type_name("N")
       ->check(count());
   parser

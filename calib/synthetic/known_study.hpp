@@ -35,7 +35,7 @@ struct KnownStudy {
   std::array<double, 3> truth{};  ///< Of `parameters`, in their units.
 };
 
-/// A study on walls of 8 x 6 fibres. Truth, tests and noise are drawn by `number` alone.
+/// A study on walls of 8 layers of 6 fibres. Truth, tests and noise are drawn by `number` alone.
 KnownStudy known_study(const Design& design, int number);
 
 /// The same with a truth that is given.
