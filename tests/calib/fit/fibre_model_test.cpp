@@ -60,6 +60,7 @@ TEST(FibreModel, HasNoAnswerWhereNoJointIsLeft) {
 TEST(FibreModel, StopsInsideARunInStepsAndInTheLimit) {
   for (const double rate : {1e-4, 1000.0}) {
     auto scene = small_scene(0.0);
+    scene.assembly.layers = 3;
     scene.loading.strain_rate = rate;
     int asked = 0;
     EXPECT_FALSE(fibre_model([&] { return ++asked == 3; }).run(scene));
