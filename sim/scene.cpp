@@ -230,8 +230,8 @@ std::vector<Scene::Problem> Scene::problems() const {
   check_joints(joints, checker);
   check_loading(loading, checker);
   check_solver(solver, checker);
-  if (checker.found().empty()) check_number_of_steps(*this, checker);
   if (checker.found().empty() && !joints.thresholds.empty()) check_thresholds(*this, checker);
+  if (checker.found().empty()) check_number_of_steps(*this, checker);
   return checker.found();
 }
 

@@ -48,7 +48,7 @@ std::string explain(SimulationStatus status) {
       return "more than one set of joint forces bears the load, as where nearly all fibres reach "
              "from end to end; more fibres in a layer leave one";
     case SimulationStatus::not_converged:
-      return "a step's residual stayed above the tolerance";
+      return "a step or a break has no answer that was found";
     case SimulationStatus::not_finite:
       return "a number left the range of doubles";
     case SimulationStatus::cancelled:

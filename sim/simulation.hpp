@@ -20,7 +20,7 @@ enum class SimulationStatus {
   severed,         ///< Missing joints leave nothing between the ends: it never bears a load.
   step_limit,      ///< So many steps, and it did not break. The strength is a lower bound.
   not_determined,  ///< More than one set of joint forces bears the intact specimen's load.
-  not_converged,   ///< A step's residual stayed above the tolerance.
+  not_converged,   ///< A step or a break has no answer that was found.
   not_finite,      ///< A number left the range of doubles.
   cancelled,       ///< The observer asked to stop.
 };
@@ -132,7 +132,7 @@ struct Progress {
 };
 
 /// Called after each step or break; returning false stops the run (status `cancelled`). Where a run
-/// is done again, with a shorter step or more care, its rows are seen again, from an earlier time.
+/// is done again, with a shorter step or more care, rows are seen again, from no later one.
 /// Watching changes nothing.
 using Observer = std::function<bool(const Progress&)>;
 

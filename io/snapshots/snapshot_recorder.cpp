@@ -18,12 +18,12 @@ SnapshotRecorder::SnapshotRecorder(int count) : count_(static_cast<std::size_t>(
 }
 
 void SnapshotRecorder::record(const sim::Progress& progress) {
-  if (progress.point.time < time_) {
+  if (progress.row <= row_) {  // of another run
     shown_ = 0;
     stride_ = 1;
     held_.clear();
   }
-  time_ = progress.point.time;
+  row_ = progress.row;
   if (count_ == 0 || shown_++ % stride_ != 0) return;
   held_.push_back({progress.row, progress.displacements(), progress.joints()});
   if (held_.size() < 2 * count_ + 1) return;

@@ -39,7 +39,7 @@ class SnapshotRecorder {
  private:
   std::size_t count_;
   std::size_t shown_ = 0, stride_ = 1;
-  double time_ = 0.0;  // of the last row [s]
+  std::size_t row_ = 0;  // the last one seen
   std::vector<Snapshot> held_;
 };
 

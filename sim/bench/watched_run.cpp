@@ -30,8 +30,8 @@ class Watcher {
   Watcher(double bonded_strain, WatchedRun& run) : bonded_strain_(bonded_strain), run_(&run) {}
 
   void record(const Progress& progress) {
-    if (progress.point.time < time_) begin_again();
-    time_ = progress.point.time;
+    if (progress.row <= row_) begin_again();
+    row_ = progress.row;
     const double strain = progress.point.strain;
     const bool intact = progress.point.broken_joints == 0;
     const bool bonded = run_->bonded_forces.size() == 0 && intact;
@@ -53,7 +53,7 @@ class Watcher {
   }
 
  private:
-  // A chosen step is halved: another run.
+  // Another run: a chosen step is halved, or one in the limit done again with care.
   void begin_again() {
     run_->bonded_forces.resize(0);
     run_->order.clear();
@@ -78,7 +78,8 @@ class Watcher {
     return was;
   }
 
-  double bonded_strain_, strain_ = 0.0, time_ = 0.0;
+  double bonded_strain_, strain_ = 0.0;
+  std::size_t row_ = 0;
   int broken_ = 0;
   VectorXd before_;
   std::vector<char> seen_;

@@ -203,6 +203,7 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effor
   JointStepResult result;
   do {
     result.states = step.states;
+    result.converged = false;
     if (!structure_.ok()) return result;
     const StructureLoads bonded{step.forces, step.prescribed, jumps(step), step.force_scale};
     StructureResponse bonded_response = structure_.solve(bonded), loose_response;

@@ -12,8 +12,8 @@ namespace havers::sim {
 
 /// Everything bonded is one triangular solve (S5). A few joints that move are loosened one by one
 /// and solved among themselves (C1); where many bear or leave the bonded state, or friction may
-/// leave several answers, sets are searched with a factor each (C5). Joints that opened for good
-/// are detached from the factor: what is loose or detached changes the cost, not the answer where
+/// leave several answers, sets are searched with a factor each (C5). Joints that opened are
+/// detached from the factor until they close: what is loose or detached changes the cost, not the answer where
 /// there is but one.
 class ActiveSetSolver : public JointSolver {
  public:
@@ -41,7 +41,7 @@ class ActiveSetSolver : public JointSolver {
   bool detach_open_;
   bool sweeps_are_quick_;
   bool may_search_;      // sweeps lead nowhere where inertia is but a trace
-  Structure structure_;  // holds all but the joints that opened for good
+  Structure structure_;  // holds all but the joints that have opened
   LooseJoints loose_;
   SetSearch search_;
   Eigen::VectorXd stiffness_;

@@ -131,26 +131,18 @@ bool turns(const StateSystem& system, const Branch& branch, const Change& back,
 
 VectorXd answer_of_states(StateSystem& system, StateSolution known) {
   const LocalContact& p = system.problem();
-  const VectorXd c = cohesions(p);
-  VectorXd anew = system.solve(p.r0, -p.u0, c).y;
+  VectorXd anew = system.solve().y;
   const double residual = law_residual_of(p, anew);
   if (residual <= law_is_met) return anew;
-  VectorXd near = system.solve_from(std::move(known), p.r0, -p.u0, c, accuracy_of_answer).y;
-  return law_residual_of(p, near) < residual ? near : anew;
-}
-
-VectorXd cohesions(const LocalContact& p) {
-  VectorXd c(static_cast<Index>(p.laws.size()));
-  for (Index i = 0; i < c.size(); ++i) c(i) = p.laws[static_cast<std::size_t>(i)].cohesion;
-  return c;
+  VectorXd near = system.solve_from(std::move(known), p.r0, -p.u0, cohesions(p), accuracy_of_answer).y;
+  return std::isnan(residual) || law_residual_of(p, near) < residual ? near : anew;
 }
 
 VectorXd cohesion_to_stick(const VectorXd& reactions, const std::vector<JointLaw>& laws) {
   VectorXd extra(static_cast<Index>(laws.size()));
   for (Index i = 0; i < extra.size(); ++i) {
     const JointLaw& law = laws[static_cast<std::size_t>(i)];
-    const double need = std::abs(reactions(2 * i + 1)) / std::max(law.friction, least_friction) -
-                        reactions(2 * i) - law.cohesion;
+    const double need = std::abs(reactions(2 * i + 1)) / law.friction - reactions(2 * i) - law.cohesion;
     extra(i) = std::max(0.0, 1.01 * need);
   }
   return extra;
@@ -158,7 +150,7 @@ VectorXd cohesion_to_stick(const VectorXd& reactions, const std::vector<JointLaw
 
 std::optional<Homotopy> from_states(StateSystem& system) {
   const LocalContact& p = system.problem();
-  const StateSolution now = system.solve(p.r0, -p.u0, cohesions(p));
+  const StateSolution now = system.solve();
   if (!now.y.allFinite()) return std::nullopt;
   Homotopy added{VectorXd::Zero(p.r0.size()), VectorXd::Zero(p.r0.size()), {}};
   for (std::size_t i = 0; i < p.laws.size(); ++i) {
@@ -194,7 +186,7 @@ Homotopy from_sticking(StateSystem& system, int way) {
       e(static_cast<Index>(i)) =
           1.0 + std::fmod(std::numbers::phi * (static_cast<double>(i) + 7.0 * way * way), 1.0);
   system.set(std::move(start));
-  const VectorXd reactions = system.solve(p.r0, -p.u0, cohesions(p)).r;
+  const VectorXd reactions = system.solve().r;
   return {.cohesion = cohesion_to_stick(reactions, p.laws).cwiseProduct(e).maxCoeff() * e};
 }
 

@@ -43,9 +43,6 @@ Homotopy from_sticking(StateSystem& system, int way = 0);
 /// where equations solved from nothing leave it, then where they are met nearest to a known answer.
 Eigen::VectorXd answer_of_states(StateSystem& system, StateSolution known);
 
-/// c of every joint, n. [N/m]
-Eigen::VectorXd cohesions(const LocalContact& problem);
-
 /// e that lets joints with these reactions stick: where a path can start. [N/m]
 Eigen::VectorXd cohesion_to_stick(const Eigen::VectorXd& reactions,
                                   const std::vector<JointLaw>& laws);

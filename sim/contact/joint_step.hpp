@@ -16,8 +16,8 @@ struct JointStep {
   Eigen::VectorXd prescribed;  ///< δ of the held degrees of freedom. [m]
   Eigen::VectorXd predicted;   ///< H(q + h v). [m]
   Eigen::VectorXd gaps;        ///< At the last step. [m]
-  Eigen::VectorXd held_at;     ///< Gap and slip at which a sticking joint is held: (0, slip when it
-                               ///< last held). [m]
+  Eigen::VectorXd held_at;     ///< Gap and slip at which a sticking joint is held: (0, slip of the
+                               ///< last step once it is broken). [m]
   std::vector<JointLaw> laws;
   std::vector<char> broken;        ///< 1 for a joint whose cohesion is gone.
   std::vector<JointState> states;  ///< Of the last step: where a solver starts.

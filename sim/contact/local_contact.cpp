@@ -102,7 +102,7 @@ LocalContactResult try_sets(const LocalContact& p, States states) {
   std::set<States> tried;
   while (result.iterations < sets_at_once && tried.insert(result.states).second) {
     ++result.iterations;
-    result.y = StateSystem(p, result.states).solve(p.r0, -p.u0, cohesions(p)).y;
+    result.y = StateSystem(p, result.states).solve().y;
     if (!result.y.allFinite()) break;
     States wanted = states_of(p, result.y, result.states);
     result.converged = wanted == result.states;

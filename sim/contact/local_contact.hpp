@@ -22,7 +22,8 @@ double slip_sign(JointState state);
 struct LocalContact {
   Eigen::MatrixXd S;           ///< Reactions to unit gaps, 2n × 2n, symmetric ≥ 0. [N/m²]
   Eigen::VectorXd r0;          ///< Reactions at y = 0, 2n. [N/m]
-  Eigen::VectorXd u0;          ///< Gap, and slip since the joint last held, at y = 0, 2n. [m]
+  Eigen::VectorXd u0;          ///< Gap, and slip since the last step (the start, in the
+                               ///< limit), at y = 0, 2n. [m]
   std::vector<JointLaw> laws;  ///< n.
   std::vector<char>
       apart{};  ///< 1 for a joint that stays open whatever its gap; n, or empty for none.
@@ -47,7 +48,7 @@ struct LocalContactResult {
   bool converged = false;
   Eigen::VectorXd y;               ///< 2n. [m]
   std::vector<JointState> states;  ///< n.
-  int iterations = 0;              ///< Sets tried, and solves and sweeps in between.
+  int iterations = 0;              ///< Sets tried, and branches of paths.
 };
 
 /// Norm of the law's natural map (M11) over the joints that are not apart, for reactions [N/m] and
@@ -76,7 +77,7 @@ SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, cons
 
 /// What is done before a problem counts as not solved.
 enum class Effort : char {
-  little,  ///< One path: where another solver may be quicker than more of them.
+  little,  ///< Two paths: where another solver may be quicker than more of them.
   all
 };
 

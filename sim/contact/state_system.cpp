@@ -24,6 +24,12 @@ constexpr std::size_t borders_at_least = 4;
 
 }  // namespace
 
+VectorXd cohesions(const LocalContact& p) {
+  VectorXd c(static_cast<Index>(p.laws.size()));
+  for (Index i = 0; i < c.size(); ++i) c(i) = p.laws[static_cast<std::size_t>(i)].cohesion;
+  return c;
+}
+
 StateSystem::StateSystem(const LocalContact& problem) : problem_(&problem) {
   grow();
 }
@@ -174,6 +180,10 @@ MatrixXd StateSystem::lacking(const MatrixXd& r, const MatrixXd& cohesion) const
     if (slope != 0.0) b.row(row) -= slope * (r.row(row - 1) + cohesion.row(row / 2));
   }
   return b;
+}
+
+StateSolution StateSystem::solve() {
+  return solve(problem_->r0, -problem_->u0, cohesions(*problem_));
 }
 
 StateSolution StateSystem::solve(const MatrixXd& r0, const MatrixXd& held,

@@ -17,6 +17,9 @@ struct StateSolution {
   Eigen::MatrixXd r;  ///< [N/m]
 };
 
+/// c of every joint, n. [N/m]
+Eigen::VectorXd cohesions(const LocalContact& problem);
+
 /// (C2): gaps are held where a joint sticks, along the normal also where it slips; for each other
 /// gap one equation, no force beyond −c where open, friction on the cone where slipping. The factor
 /// of some states serves others too: what they change borders it (C6).
@@ -34,6 +37,8 @@ class StateSystem {
   void set(std::size_t joint, JointState state) { states_[joint] = state; }
   void set(std::vector<JointState> states) { states_ = std::move(states); }
 
+  /// Of the problem as it is.
+  [[nodiscard]] StateSolution solve();
   /// For free reactions `r0` [N/m], gaps `held` where they are held [m] and cohesions c [N/m].
   [[nodiscard]] StateSolution solve(const Eigen::MatrixXd& r0, const Eigen::MatrixXd& held,
                                     const Eigen::MatrixXd& cohesion);

@@ -131,7 +131,7 @@ bool DynamicRun::advance() {
   const JointStepResult result = solver_->solve(step_);
   iterations_ += result.iterations;
   worst_residual_ = std::max(worst_residual_, result.residual);
-  if (result.displacements.size() == 0) return false;
+  if (!result.converged && result.displacements.allFinite()) return false;
   const Motion before = motion_;
   move(result);
   account(result, before);
@@ -141,7 +141,7 @@ bool DynamicRun::advance() {
   step_.tie_forces = result.tie_forces;
   break_joints(result);
   step_.force_scale = std::max(step_.force_scale, result.reactions.norm());
-  return result.converged;
+  return true;
 }
 
 // Margins of the cones, μ (R_N + c) ∓ R_T, change linearly: when the first is used up. [s]

@@ -30,9 +30,9 @@ SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepp
   while (simulation.curve.back().strain < end) {
     const bool solved = run.advance();
     if (!run.finite()) return SimulationStatus::not_finite;
-    simulation.curve.push_back(run.point());
     if (!solved)
       return run.determined() ? SimulationStatus::not_converged : SimulationStatus::not_determined;
+    simulation.curve.push_back(run.point());
     if (observer &&
         !observer({simulation.curve.back(), simulation.curve.size() - 1,
                    [&run] { return run.outcomes(); }, [&run] { return run.displacements(); }}))

@@ -64,6 +64,7 @@ double BreakingRun::meets_cone_at(std::size_t joint) const {
 
 double BreakingRun::next_event() const {
   double first = std::numeric_limits<double>::infinity();
+  if (force_ == 0.0) return first;  // what bears nothing breaks nothing: reactions are rounding
   for (std::size_t j = 0; j < joints_.size(); ++j) first = std::min(first, meets_cone_at(j));
   return first;
 }

@@ -58,12 +58,12 @@ SimulationStatus follow_events(const Scene& scene, BreakingRun& run, const Obser
     const double event = run.next_event();
     run.stretch(std::min(event, scene.loading.max_strain));
     simulation.curve.push_back(run.point());
-    if (event > scene.loading.max_strain) return SimulationStatus::strain_limit;
     const double stress = simulation.curve.back().stress_right;
     if (!std::isfinite(stress)) return SimulationStatus::not_finite;
     has_failed(simulation, end_fraction);  // takes note of the strength
     if (stress >= simulation.strength)
       simulation.without_contact_to_strength = run.without_contact();
+    if (event > scene.loading.max_strain) return SimulationStatus::strain_limit;
 
     if (!run.break_joints(event)) return SimulationStatus::not_converged;
     simulation.curve.push_back(run.point());
@@ -113,17 +113,22 @@ Simulation break_event_by_event(const Scene& scene,
   return simulation;
 }
 
+bool is_no_worse(const Simulation& a, const Simulation& b) {
+  if (has_ended(a) != has_ended(b)) return has_ended(a);
+  return a.worst_residual <= b.worst_residual;
+}
+
 }  // namespace
 
 Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
   const std::shared_ptr<const IntactStructure> intact = intact_structure(scene);
   Simulation quick = break_event_by_event(scene, intact, false, observer);
-  if (quick.worst_residual <= accurate || quick.status == SimulationStatus::cancelled) return quick;
+  if ((has_ended(quick) && quick.worst_residual <= accurate) ||
+      quick.status == SimulationStatus::cancelled)
+    return quick;
   Simulation careful = break_event_by_event(scene, intact, true, observer);
   // Where a piece hangs on next to nothing either may miss an answer that the other finds.
-  if (careful.worst_residual <= quick.worst_residual ||
-      careful.status == SimulationStatus::cancelled)
-    return careful;
+  if (is_no_worse(careful, quick) || careful.status == SimulationStatus::cancelled) return careful;
   // A watcher sees the answer last.
   return observer ? break_event_by_event(scene, intact, false, observer) : quick;
 }

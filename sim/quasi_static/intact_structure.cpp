@@ -63,8 +63,7 @@ Eigen::VectorXd uniform_stress_forces(const Assembly& assembly, double stress) {
 IntactStructure::IntactStructure(const AssemblyOptions& options, const Loading& loading,
                                  const Material& material, bool leave_out)
     : assembly_(build_assembly(options, loading.lateral)),
-      shift_(quasi_static_shift(assembly_)),
-      bodies_(assembly_, unit_material(material), shift_, leave_out),
+      bodies_(assembly_, unit_material(material), quasi_static_shift(assembly_), leave_out),
       structure_(bodies_),
       end_bodies_(sim::end_bodies(assembly_)) {
   if (!structure_.ok()) return;

@@ -33,7 +33,6 @@ class IntactStructure {
   ~IntactStructure();
 
   [[nodiscard]] const Assembly& assembly() const { return assembly_; }
-  [[nodiscard]] const Bodies& bodies() const { return bodies_; }
   [[nodiscard]] const Structure& structure() const { return structure_; }
   /// No gaps. Its residual is that of a solve, or how far a solve misses the uniform stress where
   /// layers are alike and self-stress is not determined (M10).
@@ -66,7 +65,6 @@ class IntactStructure {
                                              const Find& find) const;
 
   Assembly assembly_;
-  Shift shift_;
   Bodies bodies_;
   Structure structure_;
   UnitAnswer answer_;

@@ -71,7 +71,6 @@ class Structure {
 
   /// Whether it can be solved; bodies without ports need no factor.
   [[nodiscard]] bool ok() const { return factor_ ? factor_->ok() : unknowns_ == 0; }
-  [[nodiscard]] const Bodies& bodies() const { return *bodies_; }
   [[nodiscard]] const std::vector<Held>& held() const { return held_; }
   [[nodiscard]] Eigen::Index joints() const { return static_cast<Eigen::Index>(held_.size()); }
   [[nodiscard]] const SparseFactor& factor() const { return *factor_; }

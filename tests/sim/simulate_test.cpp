@@ -122,6 +122,8 @@ TEST(Simulate, SaysWhenAStepDidNotConverge) {
   EXPECT_EQ(simulation.status, SimulationStatus::not_converged);
   EXPECT_FALSE(simulation.trusted());
   EXPECT_GT(simulation.worst_residual, scene.solver.tolerance);
+  EXPECT_EQ(simulation.curve.size(), 1U);  // from rest; what has no answer is no row
+  EXPECT_EQ(simulation.displacements.norm(), 0.0);
 }
 
 // Where nearly every fibre reaches from end to end, many layers can bear forces between their

@@ -16,14 +16,15 @@ TEST(SimulationStatus, HasAWordAndASentenceEach) {
   std::set<std::string> words, sentences;
   for (const SimulationStatus status :
        {SimulationStatus::broken, SimulationStatus::strain_limit, SimulationStatus::step_limit,
+        SimulationStatus::severed,
         SimulationStatus::not_determined, SimulationStatus::not_converged,
         SimulationStatus::not_finite, SimulationStatus::cancelled}) {
     words.insert(to_string(status));
     sentences.insert(explain(status));
   }
   EXPECT_THAT(words, testing::ElementsAre("broken", "cancelled", "not_converged", "not_determined",
-                                          "not_finite", "step_limit", "strain_limit"));
-  EXPECT_EQ(sentences.size(), 7U);
+                                          "not_finite", "severed", "step_limit", "strain_limit"));
+  EXPECT_EQ(sentences.size(), 8U);
   EXPECT_THAT(explain(SimulationStatus::strain_limit), HasSubstr("lower bound"));
 }
 

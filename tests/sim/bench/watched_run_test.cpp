@@ -51,6 +51,26 @@ TEST(WatchedRun, TakesTheForcesOfTheLimitFromTheIntactSpecimen) {
   }
 }
 
+// In the limit both runs may begin at one strain.
+TEST(WatchedRun, ShowsTheBreaksOfTheRunThatCountsWhereItIsDoneAgain) {
+  Scene scene = test::small_scene(0.1, 6, 5);
+  scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 3.0);
+  scene.joints.scatter = 0.5;
+  scene.joints.friction = 1.4;
+  scene.joints.seed = 728;
+  scene.loading.lateral = Lateral::free;
+  std::size_t last = 0;
+  int runs = 1;
+  simulate(scene, [&](const Progress& progress) {
+    runs += progress.row <= last ? 1 : 0;
+    last = progress.row;
+    return true;
+  });
+  ASSERT_GT(runs, 1);
+  const WatchedRun run = watch(scene, {}, {});
+  EXPECT_EQ(run.order.size(), static_cast<std::size_t>(run.simulation.broken_joints));
+}
+
 TEST(WatchedRun, IsComparedAsFarAsItBreaksLikeItsReference) {
   WatchedRun reference;
   reference.order = {7, 3, 5};

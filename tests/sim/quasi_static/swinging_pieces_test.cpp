@@ -88,9 +88,8 @@ TEST(SwingingPieces, AreHeldByTheirNeighboursWithNextToNoFriction) {
   }
 }
 
-// Without most of its joints, layers a thousand times as soft as their neighbours, slivers at the
-// ends: no way solves an event of some of these walls.
-TEST(SwingingPieces, EndInTheLastRowWhereAnEventIsNotSolved) {
+// Layers a thousand times as soft as their neighbours, slivers at the ends.
+Scene nearly_severed(double missing) {
   Scene scene = test::small_scene(89.99, 6, 2);
   scene.assembly.fibre_length = 120e-6;
   scene.material.layer_contrast = 1e-3;
@@ -98,30 +97,63 @@ TEST(SwingingPieces, EndInTheLastRowWhereAnEventIsNotSolved) {
   scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 50.0);
   scene.joints.scatter = 1.9;
   scene.joints.friction = 0.001;
-  scene.joints.missing = 0.6;
+  scene.joints.missing = missing;
   scene.loading.lateral = Lateral::free;
   scene.loading.max_strain = 1.0;
+  return scene;
+}
+
+// No way solves an event of some of these walls, one in thousands.
+TEST(SwingingPieces, EndInTheLastRowWhereAnEventIsNotSolved) {
+  Scene scene = nearly_severed(0.5);
   int unsolved = 0;
-  for (scene.joints.seed = 1; scene.joints.seed <= 3000 && unsolved == 0; ++scene.joints.seed) {
+  for (scene.joints.seed = 3601; scene.joints.seed <= 9000 && unsolved == 0; ++scene.joints.seed) {
     std::vector<JointOutcome> last;
+    double strain = 0.0;
     const Simulation simulation = simulate(scene, [&](const Progress& progress) {
       last = progress.joints();
+      strain = progress.point.strain;
       return true;
     });
-    if (simulation.status != SimulationStatus::not_converged) continue;
+    if (simulation.status != SimulationStatus::not_converged || last.empty()) continue;
     ++unsolved;
+    EXPECT_GT(simulation.strength, 0.0);
     ASSERT_EQ(last.size(), simulation.joints.size());
+    const double stretched = simulation.curve.back().strain / strain;
     int broken = 0;
     for (std::size_t j = 0; j < last.size(); ++j) {
       const JointOutcome& joint = simulation.joints[j];
+      const double nothing = 1e-6 * joint.threshold.normal;
       broken += joint.broken && !is_missing(joint.threshold) ? 1 : 0;
       EXPECT_EQ(joint.broken, last[j].broken);
-      EXPECT_NEAR(joint.reaction_normal, last[j].reaction_normal, 1e-6 * joint.threshold.normal);
-      EXPECT_NEAR(joint.reaction_tangent, last[j].reaction_tangent, 1e-6 * joint.threshold.normal);
+      EXPECT_NEAR(joint.reaction_normal, stretched * last[j].reaction_normal, nothing);
+      EXPECT_NEAR(joint.reaction_tangent, stretched * last[j].reaction_tangent, nothing);
     }
     EXPECT_EQ(broken, simulation.broken_joints);
   }
   EXPECT_EQ(unsolved, 1);
+}
+
+// Small residuals of the events before do not tell that the last one has an answer.
+TEST(SwingingPieces, AreSolvedWithCareWhereAnEventHasNoAnswerWithout) {
+  Scene scene = nearly_severed(0.6);
+  for (const unsigned seed : {1639U, 2809U}) {
+    scene.joints.seed = seed;
+    EXPECT_TRUE(simulate(scene).trusted()) << seed;
+  }
+}
+
+// Severed by missing joints: the reactions are rounding, of which slivers make much.
+TEST(SwingingPieces, BreakNothingWhereTheSpecimenBearsNothing) {
+  Scene scene = test::small_scene(89.99, 5, 3);
+  scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 50.0);
+  scene.joints.scatter = 1.5;
+  scene.joints.missing = 0.6;
+  scene.joints.seed = 930;
+  const Simulation simulation = simulate(scene);
+  EXPECT_EQ(simulation.status, SimulationStatus::severed);
+  EXPECT_EQ(simulation.broken_joints, 0);
+  EXPECT_EQ(simulation.strength, 0.0);
 }
 
 // What rounding leaves is more than that: the run says so, and its answer stays the same.
