@@ -190,11 +190,12 @@ void alternate_search_and_weights(Trail& trail, Answer& answer) {
   }
 }
 
-// How well the answer is known: slopes, intervals, what was left out, profiles. No budget ends it.
+// How well the answer is known: slopes, intervals, what was left out, profiles. Where the budget
+// ended the searches there is none; once they are done, no budget ends this.
 void assess_answer(Trail& trail, Answer& answer) {
   answer.best = trail.best();
   answer.weights = trail.weights();
-  if (trail.cancelled() || answer.active.empty()) return;
+  if (trail.stopped() || answer.active.empty()) return;
   trail.lift_budget();
   trail.enter("uncertainty");
   answer.slopes = differentiate(trail, answer.best, answer.active, slope_step);

@@ -33,12 +33,15 @@ std::size_t nearest(const FitProblem& problem, double orientation) {
   return best;
 }
 
-// Slopes of a specimen that does not exist, measured like specimen `like` of the study.
+// Slopes of a specimen that does not exist, measured like specimen `like` of the study. All
+// unknowns are shared.
 MatrixXd simulated_rows(SimulationBatch& batch, const FitProblem& problem, const Answer& answer,
                         std::size_t like, Specimen specimen) {
   Study other = problem.study;
   other.specimens = {std::move(specimen)};
-  const FitProblem one = make_problem(other);
+  FitProblem one = make_problem(other);
+  one.unknowns = problem.unknowns;  // "auto" may try others for this specimen alone
+  for (Unknown& unknown : one.unknowns) unknown.specimens = {0};
 
   std::vector<Point> points;
   for (const Index k : answer.active)

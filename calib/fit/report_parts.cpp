@@ -63,7 +63,9 @@ std::vector<CalibratedParameter> parameters_of(const FitProblem& problem, const 
         set_error(unknown, answer.uncertainty, active - answer.active.begin(), parameter);
     }
     if (!parameter.identifiable && parameter.left_out_because.empty())
-      parameter.left_out_because = "simulations at the answer or beside it failed";
+      parameter.left_out_because = answer.status == CalibrationStatus::budget_spent
+                                       ? "the budget ended before the searches did"
+                                       : "simulations at the answer or beside it failed";
     parameters.push_back(std::move(parameter));
   }
   return parameters;

@@ -114,11 +114,16 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer) {
 
 // Where there is no answer, nothing of it passes.
 void leave_unchecked(std::vector<Check>& checks, const char* because) {
-  for (Check& check : checks) {
-    if (check.outcome != Outcome::pass || !check.done) continue;
-    check.text = fmt::format("Not checked: {}.", because);
-    check.done = false;
-  }
+  for (Check& check : checks)
+    if (check.outcome == Outcome::pass && check.done)
+      check = {check.check, Outcome::pass, fmt::format("Not checked: {}.", because), false};
+}
+
+// What holds of a point that no search came to says nothing of the answer.
+void leave_all_unchecked(std::vector<Check>& checks, const char* because) {
+  for (Check& check : checks)
+    if (check.check != "converged")
+      check = {check.check, Outcome::pass, fmt::format("Not checked: {}.", because), false};
 }
 
 Check check_failures(const CalibrationResult& result, long distinct) {
@@ -162,6 +167,8 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_censored(problem, answer));
   if (answer.best.failed)
     leave_unchecked(checks, "there is no answer");
+  else if (answer.status == CalibrationStatus::budget_spent)
+    leave_all_unchecked(checks, "the budget ended before the searches did");
   else if (answer.active.empty())
     leave_unchecked(checks, "no parameter is fitted");
   checks.push_back(check_failures(result, result.distinct_simulations));

@@ -191,6 +191,23 @@ TEST(Calibrate, SaysThatTheBudgetIsSpentAndKeepsTheBestPoint) {
   EXPECT_LT(result.cost, 1e4);
 }
 
+// A point that no search came to says nothing of the model, and no interval is worth its time.
+TEST(Calibrate, JudgesNothingOnceTheBudgetIsSpent) {
+  auto study = test::synthetic_study(test::three_orientations);
+  study.calibrate.budget = 1;
+  const auto result = test::fit(study);
+  ASSERT_EQ(result.status, CalibrationStatus::budget_spent);
+  for (const Check& check : result.verdict)
+    EXPECT_EQ(check.done, check.check == "converged" || check.check == "simulations")
+        << check.check << ": " << check.text;
+  EXPECT_TRUE(result.profiles.empty());
+  EXPECT_TRUE(result.next_tests.empty());
+  for (const auto& parameter : result.parameters) {
+    EXPECT_FALSE(parameter.identifiable) << parameter.name;
+    EXPECT_NE(parameter.left_out_because.find("budget"), std::string::npos) << parameter.name;
+  }
+}
+
 TEST(Calibrate, StopsWhenToldToAndGoesOnFromTheStore) {
   test::MemoryStore store;
   const auto study = test::synthetic_study(test::three_orientations);

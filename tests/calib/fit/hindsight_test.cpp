@@ -63,18 +63,6 @@ TEST(Hindsight, TellsHowTheAnswerMovesWithoutASpecimen) {
               (without.value - with.value) / with.standard_error, 0.3);
 }
 
-TEST(Hindsight, KnowsWhichFurtherTestTellsMost) {
-  const auto result = test::fit(test::synthetic_study({0.0, 0.0, 45.0}, {.specimen_effect = 0.05}));
-  ASSERT_EQ(result.next_tests.size(), 3U);  // 90 degrees is simulated
-  const auto ratio =
-      static_cast<std::size_t>(std::ranges::find(result.fitted, "ratio") - result.fitted.begin());
-  ASSERT_LT(ratio, result.fitted.size());
-  for (const auto& test : result.next_tests)
-    for (const double width : test.width) EXPECT_LE(width, 1.0 + 1e-9) << test.what;
-  EXPECT_LT(result.next_tests[1].width[ratio], result.next_tests[0].width[ratio]);
-  EXPECT_LT(result.next_tests[1].width[ratio], 0.9);
-}
-
 // Not the weights, the draws of the bootstrap, nor the specimen that a further test is made from.
 TEST(Hindsight, IsTheSameForSpecimensInAnyOrder) {
   auto study = test::synthetic_study({0.0, 45.0}, {.specimen_effect = 0.05});
@@ -98,37 +86,6 @@ TEST(Hindsight, IsTheSameForSpecimensInAnyOrder) {
     EXPECT_EQ(here.interval_95, there.interval_95) << name;
     EXPECT_EQ(here.bootstrap_95, there.bootstrap_95) << name;
   }
-}
-
-// Strength that follows the modulus would tell of it too; these tests are asked for the modulus
-// alone.
-TEST(Hindsight, ExpectsOfAFurtherTestWhatTheOthersAreAskedFor) {
-  auto study = test::synthetic_study({0.0});
-  study.calibrate.parameters = {"young_GPa"};
-  study.calibrate.terms = {"modulus"};
-  auto simulator = test::ClosedForm{.quasi_static = false}.simulator();
-  simulator.run = [](const sim::Scene& scene) {
-    auto response = test::ClosedForm{}(scene);
-    response.strength *= scene.material.young / 14e9;
-    response.failure_strain = response.strength / response.modulus;
-    return response;
-  };
-  const auto result = calibrate_with(simulator, study);
-  ASSERT_EQ(result.next_tests.size(), 3U);
-  const double like_the_others = result.next_tests[0].width.at(0);
-  for (const auto& test : result.next_tests)
-    EXPECT_NEAR(test.width.at(0), like_the_others, 1e-3) << test.what;
-}
-
-// In the quasi-static limit a faster test is the same test.
-TEST(Hindsight, KnowsWhatATestAtAnotherRateWouldTell) {
-  auto study = test::synthetic_study(test::three_orientations);
-  for (auto& specimen : study.specimens) specimen.test.strain_rate = 1e-3;
-  const auto result = test::fit(study);
-  ASSERT_EQ(result.next_tests.size(), 4U);
-  EXPECT_EQ(result.next_tests[3].what, "one more specimen at 0 deg, 10 times as fast");
-  for (std::size_t k = 0; k < result.fitted.size(); ++k)
-    EXPECT_NEAR(result.next_tests[3].width[k], result.next_tests[0].width[k], 1e-6);
 }
 
 TEST(Hindsight, SaysInWordsWhatIsDetermined) {

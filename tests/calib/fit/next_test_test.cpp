@@ -1,0 +1,70 @@
+// What one more test would tell, before it is made.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "calib/fit/calibrate.hpp"
+#include "tests/support/studies.hpp"
+
+namespace havers::calib {
+namespace {
+
+TEST(NextTest, KnowsWhichFurtherTestTellsMost) {
+  const auto result = test::fit(test::synthetic_study({0.0, 0.0, 45.0}, {.specimen_effect = 0.05}));
+  ASSERT_EQ(result.next_tests.size(), 3U);  // 90 degrees is simulated
+  const auto ratio =
+      static_cast<std::size_t>(std::ranges::find(result.fitted, "ratio") - result.fitted.begin());
+  ASSERT_LT(ratio, result.fitted.size());
+  for (const auto& test : result.next_tests)
+    for (const double width : test.width) EXPECT_LE(width, 1.0 + 1e-9) << test.what;
+  EXPECT_LT(result.next_tests[1].width[ratio], result.next_tests[0].width[ratio]);
+  EXPECT_LT(result.next_tests[1].width[ratio], 0.9);
+}
+
+// Strength that follows the modulus would tell of it too; these tests are asked for the modulus
+// alone.
+TEST(NextTest, ExpectsOfAFurtherTestWhatTheOthersAreAskedFor) {
+  auto study = test::synthetic_study({0.0});
+  study.calibrate.parameters = {"young_GPa"};
+  study.calibrate.terms = {"modulus"};
+  auto simulator = test::ClosedForm{.quasi_static = false}.simulator();
+  simulator.run = [](const sim::Scene& scene) {
+    auto response = test::ClosedForm{}(scene);
+    response.strength *= scene.material.young / 14e9;
+    response.failure_strain = response.strength / response.modulus;
+    return response;
+  };
+  const auto result = calibrate_with(simulator, study);
+  ASSERT_EQ(result.next_tests.size(), 3U);
+  const double like_the_others = result.next_tests[0].width.at(0);
+  for (const auto& test : result.next_tests)
+    EXPECT_NEAR(test.width.at(0), like_the_others, 1e-3) << test.what;
+}
+
+// "auto" tries the scatter where no specimen has porosity. One has here, that at 90 degrees is made
+// from another.
+TEST(NextTest, FitsNothingMoreToAFurtherTestThanToTheOthers) {
+  auto study = test::synthetic_study({0.0, 0.0, 45.0});
+  study.porosity.to_scatter = ToScatter::linear;
+  study.specimens[0].porosity = 0.05;
+  const auto asked = test::fit(study);
+  study.calibrate.automatic = true;
+  const auto automatic = test::fit(study);
+  ASSERT_EQ(automatic.fitted, asked.fitted);
+  ASSERT_EQ(automatic.next_tests.size(), 3U);
+  EXPECT_EQ(automatic.next_tests[2].width, asked.next_tests[2].width);
+}
+
+// In the quasi-static limit a faster test is the same test.
+TEST(NextTest, KnowsWhatATestAtAnotherRateWouldTell) {
+  auto study = test::synthetic_study(test::three_orientations);
+  for (auto& specimen : study.specimens) specimen.test.strain_rate = 1e-3;
+  const auto result = test::fit(study);
+  ASSERT_EQ(result.next_tests.size(), 4U);
+  EXPECT_EQ(result.next_tests[3].what, "one more specimen at 0 deg, 10 times as fast");
+  for (std::size_t k = 0; k < result.fitted.size(); ++k)
+    EXPECT_NEAR(result.next_tests[3].width[k], result.next_tests[0].width[k], 1e-6);
+}
+
+}  // namespace
+}  // namespace havers::calib
