@@ -13,8 +13,8 @@ namespace havers::sim {
 /// Everything bonded is one triangular solve (S5). A few joints that move are loosened one by one
 /// and solved among themselves (C1); where many bear or leave the bonded state, or friction may
 /// leave several answers, sets are searched with a factor each (C5). Joints that opened are
-/// detached from the factor until they close: what is loose or detached changes the cost, not the answer where
-/// there is but one.
+/// detached from the factor until they close: what is loose or detached changes the cost, not the
+/// answer where there is but one.
 class ActiveSetSolver : public JointSolver {
  public:
   /// @param detach_open  false: broken joints stay in the factor for good (section 7, for

@@ -134,7 +134,8 @@ VectorXd answer_of_states(StateSystem& system, StateSolution known) {
   VectorXd anew = system.solve().y;
   const double residual = law_residual_of(p, anew);
   if (residual <= law_is_met) return anew;
-  VectorXd near = system.solve_from(std::move(known), p.r0, -p.u0, cohesions(p), accuracy_of_answer).y;
+  VectorXd near =
+      system.solve_from(std::move(known), p.r0, -p.u0, cohesions(p), accuracy_of_answer).y;
   return std::isnan(residual) || law_residual_of(p, near) < residual ? near : anew;
 }
 
@@ -142,7 +143,8 @@ VectorXd cohesion_to_stick(const VectorXd& reactions, const std::vector<JointLaw
   VectorXd extra(static_cast<Index>(laws.size()));
   for (Index i = 0; i < extra.size(); ++i) {
     const JointLaw& law = laws[static_cast<std::size_t>(i)];
-    const double need = std::abs(reactions(2 * i + 1)) / law.friction - reactions(2 * i) - law.cohesion;
+    const double need =
+        std::abs(reactions(2 * i + 1)) / law.friction - reactions(2 * i) - law.cohesion;
     extra(i) = std::max(0.0, 1.01 * need);
   }
   return extra;

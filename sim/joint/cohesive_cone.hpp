@@ -47,7 +47,8 @@ inline Local project_on_cone(const Local& reaction, const JointLaw& law) {
 ///   r − P( r − k (u + μ |u_t| n) )
 ///
 /// @param reaction   r. [N/m]
-/// @param gap        u: gap along the normal and slip since the last step, or the start in the limit. [m]
+/// @param gap        u: gap along the normal and slip since the last step, or the start in the
+/// limit. [m]
 /// @param stiffness  k > 0, makes the two comparable: the force that a wrong gap would cause.
 /// [N/m²]
 inline Local law_residual(const Local& reaction, const Local& gap, const JointLaw& law,

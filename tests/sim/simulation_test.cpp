@@ -16,9 +16,9 @@ TEST(SimulationStatus, HasAWordAndASentenceEach) {
   std::set<std::string> words, sentences;
   for (const SimulationStatus status :
        {SimulationStatus::broken, SimulationStatus::strain_limit, SimulationStatus::step_limit,
-        SimulationStatus::severed,
-        SimulationStatus::not_determined, SimulationStatus::not_converged,
-        SimulationStatus::not_finite, SimulationStatus::cancelled}) {
+        SimulationStatus::severed, SimulationStatus::not_determined,
+        SimulationStatus::not_converged, SimulationStatus::not_finite,
+        SimulationStatus::cancelled}) {
     words.insert(to_string(status));
     sentences.insert(explain(status));
   }
