@@ -91,36 +91,30 @@ void ActiveSetSolver::detach_opened(const JointStep& step) {
 // Jumps that bring every joint to where it is held, the loose ones to where they are now.
 VectorXd ActiveSetSolver::jumps(const JointStep& step) const {
   VectorXd target = VectorXd::Zero(step.gaps.size());
-  for (const int joint : loose_.joints())
-    target.segment<2>(2 * static_cast<Index>(joint)) = at(step.gaps, joint);
+  target(loose_.rows()) = step.gaps(loose_.rows());
   return target - step.predicted;
 }
 
 // The loose joints among themselves.
 bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded_reactions,
                                    Effort effort, JointStepResult& result, VectorXd& y) const {
-  const auto n = static_cast<Index>(loose_.size());
   LocalContact contact{loose_.stiffness(),
-                       VectorXd(2 * n),
-                       VectorXd(2 * n),
+                       bonded_reactions(loose_.rows()),
+                       (step.gaps - step.held_at)(loose_.rows()),
                        {},
                        {},
                        below_inertia,
                        step.force_scale / std::sqrt(static_cast<double>(step.laws.size()))};
   std::vector<JointState> states;
-  for (Index i = 0; i < n; ++i) {
-    const int joint = loose_.joints()[static_cast<std::size_t>(i)];
-    contact.r0.segment<2>(2 * i) = at(bonded_reactions, joint);
-    contact.u0.segment<2>(2 * i) = at(step.gaps, joint) - at(step.held_at, joint);
+  for (const int joint : loose_.joints()) {
     contact.laws.push_back(step.laws[static_cast<std::size_t>(joint)]);
     states.push_back(result.states[static_cast<std::size_t>(joint)]);
   }
   const LocalContactResult local = solve_local_contact(contact, states, effort);
   result.iterations += local.iterations;
   y = local.y;
-  for (Index i = 0; i < n && local.converged; ++i)
-    result.states[static_cast<std::size_t>(loose_.joints()[static_cast<std::size_t>(i)])] =
-        local.states[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < loose_.size() && local.converged; ++i)
+    result.states[static_cast<std::size_t>(loose_.joints()[i])] = local.states[i];
   return local.converged;
 }
 
@@ -216,9 +210,7 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effor
       response = &bonded_response;
       if (y.size() > 0 && !y.isZero(0.0)) {
         StructureLoads loads = bonded;
-        for (std::size_t i = 0; i < loose_.size(); ++i)
-          loads.jumps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) +=
-              y.segment<2>(2 * static_cast<Index>(i));
+        loads.jumps(loose_.rows()) += y;
         loose_response = structure_.solve(loads);
         response = &loose_response;
       }

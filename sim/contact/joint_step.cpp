@@ -9,25 +9,11 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 VectorXd joint_gaps(const Bodies& bodies, const VectorXd& q) {
-  const VectorXd p = bodies.port_displacements(q);
-  const std::vector<Port>& ports = bodies.ports();
-  const Index rows = 2 * static_cast<Index>(bodies.assembly().joints.size());
-  VectorXd gaps = VectorXd::Zero(rows);
-  for (std::size_t i = 0; i < ports.size(); ++i)
-    if (ports[i].unknown < rows)
-      gaps(ports[i].unknown) +=
-          ports[i].side == PortSide::b ? p(static_cast<Index>(i)) : -p(static_cast<Index>(i));
-  return gaps;
+  return bodies.gaps(bodies.port_displacements(q));
 }
 
 VectorXd joint_forces_on_nodes(const Bodies& bodies, const VectorXd& reactions) {
-  const std::vector<Port>& ports = bodies.ports();
-  VectorXd t = VectorXd::Zero(static_cast<Index>(ports.size()));
-  for (std::size_t i = 0; i < ports.size(); ++i)
-    if (ports[i].unknown < reactions.size())
-      t(static_cast<Index>(i)) =
-          ports[i].side == PortSide::b ? reactions(ports[i].unknown) : -reactions(ports[i].unknown);
-  return bodies.port_forces_on_nodes(t);
+  return bodies.port_forces_on_nodes(bodies.forces_of_joints(reactions));
 }
 
 VectorXd joint_stiffness(const Bodies& bodies) {

@@ -39,9 +39,8 @@ JointSweeps::JointSweeps(const Bodies& bodies)
     port_answers_.emplace_back(group.op.ports * inverses_.back() * group.op.ports.transpose());
     for (const int body : group.bodies) class_of_[static_cast<std::size_t>(body)] = c;
   }
-  std::vector<std::array<Index, 2>> tie_ports(bodies.assembly().ties.size());
-  find_contacts(tie_ports);
-  pair_ties(tie_ports);
+  find_contacts();
+  pair_ties();
 }
 
 double JointSweeps::answer(int body, Index row, Index column) const {
@@ -49,23 +48,15 @@ double JointSweeps::answer(int body, Index row, Index column) const {
   return port_answers_[class_of_[static_cast<std::size_t>(body)]](row - first, column - first);
 }
 
-void JointSweeps::find_contacts(std::vector<std::array<Index, 2>>& tie_ports) {
-  const Assembly& assembly = bodies_->assembly();
-  const std::size_t joints = assembly.joints.size();
-  contacts_.resize(joints);
-  const std::vector<Port>& ports = bodies_->ports();
-  for (std::size_t i = 0; i < ports.size(); ++i) {
-    const auto unknown = static_cast<std::size_t>(ports[i].unknown);
-    const std::size_t side = ports[i].side == PortSide::b ? 1 : 0;
-    if (unknown < 2 * joints)
-      contacts_[unknown / 2].ports[2 * side + unknown % 2] = static_cast<Index>(i);
-    else
-      tie_ports[unknown - 2 * joints][1 - side] = static_cast<Index>(i);
-  }
-  for (std::size_t j = 0; j < joints; ++j) {
+void JointSweeps::find_contacts() {
+  const std::vector<Joint>& joints = bodies_->assembly().joints;
+  contacts_.resize(joints.size());
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const auto &normal = bodies_->ends()[2 * j], &tangential = bodies_->ends()[2 * j + 1];
     Contact& contact = contacts_[j];
-    contact.body_a = assembly.joints[j].body_a;
-    contact.body_b = assembly.joints[j].body_b;
+    contact.ports = {normal[0], tangential[0], normal[1], tangential[1]};
+    contact.body_a = joints[j].body_a;
+    contact.body_b = joints[j].body_b;
     Eigen::Matrix2d W;
     for (const Index r : {0, 1})
       for (const Index c : {0, 1})
@@ -77,13 +68,15 @@ void JointSweeps::find_contacts(std::vector<std::array<Index, 2>>& tie_ports) {
   }
 }
 
-void JointSweeps::pair_ties(const std::vector<std::array<Index, 2>>& tie_ports) {
-  for (std::size_t i = 0; i + 1 < tie_ports.size(); ++i) {
-    const Tie &tie = bodies_->assembly().ties[i], &next = bodies_->assembly().ties[i + 1];
-    TieEquation equation{
-        {tie_ports[i][0], tie_ports[i][1], tie_ports[i + 1][0], tie_ports[i + 1][1]},
-        {tie.body_top, tie.body_bottom, next.body_top, next.body_bottom},
-        0.0};
+void JointSweeps::pair_ties() {
+  const std::vector<Tie>& ties = bodies_->assembly().ties;
+  for (std::size_t i = 0; i + 1 < ties.size(); ++i) {
+    const Tie &tie = ties[i], &next = ties[i + 1];
+    const auto &ends = bodies_->ends()[2 * contacts_.size() + i],
+               &next_ends = bodies_->ends()[2 * contacts_.size() + i + 1];
+    TieEquation equation{{ends[1], ends[0], next_ends[1], next_ends[0]},
+                         {tie.body_top, tie.body_bottom, next.body_top, next.body_bottom},
+                         0.0};
     for (std::size_t a = 0; a < 4; ++a)
       for (std::size_t b = 0; b < 4; ++b)
         if (equation.bodies[a] == equation.bodies[b])
@@ -155,12 +148,7 @@ bool JointSweeps::sweep(const JointStep& step) {
 }
 
 VectorXd JointSweeps::gaps(const JointStep& step) const {
-  VectorXd gaps = step.predicted;
-  for (std::size_t j = 0; j < contacts_.size(); ++j)
-    for (const std::size_t c : {0U, 1U})
-      gaps(static_cast<Index>(2 * j + c)) +=
-          p_(contacts_[j].ports[2 + c]) - p_(contacts_[j].ports[c]);
-  return gaps;
+  return step.predicted + bodies_->gaps(p_);
 }
 
 double JointSweeps::tie_gap() const {
@@ -170,13 +158,7 @@ double JointSweeps::tie_gap() const {
 }
 
 VectorXd JointSweeps::port_forces() const {
-  VectorXd t = VectorXd::Zero(static_cast<Index>(bodies_->ports().size()));
-  for (std::size_t j = 0; j < contacts_.size(); ++j)
-    for (const std::size_t c : {0U, 1U}) {
-      const double r = reactions_(static_cast<Index>(2 * j + c));
-      t(contacts_[j].ports[c]) = -r;
-      t(contacts_[j].ports[2 + c]) = r;
-    }
+  VectorXd t = bodies_->forces_of_joints(reactions_);
   for (std::size_t i = 0; i < ties_.size(); ++i)
     for (std::size_t k = 0; k < 4; ++k)
       t(ties_[i].ports[k]) += tie_signs[k] * between_ties_(static_cast<Index>(i));

@@ -42,8 +42,8 @@ class JointSweeps {
     double compliance = 0.0;  ///< [m²/N]
   };
 
-  void find_contacts(std::vector<std::array<Eigen::Index, 2>>& tie_ports);
-  void pair_ties(const std::vector<std::array<Eigen::Index, 2>>& tie_ports);
+  void find_contacts();
+  void pair_ties();
   [[nodiscard]] double answer(int body, Eigen::Index row, Eigen::Index column) const;
   void push(int body, Eigen::Index port, double force);
   [[nodiscard]] double opening(const TieEquation& tie) const;

@@ -26,6 +26,7 @@ void LooseJoints::add(int joint) {
     stiffness_.conservativeResize(size, size);
   }
   joints_.push_back(joint);
+  for (const Index row : {2 * joint, 2 * joint + 1}) rows_.push_back(row);
   is_loose_[static_cast<std::size_t>(joint)] = 1;
   jumps_.push_back(source_(joint));
   stiffness_.block(first, 0, 2, first + 2) = structure_->reactions_of(*jumps_.back(), jumps_);

@@ -22,6 +22,8 @@ class LooseJoints {
 
   [[nodiscard]] std::size_t size() const { return joints_.size(); }
   [[nodiscard]] const std::vector<int>& joints() const { return joints_; }
+  /// Their rows in a vector over all joints, normal and tangential of each.
+  [[nodiscard]] const std::vector<Eigen::Index>& rows() const { return rows_; }
   [[nodiscard]] const std::vector<SharedJump>& jumps() const { return jumps_; }
   [[nodiscard]] bool contains(int joint) const {
     return is_loose_[static_cast<std::size_t>(joint)] != 0;
@@ -36,6 +38,7 @@ class LooseJoints {
   const Structure* structure_;
   Source source_;
   std::vector<int> joints_;
+  std::vector<Eigen::Index> rows_;
   std::vector<char> is_loose_;     // of all joints
   std::vector<SharedJump> jumps_;  // at each
   Eigen::MatrixXd stiffness_;      // lower triangle of 2 × 2 blocks; grows by doubling

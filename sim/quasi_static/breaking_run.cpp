@@ -243,11 +243,7 @@ VectorXd BreakingRun::reactions_to(const VectorXd& y) const {
 }
 
 VectorXd BreakingRun::of_loose(const VectorXd& of_all) const {
-  VectorXd values(2 * static_cast<Index>(loose_.size()));
-  for (std::size_t i = 0; i < loose_.size(); ++i)
-    values.segment<2>(2 * static_cast<Index>(i)) =
-        of_all.segment<2>(2 * static_cast<Index>(loose_.joints()[i]));
-  return values;
+  return of_all(loose_.rows());
 }
 
 // What the loose joints' own problem lacks of their reactions.
@@ -257,9 +253,7 @@ VectorXd BreakingRun::lacking(const VectorXd& reactions) const {
 
 VectorXd BreakingRun::gaps() const {
   VectorXd gaps = VectorXd::Zero(2 * static_cast<Index>(joints_.size()));
-  for (std::size_t i = 0; i < loose_.size(); ++i)
-    gaps.segment<2>(2 * static_cast<Index>(loose_.joints()[i])) =
-        y_.segment<2>(2 * static_cast<Index>(i));
+  gaps(loose_.rows()) = y_;
   return gaps;
 }
 

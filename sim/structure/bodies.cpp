@@ -102,6 +102,7 @@ Bodies::Bodies(const Assembly& assembly, const Material& material, const Shift& 
       held_(held_dofs(assembly)),
       mass_(2 * assembly.nodes.size()) {
   const std::vector<std::vector<PortRow>> rows = ports_of_bodies(assembly);
+  ends_.resize(2 * assembly.joints.size() + assembly.ties.size());
   first_port_.resize(assembly.bodies.size());
   first_compatibility_.resize(assembly.bodies.size());
   std::map<Signature, std::size_t> known;
@@ -127,7 +128,11 @@ Bodies::Bodies(const Assembly& assembly, const Material& material, const Shift& 
       const auto b = static_cast<std::size_t>(body);
       first_port_[b] = static_cast<Index>(ports_.size());
       first_compatibility_[b] = compatibilities_;
-      for (const PortRow& row : rows[b]) ports_.push_back(row.port);
+      for (const PortRow& row : rows[b]) {
+        ends_[static_cast<std::size_t>(row.port.unknown)][row.port.side == PortSide::b ? 1 : 0] =
+            static_cast<Index>(ports_.size());
+        ports_.push_back(row.port);
+      }
       compatibilities_ += group.op.compatibility.rows();
     }
 }
@@ -181,6 +186,25 @@ VectorXd Bodies::port_forces_on_nodes(const VectorXd& t) const {
   for (const BodyClass& group : classes_)
     scatter(group.op.ports.transpose() * ports_in(t, group), group, y);
   return y;
+}
+
+VectorXd Bodies::gaps(const VectorXd& p) const {
+  VectorXd gaps(2 * static_cast<Index>(assembly_->joints.size()));
+  for (Index unknown = 0; unknown < gaps.size(); ++unknown) {
+    const auto& [a, b] = ends_[static_cast<std::size_t>(unknown)];
+    gaps(unknown) = p(b) - p(a);
+  }
+  return gaps;
+}
+
+VectorXd Bodies::forces_of_joints(const VectorXd& r) const {
+  VectorXd t = VectorXd::Zero(static_cast<Index>(ports_.size()));
+  for (Index unknown = 0; unknown < r.size(); ++unknown) {
+    const auto& [a, b] = ends_[static_cast<std::size_t>(unknown)];
+    t(a) = -r(unknown);
+    t(b) = r(unknown);
+  }
+  return t;
 }
 
 VectorXd Bodies::incompatibility(const VectorXd& p) const {

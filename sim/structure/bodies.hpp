@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <type_traits>
 #include <vector>
 
@@ -34,6 +35,8 @@ class Bodies {
   [[nodiscard]] const Assembly& assembly() const { return *assembly_; }
   [[nodiscard]] const std::vector<BodyClass>& classes() const { return classes_; }
   [[nodiscard]] const std::vector<Port>& ports() const { return ports_; }
+  /// The ports of each unknown, side a and side b.
+  [[nodiscard]] const std::vector<std::array<Eigen::Index, 2>>& ends() const { return ends_; }
   [[nodiscard]] const std::vector<char>& held() const { return held_; }
   [[nodiscard]] Eigen::Index dofs() const { return static_cast<Eigen::Index>(held_.size()); }
   [[nodiscard]] Eigen::Index first_dof(int body) const;
@@ -60,6 +63,10 @@ class Bodies {
   [[nodiscard]] Eigen::VectorXd port_displacements(const Eigen::VectorXd& q) const;  ///< B q. [m]
   [[nodiscard]] Eigen::VectorXd port_forces_on_nodes(
       const Eigen::VectorXd& t) const;  ///< Bᵀ t. [N/m]
+  /// p_b − p_a at the joints. [m]
+  [[nodiscard]] Eigen::VectorXd gaps(const Eigen::VectorXd& p) const;
+  /// At the ports: r on the b sides of the joints, −r on their a sides. [N/m]
+  [[nodiscard]] Eigen::VectorXd forces_of_joints(const Eigen::VectorXd& r) const;
 
   // What of a vector belongs to a class, a body a column.
   /// Of one over the degrees of freedom, copied, and back.
@@ -90,6 +97,7 @@ class Bodies {
   Shift shift_;
   std::vector<BodyClass> classes_;
   std::vector<Port> ports_;
+  std::vector<std::array<Eigen::Index, 2>> ends_;
   std::vector<Eigen::Index> first_port_;           // of each body
   std::vector<Eigen::Index> first_compatibility_;  // of each body
   Eigen::Index compatibilities_ = 0;

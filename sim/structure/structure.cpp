@@ -52,25 +52,19 @@ void Structure::hold(std::vector<Held> held) {
   const int joint_unknowns = 2 * static_cast<int>(assembly.joints.size());
   int next = joint_unknowns + static_cast<int>(assembly.ties.size());
 
-  ports_of_.resize(static_cast<std::size_t>(joint_unknowns));
   unknowns_of_port_.clear();
   for (const Port& port : bodies_->ports()) {
     const bool joint = port.unknown < joint_unknowns, b = port.side == PortSide::b;
-    if (joint)
-      ports_of_[static_cast<std::size_t>(port.unknown)][b ? 1 : 0] =
-          static_cast<Index>(unknowns_of_port_.size());
     // Where a joint does not hold, its side b has an unknown of its own.
     unknowns_of_port_.push_back({joint && b && !holds(port.unknown) ? next++ : port.unknown, -1});
   }
   unknowns_ = next + (assembly.ties.empty() ? 0 : 1);
-  tops_of_ties_.resize(assembly.ties.size());
-  const std::vector<Port>& ports = bodies_->ports();
-  for (std::size_t i = 0; i < ports.size(); ++i)
-    if (ports[i].unknown >= joint_unknowns && ports[i].side == PortSide::b) {
-      unknowns_of_port_[i][1] = static_cast<int>(unknowns_) - 1;
-      tops_of_ties_[static_cast<std::size_t>(ports[i].unknown - joint_unknowns)] =
-          static_cast<Index>(i);
-    }
+  tops_of_ties_.clear();
+  for (std::size_t tie = 0; tie < assembly.ties.size(); ++tie) {
+    const auto& [bottom, top] = bodies_->ends()[static_cast<std::size_t>(joint_unknowns) + tie];
+    unknowns_of_port_[static_cast<std::size_t>(top)][1] = static_cast<int>(unknowns_) - 1;
+    tops_of_ties_.push_back(top);
+  }
   factorise();
 }
 
@@ -116,8 +110,8 @@ void Structure::rub(const VectorXd& friction, VectorXd& port_forces) const {
   for (std::size_t j = 0; j < held_.size(); ++j) {
     const double slope = friction(static_cast<Index>(j));
     if (held_[j] != Held::normal || slope == 0.0) continue;
-    const auto& [a, b] = ports_of_[2 * j + 1];
-    const double force = slope * port_forces(ports_of_[2 * j][1]);
+    const auto& [a, b] = bodies_->ends()[2 * j + 1];
+    const double force = slope * port_forces(bodies_->ends()[2 * j][1]);
     port_forces(b) -= force;
     port_forces(a) += force;
   }
@@ -215,7 +209,7 @@ VectorXd Structure::reactions_of(const VectorXd& port_forces) const {
   VectorXd r(2 * joints());
   for (int unknown = 0; unknown < r.size(); ++unknown)
     r(unknown) =
-        holds(unknown) ? port_forces(ports_of_[static_cast<std::size_t>(unknown)][1]) : 0.0;
+        holds(unknown) ? port_forces(bodies_->ends()[static_cast<std::size_t>(unknown)][1]) : 0.0;
   return r;
 }
 
@@ -236,7 +230,7 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
   }
   const VectorXd prescribed = at_ports.offsets;
   for (int unknown = 0; unknown < 2 * static_cast<int>(joints()); ++unknown) {
-    const auto& [a, b] = ports_of_[static_cast<std::size_t>(unknown)];
+    const auto& [a, b] = bodies_->ends()[static_cast<std::size_t>(unknown)];
     if (holds(unknown)) {
       at_ports.offsets(b) += loads.jumps(unknown);
     } else if (loads.given.size() > 0) {
@@ -274,19 +268,10 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
   return {std::move(displacements),
           std::move(reactions),
           state.forces(tops_of_ties_),
-          gaps_of(state.displacements),
+          bodies_->gaps(state.displacements),
           std::move(state.multipliers),
           state.solves,
           state.error};
-}
-
-VectorXd Structure::gaps_of(const VectorXd& displacements) const {
-  VectorXd gaps(2 * joints());
-  for (Index unknown = 0; unknown < gaps.size(); ++unknown) {
-    const auto& [a, b] = ports_of_[static_cast<std::size_t>(unknown)];
-    gaps(unknown) = displacements(b) - displacements(a);
-  }
-  return gaps;
 }
 
 }  // namespace havers::sim

@@ -107,10 +107,9 @@ class Structure {
     return {both.data(), both[1] < 0 ? 1U : 2U};
   }
   [[nodiscard]] Eigen::Index port_b(int joint, std::size_t component) const {
-    return ports_of_[2 * static_cast<std::size_t>(joint) + component][1];
+    return bodies_->ends()[2 * static_cast<std::size_t>(joint) + component][1];
   }
   [[nodiscard]] Eigen::MatrixXd stiffened(const BodyOperator& op) const;
-  [[nodiscard]] Eigen::VectorXd gaps_of(const Eigen::VectorXd& displacements) const;
   [[nodiscard]] Eigen::VectorXd unknowns_to_ports(const Eigen::VectorXd& unknowns) const;
   [[nodiscard]] Eigen::VectorXd as_held(const Eigen::VectorXd& displacements) const;
   [[nodiscard]] Eigen::VectorXd ports_to_unknowns(const Eigen::VectorXd& forces) const;
@@ -127,7 +126,6 @@ class Structure {
 
   const Bodies* bodies_;
   std::vector<Held> held_;
-  std::vector<std::array<Eigen::Index, 2>> ports_of_;  // sides a and b of each joint's component
   // A tie's top also moves with the distance common to all ties; for the others that is -1.
   std::vector<std::array<int, 2>> unknowns_of_port_;
   std::vector<Eigen::Index> tops_of_ties_;  // their ports

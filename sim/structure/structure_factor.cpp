@@ -49,8 +49,8 @@ std::vector<char> Structure::conducting() const {
       if (is_first[static_cast<std::size_t>(body)] == 0) continue;
       const MatrixXd& N = op_of_body_[static_cast<std::size_t>(body)]->compatibility;
       const std::array<Index, 2> columns{
-          ports_of_[2 * joint][side] - bodies_->first_port(body),
-          ports_of_[2 * joint + 1][side] - bodies_->first_port(body)};
+          bodies_->ends()[2 * joint][side] - bodies_->first_port(body),
+          bodies_->ends()[2 * joint + 1][side] - bodies_->first_port(body)};
       if (N.rows() > 0 && least_share(N(Eigen::all, columns)) < determined)
         conducts[static_cast<std::size_t>(body)] = 0;
     }
@@ -71,7 +71,7 @@ std::vector<Structure::Branch> Structure::network(const std::vector<int>& place)
   branches.reserve(held_.size());
   const auto last = [&](std::size_t joint, std::size_t side) {
     const auto of = [&](std::size_t component) {
-      const auto port = static_cast<std::size_t>(ports_of_[2 * joint + component][side]);
+      const auto port = static_cast<std::size_t>(bodies_->ends()[2 * joint + component][side]);
       return place[static_cast<std::size_t>(unknowns_of_port_[port][0])];
     };
     return std::max(of(0), of(1));
