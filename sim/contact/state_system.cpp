@@ -208,6 +208,13 @@ StateSolution StateSystem::solve_from(StateSolution known, const MatrixXd& r0, c
   return known;
 }
 
+VectorXd StateSystem::forces_of(const VectorXd& change) const {
+  VectorXd forces = VectorXd::Zero(change.size());
+  for (const Equation& equation : equations_)
+    forces.noalias() += problem_->S.col(equation.row) * change(equation.row);
+  return forces;
+}
+
 // Gaps that the states hold are set, the others found.
 void StateSystem::correct(StateSolution& solution, const MatrixXd& held, const MatrixXd& cohesion,
                           double load, double accuracy) {
@@ -231,13 +238,13 @@ void StateSystem::correct(StateSolution& solution, const MatrixXd& held, const M
     if ((b - b.col(most) * factors).norm() <= accuracy * load) {
       const VectorXd change = corrected_by(b.col(most));
       solution.y.noalias() += change * factors;
-      solution.r.noalias() += VectorXd(problem_->S * change) * factors;
+      solution.r.noalias() += forces_of(change) * factors;
       continue;
     }
     for (Index c = 0; c < b.cols(); ++c) {
       const VectorXd change = corrected_by(b.col(c));
       solution.y.col(c) += change;
-      solution.r.col(c).noalias() += problem_->S * change;
+      solution.r.col(c) += forces_of(change);
     }
   }
 }

@@ -67,6 +67,7 @@ class StateSystem {
   bool border_factor();
   [[nodiscard]] Eigen::VectorXd from_factor(const Eigen::VectorXd& load) const;
   [[nodiscard]] double scale() const;
+  [[nodiscard]] Eigen::VectorXd forces_of(const Eigen::VectorXd& change) const;
   [[nodiscard]] double coefficient(const Equation& equation, Eigen::Index unknown) const;
   [[nodiscard]] const Eigen::VectorXd& column(Eigen::Index row);
   [[nodiscard]] Eigen::VectorXd corrected_by(const Eigen::VectorXd& lack);
