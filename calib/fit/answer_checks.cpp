@@ -197,10 +197,12 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
 std::string weibull_sentence(const CalibrationResult& result) {
   std::vector<double> measured, simulated;
   for (const auto& specimen : result.specimens) {
-    if (specimen.use != Use::fit || !(specimen.strength.mean > 0.0)) continue;
+    if (specimen.use != Use::fit || !specimen.measured.broke || !(specimen.strength.mean > 0.0))
+      continue;
     measured.push_back(specimen.measured.strength / specimen.strength.mean);
     for (const auto& replicate : specimen.replicates)
-      if (!replicate.failed) simulated.push_back(replicate.strength / specimen.strength.mean);
+      if (!replicate.failed && replicate.broke)
+        simulated.push_back(replicate.strength / specimen.strength.mean);
   }
   if (measured.size() < 5 || simulated.size() < 5) return "";
   const Weibull tests = weibull(measured), model = weibull(simulated);

@@ -38,7 +38,7 @@ Grouped group(const FitProblem& problem, const Answer& answer, Eigen::Index q) {
       members;  // orientation, residual without the specimen effect
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
-    if (!problem.targets[s].present[q]) continue;
+    if (!tells(answer.best.predictions[f], problem.targets[s])[q]) continue;
     const double variance =
         std::pow(answer.weights.sd[s][q], 2) - std::pow(answer.weights.specimen[q], 2);
     const double residual =
@@ -145,9 +145,9 @@ std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer
     const std::size_t s = problem.fitted[f];
     const Landmarks alike =
         (answer.weights.sd[s].square() - answer.weights.specimen.square()).sqrt();
-    const Landmarks residual = difference(answer.best.predictions[f], problem.targets[s]) / alike;
-    sum += problem.targets[s].present.select(residual.square(), 0.0).sum();
-    terms += static_cast<double>(problem.targets[s].present.count());
+    const auto& prediction = answer.best.predictions[f];
+    sum += (difference(prediction, problem.targets[s]) / alike).square().sum();
+    terms += static_cast<double>(tells(prediction, problem.targets[s]).count());
   }
   const double freedom = terms - static_cast<double>(answer.active.size());
   if (freedom < 1.0) return "";

@@ -50,7 +50,7 @@ Landmarks specimen_effect(const FitProblem& problem, const Weights& weights, con
     Sample sample;
     for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
       const std::size_t s = problem.fitted[f];
-      if (!problem.targets[s].present[q]) continue;
+      if (!tells(at.predictions[f], problem.targets[s])[q]) continue;
       sample.difference.push_back(difference(at.predictions[f], problem.targets[s])[q]);
       sample.variance.push_back(std::pow(weights.sd[s][q], 2) - std::pow(weights.specimen[q], 2));
     }

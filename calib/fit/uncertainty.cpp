@@ -77,7 +77,7 @@ Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, co
   const Eigen::MatrixXd jacobian = slopes.leftCols(static_cast<Eigen::Index>(active.size()));
   // Row k of the pseudo-inverse says how unknown k follows each residual, which has unit variance.
   const Eigen::MatrixXd follow = jacobian.completeOrthogonalDecomposition().pseudoInverse();
-  const Landmarks freedom = landmarks_present(problem) - parameters_spent(slopes);
+  const Landmarks freedom = residuals_told(problem, at) - parameters_spent(slopes);
   const Replicates replicates = replicates_of(problem, weights, at);
 
   Uncertainty result;
