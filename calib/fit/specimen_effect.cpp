@@ -21,7 +21,7 @@ double chi_squared(const Sample& sample, double between) {
 
 // chi_squared falls with `between`: bisection in the variance.
 double variance_between(const Sample& sample, double freedom) {
-  if (freedom < 0.5 || chi_squared(sample, 0.0) <= freedom) return 0.0;
+  if (freedom < least_freedom || chi_squared(sample, 0.0) <= freedom) return 0.0;
   double low = 0.0, high = 0.0;
   for (const double difference : sample.difference) high += difference * difference / freedom;
   for (int i = 0; i < 60; ++i) {

@@ -68,6 +68,44 @@ TEST(Verdict, RejectsTheModelWhereCurvesAreNotBrittle) {
   EXPECT_FALSE(result.trusted());
 }
 
+TEST(Verdict, ComparesOrientationsOnlyWhereItCan) {
+  const auto one = check_of(test::fit(test::synthetic_study({0.0, 0.0})), "residuals unstructured");
+  EXPECT_EQ(one.outcome, Outcome::pass);
+  EXPECT_FALSE(one.done);
+  EXPECT_TRUE(says(one, "Not checked: ")) << one.text;
+  // Two parameters make up for two strengths, none for two moduli.
+  auto study = test::synthetic_study({0.0, 45.0});
+  const auto two = check_of(test::fit(study), "residuals unstructured");
+  EXPECT_TRUE(two.done);
+  EXPECT_TRUE(says(two, "(modulus: p = 0.")) << two.text;
+  EXPECT_TRUE(says(two, "strength: too few to tell)")) << two.text;
+  for (auto& specimen : study.specimens)
+    if (specimen.orientation > 0.1)
+      specimen.test = test::straight_test(0.7 * specimen.test.modulus, specimen.test.strength);
+  EXPECT_EQ(check_of(test::fit(study), "residuals unstructured").outcome, Outcome::fail);
+}
+
+TEST(Verdict, SaysThatAsManyParametersAsStrengthsLeaveNoSpread) {
+  auto study = test::synthetic_study({0.0, 0.0}, {.specimen_effect = 0.1});
+  study.calibrate.parameters = {"young_GPa", "head_tail_MPa"};
+  study.calibrate.level["head_tail_MPa"] = Level::specimen;
+  const auto check = check_of(test::fit(study), "spread between specimens");
+  EXPECT_EQ(check.outcome, Outcome::warn);
+  EXPECT_TRUE(says(check, "% in modulus (standard deviations) beyond noise")) << check.text;
+  EXPECT_FALSE(says(check, "% in strength")) << check.text;
+  EXPECT_TRUE(says(check,
+                   "4 strengths for 4 parameters: whether specimens differ in strength cannot be "
+                   "told, and the intervals do not include it."))
+      << check.text;
+  study.calibrate.terms = {"strength"};
+  study.calibrate.parameters = {"head_tail_MPa"};
+  const auto alone = check_of(test::fit(study), "spread between specimens").text;
+  EXPECT_TRUE(alone.starts_with("4 strengths for 4 parameters")) << alone;
+  study.calibrate.terms = {"failure strain"};
+  const FitProblem problem = make_problem(study);
+  EXPECT_FALSE(check_specimen_spread(problem, {}).done);
+}
+
 TEST(Verdict, SaysWhichParameterLiesAtABound) {
   auto study = test::synthetic_study(test::three_orientations);
   study.calibrate.bounds["young_GPa"] = {5.0, 12.0};
