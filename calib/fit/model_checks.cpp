@@ -89,7 +89,7 @@ Check check_brittle(const FitProblem& problem, const Answer& answer) {
     simulated += answer.best.predictions[f].mean[linearity];
     variance += std::pow(target.noise[linearity], 2);
   }
-  if (n == 0.0) return nothing_compared("brittle");
+  if (n == 0.0) return {"brittle", Outcome::pass, "Not checked: no test broke.", false};
   const double gap = (measured - simulated) / n, error = std::sqrt(variance) / n;
   const double part = std::exp(gap);
   const std::string numbers = fmt::format(
@@ -102,10 +102,10 @@ Check check_brittle(const FitProblem& problem, const Answer& answer) {
                         "describe nothing "
                         "here.",
                         numbers)};
-  if (certain && part < slightly_bent)
+  if (certain && (part < slightly_bent || part > 1.0 / slightly_bent))
     return {"brittle", Outcome::warn,
-            fmt::format("The curves bend before they break: {}. Strength is compared at the peak.",
-                        numbers)};
+            fmt::format("The curves {} before they break: {}. Strength is compared at the peak.",
+                        part < 1.0 ? "bend" : "stiffen", numbers)};
   return {"brittle", Outcome::pass,
           fmt::format("The curves are straight up to the break: {}.", numbers)};
 }

@@ -68,6 +68,37 @@ TEST(Verdict, RejectsTheModelWhereCurvesAreNotBrittle) {
   EXPECT_FALSE(result.trusted());
 }
 
+// Compact bone does not stiffen on its way to the break (X10); neither does the model.
+TEST(Verdict, WarnsWhereCurvesStiffenAsWhereTheyBend) {
+  auto study = test::synthetic_study(test::three_orientations);
+  const auto outcome_at = [&](double part) {
+    for (auto& specimen : study.specimens) {
+      const double straight = specimen.test.strength / specimen.test.modulus;
+      specimen.test.failure_strain = straight / part;
+    }
+    return check_of(test::fit(study), "brittle");
+  };
+  EXPECT_EQ(outcome_at(0.98).outcome, Outcome::pass);
+  EXPECT_EQ(outcome_at(1.02).outcome, Outcome::pass);
+  EXPECT_TRUE(says(outcome_at(0.94), "bend before they break"));
+  EXPECT_EQ(outcome_at(0.94).outcome, Outcome::warn);
+  const auto stiffer = outcome_at(1.06);
+  EXPECT_EQ(stiffer.outcome, Outcome::warn);
+  EXPECT_TRUE(says(stiffer, "stiffen before they break")) << stiffer.text;
+  EXPECT_EQ(outcome_at(1.2).outcome, Outcome::fail);
+}
+
+TEST(Verdict, LeavesCurvesUncheckedWhereNoTestBroke) {
+  auto study = test::synthetic_study({0.0});
+  for (auto& specimen : study.specimens) specimen.broke = false;
+  const auto result = test::fit(study);
+  EXPECT_TRUE(test::parameter_of(result, "young_GPa").identifiable);
+  const auto check = check_of(result, "brittle");
+  EXPECT_EQ(check.outcome, Outcome::pass);
+  EXPECT_FALSE(check.done);
+  EXPECT_EQ(check.text, "Not checked: no test broke.");
+}
+
 TEST(Verdict, ComparesOrientationsOnlyWhereItCan) {
   const auto one = check_of(test::fit(test::synthetic_study({0.0, 0.0})), "residuals unstructured");
   EXPECT_EQ(one.outcome, Outcome::pass);
