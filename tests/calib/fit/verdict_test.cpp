@@ -137,6 +137,38 @@ TEST(Verdict, SaysThatAsManyParametersAsStrengthsLeaveNoSpread) {
   EXPECT_FALSE(check_specimen_spread(problem, {}).done);
 }
 
+// The scouts' weights know of no difference between specimens: in them these ends are far apart.
+TEST(Verdict, ComparesEndsByTheWeightsOfTheAnswer) {
+  auto study = test::synthetic_study({0.0, 0.0, 90.0}, {.specimen_effect = 0.2});
+  for (const auto& [name, value] : {std::pair("young_GPa", 14.0), std::pair("head_tail_MPa", 60.0)})
+    apply(study.model, name, value);
+  const FitProblem problem = make_problem(study);
+  const auto simulator = test::ClosedForm{}.simulator();
+  SimulationBatch batch(simulator, nullptr, 1);
+  Answer answer;
+  const auto end_at = [&](double shift) {
+    const Point moved = start_point(problem.unknowns).array() + shift;
+    auto end = predict(problem, batch, {moved}, 3).front();
+    const std::vector<Landmarks> none(problem.models.size(), Landmarks(Landmarks::Zero()));
+    score(problem, weigh(problem, end, none, Landmarks::Zero()), end);
+    answer.weights = weigh(problem, end, none, Landmarks(Landmarks::Constant(0.2)));
+    return end;
+  };
+  const auto verdict = [&] {
+    CalibrationResult result;
+    result.verdict = verdict_of(problem, answer, result);
+    return check_of(result, "starts agree");
+  };
+  answer.active = {0, 1};
+  answer.uncertainty.half_width = Eigen::VectorXd::Constant(2, 0.1);
+  answer.best = end_at(0.0);
+  answer.ends = {answer.best, end_at(0.01)};
+  EXPECT_GT(std::abs(answer.ends[1].cost - answer.ends[0].cost), 0.5);
+  EXPECT_EQ(verdict().text, "2 of 2 starts came to the same point.");
+  answer.ends = {answer.best, end_at(1.0)};
+  EXPECT_TRUE(says(verdict(), "Only one of 2 starts reached the lowest cost")) << verdict().text;
+}
+
 TEST(Verdict, SaysWhichParameterLiesAtABound) {
   auto study = test::synthetic_study(test::three_orientations);
   study.calibrate.bounds["young_GPa"] = {5.0, 12.0};
