@@ -209,8 +209,7 @@ std::string weibull_sentence(const CalibrationResult& result) {
   return fmt::format(
       " The scatter of the measured strengths about those predicted is that of a Weibull modulus "
       "of {:.3g} (95 % interval {:.3g} to {:.3g}), the scatter of the replicates that of {:.3g}.",
-      tests.modulus, tests.modulus * std::exp(-1.96 * tests.error),
-      tests.modulus * std::exp(1.96 * tests.error), model.modulus);
+      tests.unbiased, tests.interval_95[0], tests.interval_95[1], model.unbiased);
 }
 
 }  // namespace havers::calib
