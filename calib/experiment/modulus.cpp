@@ -107,7 +107,8 @@ bool fit_standard(const Curve& curve, const ReductionOptions& options, ModulusFi
   return true;
 }
 
-// (X4) Noise of the strain flattens the slope by its part of the strain's variance.
+// (X4) Noise of the strain flattens the slope by its part of the strain's variance, of which means
+// of rows keep less.
 void steepen(const Curve& curve, RowRange window, Line& line) {
   constexpr double most = 0.5;
   const auto strain = curve.strain.subspan(window.first, window.rows());
@@ -115,7 +116,9 @@ void steepen(const Curve& curve, RowRange window, Line& line) {
   const double mean = gsl_stats_mean(strain.data(), 1, strain.size());
   const double variance = gsl_stats_variance_m(strain.data(), 1, strain.size(), mean);
   const double noise = noise_of(curve.strain);
-  const double factor = 1.0 / (1.0 - std::min(noise * noise / variance, most));
+  const double part = std::min(noise * noise / variance, most);
+  const auto rows = static_cast<double>(rows_per_point(strain.size()));
+  const double factor = 1.0 + part / (1.0 - part) / rows;
   line.intercept -= (factor - 1.0) * line.slope * mean;
   line.slope *= factor;
   line.slope_standard_error *= factor;

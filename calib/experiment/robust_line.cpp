@@ -30,12 +30,11 @@ Range range_of(std::span<const double> values) {
   return {low, high - low};
 }
 
-// (X4) Means of as many rows in succession as leave `most_points` at most. A line of means is the
-// line of the rows, and no more points are needed for it.
+// (X4) A line of means is the line of the rows, and no more points are needed for it.
 constexpr std::size_t most_points = 2048;
 
 std::vector<double> means(std::span<const double> values) {
-  const std::size_t rows = 1 + (values.size() - 1) / most_points;
+  const std::size_t rows = rows_per_point(values.size());
   std::vector<double> result;
   for (; !values.empty(); values = values.subspan(std::min(rows, values.size()))) {
     const auto block = values.first(std::min(rows, values.size()));
@@ -79,6 +78,10 @@ Line fit(std::span<const double> x, std::span<const double> y,
 }
 
 }  // namespace
+
+std::size_t rows_per_point(std::size_t rows) {
+  return rows > most_points ? 1 + (rows - 1) / most_points : 1;
+}
 
 Line fit_robust_line(std::span<const double> x, std::span<const double> y) {
   return fit(x, y, gsl_multifit_robust_bisquare);

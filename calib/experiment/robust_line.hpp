@@ -1,6 +1,7 @@
 // A straight line through points of which some may be wrong.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 namespace havers::calib {
@@ -12,6 +13,10 @@ struct Line {
   double intercept = 0.0;
   bool fitted = false;  ///< False where fewer than three points, or one x only, leave it open.
 };
+
+/// How many successive rows of so many have their mean fitted as one point: as leave 2048 at most
+/// (X4).
+std::size_t rows_per_point(std::size_t rows);
 
 /// Iteratively reweighted least squares with Tukey's bisquare (X4): points far off the line do not
 /// count.

@@ -197,18 +197,19 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
 std::string weibull_sentence(const CalibrationResult& result) {
   std::vector<double> measured, simulated;
   for (const auto& specimen : result.specimens) {
-    if (specimen.use != Use::fit || !(specimen.strength.mean > 0.0)) continue;
+    if (specimen.use != Use::fit || !specimen.measured.broke || !(specimen.strength.mean > 0.0))
+      continue;
     measured.push_back(specimen.measured.strength / specimen.strength.mean);
     for (const auto& replicate : specimen.replicates)
-      if (!replicate.failed) simulated.push_back(replicate.strength / specimen.strength.mean);
+      if (!replicate.failed && replicate.broke)
+        simulated.push_back(replicate.strength / specimen.strength.mean);
   }
   if (measured.size() < 5 || simulated.size() < 5) return "";
   const Weibull tests = weibull(measured), model = weibull(simulated);
   return fmt::format(
       " The scatter of the measured strengths about those predicted is that of a Weibull modulus "
       "of {:.3g} (95 % interval {:.3g} to {:.3g}), the scatter of the replicates that of {:.3g}.",
-      tests.modulus, tests.modulus * std::exp(-1.96 * tests.error),
-      tests.modulus * std::exp(1.96 * tests.error), model.modulus);
+      tests.unbiased, tests.interval_95[0], tests.interval_95[1], model.unbiased);
 }
 
 }  // namespace havers::calib

@@ -36,9 +36,10 @@ void set_column(const FitProblem& problem, const Weights& weights, const Move& m
     const Landmarks scale = span * weights.sd[problem.fitted[f]];
     const auto &one = low.predictions[f], &other = high.predictions[f];
     const Target& target = problem.targets[problem.fitted[f]];
+    const Eigen::Array<bool, landmark_count, 1> moves = tells(one, target) || tells(other, target);
     const Landmarks paired =
-        target.present.select(Landmarks(variance_of_difference(other, one) / scale.square()), 0.0);
-    const Landmarks independent = target.present.select(
+        moves.select(Landmarks(variance_of_difference(other, one) / scale.square()), 0.0);
+    const Landmarks independent = moves.select(
         Landmarks((one.sd.square() + other.sd.square()) / one.usable / scale.square()), 0.0);
     result.variance.col(column).segment<landmark_count>(landmark_count *
                                                         static_cast<Eigen::Index>(f)) = paired;

@@ -97,12 +97,6 @@ FitProblem make_problem(const Study& study) {
   return problem;
 }
 
-Landmarks landmarks_present(const FitProblem& problem) {
-  Landmarks count = Landmarks::Zero();
-  for (const std::size_t s : problem.fitted) count += problem.targets[s].present.cast<double>();
-  return count;
-}
-
 std::vector<sim::Scene> replicate_scenes(const FitProblem& problem, const Point& point,
                                          std::size_t specimen, int replicates) {
   return replicates_of(problem.study.specimens[specimen], seed_at(problem, point),
@@ -140,6 +134,20 @@ Landmarks difference(const Prediction& prediction, const Target& target) {
   }
   if (target.censored) result[strength] = std::min(result[strength], 0.0);
   return target.present.select(result, 0.0);
+}
+
+Eigen::Array<bool, landmark_count, 1> tells(const Prediction& prediction, const Target& target) {
+  if (!prediction.censored && !target.censored) return target.present;
+  Landmarks away = difference(prediction, target);
+  away[modulus] = 1.0;  // no bound
+  return target.present && away != 0.0;
+}
+
+Landmarks residuals_told(const FitProblem& problem, const Evaluation& at) {
+  Landmarks count = Landmarks::Zero();
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f)
+    count += tells(at.predictions[f], problem.targets[problem.fitted[f]]).cast<double>();
+  return count;
 }
 
 void score(const FitProblem& problem, const Weights& weights, Evaluation& evaluation) {

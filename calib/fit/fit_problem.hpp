@@ -25,9 +25,6 @@ struct FitProblem {
 };
 FitProblem make_problem(const Study& study);
 
-/// How many fitted specimens have each landmark.
-Landmarks landmarks_present(const FitProblem& problem);
-
 /// The scenes of a specimen at a point, one per replicate. Where the post-peak drop is a term of
 /// the study, they go on until the stress has fallen.
 std::vector<sim::Scene> replicate_scenes(const FitProblem& problem, const Point& point,
@@ -61,6 +58,13 @@ void score(const FitProblem& problem, const Weights& weights, Evaluation& evalua
 /// simulated − measured; 0 where the test does not have the landmark, and where a censored strength
 /// contradicts nothing.
 Landmarks difference(const Prediction& prediction, const Target& target);
+
+/// The landmarks of a specimen whose difference tells something: present, and no bound that nothing
+/// contradicts.
+Eigen::Array<bool, landmark_count, 1> tells(const Prediction& prediction, const Target& target);
+
+/// How many fitted specimens tell of each landmark.
+Landmarks residuals_told(const FitProblem& problem, const Evaluation& at);
 
 /// How much the standard error of its scatter moves each specimen (F6), by simulation at another
 /// scatter. One per specimen of the study; zero where the scatter is searched or known exactly.

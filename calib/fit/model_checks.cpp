@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <tuple>
 
 #include "calib/fit/specimen_effect.hpp"
 
@@ -38,7 +40,7 @@ Grouped group(const FitProblem& problem, const Answer& answer, Eigen::Index q) {
       members;  // orientation, residual without the specimen effect
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
-    if (!problem.targets[s].present[q]) continue;
+    if (!tells(answer.best.predictions[f], problem.targets[s])[q]) continue;
     const double variance =
         std::pow(answer.weights.sd[s][q], 2) - std::pow(answer.weights.specimen[q], 2);
     const double residual =
@@ -58,12 +60,12 @@ Grouped group(const FitProblem& problem, const Answer& answer, Eigen::Index q) {
   return result;
 }
 
-// (F14) Probability of a ratio between/within as large as this if only specimens differed; 1 where
-// none can be formed.
-double chance(const Grouped& grouped, double parameters) {
+// (F14) Probability of a ratio between/within as large as this if only specimens differed; nothing
+// where none can be formed.
+std::optional<double> chance(const Grouped& grouped, double parameters) {
   const auto groups = static_cast<double>(grouped.groups.size());
   const double between = groups - parameters, within = grouped.specimens - groups;
-  if (between < 0.5 || within < 0.5) return 1.0;
+  if (between < least_freedom || within < least_freedom) return std::nullopt;
   const double mean_within = std::max(grouped.within / within, 1.0);
   return gsl_cdf_fdist_Q(grouped.between / between / mean_within, between, within);
 }
@@ -87,7 +89,7 @@ Check check_brittle(const FitProblem& problem, const Answer& answer) {
     simulated += answer.best.predictions[f].mean[linearity];
     variance += std::pow(target.noise[linearity], 2);
   }
-  if (n == 0.0) return nothing_compared("brittle");
+  if (n == 0.0) return {"brittle", Outcome::pass, "Not checked: no test broke.", false};
   const double gap = (measured - simulated) / n, error = std::sqrt(variance) / n;
   const double part = std::exp(gap);
   const std::string numbers = fmt::format(
@@ -100,10 +102,10 @@ Check check_brittle(const FitProblem& problem, const Answer& answer) {
                         "describe nothing "
                         "here.",
                         numbers)};
-  if (certain && part < slightly_bent)
+  if (certain && (part < slightly_bent || part > 1.0 / slightly_bent))
     return {"brittle", Outcome::warn,
-            fmt::format("The curves bend before they break: {}. Strength is compared at the peak.",
-                        numbers)};
+            fmt::format("The curves {} before they break: {}. Strength is compared at the peak.",
+                        part < 1.0 ? "bend" : "stiffen", numbers)};
   return {"brittle", Outcome::pass,
           fmt::format("The curves are straight up to the break: {}.", numbers)};
 }
@@ -113,26 +115,31 @@ Check check_orientations(const FitProblem& problem, const Answer& answer) {
   if (answer.best.failed || answer.weights.sd.empty()) return nothing_compared(name);
   const Landmarks spent = answer.slopes.failed ? Landmarks(Landmarks::Zero())
                                                : parameters_spent(answer.slopes.jacobian);
-  const double stiffness = chance(group(problem, answer, modulus), spent[modulus]);
-  const double breaking = chance(group(problem, answer, strength), spent[strength]);
-  if (stiffness < significance)
+  const auto stiffness = chance(group(problem, answer, modulus), spent[modulus]);
+  const auto breaking = chance(group(problem, answer, strength), spent[strength]);
+  if (!stiffness && !breaking)
+    return {name, Outcome::pass,
+            "Not checked: it takes more orientations than parameters, and two specimens at one.",
+            false};
+  if (stiffness && *stiffness < significance)
     return {
         name, Outcome::fail,
         fmt::format("The modulus differs between orientations more than specimens do ({}); "
                     "fibres of one "
                     "modulus, bonded, do not. Set [calibrate.level] young_GPa = \"orientation\".",
-                    chance_text(stiffness))};
-  if (breaking < significance)
+                    chance_text(*stiffness))};
+  if (breaking && *breaking < significance)
     return {name, Outcome::fail,
             fmt::format("The strength's residuals differ between orientations more than specimens "
                         "do ({}): "
                         "the model is rejected as it stands. See which orientation is off.",
-                        chance_text(breaking))};
+                        chance_text(*breaking))};
+  const auto words = [](const std::optional<double>& p) {
+    return p ? fmt::format("p = {:.2f}", *p) : std::string("too few to tell");
+  };
   return {name, Outcome::pass,
-          fmt::format("Residuals do not differ between orientations (p = {:.2f} for the modulus, "
-                      "{:.2f} for the "
-                      "strength).",
-                      stiffness, breaking)};
+          fmt::format("Residuals do not differ between orientations (modulus: {}, strength: {}).",
+                      words(stiffness), words(breaking))};
 }
 
 namespace {
@@ -145,9 +152,9 @@ std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer
     const std::size_t s = problem.fitted[f];
     const Landmarks alike =
         (answer.weights.sd[s].square() - answer.weights.specimen.square()).sqrt();
-    const Landmarks residual = difference(answer.best.predictions[f], problem.targets[s]) / alike;
-    sum += problem.targets[s].present.select(residual.square(), 0.0).sum();
-    terms += static_cast<double>(problem.targets[s].present.count());
+    const auto& prediction = answer.best.predictions[f];
+    sum += (difference(prediction, problem.targets[s]) / alike).square().sum();
+    terms += static_cast<double>(tells(prediction, problem.targets[s]).count());
   }
   const double freedom = terms - static_cast<double>(answer.active.size());
   if (freedom < 1.0) return "";
@@ -157,6 +164,31 @@ std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer
                      chance < significance && !answer.active.empty()
                          ? ": they are not, which widens the intervals and rejects nothing"
                          : "");
+}
+
+/// Of which landmarks the specimens' differences are told, and of which they cannot be (F9).
+struct SpreadWords {
+  std::string told, untold;
+};
+
+SpreadWords spread_words(const FitProblem& problem, const Answer& answer) {
+  SpreadWords words;
+  for (const auto& [q, one, many] :
+       {std::tuple(modulus, "modulus", "moduli"), std::tuple(strength, "strength", "strengths")}) {
+    const auto counts = [&, q = q](std::size_t s) { return problem.targets[s].present[q]; };
+    if (std::ranges::none_of(problem.fitted, counts)) continue;
+    if (answer.slopes.failed || answer.uncertainty.freedom[q] >= least_freedom) {
+      words.told += fmt::format("{}{} in {}", words.told.empty() ? "" : " and ",
+                                percent_text(answer.weights.specimen[q]), one);
+      continue;
+    }
+    const double count = residuals_told(problem, answer.best)[q];
+    words.untold += fmt::format(
+        " {:g} {} for {:.2g} parameters: whether specimens differ in {} cannot be told, and the "
+        "intervals do not include it.",
+        count, many, count - answer.uncertainty.freedom[q], one);
+  }
+  return words;
 }
 
 }  // namespace
@@ -169,17 +201,21 @@ Check check_specimen_spread(const FitProblem& problem, const Answer& answer) {
             "intervals do not "
             "include it. Test more."};
   const Landmarks& part = answer.weights.specimen;
+  const auto [told, untold] = spread_words(problem, answer);
+  const auto rest = untold + chi_squared_sentence(problem, answer);
+  if (told.empty() && untold.empty())
+    return {name, Outcome::pass, "Not checked: neither modulus nor strength is compared.", false};
+  if (told.empty()) return {name, Outcome::warn, rest.substr(1)};
   const auto text = fmt::format(
-      "Specimens differ by {} in modulus and {} in strength (standard deviations) "
-      "beyond noise, scatter and "
-      "the model's own randomness",
-      percent_text(part[modulus]), percent_text(part[strength]));
-  const auto chi_squared = chi_squared_sentence(problem, answer);
+      "Specimens differ by {} (standard deviations) beyond noise, scatter and the model's own "
+      "randomness",
+      told);
   if (std::max(part[modulus], part[strength]) > 0.3)
     return {name, Outcome::warn,
             text + ": are they of one kind?" +
-                (answer.active.empty() ? "" : " The intervals include it.") + chi_squared};
-  return {name, Outcome::pass, text + "; the intervals include it." + chi_squared};
+                (answer.active.empty() ? "" : " The intervals include it.") + rest};
+  return {name, untold.empty() ? Outcome::pass : Outcome::warn,
+          text + "; the intervals include it." + rest};
 }
 
 Check check_validation(const CalibrationResult& result) {

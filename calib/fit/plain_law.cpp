@@ -1,5 +1,7 @@
 #include "calib/fit/plain_law.hpp"
 
+#include <gsl/gsl_cdf.h>
+
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -126,7 +128,13 @@ Weibull weibull(std::span<const double> values) {
     const double middle = 0.5 * (low + high);
     (slope(std::exp(middle)) > 0.0 ? low : high) = middle;
   }
-  return {.modulus = std::exp(low), .error = 0.78 / std::sqrt(n)};  // 0.78: √6/π, asymptotically
+  const double modulus = std::exp(low);
+  // (F23) Quantiles of the true modulus.
+  const auto quantile = [&](double part) {
+    constexpr double c = std::numbers::pi * std::numbers::pi / 12.0;
+    return modulus * std::sqrt(gsl_cdf_chisq_Pinv(part, c * (n - 1.0)) / (c * n));
+  };
+  return {modulus, quantile(0.5), {quantile(0.025), quantile(0.975)}};
 }
 
 }  // namespace havers::calib

@@ -1,6 +1,7 @@
 // Laws without fibres, for the model to be better than.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,10 +46,11 @@ struct PlainLaw {
 PlainLaw best_plain_law(std::span<const Broken> specimens, double model_parameters,
                         std::span<const SweepLaw> laws = {});
 
-/// Weibull's modulus of positive values by maximum likelihood, and its relative standard error.
+/// Weibull's modulus of positive values (F23). [-]
 struct Weibull {
-  double modulus = 0.0;  ///< [-]
-  double error = 0.0;    ///< Part of the modulus. [-]
+  double modulus = 0.0;   ///< By maximum likelihood, which of few values makes it too large.
+  double unbiased = 0.0;  ///< As often too large as too small.
+  std::array<double, 2> interval_95{};
 };
 /// Precondition: at least two values that differ.
 Weibull weibull(std::span<const double> values);

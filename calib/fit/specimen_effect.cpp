@@ -21,7 +21,7 @@ double chi_squared(const Sample& sample, double between) {
 
 // chi_squared falls with `between`: bisection in the variance.
 double variance_between(const Sample& sample, double freedom) {
-  if (freedom < 0.5 || chi_squared(sample, 0.0) <= freedom) return 0.0;
+  if (freedom < least_freedom || chi_squared(sample, 0.0) <= freedom) return 0.0;
   double low = 0.0, high = 0.0;
   for (const double difference : sample.difference) high += difference * difference / freedom;
   for (int i = 0; i < 60; ++i) {
@@ -50,7 +50,7 @@ Landmarks specimen_effect(const FitProblem& problem, const Weights& weights, con
     Sample sample;
     for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
       const std::size_t s = problem.fitted[f];
-      if (!problem.targets[s].present[q]) continue;
+      if (!tells(at.predictions[f], problem.targets[s])[q]) continue;
       sample.difference.push_back(difference(at.predictions[f], problem.targets[s])[q]);
       sample.variance.push_back(std::pow(weights.sd[s][q], 2) - std::pow(weights.specimen[q], 2));
     }

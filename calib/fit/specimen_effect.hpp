@@ -5,6 +5,10 @@
 
 namespace havers::calib {
 
+/// With less freedom (residuals of a landmark less the parameters spent on it) nothing is told of
+/// how much specimens differ. [-]
+inline constexpr double least_freedom = 0.5;
+
 /// Parameters spent on each landmark, by the leverage of its residuals (F9).
 Landmarks parameters_spent(const Eigen::MatrixXd& jacobian);
 

@@ -131,6 +131,7 @@ SpecimenResult result_of(const FitProblem& problem, std::size_t s, const Simulat
                         .modulus = spread_of(responses, &Response::modulus),
                         .strength = spread_of(responses, &Response::strength),
                         .failure_strain = spread_of(responses, &Response::failure_strain)};
+  result.measured.broke = specimen.broke;  // the study has the last word
   result.replicates = replicates_of(scenes, responses);
   result.band = band_of(responses, specimen.test);
   result.failed_simulations = prediction.failed();

@@ -77,16 +77,16 @@ Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, co
   const Eigen::MatrixXd jacobian = slopes.leftCols(static_cast<Eigen::Index>(active.size()));
   // Row k of the pseudo-inverse says how unknown k follows each residual, which has unit variance.
   const Eigen::MatrixXd follow = jacobian.completeOrthogonalDecomposition().pseudoInverse();
-  const Landmarks freedom = landmarks_present(problem) - parameters_spent(slopes);
   const Replicates replicates = replicates_of(problem, weights, at);
 
   Uncertainty result;
+  result.freedom = residuals_told(problem, at) - parameters_spent(slopes);
   result.standard_error = follow.rowwise().norm();
   result.half_width = result.standard_error;
   for (Eigen::Index k = 0; k < follow.rows(); ++k) {
     const Eigen::VectorXd shares =
         follow.row(k).array().square() / std::max(follow.row(k).squaredNorm(), 1e-300);
-    result.half_width[k] *= quantile(shares, freedom, weights.specimen, replicates);
+    result.half_width[k] *= quantile(shares, result.freedom, weights.specimen, replicates);
   }
   result.lower = -result.half_width;
   result.upper = result.half_width;

@@ -12,6 +12,7 @@ struct Uncertainty {
   Eigen::VectorXd standard_error;
   Eigen::VectorXd half_width;    ///< t quantile of 95 % times the standard error.
   Eigen::VectorXd lower, upper;  ///< Ends of the 95 % interval, from the answer (F11), (F22).
+  Landmarks freedom = Landmarks::Zero();  ///< Residuals less the parameters spent (F9). [-]
   double distance =
       0.0;  ///< Expected fall of the cost to the minimum of the linear model (F12). [-]
 };

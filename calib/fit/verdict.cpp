@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "calib/fit/answer.hpp"
@@ -32,17 +33,27 @@ Check check_convergence(const Answer& answer, double cost) {
           fmt::format("The searches stopped at a minimum, cost {:.3g}.", cost)};
 }
 
+// The searches' ends, best first, by the weights of the answer: those of the searches do not know
+// how much specimens differ.
+std::vector<Evaluation> ends_of(const FitProblem& problem, const Answer& answer) {
+  auto ends = answer.ends;
+  for (Evaluation& end : ends) score(problem, answer.weights, end);
+  std::ranges::stable_sort(ends, {}, &Evaluation::cost);
+  return ends;
+}
+
 // Starts agree when they end at the same cost and, where they do, at the same point within its
 // errors.
-Check check_starts(const Answer& answer) {
+Check check_starts(const FitProblem& problem, const Answer& answer) {
   if (answer.ends.empty() || answer.best.failed)
     return {"starts agree", Outcome::pass, "Not checked: no search came to an answer.", false};
   if (answer.ends.size() < 2)
     return {"starts agree", Outcome::warn,
             "Only one start gave an answer; nothing to compare it with."};
-  const auto& best = answer.ends.front();
+  const auto ends = ends_of(problem, answer);
+  const auto& best = ends.front();
   std::size_t same_cost = 0, elsewhere = 0;
-  for (const auto& end : answer.ends) {
+  for (const auto& end : ends) {
     if (end.cost > best.cost + 0.5) continue;
     ++same_cost;
     if (answer.uncertainty.half_width.size() == 0) continue;
@@ -60,14 +71,14 @@ Check check_starts(const Answer& answer) {
             fmt::format("{} of {} starts end at another point that fits as well: the answer is not "
                         "unique. Narrow "
                         "calibrate.bounds or add specimens.",
-                        elsewhere, answer.ends.size())};
+                        elsewhere, ends.size())};
   if (same_cost < 2)
     return {"starts agree", Outcome::warn,
             fmt::format(
                 "Only one of {} starts reached the lowest cost; the next stopped {:.2g} above it.",
-                answer.ends.size(), answer.ends[1].cost - best.cost)};
+                ends.size(), ends[1].cost - best.cost)};
   return {"starts agree", Outcome::pass,
-          fmt::format("{} of {} starts came to the same point.", same_cost, answer.ends.size())};
+          fmt::format("{} of {} starts came to the same point.", same_cost, ends.size())};
 }
 
 Check check_bounds(const CalibrationResult& result) {
@@ -151,7 +162,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
                               const CalibrationResult& result) {
   std::vector<Check> checks{check_brittle(problem, answer)};
   checks.push_back(check_convergence(answer, result.cost));
-  checks.push_back(check_starts(answer));
+  checks.push_back(check_starts(problem, answer));
   checks.push_back(check_bounds(result));
   checks.push_back(check_identifiable(problem, answer));
   checks.push_back(check_orientations(problem, answer));

@@ -42,7 +42,7 @@ StrengthLaw strength_law(std::span<const double> strengths) {
   law.runs = all.n;
   const Weibull fitted = weibull(values);
   law.weibull_modulus = fitted.modulus;
-  law.weibull_modulus_error = fitted.error * fitted.modulus;
+  law.weibull_modulus_95 = fitted.interval_95;
   law.weibull_scale = scale_of(values, fitted.modulus);
 
   std::vector<double> powers, logs;

@@ -94,7 +94,7 @@ template <class Table>
 void keys(Table& table, calib::StrengthLaw& law) {
   table.key("runs", law.runs);
   table.key("weibull_modulus", law.weibull_modulus);
-  table.key("weibull_modulus_error", law.weibull_modulus_error);
+  table.key("weibull_modulus_95", law.weibull_modulus_95);
   table.key("weibull_scale_Pa", law.weibull_scale);
   table.key("gumbel_location_Pa", law.gumbel_location);
   table.key("gumbel_width_Pa", law.gumbel_width);

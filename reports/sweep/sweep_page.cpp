@@ -226,8 +226,8 @@ mstch::node point_row(const SweepReport& report, std::size_t i) {
                                     summary[m].standard_error() / words_of(m).scale)));
   const calib::Statistics& strength = summary[calib::Measure::strength];
   cells.push_back(cell(number(100.0 * strength.sd / strength.mean, 2)));
-  cells.push_back(cell(law.runs > 0 ? plus_minus(law.weibull_modulus, law.weibull_modulus_error)
-                                    : number(NAN)));
+  const auto [low, high] = law.weibull_modulus_95;
+  cells.push_back(cell(law.runs > 0 ? with_interval(law.weibull_modulus, low, high) : number(NAN)));
   cells.push_back(cell(law.runs > 0 ? number(law.log_likelihood_gain, 2) : number(NAN)));
   return mstch::map{{"cells", mstch::node{cells}}};
 }

@@ -138,6 +138,17 @@ TEST(ReduceTest, IsNotFlattenedByNoiseOfTheStrain) {
   EXPECT_NEAR(sum, 1.0, 0.005);
 }
 
+// A window of 30 000 rows, fitted by the means of 15: a fifteenth of the noise's variance is left.
+TEST(ReduceTest, IsSteepenedByTheNoiseThatMeansOfRowsKeep) {
+  const TensileTruth truth{.young = 15e9, .strain_noise = 1e-4, .strain_rate = 4e-7};
+  const MeasuredTest test = reduced(record(truth));
+  EXPECT_GT(test.strain.size(), 90'000U);
+  const double window = 0.3 * truth.failure_strain(), rows = 0.3 * 1e5;
+  const double error = truth.young * truth.strain_noise * std::sqrt(12.0 / rows) / window;
+  EXPECT_NEAR(test.modulus, truth.young, 3.0 * error);
+  EXPECT_NEAR(test.modulus_standard_error, error, 0.1 * error);
+}
+
 // A window of seven rows: of 1000 tests 95 % within two standard errors, which Gauss's law would
 // make 90 % of these.
 TEST(ReduceTest, StatesTheErrorOfAFewRowsTruly) {

@@ -38,5 +38,34 @@ TEST(Differences, StayWhereTheyWereAskedForWhenABetterPointTurnsUp) {
   EXPECT_EQ(slopes.jacobian, expected.jacobian);
 }
 
+// Replicates that answer each in its own way, and a stopped test whose bound stays true: no noise
+// of its may hide what the other tells.
+TEST(Differences, HaveNoNoiseWhereABoundIsNotContradicted) {
+  auto study = test::synthetic_study({0.0});
+  study.calibrate.parameters = {"head_tail_MPa"};
+  study.specimens[1].broke = false;
+  study.specimens[1].test = test::straight_test(14e9, 20e6);
+  auto simulator = test::ClosedForm{}.simulator();
+  simulator.run = [](const sim::Scene& scene) {
+    auto other = scene;
+    other.joints.seed += static_cast<std::uint64_t>(scene.joints.head_tail);
+    return test::ClosedForm{}(other);
+  };
+  simulator.quasi_static = [](const sim::Scene&) { return false; };
+  const FitProblem problem = make_problem(study);
+  SimulationBatch batch(simulator, nullptr, 1);
+  const CalibrationObserver nobody;
+  Trail trail(problem, batch, nobody);
+  const Point point = Point::Constant(1, std::log(60.0));
+  const auto start = predict(problem, batch, {point}, 8).front();
+  const Landmarks none = Landmarks::Zero();
+  trail.restart(weigh(problem, start, {none, none}, none), start);
+  const auto slopes = differentiate(trail, trail.best(), {0}, slope_step);
+  ASSERT_FALSE(slopes.failed);
+  EXPECT_GT(slopes.variance(strength, 0), 0.0);
+  EXPECT_EQ(slopes.variance(landmark_count + strength, 0), 0.0);
+  EXPECT_EQ(slopes.jacobian(landmark_count + strength, 0), 0.0);
+}
+
 }  // namespace
 }  // namespace havers::calib

@@ -50,6 +50,31 @@ TEST(FitProblem, FollowsAFallToHalfWhereThePostPeakDropCounts) {
   EXPECT_GT(later, 0);
 }
 
+// The first test broke, the second was stopped.
+TEST(FitProblem, CountsABoundOnlyWhereItIsContradicted) {
+  Study study = test::synthetic_study({0.0});
+  study.specimens[1].broke = false;
+  const FitProblem problem = make_problem(study);
+  Evaluation at;
+  at.predictions.resize(2);
+  const auto told = [&](double above) {
+    for (std::size_t f = 0; f < 2; ++f) {
+      at.predictions[f].mean = problem.targets[f].value;
+      at.predictions[f].mean[strength] += above;
+    }
+    return residuals_told(problem, at);
+  };
+  EXPECT_EQ(told(0.1)[strength], 1.0);
+  EXPECT_EQ(told(-0.1)[strength], 2.0);
+  EXPECT_EQ(told(0.0)[modulus], 2.0);
+  EXPECT_EQ(told(0.0)[linearity], 1.0);
+  at.predictions[0].censored = true;  // its simulations do not break
+  EXPECT_EQ(told(0.1)[strength], 1.0);
+  EXPECT_EQ(told(-0.1)[strength], 1.0);
+  EXPECT_EQ(told(0.0)[modulus], 2.0);
+  EXPECT_EQ(told(0.0)[linearity], 0.0);
+}
+
 // In time a run ends by its end fraction alone, and without what it leaves out it takes long.
 TEST(FitProblem, LeavesOutInTimeWhatItDoesOtherwise) {
   Study study = one_oblique_bar();

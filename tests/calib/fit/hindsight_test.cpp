@@ -165,6 +165,35 @@ TEST(Hindsight, AStoppedTestIsABoundAndNoError) {
   EXPECT_EQ(result.specimens.back().terms[1].residual, 0.0);
 }
 
+// Bars about 10 % apart, without noise of the simulator. Stopped ones far below their strength say
+// nothing of how much strengths differ, nor how well their mean is known.
+TEST(Hindsight, StoppedTestsDoNotMakeStrengthsAlike) {
+  auto study = test::synthetic_study({0.0, 0.0, 90.0}, {.specimen_effect = 0.1});
+  study.calibrate.parameters = {"head_tail_MPa"};
+  study.calibrate.terms = {"strength"};
+  const test::ClosedForm exact{.noise = 0.0};
+  const auto broken = test::fit(study, exact);
+  for (int i = 0; i < 4; ++i) {
+    auto& stopped = study.specimens.emplace_back(study.specimens.front());
+    stopped.id = "stopped " + std::to_string(i);
+    stopped.broke = false;
+    stopped.test = test::straight_test(14e9, 25e6, 2e-3, 2e-3);
+  }
+  const auto all = test::fit(study, exact);
+  RecordProperty("effect", std::to_string(all.specimen_effect[strength]));
+  EXPECT_GT(broken.specimen_effect[strength], 0.05);
+  EXPECT_NEAR(all.specimen_effect[strength], broken.specimen_effect[strength], 1e-6);
+  const auto one = test::parameter_of(broken, "head_tail_MPa");
+  const auto other = test::parameter_of(all, "head_tail_MPa");
+  EXPECT_NEAR(log_width(other.slopes_95), log_width(one.slopes_95), 1e-6);
+  EXPECT_NEAR(log_width(other.profile_95), log_width(one.profile_95), 1e-3);
+  for (std::size_t i = 0; i < broken.verdict.size(); ++i)
+    for (const char* check : {"residuals unstructured", "spread between specimens"})
+      if (broken.verdict[i].check == check) {
+        EXPECT_EQ(all.verdict[i].text, broken.verdict[i].text);
+      }
+}
+
 // Every chain comes to the same answer, and none simulates outside the bounds.
 TEST(Hindsight, AnyOptimisersFindTheSame) {
   auto study = test::synthetic_study(test::three_orientations);

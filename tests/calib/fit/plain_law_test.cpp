@@ -81,8 +81,29 @@ TEST(Weibull, FindsItsModulusAgain) {
   std::vector<double> values;
   for (int i = 0; i < 4000; ++i) values.push_back(draw(random));
   const Weibull found = weibull(values);
-  EXPECT_NEAR(found.modulus, 12.0, 3.0 * 12.0 * found.error);
-  EXPECT_NEAR(found.error, 0.78 / std::sqrt(4000.0), 1e-12);
+  const double error = std::sqrt(6.0 / 4000.0) / std::numbers::pi;  // as of ever more values
+  EXPECT_NEAR(found.modulus, 12.0, 3.0 * 12.0 * error);
+  EXPECT_NEAR(found.unbiased, found.modulus, 1e-3 * found.modulus);
+  EXPECT_NEAR(std::log(found.interval_95[1] / found.interval_95[0]), 2.0 * 1.96 * error,
+              0.01 * error);
+}
+
+// 95 and 50 % of 2000 samples, within three standard errors of such counts.
+TEST(Weibull, KnowsHowWellFewValuesTellIt) {
+  std::mt19937_64 random(11);
+  std::weibull_distribution<double> draw(8.0, 60e6);
+  for (const std::size_t n : {5U, 6U, 10U, 20U}) {
+    int inside = 0, above = 0;
+    for (int sample = 0; sample < 2000; ++sample) {
+      std::vector<double> values(n);
+      for (double& value : values) value = draw(random);
+      const Weibull found = weibull(values);
+      inside += found.interval_95[0] <= 8.0 && 8.0 <= found.interval_95[1] ? 1 : 0;
+      above += found.unbiased > 8.0 ? 1 : 0;
+    }
+    EXPECT_NEAR(inside, 1900, 3.0 * std::sqrt(2000.0 * 0.95 * 0.05)) << n;
+    EXPECT_NEAR(above, 1000, 3.0 * std::sqrt(2000.0 * 0.25)) << n;
+  }
 }
 
 }  // namespace

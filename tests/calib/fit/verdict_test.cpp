@@ -68,6 +68,107 @@ TEST(Verdict, RejectsTheModelWhereCurvesAreNotBrittle) {
   EXPECT_FALSE(result.trusted());
 }
 
+// Compact bone does not stiffen on its way to the break (X10); neither does the model.
+TEST(Verdict, WarnsWhereCurvesStiffenAsWhereTheyBend) {
+  auto study = test::synthetic_study(test::three_orientations);
+  const auto outcome_at = [&](double part) {
+    for (auto& specimen : study.specimens) {
+      const double straight = specimen.test.strength / specimen.test.modulus;
+      specimen.test.failure_strain = straight / part;
+    }
+    return check_of(test::fit(study), "brittle");
+  };
+  EXPECT_EQ(outcome_at(0.98).outcome, Outcome::pass);
+  EXPECT_EQ(outcome_at(1.02).outcome, Outcome::pass);
+  EXPECT_TRUE(says(outcome_at(0.94), "bend before they break"));
+  EXPECT_EQ(outcome_at(0.94).outcome, Outcome::warn);
+  const auto stiffer = outcome_at(1.06);
+  EXPECT_EQ(stiffer.outcome, Outcome::warn);
+  EXPECT_TRUE(says(stiffer, "stiffen before they break")) << stiffer.text;
+  EXPECT_EQ(outcome_at(1.2).outcome, Outcome::fail);
+}
+
+TEST(Verdict, LeavesCurvesUncheckedWhereNoTestBroke) {
+  auto study = test::synthetic_study({0.0});
+  for (auto& specimen : study.specimens) specimen.broke = false;
+  const auto result = test::fit(study);
+  EXPECT_TRUE(test::parameter_of(result, "young_GPa").identifiable);
+  const auto check = check_of(result, "brittle");
+  EXPECT_EQ(check.outcome, Outcome::pass);
+  EXPECT_FALSE(check.done);
+  EXPECT_EQ(check.text, "Not checked: no test broke.");
+}
+
+TEST(Verdict, ComparesOrientationsOnlyWhereItCan) {
+  const auto one = check_of(test::fit(test::synthetic_study({0.0, 0.0})), "residuals unstructured");
+  EXPECT_EQ(one.outcome, Outcome::pass);
+  EXPECT_FALSE(one.done);
+  EXPECT_TRUE(says(one, "Not checked: ")) << one.text;
+  // Two parameters make up for two strengths, none for two moduli.
+  auto study = test::synthetic_study({0.0, 45.0});
+  const auto two = check_of(test::fit(study), "residuals unstructured");
+  EXPECT_TRUE(two.done);
+  EXPECT_TRUE(says(two, "(modulus: p = 0.")) << two.text;
+  EXPECT_TRUE(says(two, "strength: too few to tell)")) << two.text;
+  for (auto& specimen : study.specimens)
+    if (specimen.orientation > 0.1)
+      specimen.test = test::straight_test(0.7 * specimen.test.modulus, specimen.test.strength);
+  EXPECT_EQ(check_of(test::fit(study), "residuals unstructured").outcome, Outcome::fail);
+}
+
+TEST(Verdict, SaysThatAsManyParametersAsStrengthsLeaveNoSpread) {
+  auto study = test::synthetic_study({0.0, 0.0}, {.specimen_effect = 0.1});
+  study.calibrate.parameters = {"young_GPa", "head_tail_MPa"};
+  study.calibrate.level["head_tail_MPa"] = Level::specimen;
+  const auto check = check_of(test::fit(study), "spread between specimens");
+  EXPECT_EQ(check.outcome, Outcome::warn);
+  EXPECT_TRUE(says(check, "% in modulus (standard deviations) beyond noise")) << check.text;
+  EXPECT_FALSE(says(check, "% in strength")) << check.text;
+  EXPECT_TRUE(says(check,
+                   "4 strengths for 4 parameters: whether specimens differ in strength cannot be "
+                   "told, and the intervals do not include it."))
+      << check.text;
+  study.calibrate.terms = {"strength"};
+  study.calibrate.parameters = {"head_tail_MPa"};
+  const auto alone = check_of(test::fit(study), "spread between specimens").text;
+  EXPECT_TRUE(alone.starts_with("4 strengths for 4 parameters")) << alone;
+  study.calibrate.terms = {"failure strain"};
+  const FitProblem problem = make_problem(study);
+  EXPECT_FALSE(check_specimen_spread(problem, {}).done);
+}
+
+// The scouts' weights know of no difference between specimens: in them these ends are far apart.
+TEST(Verdict, ComparesEndsByTheWeightsOfTheAnswer) {
+  auto study = test::synthetic_study({0.0, 0.0, 90.0}, {.specimen_effect = 0.2});
+  for (const auto& [name, value] : {std::pair("young_GPa", 14.0), std::pair("head_tail_MPa", 60.0)})
+    apply(study.model, name, value);
+  const FitProblem problem = make_problem(study);
+  const auto simulator = test::ClosedForm{}.simulator();
+  SimulationBatch batch(simulator, nullptr, 1);
+  Answer answer;
+  const auto end_at = [&](double shift) {
+    const Point moved = start_point(problem.unknowns).array() + shift;
+    auto end = predict(problem, batch, {moved}, 3).front();
+    const std::vector<Landmarks> none(problem.models.size(), Landmarks(Landmarks::Zero()));
+    score(problem, weigh(problem, end, none, Landmarks::Zero()), end);
+    answer.weights = weigh(problem, end, none, Landmarks(Landmarks::Constant(0.2)));
+    return end;
+  };
+  const auto verdict = [&] {
+    CalibrationResult result;
+    result.verdict = verdict_of(problem, answer, result);
+    return check_of(result, "starts agree");
+  };
+  answer.active = {0, 1};
+  answer.uncertainty.half_width = Eigen::VectorXd::Constant(2, 0.1);
+  answer.best = end_at(0.0);
+  answer.ends = {answer.best, end_at(0.01)};
+  EXPECT_GT(std::abs(answer.ends[1].cost - answer.ends[0].cost), 0.5);
+  EXPECT_EQ(verdict().text, "2 of 2 starts came to the same point.");
+  answer.ends = {answer.best, end_at(1.0)};
+  EXPECT_TRUE(says(verdict(), "Only one of 2 starts reached the lowest cost")) << verdict().text;
+}
+
 TEST(Verdict, SaysWhichParameterLiesAtABound) {
   auto study = test::synthetic_study(test::three_orientations);
   study.calibrate.bounds["young_GPa"] = {5.0, 12.0};

@@ -22,6 +22,8 @@ TEST(StrengthLaw, FindsWeibullAgain) {
   const StrengthLaw law = strength_law(values);
   EXPECT_EQ(law.runs, 2000);
   EXPECT_NEAR(law.weibull_modulus, 8.0, 0.05);
+  EXPECT_LT(law.weibull_modulus_95[0], 8.0);
+  EXPECT_GT(law.weibull_modulus_95[1], 8.0);
   EXPECT_NEAR(law.weibull_scale, 40e6, 0.05e6);
   EXPECT_LT(law.log_likelihood_gain, -2.0);
 }
