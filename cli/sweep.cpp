@@ -89,16 +89,16 @@ long runs_of(const std::vector<Done>& all) {
   return runs;
 }
 
-long failed_of(const std::vector<Done>& all) {
-  long failed = 0;
+// Runs that failed, or did not break.
+long sum_of(const std::vector<Done>& all, long calib::PointSummary::*runs) {
+  long sum = 0;
   for (const Done& one : all)
-    for (const calib::PointSummary& summary : one.result.summaries) failed += summary.failed;
-  return failed;
+    for (const calib::PointSummary& summary : one.result.summaries) sum += summary.*runs;
+  return sum;
 }
 
-// A few runs may fail; their points say so.
 bool trusted(const std::vector<Done>& all) {
-  return 20 * failed_of(all) <= runs_of(all);
+  return std::ranges::all_of(all, [](const Done& one) { return one.result.trusted(); });
 }
 
 nlohmann::json json_of_all(const std::vector<Done>& all, const io::Provenance& provenance) {
@@ -108,7 +108,8 @@ nlohmann::json json_of_all(const std::vector<Done>& all, const io::Provenance& p
   return {{"status", "finished"},
           {"trusted", trusted(all)},
           {"evaluations", runs_of(all)},
-          {"failed_simulations", failed_of(all)},
+          {"failed_simulations", sum_of(all, &calib::PointSummary::failed)},
+          {"unbroken_simulations", sum_of(all, &calib::PointSummary::unbroken)},
           {"wall_s", provenance.wall_seconds},
           {"sweeps", sweeps},
           {"provenance",
@@ -156,8 +157,10 @@ Unit unit_of(const calib::Finding& finding) {
   return mean && counted ? Unit{1.0, ""} : Unit{0.01, " %"};
 }
 
-// "strength 12.3 % (11.9 to 12.7)", to two digits of the interval's width.
+// "strength 12.3 % (11.9 to 12.7)", to two digits of the interval's width; a dash where nothing could
+// be compared.
 std::string found(const calib::Finding& finding) {
+  if (!std::isfinite(finding.value)) return fmt::format("{} -", io::word(finding.response));
   const Unit unit = unit_of(finding);
   const double width = (finding.high - finding.low) / unit.scale;
   const int decimals = std::isfinite(width) && width > 0.0
@@ -169,9 +172,11 @@ std::string found(const calib::Finding& finding) {
 }
 
 void print_summary(const std::vector<Done>& all, double wall_seconds) {
-  fmt::print("{}: {} runs, {} failed, in {:.3g} s\n",
-             trusted(all) ? "to be trusted" : "NOT to be trusted: too many runs failed",
-             runs_of(all), failed_of(all), wall_seconds);
+  fmt::print(
+      "{}: {} runs, {} failed, {} did not break, in {:.3g} s\n",
+      trusted(all) ? "to be trusted" : "NOT to be trusted: too many runs failed or did not break",
+      runs_of(all), sum_of(all, &calib::PointSummary::failed),
+      sum_of(all, &calib::PointSummary::unbroken), wall_seconds);
   for (const Done& one : all)
     for (const calib::Finding& finding : one.result.findings)
       fmt::print("{:<6}{:<12}{:<11}{}; {} runs  {}\n", finding.id,

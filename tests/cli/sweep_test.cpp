@@ -58,6 +58,20 @@ TEST(Sweep, AgainTakesItsRunsFromTheStore) {
   EXPECT_EQ(nlohmann::json::parse(again.out)["sweeps"][0]["simulated"], 0);
 }
 
+TEST(Sweep, IsNotTrustedWhereRunsDidNotBreak) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "small.toml", small);
+  const auto answer = run_havers(folder, "sweep small.toml -o out --set loading.max_strain=0.001");
+  EXPECT_EQ(answer.exit_code, 1) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("NOT to be trusted: too many runs failed or did not break"));
+  EXPECT_THAT(answer.out, HasSubstr("8 runs, 0 failed, 8 did not break"));
+  EXPECT_THAT(answer.out, HasSubstr("undecided              strength -; 0 runs"));
+  const auto result = nlohmann::json::parse(test::read_text(folder / "out/result.json"));
+  EXPECT_EQ(result["trusted"], false);
+  EXPECT_EQ(result["unbroken_simulations"], 8);
+  EXPECT_EQ(result["sweeps"][0]["laws"][0]["status"], "unbroken_runs");
+}
+
 TEST(Sweep, NamesTheProblemsOfAllFilesTogether) {
   const fs::path folder = own_folder();
   test::write_text(folder / "a.toml", "[sweep]\nseeds = 0\n");
