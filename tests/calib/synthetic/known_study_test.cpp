@@ -41,6 +41,11 @@ TEST(KnownStudy, AlongTheFibresTheRatioCannotBeToldWhereItIsWellAboveOne) {
   EXPECT_TRUE(test::parameter_of(result, "head_tail_MPa").identifiable);
 }
 
+// Soft fibres reach the strain limit first.
+TEST(KnownStudy, HasNoSpecimensThatDidNotBreak) {
+  EXPECT_TRUE(known_study(along, 1, {0.5, 80.0, 1.0}).study.specimens.empty());
+}
+
 TEST(KnownStudy, OneSpecimenDoesNotTellTheScatter) {
   KnownStudy known = known_study({.name = "one", .degrees = {0.0}}, 1);
   known.study.calibrate.parameters = {"young_GPa", "head_tail_MPa", "scatter"};
