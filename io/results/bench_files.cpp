@@ -165,6 +165,7 @@ nlohmann::json methods_json(const calib::MethodComparison& comparison,
   for (const auto& [hardship, methods] : comparison.hardships)
     hardships.push_back({{"hardship", hardship}, {"methods", summaries_of(methods)}});
   return {{"sections", comparison.trials.size()},
+          {"sections_with_pores", comparison.with_pores},
           {"coverage", comparison.coverage},
           {"methods", summaries_of(comparison.methods)},
           {"hardships", hardships},
