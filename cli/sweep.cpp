@@ -157,8 +157,8 @@ Unit unit_of(const calib::Finding& finding) {
   return mean && counted ? Unit{1.0, ""} : Unit{0.01, " %"};
 }
 
-// "strength 12.3 % (11.9 to 12.7)", to two digits of the interval's width; a dash where nothing could
-// be compared.
+// "strength 12.3 % (11.9 to 12.7)", to two digits of the interval's width; a dash where nothing
+// could be compared.
 std::string found(const calib::Finding& finding) {
   if (!std::isfinite(finding.value)) return fmt::format("{} -", io::word(finding.response));
   const Unit unit = unit_of(finding);

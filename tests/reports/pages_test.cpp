@@ -272,9 +272,17 @@ TEST(CoveragePage, SaysWhichIntervalsHoldLessThanTheyPromise) {
   expect_sound(page);
   EXPECT_TRUE(contains(page, "95.0 % of 100 intervals hold the truth; 95 % should."));
   EXPECT_TRUE(contains(page, "100 of 100"));
-  EXPECT_TRUE(contains(page, "No parameter differs"));
+  EXPECT_TRUE(contains(page, "No share differs from 95 %"));
+  EXPECT_TRUE(contains(page, "<td>as promised</td>"));
+  coverage.summaries.front().inside = calib::rate_of(100, 100);
+  const std::string wide = coverage_page({coverage, {{"seed", "1"}}});
+  EXPECT_TRUE(contains(wide, "verdict good"));
+  EXPECT_TRUE(contains(wide, "Some intervals are too wide by more than chance, none too narrow."));
   coverage.summaries.front().inside = calib::rate_of(80, 100);
-  EXPECT_TRUE(contains(coverage_page({coverage, {{"seed", "1"}}}), "Some parameters differ"));
+  const std::string narrow = coverage_page({coverage, {{"seed", "1"}}});
+  EXPECT_TRUE(contains(narrow, "verdict bad"));
+  EXPECT_TRUE(contains(narrow, "Some intervals are too narrow by more than chance."));
+  EXPECT_TRUE(contains(narrow, "<td>too narrow</td>"));
 }
 
 TEST(ComparisonPage, PutsFitsSideBySide) {
