@@ -86,13 +86,8 @@ int bench_calibration(const BenchArguments& arguments, const CommonOptions& comm
   if (page)
     io::write_file(output.stage("report.html"),
                    reports::chains_page({benchmark, page_facts(provenance)}));
-  output.publish();
-  if (common.json) {
-    fmt::print("{}", io::json_text(result));
-  } else {
-    print_chains(benchmark);
-    fmt::print("{}\n", (output.folder() / (page ? "report.html" : "result.json")).string());
-  }
+  answer(common, &output, result, page ? "report.html" : "result.json",
+         [&] { print_chains(benchmark); });
   const bool usual_wins =
       !benchmark.summaries.empty() && benchmark.winner().chain == benchmark.summaries.front().chain;
   return usual_wins && !interrupted() ? done : answer_is_no;
@@ -113,14 +108,7 @@ int bench_coverage(const BenchArguments& arguments, const CommonOptions& common)
   if (reports::available())
     io::write_file(output.stage("report.html"),
                    reports::coverage_page({coverage, page_facts(provenance)}));
-  output.publish();
-  if (common.json) {
-    fmt::print("{}", io::json_text(result));
-  } else {
-    print_coverage(coverage);
-    fmt::print("{}\n",
-               (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
-  }
+  answer(common, &output, result, page_or("result.json"), [&] { print_coverage(coverage); });
   return coverage.holds() && !interrupted() ? done : answer_is_no;
 }
 

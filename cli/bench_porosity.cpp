@@ -56,14 +56,7 @@ int bench_porosity(const BenchArguments& arguments, const CommonOptions& common)
   if (reports::available())
     io::write_file(output.stage("report.html"),
                    reports::methods_page({comparison, page_facts(provenance)}));
-  output.publish();
-  if (common.json) {
-    fmt::print("{}", io::json_text(result));
-  } else {
-    print_methods(comparison);
-    fmt::print("{}\n",
-               (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
-  }
+  answer(common, &output, result, page_or("result.json"), [&] { print_methods(comparison); });
   const calib::MethodSummary& ours = comparison.methods.back();
   const bool good = ours.worst_error <= enough && !(ours.worst_if_none > enough_if_none);
   return good && !interrupted() ? done : answer_is_no;

@@ -187,8 +187,7 @@ void print_summary(const std::vector<Done>& all, double wall_seconds) {
 int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   std::vector<Done> all = read_all(arguments, common);
-  const bool resumes = fs::exists(arguments.folder / "evaluations.sqlite") &&
-                       !fs::exists(arguments.folder / "result.json");
+  const bool resumes = was_stopped(arguments.folder);
   OutputFolder output(arguments.folder, common.force || resumes);
   if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
   const auto store = io::open_store(output.keep("evaluations.sqlite"));
@@ -199,14 +198,8 @@ int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
                                       output.folder().string()));
   const io::Provenance provenance = provenance_of(common, inputs_of(all), watch);
   write_all(output, arguments, all, provenance);
-  output.publish();
-  if (common.json) {
-    fmt::print("{}", io::json_text(json_of_all(all, provenance)));
-  } else {
-    print_summary(all, provenance.wall_seconds);
-    fmt::print("{}\n",
-               (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
-  }
+  answer(common, &output, json_of_all(all, provenance), page_or("result.json"),
+         [&] { print_summary(all, provenance.wall_seconds); });
   return trusted(all) ? done : answer_is_no;
 }
 

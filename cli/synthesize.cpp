@@ -234,14 +234,7 @@ int run_synthesize(const SynthesizeArguments& arguments, const CommonOptions& co
   for (const fs::path& input : file.inputs)
     fs::copy_file(input, output.stage(input == arguments.study ? "study.toml"
                                                                : place(arguments.study, input)));
-  output.publish();
-
-  if (common.json) {
-    fmt::print("{}", io::json_text(truth));
-  } else {
-    print_summary(made);
-    fmt::print("{}\n", (output.folder() / "study.toml").string());
-  }
+  answer(common, &output, truth, "study.toml", [&] { print_summary(made); });
   return done;
 }
 
