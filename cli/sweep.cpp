@@ -18,6 +18,7 @@
 #include "io/sweep/read_sweep.hpp"
 #include "io/sweep/sweep_files.hpp"
 #include "io/sweep/sweep_keys.hpp"
+#include "reports/sweep/measure_words.hpp"
 #include "reports/sweep/sweep_page.hpp"
 
 namespace havers::cli {
@@ -102,9 +103,8 @@ bool trusted(const std::vector<Done>& all) {
 }
 
 nlohmann::json json_of_all(const std::vector<Done>& all, const io::Provenance& provenance) {
-  nlohmann::json sweeps = nlohmann::json::array(), inputs;
+  nlohmann::json sweeps = nlohmann::json::array();
   for (const Done& one : all) sweeps.push_back(io::sweep_json(one.sweep, one.result));
-  for (const auto& [name, digest] : provenance.inputs) inputs[name] = digest;
   return {{"status", "finished"},
           {"trusted", trusted(all)},
           {"evaluations", runs_of(all)},
@@ -112,13 +112,7 @@ nlohmann::json json_of_all(const std::vector<Done>& all, const io::Provenance& p
           {"unbroken_simulations", sum_of(all, &calib::PointSummary::unbroken)},
           {"wall_s", provenance.wall_seconds},
           {"sweeps", sweeps},
-          {"provenance",
-           {{"havers", provenance.havers},
-            {"compiler", provenance.compiler},
-            {"command", provenance.command},
-            {"inputs", inputs},
-            {"wall_s", provenance.wall_seconds},
-            {"cpu_s", provenance.cpu_seconds}}}};
+          {"provenance", io::provenance_object(provenance)}};
 }
 
 void write_all(const OutputFolder& output, const SweepArguments& arguments,
@@ -141,34 +135,21 @@ void write_all(const OutputFolder& output, const SweepArguments& arguments,
   io::write_file(output.stage("result.json"), io::json_text(json_of_all(all, provenance)));
 }
 
-struct Unit {
-  double scale;
-  const char* name;
-};
-
-// Of the value that a claim was judged by: a part of something, but for means.
-Unit unit_of(const calib::Finding& finding) {
-  const bool mean =
-      finding.test == calib::FindingTest::above || finding.test == calib::FindingTest::below;
-  if (mean && finding.response == calib::Measure::strength) return {1e6, " MPa"};
-  if (mean && finding.response == calib::Measure::modulus) return {1e9, " GPa"};
-  const bool counted = finding.response == calib::Measure::head_tail_broken ||
-                       finding.response == calib::Measure::flank_broken;
-  return mean && counted ? Unit{1.0, ""} : Unit{0.01, " %"};
-}
-
 // "strength 12.3 % (11.9 to 12.7)", to two digits of the interval's width; a dash where nothing
 // could be compared.
 std::string found(const calib::Finding& finding) {
   if (!std::isfinite(finding.value)) return fmt::format("{} -", io::word(finding.response));
-  const Unit unit = unit_of(finding);
-  const double width = (finding.high - finding.low) / unit.scale;
+  const bool of_means =
+      finding.test == calib::FindingTest::above || finding.test == calib::FindingTest::below;
+  const auto [name, unit, scale] =
+      of_means ? reports::words_of(finding.response) : reports::MeasureWords{"", "%", 0.01};
+  const double width = (finding.high - finding.low) / scale;
   const int decimals = std::isfinite(width) && width > 0.0
                            ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(width))))
                            : 3;
-  return fmt::format("{} {:.{}f}{} ({:.{}f} to {:.{}f})", io::word(finding.response),
-                     finding.value / unit.scale, decimals, unit.name, finding.low / unit.scale,
-                     decimals, finding.high / unit.scale, decimals);
+  return fmt::format("{} {:.{}f}{}{} ({:.{}f} to {:.{}f})", io::word(finding.response),
+                     finding.value / scale, decimals, unit.empty() ? "" : " ", unit,
+                     finding.low / scale, decimals, finding.high / scale, decimals);
 }
 
 void print_summary(const std::vector<Done>& all, double wall_seconds) {

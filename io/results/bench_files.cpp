@@ -9,10 +9,6 @@
 #include "io/results/result_keys.hpp"
 
 namespace havers::io {
-
-nlohmann::json provenance_object(Provenance provenance) {
-  return json_of(provenance);
-}
 namespace {
 
 // Names with values, in the order of the columns; JSON and CSV have the same.

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "reports/pages/page.hpp"
+#include "reports/sweep/measure_words.hpp"
 #include "reports/sweep/sweep_figure.hpp"
 #include "reports/sweep/sweep_words.hpp"
 #include "reports/text/format.hpp"

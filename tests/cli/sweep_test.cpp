@@ -50,6 +50,17 @@ TEST(Sweep, LeavesTablesLawsResultAndStore) {
   EXPECT_THAT(answer.out, HasSubstr("F1"));
 }
 
+TEST(Sweep, PrintsMeansInTheirUnitAndDifferencesInPerCent) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "small.toml", std::string(small) +
+                                              "[[finding]]\nid = \"F2\"\nclaim = \"Stiff\"\n"
+                                              "test = \"above\"\nresponse = \"modulus\"\n"
+                                              "margin = 1e9\n");
+  EXPECT_THAT(run_havers(folder, "sweep small.toml -o out").out,
+              testing::AllOf(testing::ContainsRegex("F1 .*strength -?[0-9]+ % "),
+                             testing::ContainsRegex("F2 .*modulus 13.[0-9]+ GPa ")));
+}
+
 TEST(Sweep, AgainTakesItsRunsFromTheStore) {
   const fs::path folder = own_folder();
   test::write_text(folder / "small.toml", small);
