@@ -4,10 +4,13 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <memory>
+#include <string_view>
 
 #include "cli/number_check.hpp"
+#include "io/input_error.hpp"
 
 namespace havers::cli {
 namespace {
@@ -20,28 +23,54 @@ constexpr const char* bench_examples =
     "  havers bench --calibration -o runs/chains    # chains of optimisers on studies of known "
     "truth\n";
 
-struct Flag {
-  const char* name;
+struct Mode {
+  const char* name;  // Its flag, but for the mode of a SCENE.
   const char* help;
   BenchMode run;
+  std::array<std::string_view, 2> uses{};  // Of `options`.
 };
+
+constexpr std::array options{"SCENE", "--seeds", "--studies", "--costly"};
+
+constexpr Mode of_scene{"a SCENE alone", "", bench_scene, {"SCENE", "--seeds"}};
 
 constexpr std::array flags{
-    Flag{"--stability", "stiff and extreme scenes whose answer is known; needs no SCENE",
+    Mode{"--stability", "stiff and extreme scenes whose answer is known; needs no SCENE",
          bench_stability},
-    Flag{"--calibration", "chains of optimisers on studies of known truth; needs no SCENE",
-         bench_calibration},
-    Flag{"--coverage", "whether 95 % intervals hold known truths; needs no SCENE", bench_coverage},
-    Flag{"--porosity", "ways to measure porosity on drawn sections of known one; needs no SCENE",
-         bench_porosity},
+    Mode{"--calibration",
+         "chains of optimisers on studies of known truth; needs no SCENE",
+         bench_calibration,
+         {"--studies", "--costly"}},
+    Mode{"--coverage",
+         "whether 95 % intervals hold known truths; needs no SCENE",
+         bench_coverage,
+         {"--studies"}},
+    Mode{"--porosity",
+         "ways to measure porosity on drawn sections of known one; needs no SCENE",
+         bench_porosity,
+         {"--seeds"}},
 };
 
-int run_mode(const Flag& flag, const BenchArguments& arguments, const CommonOptions& common) {
-  refuse_settings(common, fmt::format("{} has settings of its own", flag.name));
-  if (!arguments.scene.empty())
-    note(common, fmt::format("{} is not run: {} has scenes of its own", arguments.scene.string(),
-                             flag.name));
-  return flag.run(arguments, common);
+// What other modes use, and the flags of these.
+void refuse_idle_options(const CLI::App& parser, const Mode& mode) {
+  std::vector<io::Problem> problems;
+  const auto refuse = [&](const std::string& option) {
+    if (parser.count(option) > 0 && option != mode.name &&
+        std::ranges::find(mode.uses, option) == mode.uses.end())
+      problems.push_back(
+          {option, fmt::format("changes nothing with {}", mode.name), "leave it out"});
+  };
+  for (const char* option : options) refuse(option);
+  for (const Mode& other : flags) refuse(other.name);
+  if (!problems.empty()) throw io::InputError(std::move(problems));
+}
+
+int run_mode(const CLI::App& parser, const Mode& mode, const BenchArguments& arguments,
+             const CommonOptions& common) {
+  refuse_idle_options(parser, mode);
+  if (&mode != &of_scene)
+    refuse_settings(common, fmt::format("{} has settings of its own", mode.name));
+  return mode.run(arguments, common);
 }
 
 }  // namespace
@@ -49,7 +78,7 @@ int run_mode(const Flag& flag, const BenchArguments& arguments, const CommonOpti
 Command bench_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(app, common, "bench", "error against run time", bench_examples);
   const auto arguments = std::make_shared<BenchArguments>();
-  const auto chosen = std::make_shared<const Flag*>(nullptr);
+  const auto chosen = std::make_shared<const Mode*>(&of_scene);
   parser->add_option("SCENE", arguments->scene, "scene file (TOML)");
   add_output(*parser, arguments->folder, "folder for the results")->required();
   parser
@@ -68,12 +97,11 @@ Command bench_command(CLI::App& app, CommonOptions& common) {
                    "2, ratio and scatter")
       ->type_name("N")
       ->check(count(2));
-  for (const Flag& flag : flags)
+  for (const Mode& flag : flags)
     parser->add_flag_callback(
         flag.name, [chosen, &flag] { *chosen = &flag; }, flag.help);
-  return {parser, [arguments, chosen, &common] {
-            return *chosen == nullptr ? bench_scene(*arguments, common)
-                                      : run_mode(**chosen, *arguments, common);
+  return {parser, [parser, arguments, chosen, &common] {
+            return run_mode(*parser, **chosen, *arguments, common);
           }};
 }
 

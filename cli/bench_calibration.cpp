@@ -1,7 +1,6 @@
 // havers bench --calibration and --coverage: fits of studies whose truth is known.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/bench.hpp"
@@ -56,13 +55,15 @@ void print_chains(const calib::ChainBenchmark& benchmark) {
 }
 
 void print_coverage(const calib::Coverage& coverage) {
-  fmt::print("{:<38}{:<16}{:>10}{:>20}{:>24}\n", "specimens", "parameter", "informed",
-             "hold the truth", "half width [%]");
-  for (const calib::CoverageSummary& s : coverage.summaries)
-    fmt::print("{:<38}{:<16}{:>10}{:>20}{:>24}\n", s.design, s.parameter,
-               fmt::format("{} of {}", s.informed, s.studies),
-               s.informed > 0 ? percent(s.inside) : "-",
-               s.informed > 0 ? spread(s.half_width, 0.01, 2) : "-");
+  fmt::print("{:<38}{:<16}{:>10}{:>20}{:>24}  {}\n", "specimens", "parameter", "informed",
+             "hold the truth", "half width [%]", "intervals are");
+  for (const calib::CoverageSummary& s : coverage.summaries) {
+    const bool informed = s.informed > 0;
+    fmt::print("{:<38}{:<16}{:>10}{:>20}{:>24}  {}\n", s.design, s.parameter,
+               fmt::format("{} of {}", s.informed, s.studies), informed ? percent(s.inside) : "-",
+               informed ? spread(s.half_width, 0.01, 2) : "-",
+               informed ? to_string(coverage.width_of(s)) : "-");
+  }
 }
 
 }  // namespace
@@ -85,13 +86,8 @@ int bench_calibration(const BenchArguments& arguments, const CommonOptions& comm
   if (page)
     io::write_file(output.stage("report.html"),
                    reports::chains_page({benchmark, page_facts(provenance)}));
-  output.publish();
-  if (common.json) {
-    fmt::print("{}", io::json_text(result));
-  } else {
-    print_chains(benchmark);
-    fmt::print("{}\n", (output.folder() / (page ? "report.html" : "result.json")).string());
-  }
+  answer(common, &output, result, page ? "report.html" : "result.json",
+         [&] { print_chains(benchmark); });
   const bool usual_wins =
       !benchmark.summaries.empty() && benchmark.winner().chain == benchmark.summaries.front().chain;
   return usual_wins && !interrupted() ? done : answer_is_no;
@@ -112,16 +108,8 @@ int bench_coverage(const BenchArguments& arguments, const CommonOptions& common)
   if (reports::available())
     io::write_file(output.stage("report.html"),
                    reports::coverage_page({coverage, page_facts(provenance)}));
-  output.publish();
-  if (common.json) {
-    fmt::print("{}", io::json_text(result));
-  } else {
-    print_coverage(coverage);
-    fmt::print("{}\n",
-               (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
-  }
-  const bool holds = std::ranges::all_of(coverage.summaries, &calib::CoverageSummary::holds);
-  return holds && !interrupted() ? done : answer_is_no;
+  answer(common, &output, result, page_or("result.json"), [&] { print_coverage(coverage); });
+  return coverage.holds() && !interrupted() ? done : answer_is_no;
 }
 
 }  // namespace havers::cli

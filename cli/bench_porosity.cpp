@@ -38,8 +38,8 @@ void print_methods(const calib::MethodComparison& comparison) {
     fmt::print("{:<40}{:>12.3f}{:>12.3f}{:>14.3f}{:>10.1f}\n", to_string(method.method),
                100.0 * method.median_error, 100.0 * method.worst_error,
                100.0 * method.worst_if_none, 1e-6 / method.cpu_per_pixel);
-  fmt::print("95 % intervals that hold the truth: {:.0f} % of {} sections\n",
-             100.0 * comparison.coverage, comparison.trials.size());
+  fmt::print("95 % intervals that hold the truth: {:.0f} % of {} sections with pores\n",
+             100.0 * comparison.coverage, comparison.with_pores);
 }
 
 }  // namespace
@@ -56,14 +56,7 @@ int bench_porosity(const BenchArguments& arguments, const CommonOptions& common)
   if (reports::available())
     io::write_file(output.stage("report.html"),
                    reports::methods_page({comparison, page_facts(provenance)}));
-  output.publish();
-  if (common.json) {
-    fmt::print("{}", io::json_text(result));
-  } else {
-    print_methods(comparison);
-    fmt::print("{}\n",
-               (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
-  }
+  answer(common, &output, result, page_or("result.json"), [&] { print_methods(comparison); });
   const calib::MethodSummary& ours = comparison.methods.back();
   const bool good = ours.worst_error <= enough && !(ours.worst_if_none > enough_if_none);
   return good && !interrupted() ? done : answer_is_no;

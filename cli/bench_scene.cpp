@@ -82,14 +82,7 @@ int bench_scene(const BenchArguments& arguments, const CommonOptions& common) {
     io::write_file(output.stage("report.html"),
                    reports::work_precision_page({file.scene, study, page_facts(provenance)}));
   }
-  output.publish();
-  if (common.json)
-    fmt::print("{}", io::json_text(result));
-  else {
-    print_summary(study);
-    fmt::print("{}\n",
-               (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
-  }
+  answer(common, &output, result, page_or("result.json"), [&] { print_summary(study); });
   return study.complete && reference_is_trusted(study) ? done : answer_is_no;
 }
 

@@ -46,14 +46,7 @@ int bench_stability(const BenchArguments& arguments, const CommonOptions& common
   if (reports::available())
     io::write_file(output.stage("report.html"),
                    reports::stability_page({results, page_facts(provenance)}));
-  output.publish();
-  if (common.json)
-    fmt::print("{}", io::json_text(result));
-  else {
-    print_summary(results);
-    fmt::print("{}\n",
-               (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
-  }
+  answer(common, &output, result, page_or("result.json"), [&] { print_summary(results); });
   const bool good = std::all_of(results.begin(), results.end(),
                                 [](const sim::StabilityResult& r) { return r.as_it_must; });
   return good && !interrupted() ? done : answer_is_no;

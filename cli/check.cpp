@@ -2,14 +2,12 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "cli/command.hpp"
 #include "cli/load_study.hpp"
+#include "io/config/file_kind.hpp"
 #include "io/input_error.hpp"
 #include "io/results/result_files.hpp"
 #include "io/sweep/read_sweep.hpp"
@@ -23,43 +21,24 @@ constexpr const char* check_examples =
     "  havers check data_samples/scenes/impact.toml --json\n"
     "  havers check data_samples/paper/R5_rates.toml\n";
 
-enum class Kind { scene, study, sweep };
-
-std::string_view name_of(Kind kind) {
-  return std::array{"scene", "study", "sweep"}.at(static_cast<std::size_t>(kind));
-}
-
-// Looked for as text, so that a file with a syntax error is told apart as well.
-bool has_table(const std::filesystem::path& file, std::string_view table) {
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with(table)) return true;
-  return false;
-}
-
-// Only a study has specimens; every key of a scene has a default, so that nothing is one.
-Kind kind_of(const std::filesystem::path& file) {
-  if (has_table(file, "[[specimen]]") || has_table(file, "[study]")) return Kind::study;
-  return has_table(file, "[sweep") ? Kind::sweep : Kind::scene;
-}
-
 struct Findings {
-  Kind kind{};
+  io::FileKind kind = io::FileKind::scene;
   std::vector<io::Problem> problems;
   std::vector<std::string> warnings;
 };
 
 Findings look_at(const std::filesystem::path& file, const io::Overrides& overrides) {
-  Findings findings{.kind = kind_of(file), .problems = {}, .warnings = {}};
+  Findings findings;
   try {
+    findings.kind = io::kind_of_file(file, overrides);
     switch (findings.kind) {
-      case Kind::study:
+      case io::FileKind::study:
         findings.warnings = load_study(file, overrides).warnings;
         break;
-      case Kind::sweep:
+      case io::FileKind::sweep:
         findings.warnings = io::read_sweep(file, overrides).warnings;
         break;
-      case Kind::scene:
+      case io::FileKind::scene:
         const sim::Scene scene = io::read_scene(file, overrides).scene;
         if (const std::string doubt = sim::doubt_about_steps(scene); !doubt.empty())
           findings.warnings.push_back(doubt);
@@ -75,7 +54,7 @@ void print_json(const std::filesystem::path& file, const Findings& findings) {
   for (const io::Problem& problem : findings.problems)
     problems.push_back({{"where", problem.where}, {"what", problem.what}, {"hint", problem.hint}});
   const nlohmann::json all{{"file", file.string()},
-                           {"kind", name_of(findings.kind)},
+                           {"kind", io::name_of(findings.kind)},
                            {"problems", problems},
                            {"warnings", findings.warnings}};
   fmt::print("{}", io::json_text(all));
@@ -89,7 +68,7 @@ int run_check(const std::filesystem::path& file, const CommonOptions& common) {
   }
   if (!findings.problems.empty()) throw io::InputError(findings.problems);
   for (const std::string& warning : findings.warnings) fmt::print("note: {}\n", warning);
-  fmt::print("no problems in this {}\n", name_of(findings.kind));
+  fmt::print("no problems in this {}\n", io::name_of(findings.kind));
   return done;
 }
 

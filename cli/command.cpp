@@ -8,9 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/number_check.hpp"
+#include "cli/output_folder.hpp"
 #include "cli/version.hpp"
 #include "io/input_error.hpp"
 #include "io/results/result_files.hpp"
+#include "reports/pages.hpp"
 
 namespace havers::cli {
 
@@ -62,6 +64,21 @@ void note(const CommonOptions& common, const std::string& sentence) {
 
 std::string cell(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
+}
+
+std::string page_or(const std::string& file) {
+  return reports::available() ? "report.html" : file;
+}
+
+void answer(const CommonOptions& common, OutputFolder* output, const nlohmann::json& json,
+            const std::string& file, const std::function<void()>& print) {
+  if (output != nullptr) output->publish();
+  if (common.json) {
+    fmt::print("{}", io::json_text(json));
+    return;
+  }
+  print();
+  if (output != nullptr) fmt::print("{}\n", (output->folder() / file).string());
 }
 
 ExitCode without_result(const CommonOptions& common, const std::string& status,

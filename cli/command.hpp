@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,6 +68,16 @@ void note(const CommonOptions& common, const std::string& sentence);
 
 /// A number of a table on stdout; a dash for what is not known.
 std::string cell(double value, int decimals);
+
+class OutputFolder;
+
+/// The page's name, or of `file` where this build makes no pages.
+std::string page_or(const std::string& file);
+
+/// The end of a run: its files at their place, where it has a folder; then on stdout `json` with
+/// --json, else what `print` prints and the path of `file`.
+void answer(const CommonOptions& common, OutputFolder* output, const nlohmann::json& json,
+            const std::string& file, const std::function<void()>& print);
 
 /// What a run prints that ends without a result: why, on stderr; with --json the status too, on
 /// stdout. Returns the exit code.

@@ -37,11 +37,6 @@ std::string progress_text(const calib::CalibrationProgress& progress) {
   return text;
 }
 
-// A folder with simulations but no result holds a fit that was stopped.
-bool was_stopped(const fs::path& folder) {
-  return fs::exists(folder / "evaluations.sqlite") && !fs::exists(folder / "result.json");
-}
-
 calib::CalibrationResult watched_fit(const calib::Study& study, calib::EvaluationStore& store,
                                      const CommonOptions& common) {
   ProgressLine line(common);
@@ -73,14 +68,8 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
 
   const io::Provenance provenance = provenance_of(common, loaded.inputs, watch);
   write_fit(output, loaded, result, provenance);
-  output.publish();
-  if (common.json) {
-    fmt::print("{}", io::json_text(io::calibration_json(loaded.study, result, provenance)));
-  } else {
-    print_fit_summary(result, provenance.wall_seconds);
-    fmt::print("{}\n",
-               (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
-  }
+  answer(common, &output, io::calibration_json(loaded.study, result, provenance),
+         page_or("result.json"), [&] { print_fit_summary(result, provenance.wall_seconds); });
   return result.trusted() ? done : answer_is_no;
 }
 

@@ -225,19 +225,11 @@ int run_import(const ImportArguments& arguments, const CommonOptions& common) {
   if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force);
   std::vector<io::Problem> problems;
   const std::vector<Imported> tests = import_all(arguments, settings, problems);
-  if (common.json) {
-    fmt::print("{}", io::json_text(json_of(tests)));
-  } else {
+  if (tests.empty()) output.reset();
+  if (output) write_results(*output, arguments, tests, common, watch);
+  answer(common, output ? &*output : nullptr, json_of(tests), page_or("import.json"), [&] {
     for (const Imported& test : tests) print_test(test);
-  }
-  if (output && !tests.empty()) {
-    write_results(*output, arguments, tests, common, watch);
-    output->publish();
-    if (!common.json)
-      fmt::print(
-          "{}\n",
-          (arguments.folder / (reports::available() ? "report.html" : "import.json")).string());
-  }
+  });
   if (!problems.empty()) throw io::InputError(std::move(problems));
   return done;
 }

@@ -89,6 +89,10 @@ std::string name_of_its_own(const std::string& name, std::set<std::string>& used
   return own;
 }
 
+bool was_stopped(const fs::path& folder) {
+  return fs::exists(folder / "evaluations.sqlite") && !fs::exists(folder / "result.json");
+}
+
 OutputFolder::OutputFolder(const fs::path& folder, bool force)
     : folder_(without_trailing_slash(folder)),
       staging_(fs::exists(folder_) ? folder_ / staging_name : staging_beside(folder_)),

@@ -14,6 +14,10 @@ void take_note(const std::filesystem::path& folder, const std::string& name);
 /// `name`, or with the first number from 2 on that is not in `used` yet; it is then.
 std::string name_of_its_own(const std::string& name, std::set<std::string>& used);
 
+/// Whether a fit or sweep was stopped that the same command goes on with: simulations are kept, and
+/// there is no result.
+bool was_stopped(const std::filesystem::path& folder);
+
 /// Files are written into a staging folder beside the target, or in it where it is there already
 /// and may be a disk of its own, and moved by `publish`; whatever was not published is removed
 /// again, so that no run leaves half of its files.

@@ -178,19 +178,9 @@ int run_porosity(const PorosityArguments& arguments, const CommonOptions& common
   std::optional<OutputFolder> output;  // refused before anything is measured
   if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force);
   const std::vector<Section> sections = measure_all(arguments);
-  if (output) {
-    write_page(*output, arguments, sections, common, watch);
-    output->publish();
-  }
-  if (common.json) {
-    fmt::print("{}", io::json_text(json_of(sections)));
-    return done;
-  }
-  print_table(sections);
-  if (!arguments.folder.empty())
-    fmt::print(
-        "{}\n",
-        (arguments.folder / (reports::available() ? "report.html" : "porosity.json")).string());
+  if (output) write_page(*output, arguments, sections, common, watch);
+  answer(common, output ? &*output : nullptr, json_of(sections), page_or("porosity.json"),
+         [&] { print_table(sections); });
   return done;
 }
 

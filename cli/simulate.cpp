@@ -159,19 +159,13 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
   snapshots.finish(simulation);
   const io::Provenance provenance = provenance_of(common, file.inputs, watch);
   write_results(output, file, simulation, snapshots, provenance);
-  output.publish();
-
-  if (common.json)
-    fmt::print("{}", io::json_text(io::simulation_json(file.scene, simulation, provenance)));
-  else
-    print_summary(file.scene, simulation, provenance.wall_seconds, common.verbose);
+  answer(common, &output, io::simulation_json(file.scene, simulation, provenance),
+         page_or("result.json"),
+         [&] { print_summary(file.scene, simulation, provenance.wall_seconds, common.verbose); });
   if (simulation.status == sim::SimulationStatus::cancelled)
     note(common,
          "stopped by you; the rows until then are written. A simulation starts anew: add --force "
          "to run it again.");
-  if (!common.json)
-    fmt::print("{}\n",
-               (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
   return simulation.trusted() ? done : answer_is_no;
 }
 

@@ -18,6 +18,7 @@
 #include "io/sweep/read_sweep.hpp"
 #include "io/sweep/sweep_files.hpp"
 #include "io/sweep/sweep_keys.hpp"
+#include "reports/sweep/measure_words.hpp"
 #include "reports/sweep/sweep_page.hpp"
 
 namespace havers::cli {
@@ -89,35 +90,29 @@ long runs_of(const std::vector<Done>& all) {
   return runs;
 }
 
-long failed_of(const std::vector<Done>& all) {
-  long failed = 0;
+// Runs that failed, or did not break.
+long sum_of(const std::vector<Done>& all, long calib::PointSummary::*runs) {
+  long sum = 0;
   for (const Done& one : all)
-    for (const calib::PointSummary& summary : one.result.summaries) failed += summary.failed;
-  return failed;
+    for (const calib::PointSummary& summary : one.result.summaries) sum += summary.*runs;
+  return sum;
 }
 
-// A few runs may fail; their points say so.
 bool trusted(const std::vector<Done>& all) {
-  return 20 * failed_of(all) <= runs_of(all);
+  return std::ranges::all_of(all, [](const Done& one) { return one.result.trusted(); });
 }
 
 nlohmann::json json_of_all(const std::vector<Done>& all, const io::Provenance& provenance) {
-  nlohmann::json sweeps = nlohmann::json::array(), inputs;
+  nlohmann::json sweeps = nlohmann::json::array();
   for (const Done& one : all) sweeps.push_back(io::sweep_json(one.sweep, one.result));
-  for (const auto& [name, digest] : provenance.inputs) inputs[name] = digest;
   return {{"status", "finished"},
           {"trusted", trusted(all)},
           {"evaluations", runs_of(all)},
-          {"failed_simulations", failed_of(all)},
+          {"failed_simulations", sum_of(all, &calib::PointSummary::failed)},
+          {"unbroken_simulations", sum_of(all, &calib::PointSummary::unbroken)},
           {"wall_s", provenance.wall_seconds},
           {"sweeps", sweeps},
-          {"provenance",
-           {{"havers", provenance.havers},
-            {"compiler", provenance.compiler},
-            {"command", provenance.command},
-            {"inputs", inputs},
-            {"wall_s", provenance.wall_seconds},
-            {"cpu_s", provenance.cpu_seconds}}}};
+          {"provenance", io::provenance_object(provenance)}};
 }
 
 void write_all(const OutputFolder& output, const SweepArguments& arguments,
@@ -140,38 +135,29 @@ void write_all(const OutputFolder& output, const SweepArguments& arguments,
   io::write_file(output.stage("result.json"), io::json_text(json_of_all(all, provenance)));
 }
 
-struct Unit {
-  double scale;
-  const char* name;
-};
-
-// Of the value that a claim was judged by: a part of something, but for means.
-Unit unit_of(const calib::Finding& finding) {
-  const bool mean =
-      finding.test == calib::FindingTest::above || finding.test == calib::FindingTest::below;
-  if (mean && finding.response == calib::Measure::strength) return {1e6, " MPa"};
-  if (mean && finding.response == calib::Measure::modulus) return {1e9, " GPa"};
-  const bool counted = finding.response == calib::Measure::head_tail_broken ||
-                       finding.response == calib::Measure::flank_broken;
-  return mean && counted ? Unit{1.0, ""} : Unit{0.01, " %"};
-}
-
-// "strength 12.3 % (11.9 to 12.7)", to two digits of the interval's width.
+// "strength 12.3 % (11.9 to 12.7)", to two digits of the interval's width; a dash where nothing
+// could be compared.
 std::string found(const calib::Finding& finding) {
-  const Unit unit = unit_of(finding);
-  const double width = (finding.high - finding.low) / unit.scale;
+  if (!std::isfinite(finding.value)) return fmt::format("{} -", io::word(finding.response));
+  const bool of_means =
+      finding.test == calib::FindingTest::above || finding.test == calib::FindingTest::below;
+  const auto [name, unit, scale] =
+      of_means ? reports::words_of(finding.response) : reports::MeasureWords{"", "%", 0.01};
+  const double width = (finding.high - finding.low) / scale;
   const int decimals = std::isfinite(width) && width > 0.0
                            ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(width))))
                            : 3;
-  return fmt::format("{} {:.{}f}{} ({:.{}f} to {:.{}f})", io::word(finding.response),
-                     finding.value / unit.scale, decimals, unit.name, finding.low / unit.scale,
-                     decimals, finding.high / unit.scale, decimals);
+  return fmt::format("{} {:.{}f}{}{} ({:.{}f} to {:.{}f})", io::word(finding.response),
+                     finding.value / scale, decimals, unit.empty() ? "" : " ", unit,
+                     finding.low / scale, decimals, finding.high / scale, decimals);
 }
 
 void print_summary(const std::vector<Done>& all, double wall_seconds) {
-  fmt::print("{}: {} runs, {} failed, in {:.3g} s\n",
-             trusted(all) ? "to be trusted" : "NOT to be trusted: too many runs failed",
-             runs_of(all), failed_of(all), wall_seconds);
+  fmt::print(
+      "{}: {} runs, {} failed, {} did not break, in {:.3g} s\n",
+      trusted(all) ? "to be trusted" : "NOT to be trusted: too many runs failed or did not break",
+      runs_of(all), sum_of(all, &calib::PointSummary::failed),
+      sum_of(all, &calib::PointSummary::unbroken), wall_seconds);
   for (const Done& one : all)
     for (const calib::Finding& finding : one.result.findings)
       fmt::print("{:<6}{:<12}{:<11}{}; {} runs  {}\n", finding.id,
@@ -182,8 +168,7 @@ void print_summary(const std::vector<Done>& all, double wall_seconds) {
 int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   std::vector<Done> all = read_all(arguments, common);
-  const bool resumes = fs::exists(arguments.folder / "evaluations.sqlite") &&
-                       !fs::exists(arguments.folder / "result.json");
+  const bool resumes = was_stopped(arguments.folder);
   OutputFolder output(arguments.folder, common.force || resumes);
   if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
   const auto store = io::open_store(output.keep("evaluations.sqlite"));
@@ -194,14 +179,8 @@ int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
                                       output.folder().string()));
   const io::Provenance provenance = provenance_of(common, inputs_of(all), watch);
   write_all(output, arguments, all, provenance);
-  output.publish();
-  if (common.json) {
-    fmt::print("{}", io::json_text(json_of_all(all, provenance)));
-  } else {
-    print_summary(all, provenance.wall_seconds);
-    fmt::print("{}\n",
-               (output.folder() / (reports::available() ? "report.html" : "result.json")).string());
-  }
+  answer(common, &output, json_of_all(all, provenance), page_or("result.json"),
+         [&] { print_summary(all, provenance.wall_seconds); });
   return trusted(all) ? done : answer_is_no;
 }
 

@@ -143,7 +143,7 @@ Made make_specimen(const fs::path& study, const OutputFolder& output, const io::
 
   Made made{.specimen = specimen, .scene = model.scene, .simulation = {}};
   made.simulation = sim::simulate(made.scene, [](const sim::Progress&) { return !interrupted(); });
-  if (!made.simulation.trusted()) return made;  // nothing to record
+  if (!calib::is_test(made.simulation)) return made;  // nothing to record
   calib::RawTest record = calib::record_test(made.simulation, bar, laboratory, seed);
   record.specimen_id = specimen.id;
   io::write_bluehill(output.stage(place(study, file.specimens[s].test)), record);
@@ -191,12 +191,20 @@ nlohmann::json truth_of(const io::StudyFile& file, const std::vector<Made>& made
           {"specimens", specimens}};
 }
 
-// Whether every specimen may stand for a test; says on stderr which may not.
-bool all_trusted(const std::vector<Made>& made) {
+std::string why_no_test(const Made& made) {
+  if (made.simulation.status == sim::SimulationStatus::strain_limit)
+    return fmt::format("does not break within model.loading.max_strain = {:g} %: raise it",
+                       100.0 * made.scene.loading.max_strain);
+  return made.simulation.trusted() ? sim::explain(made.simulation.status)
+                                   : made.simulation.why_not_trusted();
+}
+
+// Whether every specimen stands for a test; says on stderr which does not.
+bool all_are_tests(const std::vector<Made>& made) {
   bool all = true;
   for (const Made& one : made) {
-    if (one.simulation.trusted()) continue;
-    fmt::print(stderr, "specimen {}: {}\n", one.specimen.id, one.simulation.why_not_trusted());
+    if (calib::is_test(one.simulation)) continue;
+    fmt::print(stderr, "specimen {}: {}\n", one.specimen.id, why_no_test(one));
     all = false;
   }
   return all;
@@ -219,21 +227,14 @@ int run_synthesize(const SynthesizeArguments& arguments, const CommonOptions& co
   OutputFolder output(arguments.folder, common.force);
 
   const std::vector<Made> made = make_all(arguments.study, output, file);
-  if (!all_trusted(made))
+  if (!all_are_tests(made))
     return without_result(common, interrupted() ? "cancelled" : "failed", "nothing was written");
   const nlohmann::json truth = truth_of(file, made);
   io::write_file(output.stage("truth.json"), io::json_text(truth));
   for (const fs::path& input : file.inputs)
     fs::copy_file(input, output.stage(input == arguments.study ? "study.toml"
                                                                : place(arguments.study, input)));
-  output.publish();
-
-  if (common.json) {
-    fmt::print("{}", io::json_text(truth));
-  } else {
-    print_summary(made);
-    fmt::print("{}\n", (output.folder() / "study.toml").string());
-  }
+  answer(common, &output, truth, "study.toml", [&] { print_summary(made); });
   return done;
 }
 

@@ -9,12 +9,10 @@
 namespace havers::calib {
 namespace {
 
-// Sections or porosity tell at least one specimen's scatter.
 bool scatter_is_measured(const Study& study) {
-  return study.porosity.to_scatter != ToScatter::none &&
-         std::ranges::any_of(study.specimens, [](const Specimen& specimen) {
-           return specimen.porosity || !specimen.sections.empty();
-         });
+  return std::ranges::any_of(study.specimens, [&](const Specimen& specimen) {
+    return tells_scatter(specimen, study.porosity);
+  });
 }
 
 // "auto" tries what nothing else tells.

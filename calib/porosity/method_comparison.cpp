@@ -36,14 +36,15 @@ std::array<MethodSummary, porosity_methods> summaries_of(const std::vector<Poros
   return all;
 }
 
-double coverage_of(const std::vector<PorosityTrial>& trials) {
-  double with_pores = 0.0, covered = 0.0;
+// A section without pores has no interval to speak of.
+void add_coverage(const std::vector<PorosityTrial>& trials, MethodComparison& comparison) {
+  double covered = 0.0;
   for (const PorosityTrial& trial : trials) {
     if (trial.truth == 0.0) continue;
-    with_pores += 1.0;
+    ++comparison.with_pores;
     covered += trial.error(PorosityMethod::ours) <= 1.96 * trial.standard_error ? 1.0 : 0.0;
   }
-  return with_pores > 0.0 ? covered / with_pores : std::numeric_limits<double>::quiet_NaN();
+  comparison.coverage = covered / static_cast<double>(comparison.with_pores);  // NaN: no pores
 }
 
 }  // namespace
@@ -68,7 +69,8 @@ double PorosityTrial::error(PorosityMethod method) const {
 
 MethodComparison compare_methods(std::vector<PorosityTrial> trials) {
   assert(!trials.empty());
-  MethodComparison comparison{.methods = summaries_of(trials), .coverage = coverage_of(trials)};
+  MethodComparison comparison{.methods = summaries_of(trials)};
+  add_coverage(trials, comparison);
   std::vector<std::string> known;
   for (const PorosityTrial& trial : trials)
     if (std::find(known.begin(), known.end(), trial.hardship) == known.end())

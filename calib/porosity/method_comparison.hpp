@@ -52,7 +52,8 @@ struct MethodComparison {
   std::vector<PorosityTrial> trials;
   std::array<MethodSummary, porosity_methods> methods;  ///< Over all trials.
   std::vector<HardshipSummary> hardships;               ///< In the order of the trials.
-  double coverage = 0.0;  ///< Share of our 95 % intervals that hold the truth, where pores are. [-]
+  std::size_t with_pores = 0;                           ///< Trials of sections with pores.
+  double coverage = 0.0;  ///< Share of our 95 % intervals that hold the truth, of these. [-]
 };
 
 /// Precondition: at least one trial.

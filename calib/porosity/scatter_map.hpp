@@ -20,6 +20,20 @@ struct PorosityOptions {
   double modulus_exponent = 2.7;   ///< m of E = E₀ (1−p)^m. [-]
 };
 
+/// Whether a specimen, or what a study names of it, tells its scatter: its sections do, and with
+/// `linear` a bare porosity.
+bool tells_scatter(const auto& specimen, const PorosityOptions& options) {
+  switch (options.to_scatter) {
+    case ToScatter::window:
+      return !specimen.sections.empty();
+    case ToScatter::linear:
+      return !specimen.sections.empty() || specimen.porosity;
+    case ToScatter::none:
+      return false;
+  }
+  return false;
+}
+
 /// Porosity and scatter of one specimen, from all of its sections.
 struct SpecimenPorosity {
   double porosity = 0.0;                 ///< Mean over sections. [-]

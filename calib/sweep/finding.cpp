@@ -125,7 +125,12 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
     finding.inertia_low = std::fmin(finding.inertia_low, inertia);
     finding.inertia_high = std::fmax(finding.inertia_high, inertia);
   }
-  const std::vector<Comparison> comparisons = comparisons_of(evidence, group);
+  const long unbroken = unbroken_of(evidence.runs, group.points, request.response);
+  if (unbroken > 0)
+    finding.ground += fmt::format("; {} {} not break: raise loading.max_strain", unbroken,
+                                  unbroken == 1 ? "run did" : "runs did");
+  const std::vector<Comparison> comparisons =
+      unbroken > 0 ? std::vector<Comparison>{} : comparisons_of(evidence, group);
   finding.comparisons = static_cast<int>(comparisons.size());
   if (!comparisons.empty()) {
     const Bracket range = range_of(request);

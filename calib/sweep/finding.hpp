@@ -34,8 +34,9 @@ enum class FindingOutcome { agrees, disagrees, undecided };
 
 std::string to_string(FindingOutcome outcome);
 
-/// A claim judged for one value of `per`. Value and interval are those of the comparison that
-/// speaks most against the claim; the intervals of all comparisons hold together with 95 %.
+/// A claim judged for one value of `per`; undecided where a run did not break. Value and interval
+/// are those of the comparison that speaks most against the claim; the intervals of all comparisons
+/// hold together with 95 %.
 struct Finding {
   std::string id, claim, at;
   FindingTest test = FindingTest::same;

@@ -100,8 +100,10 @@ void fit(const SweepPlan& plan, const std::vector<SweepPoint>& points,
          const std::vector<SweepRun>& runs, Law& law) {
   const Rows rows = rows_of(law, plan, points, runs);
   law.runs = static_cast<long>(rows.y.size());
+  if (unbroken_of(runs, law.points, law.request.response) > 0)
+    law.status = LawStatus::unbroken_runs;
   const std::size_t k = law.request.terms.size() + 1;
-  if (rows.y.size() <= k) return;
+  if (law.status == LawStatus::unbroken_runs || rows.y.size() <= k) return;
   law.status = LawStatus::fitted;
   const double squares = least_squares(rows, law);
   const auto freedom = static_cast<double>(rows.y.size() - k);
@@ -122,6 +124,8 @@ std::string explain(LawStatus status) {
       return "there are not more runs than coefficients";
     case LawStatus::terms_do_not_vary:
       return "the terms do not vary enough to be told apart";
+    case LawStatus::unbroken_runs:
+      return "runs did not break: raise loading.max_strain";
   }
   return "";
 }

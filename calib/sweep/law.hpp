@@ -15,7 +15,7 @@ struct LawRequest {
   std::string per;                 ///< Empty: one law.
 };
 
-enum class LawStatus { fitted, too_few_runs, terms_do_not_vary };
+enum class LawStatus { fitted, too_few_runs, terms_do_not_vary, unbroken_runs };
 
 struct Law {
   LawRequest request;
@@ -39,7 +39,7 @@ struct Law {
 
 std::string explain(LawStatus status);
 
-/// The laws asked for, fitted to the runs that did not fail.
+/// The laws asked for, fitted to the runs that did not fail; to none where one did not break.
 std::vector<Law> fit_laws(const LawRequest& request, const SweepPlan& plan,
                           const std::vector<SweepPoint>& points, const std::vector<SweepRun>& runs);
 

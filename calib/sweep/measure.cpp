@@ -80,11 +80,25 @@ Statistics statistics_of(const std::vector<double>& values) {
   return statistics;
 }
 
+bool needs_break(Measure m) {
+  return m != Measure::modulus;
+}
+
 std::vector<double> values_of(const std::vector<SweepRun>& runs, std::size_t point, Measure m) {
   std::vector<double> values;
   for (const SweepRun& run : runs)
-    if (run.point == point && !run.failed && std::isfinite(run[m])) values.push_back(run[m]);
+    if (run.point == point && !run.failed && !(run.unbroken() && needs_break(m)) &&
+        std::isfinite(run[m]))
+      values.push_back(run[m]);
   return values;
+}
+
+long unbroken_of(const std::vector<SweepRun>& runs, const std::vector<std::size_t>& points,
+                 Measure m) {
+  if (!needs_break(m)) return 0;
+  return std::ranges::count_if(runs, [&](const SweepRun& run) {
+    return run.unbroken() && std::ranges::find(points, run.point) != points.end();
+  });
 }
 
 PointSummary summary_of(const std::vector<SweepRun>& runs, std::size_t point) {
@@ -93,7 +107,7 @@ PointSummary summary_of(const std::vector<SweepRun>& runs, std::size_t point) {
     if (run.point != point) continue;
     ++summary.runs;
     summary.failed += run.failed ? 1 : 0;
-    summary.unbroken += !run.failed && !run.broke ? 1 : 0;
+    summary.unbroken += run.unbroken() ? 1 : 0;
   }
   for (std::size_t m = 0; m < measure_count; ++m)
     summary.measures.at(m) = statistics_of(values_of(runs, point, static_cast<Measure>(m)));

@@ -49,6 +49,8 @@ struct SweepRun {
   [[nodiscard]] double operator[](Measure m) const {
     return measures.at(static_cast<std::size_t>(m));
   }
+  /// The strain limit came first: strength and failure strain are lower bounds.
+  [[nodiscard]] bool unbroken() const { return !failed && !broke; }
 };
 
 /// The measures of a response; those of the pattern where there is one.
@@ -75,8 +77,16 @@ struct PointSummary {
   }
 };
 
-/// A measure of all runs of a point that did not fail.
+/// Whether a run that did not break leaves a measure open: all but the modulus.
+bool needs_break(Measure m);
+
+/// A measure of all runs of a point that tell it: that did not fail and, where it `needs_break`,
+/// broke. A bound is not among values.
 std::vector<double> values_of(const std::vector<SweepRun>& runs, std::size_t point, Measure m);
+
+/// Runs among them that did not break and leave `m` open.
+long unbroken_of(const std::vector<SweepRun>& runs, const std::vector<std::size_t>& points,
+                 Measure m);
 
 PointSummary summary_of(const std::vector<SweepRun>& runs, std::size_t point);
 

@@ -18,13 +18,6 @@ bool is_sample(Sampling sampling) {
   return sampling == Sampling::latin_hypercube || sampling == Sampling::sobol;
 }
 
-// The number that a TOML value is; NaN when it is none.
-double number_in(const std::string& value) {
-  double number = std::nan("");
-  std::from_chars(value.data(), value.data() + value.size(), number);
-  return number;
-}
-
 // A permutation of the strata for each key, and a place in each stratum. [MCB79]
 Unit latin_hypercube(std::size_t points, std::size_t keys, std::uint64_t seed) {
   Unit unit(points, std::vector<double>(keys));
@@ -95,6 +88,12 @@ std::vector<std::vector<std::string>> list(const std::vector<SweepKey>& keys) {
 }
 
 }  // namespace
+
+double number_in(const std::string& value) {
+  double number = std::nan("");
+  std::from_chars(value.data(), value.data() + value.size(), number);
+  return number;
+}
 
 std::vector<SweepPlan::Problem> SweepPlan::problems() const {
   std::vector<Problem> all;

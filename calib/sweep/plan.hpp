@@ -17,6 +17,9 @@ struct SweepKey {
   std::vector<std::string> values;  ///< Of a sample: lower and upper bound.
 };
 
+/// The number that a TOML value is; NaN when it is none.
+double number_in(const std::string& value);
+
 struct SweepPlan {
   Sampling sampling = Sampling::grid;
   std::vector<SweepKey> keys;

@@ -105,18 +105,21 @@ class Runner {
 
 void summarise(SweepResult& result, std::size_t first) {
   for (std::size_t point = first; point < result.points.size(); ++point) {
-    result.summaries.push_back(summary_of(result.runs, point));
-    result.strengths.push_back(strength_law(values_of(result.runs, point, Measure::strength)));
+    const PointSummary& summary = result.summaries.emplace_back(summary_of(result.runs, point));
+    result.strengths.push_back(
+        summary.unbroken > 0 ? StrengthLaw{}
+                             : strength_law(values_of(result.runs, point, Measure::strength)));
   }
 }
 
-// A point above every point from `first` on.
+// A point above every point from `first` on whose strength is known.
 void climb(SweepResult& result, std::size_t first) {
   const std::size_t end = result.points.size();
   for (std::size_t point = first; point < end; ++point) {
     SweepPoint above = result.points[point];
-    if (result.summaries[point][Measure::strength].n < 2) continue;
-    above.scene = scale_above(above.scene, result.summaries[point]);
+    const PointSummary& summary = result.summaries[point];
+    if (summary[Measure::strength].n < 2 || summary.unbroken > 0) continue;
+    above.scene = scale_above(above.scene, summary);
     above.inertia_number = inertia_of(above.scene);
     ++above.level;
     result.points.push_back(std::move(above));
@@ -124,6 +127,13 @@ void climb(SweepResult& result, std::size_t first) {
 }
 
 }  // namespace
+
+bool SweepResult::trusted() const {
+  long without_strength = 0;
+  for (const PointSummary& summary : summaries)
+    without_strength += summary.failed + summary.unbroken;
+  return 20 * without_strength <= static_cast<long>(runs.size());
+}
 
 sim::Scene scale_above(const sim::Scene& scene, const PointSummary& below) {
   const Statistics& strength = below[Measure::strength];

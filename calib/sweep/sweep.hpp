@@ -41,11 +41,14 @@ struct SweepResult {
   std::vector<SweepPoint> points;       ///< Those of the second level follow those of the first.
   std::vector<SweepRun> runs;           ///< In the order of points and seeds.
   std::vector<PointSummary> summaries;  ///< One for each point.
-  std::vector<StrengthLaw> strengths;   ///< One for each point.
+  std::vector<StrengthLaw> strengths;   ///< One for each point; none where a run did not break.
   std::vector<Law> laws;
   std::vector<Finding> findings;
   long simulated = 0, failed = 0;
   bool cancelled = false;
+
+  /// At most a twentieth of the runs failed or did not break; their points say which.
+  [[nodiscard]] bool trusted() const;
 };
 
 /// Called with the finished and all runs of a sweep; returning false stops it.

@@ -1,5 +1,7 @@
 #include "calib/synthetic/coverage.hpp"
 
+#include <gsl/gsl_cdf.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -46,8 +48,38 @@ CoverageSummary summary_of(const std::string& design, const std::string& paramet
 
 }  // namespace
 
-bool CoverageSummary::holds() const {
-  return informed == 0 || (inside.interval_95[0] <= 0.95 && 0.95 <= inside.interval_95[1]);
+int CoverageSummary::held() const {
+  return informed > 0 ? static_cast<int>(std::lround(inside.part * informed)) : 0;
+}
+
+std::string to_string(IntervalWidth width) {
+  switch (width) {
+    case IntervalWidth::as_promised:
+      return "as promised";
+    case IntervalWidth::too_wide:
+      return "too wide";
+    case IntervalWidth::too_narrow:
+      return "too narrow";
+  }
+  return "";
+}
+
+IntervalWidth Coverage::width_of(const CoverageSummary& summary) const {
+  if (summary.informed == 0) return IntervalWidth::as_promised;
+  const auto shares =
+      std::ranges::count_if(summaries, [](const CoverageSummary& one) { return one.informed > 0; });
+  const double risk_each_side = 0.025 / static_cast<double>(shares);
+  const auto held = static_cast<unsigned>(summary.held());
+  const auto all = static_cast<unsigned>(summary.informed);
+  if (gsl_cdf_binomial_P(held, 0.95, all) < risk_each_side) return IntervalWidth::too_narrow;
+  const bool too_wide = held > 0 && gsl_cdf_binomial_Q(held - 1, 0.95, all) < risk_each_side;
+  return too_wide ? IntervalWidth::too_wide : IntervalWidth::as_promised;
+}
+
+bool Coverage::holds() const {
+  return std::ranges::none_of(summaries, [this](const CoverageSummary& summary) {
+    return width_of(summary) == IntervalWidth::too_narrow;
+  });
 }
 
 std::vector<Design> coverage_designs() {

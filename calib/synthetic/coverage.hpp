@@ -30,13 +30,22 @@ struct CoverageSummary {
   Rate inside;                       ///< Of those informed.
   std::array<double, 3> half_width;  ///< ½ log(upper/lower): 10, 50 and 90 %; NaN if none. [-]
 
-  /// 95 % is within the interval of the share, or no study informs it.
-  [[nodiscard]] bool holds() const;
+  [[nodiscard]] int held() const;  ///< Intervals that hold the truth.
 };
+
+/// What a share says of intervals that promise 95 %.
+enum class IntervalWidth { as_promised, too_wide, too_narrow };
+std::string to_string(IntervalWidth width);
 
 struct Coverage {
   std::vector<CoverageRow> rows;
   std::vector<CoverageSummary> summaries;
+
+  /// Beside 95 % by more than chance: by the binomial law, at 0.05/m for m shares (Bonferroni). Of
+  /// intervals that are as promised one bench in twenty or fewer calls any something else.
+  [[nodiscard]] IntervalWidth width_of(const CoverageSummary& summary) const;
+  /// None are too narrow.
+  [[nodiscard]] bool holds() const;
 };
 
 /// Specimens at 0° and 90°, and at 0°, 45° and 90°; alike, and 10 % apart.

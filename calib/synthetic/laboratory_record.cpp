@@ -48,6 +48,10 @@ double strain_rate(const Bar& bar, const Laboratory& laboratory) {
   return laboratory.crosshead_rate / bar.gauge_length;
 }
 
+bool is_test(const sim::Simulation& simulation) {
+  return simulation.trusted() && simulation.status == sim::SimulationStatus::broken;
+}
+
 RawTest record_test(const sim::Simulation& simulation, const Bar& bar, const Laboratory& laboratory,
                     std::uint64_t seed) {
   assert(!simulation.curve.empty() && simulation.modulus > 0.0);

@@ -34,9 +34,13 @@ struct Laboratory {
 /// ε̇ of a specimen: crosshead rate over gauge length. [1/s]
 double strain_rate(const Bar& bar, const Laboratory& laboratory);
 
+/// Whether a run is a test to record: trusted, and broken. One that reached the strain limit has no
+/// end, a severed one no beginning.
+bool is_test(const sim::Simulation& simulation);
+
 /// Time, force, extension and strain as recorded, equations (Y1) to (Y3) of
 /// calib/synthetic/README.md. Noise and gains are functions of seed, row and channel alone.
-/// Precondition: the simulation has rows; all rates and sizes are positive.
+/// Precondition: the simulation `is_test`; all rates and sizes are positive.
 RawTest record_test(const sim::Simulation& simulation, const Bar& bar, const Laboratory& laboratory,
                     std::uint64_t seed);
 

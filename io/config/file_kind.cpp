@@ -17,29 +17,49 @@ constexpr std::array<KindWords, 3> kind_words{KindWords{"scene", "havers simulat
                                               KindWords{"study", "havers fit takes it"},
                                               KindWords{"sweep", "havers sweep takes it"}};
 
-// A sweep has the tables of a scene too; a file with tables of several kinds may be any of them.
-FileKind kind_of(const TableReader& top, FileKind expected) {
+const KindWords& words_of(FileKind kind) {
+  return kind_words.at(static_cast<std::size_t>(kind));
+}
+
+// Whose tables a file has; a sweep has those of a scene too.
+struct Tables {
+  bool study, sweep, scene;
+};
+
+Tables tables_of(const TableReader& top) {
   const auto has_one_of = [&](std::initializer_list<const char*> names) {
     return std::ranges::any_of(names, [&](const char* name) { return top.has(name); });
   };
-  const bool study = has_one_of({"study", "specimen", "calibrate"});
-  const bool scene = has_one_of({"assembly", "material", "joints", "loading", "solver"});
-  if (study && scene) return expected;
-  if (study) return FileKind::study;
-  if (top.has("sweep")) return FileKind::sweep;
-  return scene ? FileKind::scene : expected;
+  return {.study = has_one_of({"study", "specimen", "calibrate"}),
+          .sweep = top.has("sweep"),
+          .scene = has_one_of({"assembly", "material", "joints", "loading", "solver"})};
+}
+
+FileKind kind_of(const Tables& tables) {
+  if (tables.study) return FileKind::study;
+  return tables.sweep ? FileKind::sweep : FileKind::scene;
 }
 
 }  // namespace
 
+std::string_view name_of(FileKind kind) {
+  return words_of(kind).name;
+}
+
+FileKind kind_of_file(const std::filesystem::path& file, const Overrides& overrides) {
+  ConfigFile config(file, overrides);
+  return kind_of(tables_of(config.top()));
+}
+
 void require_kind(FileKind expected, const TableReader& top, const std::filesystem::path& file) {
-  const FileKind kind = kind_of(top, expected);
-  if (kind == expected) return;
-  const KindWords& words = kind_words.at(static_cast<std::size_t>(kind));
+  const Tables tables = tables_of(top);
+  const bool of_several = tables.study && tables.scene;
+  const bool of_none = !tables.study && !tables.sweep && !tables.scene;
+  const FileKind kind = kind_of(tables);
+  if (kind == expected || of_several || of_none) return;
   throw InputError(file.string(),
-                   fmt::format("is a {}, a {} is expected", words.name,
-                               kind_words.at(static_cast<std::size_t>(expected)).name),
-                   words.commands);
+                   fmt::format("is a {}, a {} is expected", name_of(kind), name_of(expected)),
+                   words_of(kind).commands);
 }
 
 }  // namespace havers::io

@@ -2,12 +2,19 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "io/config/table_reader.hpp"
 
 namespace havers::io {
 
 enum class FileKind { scene, study, sweep };
+
+std::string_view name_of(FileKind kind);
+
+/// Study before sweep before scene; a file whose tables are of no kind is a scene.
+/// @throws InputError when the file cannot be read or is not TOML, or an override is neither.
+FileKind kind_of_file(const std::filesystem::path& file, const Overrides& overrides);
 
 /// @throws InputError when the tables are those of another kind, whose keys would all be unknown.
 void require_kind(FileKind expected, const TableReader& top, const std::filesystem::path& file);

@@ -173,15 +173,15 @@ void read_calibrate(TableReader calibrate, const sim::Scene& model,
 // What a fit looks for would take the place of what a specimen's sections tell.
 void check_scatter(TableReader calibrate, const StudyFile& read) {
   const auto& names = read.study.calibrate.parameters;
-  const auto measured = std::ranges::find_if(read.specimens, [](const SpecimenFiles& specimen) {
-    return specimen.porosity || !specimen.sections.empty();
+  const auto measured = std::ranges::find_if(read.specimens, [&](const SpecimenFiles& specimen) {
+    return calib::tells_scatter(specimen, read.study.porosity);
   });
-  if (read.study.porosity.to_scatter == calib::ToScatter::none ||
-      std::ranges::find(names, "scatter") == names.end() || measured == read.specimens.end())
+  if (std::ranges::find(names, "scatter") == names.end() || measured == read.specimens.end())
     return;
   calibrate.complain(
       "parameters",
-      fmt::format("names \"scatter\", which specimen {} has from its porosity", measured->id),
+      fmt::format("names \"scatter\", which specimen {} has from its {}", measured->id,
+                  measured->sections.empty() ? "porosity" : "sections"),
       "set porosity.to_scatter = \"none\" to fit it, or leave it out of the parameters");
 }
 

@@ -30,11 +30,11 @@ void doubt_model(TableReader model, const StudyFile& read, Sentences& found) {
   TableReader joints = model.table("joints");
   if (joints.has("seed"))
     changes_nothing(found, "model.joints.seed", "calibrate.options.seed draws the thresholds");
-  const bool all_porous = std::ranges::all_of(read.specimens, [](const SpecimenFiles& specimen) {
-    return specimen.porosity || !specimen.sections.empty();
+  const calib::PorosityOptions& laws = read.study.porosity;
+  const bool all_tell = std::ranges::all_of(read.specimens, [&](const SpecimenFiles& specimen) {
+    return calib::tells_scatter(specimen, laws);
   });
-  if (joints.has("scatter") && all_porous &&
-      read.study.porosity.to_scatter == calib::ToScatter::linear)
+  if (joints.has("scatter") && all_tell && laws.to_scatter == calib::ToScatter::linear)
     changes_nothing(found, "model.joints.scatter", "every specimen has one from its porosity");
   int snapshots = 0;
   if (model.table("output").key("snapshots", snapshots) && snapshots != 0)
@@ -87,6 +87,12 @@ void doubt_specimens(TableReader top, const StudyFile& read, Sentences& found) {
     say(!specimen.gauge, "gauge_columns", "it has no gauge");
     say(specimen.sections.empty(), "pixel_size_um", "it has no sections");
     say(specimen.sections.empty(), "mask", "it has no sections");
+    const calib::PorosityOptions& laws = read.study.porosity;
+    if (specimen.porosity && laws.to_scatter == calib::ToScatter::window &&
+        !calib::tells_scatter(specimen, laws))
+      found.push_back(fmt::format(
+          "porosity of specimen {} changes nothing for the scatter: \"window\" needs sections",
+          specimen.id));
   }
 }
 

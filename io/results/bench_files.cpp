@@ -1,19 +1,14 @@
 #include "io/results/bench_files.hpp"
 
-#include <fmt/format.h>
-
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "io/results/csv_numbers.hpp"
+#include "io/results/csv_row.hpp"
 #include "io/results/json_table.hpp"
 #include "io/results/result_keys.hpp"
 
 namespace havers::io {
-
-nlohmann::json provenance_object(Provenance provenance) {
-  return json_of(provenance);
-}
 namespace {
 
 // Names with values, in the order of the columns; JSON and CSV have the same.
@@ -72,10 +67,26 @@ nlohmann::json omissions_json(const std::optional<sim::Omissions>& omissions) {
            omissions->until_strain ? nlohmann::json(*omissions->until_strain) : nlohmann::json()}};
 }
 
-std::string csv_cell(const nlohmann::json& value) {
-  if (value.is_null()) return {};
-  if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
-  return value.is_string() ? value.get<std::string>() : csv_number(value.get<double>());
+void add_cell(CsvRow& row, const std::string& name, const nlohmann::json& value) {
+  if (value.is_string())
+    row.key(name.c_str(), value.get<std::string>());
+  else if (value.is_boolean())
+    row.key(name.c_str(), value.get<bool>());
+  else
+    row.key(name.c_str(), value.is_null() ? NAN : value.get<double>());
+}
+
+CsvRow row_of(const sim::StabilityResult& result) {
+  CsvRow row("scene", result.name);
+  row.key("outcome", to_string(result.outcome));
+  row.key("as_it_must", result.as_it_must);
+  row.key("error", result.error);
+  row.key("residual", result.residual);
+  row.key("energy_defect", result.energy_defect);
+  row.key("penetration", result.penetration);
+  row.key("wall_s", result.wall);
+  row.key("reason", result.reason);
+  return row;
 }
 
 nlohmann::json summaries_of(
@@ -136,26 +147,18 @@ nlohmann::json stability_json(const std::vector<sim::StabilityResult>& results,
 
 std::string work_precision_csv(const sim::WorkPrecision& study) {
   std::string text;
-  for (const sim::BenchRow& row : study.rows) {
-    std::string header = "setting", line = fmt::format("\"{}\"", to_string(row.setting));
-    for (const auto& [name, value] : row_cells(row)) {
-      header.append(",").append(name);
-      line.append(",").append(csv_cell(value));
-    }
-    if (text.empty()) text = header + "\n";
-    text += line + "\n";
+  for (const sim::BenchRow& one : study.rows) {
+    CsvRow row("setting", to_string(one.setting));
+    for (const auto& [name, value] : row_cells(one)) add_cell(row, name, value);
+    if (text.empty()) text = row.names();
+    text += row.cells();
   }
   return text;
 }
 
 std::string stability_csv(const std::vector<sim::StabilityResult>& results) {
-  std::string text =
-      "scene,outcome,as_it_must,error,residual,energy_defect,penetration,wall_s,reason\n";
-  for (const sim::StabilityResult& r : results)
-    text += fmt::format("\"{}\",{},{:d},{},{},{},{},{},\"{}\"\n", r.name, to_string(r.outcome),
-                        r.as_it_must, csv_number(r.error), csv_number(r.residual),
-                        csv_number(r.energy_defect), csv_number(r.penetration), csv_number(r.wall),
-                        r.reason);
+  std::string text = row_of({}).names();
+  for (const sim::StabilityResult& result : results) text += row_of(result).cells();
   return text;
 }
 
@@ -165,6 +168,7 @@ nlohmann::json methods_json(const calib::MethodComparison& comparison,
   for (const auto& [hardship, methods] : comparison.hardships)
     hardships.push_back({{"hardship", hardship}, {"methods", summaries_of(methods)}});
   return {{"sections", comparison.trials.size()},
+          {"sections_with_pores", comparison.with_pores},
           {"coverage", comparison.coverage},
           {"methods", summaries_of(comparison.methods)},
           {"hardships", hardships},
@@ -172,15 +176,20 @@ nlohmann::json methods_json(const calib::MethodComparison& comparison,
 }
 
 std::string methods_csv(const calib::MethodComparison& comparison) {
-  std::string text = "hardship,ring,pixels,truth,method,porosity,cpu_s,standard_error\n";
+  std::string text;
   for (const calib::PorosityTrial& trial : comparison.trials)
     for (std::size_t i = 0; i < trial.readings.size(); ++i) {
       const auto method = static_cast<calib::PorosityMethod>(i);
-      const bool ours = method == calib::PorosityMethod::ours;
-      text += fmt::format(
-          "{},{:d},{},{},\"{}\",{},{},{}\n", trial.hardship, trial.ring, trial.pixels,
-          csv_number(trial.truth), to_string(method), csv_number(trial.readings.at(i).porosity),
-          csv_number(trial.readings.at(i).cpu), ours ? csv_number(trial.standard_error) : "");
+      CsvRow row("hardship", trial.hardship);
+      row.key("ring", trial.ring);
+      row.key("pixels", trial.pixels);
+      row.key("truth", trial.truth);
+      row.key("method", to_string(method));
+      row.key("porosity", trial.readings.at(i).porosity);
+      row.key("cpu_s", trial.readings.at(i).cpu);
+      row.key("standard_error", method == calib::PorosityMethod::ours ? trial.standard_error : NAN);
+      if (text.empty()) text = row.names();
+      text += row.cells();
     }
   return text;
 }

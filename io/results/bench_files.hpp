@@ -14,9 +14,6 @@
 
 namespace havers::io {
 
-/// The `provenance` object of a bench's JSON.
-nlohmann::json provenance_object(Provenance provenance);
-
 nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPrecision& study,
                                    const Provenance& provenance);
 nlohmann::json stability_json(const std::vector<sim::StabilityResult>& results,

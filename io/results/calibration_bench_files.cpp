@@ -80,6 +80,7 @@ nlohmann::json coverage_json(const calib::Coverage& coverage, const Provenance& 
                          {"informed", summary.informed},
                          {"inside", summary.inside.part},
                          {"inside_95", summary.inside.interval_95},
+                         {"intervals", to_string(coverage.width_of(summary))},
                          {"half_width_10_50_90", summary.half_width}});
   }
   return {{"coverage", summaries},

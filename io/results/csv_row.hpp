@@ -18,7 +18,7 @@ class CsvRow {
   CsvRow(const char* name, const std::string& value) : names_(name), cells_(quoted(value)) {}
 
   template <class T>
-  void key(const char* name, T& value) {
+  void key(const char* name, const T& value) {
     names_ += fmt::format(",{}", name);
     cells_ += ',';
     if constexpr (std::is_same_v<T, double>)
@@ -34,7 +34,7 @@ class CsvRow {
 
  private:
   static std::string quoted(const std::string& text) {
-    if (text.find_first_of(",\"") == std::string::npos) return text;
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::ostringstream result;
     result << std::quoted(text, '"', '"');
     return result.str();

@@ -71,13 +71,12 @@ nlohmann::json calibration_json(const calib::Study& study, const calib::Calibrat
                                 const Provenance& provenance) {
   calib::CalibrationResult answer = result;
   calib::Study question = study;
-  Provenance origin = provenance;
   nlohmann::json json = json_of(answer);
   json["status_text"] = calib::explain(result.status);
   json["trusted"] = result.trusted();
   json["wall_s"] = provenance.wall_seconds;
   json["study"] = json_of(question);
-  json["provenance"] = json_of(origin);
+  json["provenance"] = provenance_object(provenance);
   return json;
 }
 

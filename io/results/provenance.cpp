@@ -1,4 +1,8 @@
+#include <nlohmann/json.hpp>
+
+#include "io/results/json_table.hpp"
 #include "io/results/result_files.hpp"
+#include "io/results/result_keys.hpp"
 
 namespace havers::io {
 
@@ -8,6 +12,10 @@ std::string version() {
 }
 std::string compiler_version() {
   return HAVERS_COMPILER;
+}
+
+nlohmann::json provenance_object(Provenance provenance) {
+  return json_of(provenance);
 }
 
 }  // namespace havers::io

@@ -29,6 +29,9 @@ struct Provenance {
   double cpu_seconds = 0.0;
 };
 
+/// The `provenance` object of a result.json.
+nlohmann::json provenance_object(Provenance provenance);
+
 /// The objects of result.json and of --json.
 nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& simulation,
                                const Provenance& provenance);

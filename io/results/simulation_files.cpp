@@ -16,7 +16,6 @@ nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& s
   auto number = [](double value) { return json_of(value); };
   sim::Regime regime = simulation.regime;
   std::vector<sim::LeftOut> left_out = simulation.left_out;
-  Provenance origin = provenance;
   return {
       {"status", sim::to_string(simulation.status)},
       {"status_text", sim::explain(simulation)},
@@ -43,7 +42,7 @@ nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& s
       {"wall_s", number(provenance.wall_seconds)},
       {"left_out", json_of(left_out)},
       {"scene", scene_json(used)},
-      {"provenance", json_of(origin)},
+      {"provenance", provenance_object(provenance)},
   };
 }
 

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 #include "io/config/file_kind.hpp"
 #include "io/config/parse_toml.hpp"
@@ -93,12 +91,6 @@ void read_questions(TableReader& top, calib::Sweep& sweep) {
   }
 }
 
-double number_in(const std::string& value) {
-  double number = std::nan("");
-  std::from_chars(value.data(), value.data() + value.size(), number);
-  return number;
-}
-
 // The scene with a point's values on top, as if they were given by --set.
 calib::SweepPoint read_point(SweepFile& read, Overrides overrides,
                              std::vector<std::string> values) {
@@ -115,7 +107,7 @@ calib::SweepPoint read_point(SweepFile& read, Overrides overrides,
   config.finish();
   for (const std::filesystem::path& input : config.inputs())
     if (std::ranges::find(read.inputs, input) == read.inputs.end()) read.inputs.push_back(input);
-  for (const std::string& value : values) point.numbers.push_back(number_in(value));
+  for (const std::string& value : values) point.numbers.push_back(calib::number_in(value));
   point.values = std::move(values);
   point.inertia_number = calib::inertia_of(point.scene);
   return point;

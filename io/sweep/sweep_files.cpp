@@ -146,6 +146,7 @@ nlohmann::json sweep_json(const calib::Sweep& sweep, const calib::SweepResult& r
   std::vector<calib::Law> laws = result.laws;
   std::vector<calib::Finding> findings = result.findings;
   return {{"name", sweep.name},
+          {"trusted", result.trusted()},
           {"points", points},
           {"laws", json_of(laws)},
           {"findings", json_of(findings)},

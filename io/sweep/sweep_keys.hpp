@@ -18,7 +18,8 @@ inline constexpr Words<8> words<calib::FindingTest>{"same",   "matters", "rises"
 template <>
 inline constexpr Words<3> words<calib::FindingOutcome>{"agrees", "disagrees", "undecided"};
 template <>
-inline constexpr Words<3> words<calib::LawStatus>{"fitted", "too_few_runs", "terms_do_not_vary"};
+inline constexpr Words<4> words<calib::LawStatus>{"fitted", "too_few_runs", "terms_do_not_vary",
+                                                  "unbroken_runs"};
 
 /// The measure's unit in result files, as a suffix: "strength_Pa".
 std::string name_of(calib::Measure measure);

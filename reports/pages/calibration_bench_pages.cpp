@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "reports/bench_pages.hpp"
 #include "reports/figures/figures.hpp"
@@ -32,11 +32,12 @@ mstch::map chain_row(const calib::ChainSummary& chain, bool usual) {
           {"success", text(rate_text(chain.success))}};
 }
 
-mstch::map coverage_row(const calib::CoverageSummary& one) {
+mstch::map coverage_row(const calib::CoverageSummary& one, calib::IntervalWidth judged) {
   return {{"design", text(one.design)},
           {"parameter", text(one.parameter)},
           {"informed", text(fmt::format("{} of {}", one.informed, one.studies))},
           {"inside", text(rate_text(one.inside))},
+          {"judged", text(one.informed > 0 ? to_string(judged) : "–")},
           {"width", text(one.informed > 0 ? spread(one.half_width, in::percent, 2) : "–")}};
 }
 
@@ -68,23 +69,28 @@ std::string chains_page(const ChainsReport& report) {
 }
 
 std::string coverage_page(const CoverageReport& report) {
-  const auto& summaries = report.coverage.summaries;
+  const calib::Coverage& coverage = report.coverage;
   mstch::array rows;
   int inside = 0, informed = 0;
-  for (const calib::CoverageSummary& one : summaries) {
-    rows.emplace_back(coverage_row(one));
+  std::set<calib::IntervalWidth> widths;
+  for (const calib::CoverageSummary& one : coverage.summaries) {
+    widths.insert(coverage.width_of(one));
+    rows.emplace_back(coverage_row(one, coverage.width_of(one)));
     informed += one.informed;
-    if (one.informed > 0) inside += static_cast<int>(std::lround(one.inside.part * one.informed));
+    inside += one.held();
   }
   const calib::Rate all = calib::rate_of(inside, informed);
-  const bool holds = std::ranges::all_of(summaries, &calib::CoverageSummary::holds);
+  const char* detail = widths.contains(calib::IntervalWidth::too_narrow)
+                           ? "Some intervals are too narrow by more than chance."
+                       : widths.contains(calib::IntervalWidth::too_wide)
+                           ? "Some intervals are too wide by more than chance, none too narrow."
+                           : "No share differs from 95 % by more than chance.";
   return render_page(
       "havers bench: what the intervals hold", "coverage",
-      {{"grade", text(holds ? "good" : "bad")},
+      {{"grade", text(coverage.holds() ? "good" : "bad")},
        {"sentence", text(fmt::format("{} % of {} intervals hold the truth; 95 % should.",
                                      number(all.part / in::percent, 3), informed))},
-       {"detail", text(holds ? "No parameter differs from 95 % by more than chance."
-                             : "Some parameters differ from 95 % by more than chance.")},
+       {"detail", text(detail)},
        {"rows", mstch::node{rows}}},
       report.provenance);
 }

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "reports/figures/thin.hpp"
+#include "reports/sweep/measure_words.hpp"
 #include "reports/sweep/sweep_words.hpp"
 #include "reports/text/format.hpp"
 

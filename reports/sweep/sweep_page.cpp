@@ -9,6 +9,7 @@
 #include <set>
 
 #include "reports/pages/page.hpp"
+#include "reports/sweep/measure_words.hpp"
 #include "reports/sweep/sweep_figure.hpp"
 #include "reports/sweep/sweep_words.hpp"
 #include "reports/text/format.hpp"
@@ -138,9 +139,10 @@ std::string sentence_of(const std::vector<Row>& rows, long runs) {
   return sentence + ".";
 }
 
-// Runs that fail are worse than claims that do not hold.
-std::string grade_of(const std::vector<Row>& rows, long runs, long failed) {
-  if (20 * failed > runs) return "bad";
+// Runs without an answer are worse than claims that do not hold.
+std::string grade_of(const std::vector<Row>& rows, const std::vector<SweepReport>& sweeps) {
+  if (!std::ranges::all_of(sweeps, [](const SweepReport& one) { return one.result.trusted(); }))
+    return "bad";
   const bool agree = std::ranges::all_of(
       rows, [](const Row& row) { return row.finding->outcome == FindingOutcome::agrees; });
   return agree ? "good" : "mixed";
@@ -205,6 +207,7 @@ mstch::array point_heads(const SweepReport& report) {
   for (const calib::SweepKey& key : report.sweep.plan.keys) head(name_of_key(key.name));
   head("I");
   head("n");
+  head("Did not break");
   for (const calib::Measure m : known_measures(report.result)) head(with_unit(words_of(m)));
   head("CV of the strength (%)");
   head("Weibull modulus");
@@ -221,6 +224,7 @@ mstch::node point_row(const SweepReport& report, std::size_t i) {
   for (const std::string& value : point.values) cells.push_back(cell(bare(value)));
   cells.push_back(cell(number(point.inertia_number, 2)));
   cells.push_back(cell(std::to_string(summary.runs - summary.failed)));
+  cells.push_back(cell(std::to_string(summary.unbroken)));
   for (const calib::Measure m : known_measures(report.result))
     cells.push_back(cell(plus_minus(summary[m].mean / words_of(m).scale,
                                     summary[m].standard_error() / words_of(m).scale)));
@@ -268,20 +272,24 @@ mstch::node sweep_part(const SweepReport& report) {
 std::string sweep_page(const std::string& title, const std::vector<SweepReport>& sweeps,
                        const Provenance& provenance, double wall_seconds) {
   const std::vector<Row> rows = rows_of(sweeps);
-  long runs = 0, failed = 0;
+  long runs = 0, failed = 0, unbroken = 0;
   mstch::array parts;
   for (const SweepReport& report : sweeps) {
     runs += static_cast<long>(report.result.runs.size());
-    for (const calib::PointSummary& summary : report.result.summaries) failed += summary.failed;
+    for (const calib::PointSummary& summary : report.result.summaries) {
+      failed += summary.failed;
+      unbroken += summary.unbroken;
+    }
     parts.push_back(sweep_part(report));
   }
   return render_page(
       title, "sweep",
-      {{"grade", text(grade_of(rows, runs, failed))},
+      {{"grade", text(grade_of(rows, sweeps))},
        {"sentence", text(sentence_of(rows, runs))},
        {"detail",
-        text(fmt::format("{}, {} failed, {} wall time; seeds are not shared between points.",
-                         count(runs, "run"), failed, duration(wall_seconds)))},
+        text(fmt::format(
+            "{}, {} failed, {} did not break, {} wall time; seeds are not shared between points.",
+            count(runs, "run"), failed, unbroken, duration(wall_seconds)))},
        {"has_findings", mstch::node{!rows.empty()}},
        {"findings", mstch::node{finding_rows(rows)}},
        {"sweeps", mstch::node{parts}}},

@@ -1,9 +1,7 @@
-// Keys and measures as a reader of the page knows them.
+// Keys as a reader of the page knows them.
 #pragma once
 
 #include <string>
-
-#include "calib/sweep/measure.hpp"
 
 namespace havers::reports {
 
@@ -15,12 +13,5 @@ std::string bare(const std::string& value);
 
 /// "θ = 45°", "ratio r = 3": a key at a value, the unit behind it.
 std::string place(const std::string& key, const std::string& value);
-
-/// A measure as tables and axes show it.
-struct MeasureWords {
-  std::string name, unit;
-  double scale = 1.0;  ///< SI value over the shown one.
-};
-MeasureWords words_of(calib::Measure measure);
 
 }  // namespace havers::reports

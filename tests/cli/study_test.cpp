@@ -64,6 +64,20 @@ TEST(Synthesize, RefusesWhatItDoesNotMake) {
   EXPECT_FALSE(fs::exists(folder / "made"));
 }
 
+TEST(Synthesize, WritesNoBreakThatTheModelDidNotHave) {
+  const fs::path folder = folder_with_study();
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"model.loading.max_strain=0.002",
+       "specimen B0: does not break within model.loading.max_strain = 0.2 %: raise it\n"},
+      {"model.joints.missing=0.99", "specimen B0: missing joints sever the specimen"}};
+  for (const auto& [setting, sentence] : cases) {
+    const auto answer = run_havers(folder, "synthesize study.toml -o made --set " + setting);
+    EXPECT_EQ(answer.exit_code, 1);
+    EXPECT_TRUE(answer.err.starts_with(sentence)) << answer.err;
+    EXPECT_FALSE(fs::exists(folder / "made"));
+  }
+}
+
 TEST(Synthesize, BringsTheLawsOfTheStudyAlong) {
   const fs::path folder = folder_with_study();
   const std::string laws = R"({"laws": [{"response": "strength", "status": "fitted",

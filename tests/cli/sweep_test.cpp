@@ -50,12 +50,37 @@ TEST(Sweep, LeavesTablesLawsResultAndStore) {
   EXPECT_THAT(answer.out, HasSubstr("F1"));
 }
 
+TEST(Sweep, PrintsMeansInTheirUnitAndDifferencesInPerCent) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "small.toml", std::string(small) +
+                                              "[[finding]]\nid = \"F2\"\nclaim = \"Stiff\"\n"
+                                              "test = \"above\"\nresponse = \"modulus\"\n"
+                                              "margin = 1e9\n");
+  EXPECT_THAT(run_havers(folder, "sweep small.toml -o out").out,
+              testing::AllOf(testing::ContainsRegex("F1 .*strength -?[0-9]+ % "),
+                             testing::ContainsRegex("F2 .*modulus 13.[0-9]+ GPa ")));
+}
+
 TEST(Sweep, AgainTakesItsRunsFromTheStore) {
   const fs::path folder = own_folder();
   test::write_text(folder / "small.toml", small);
   const std::string first = run_havers(folder, "sweep small.toml -o out").out;
   const auto again = run_havers(folder, "sweep small.toml -o out --force --json");
   EXPECT_EQ(nlohmann::json::parse(again.out)["sweeps"][0]["simulated"], 0);
+}
+
+TEST(Sweep, IsNotTrustedWhereRunsDidNotBreak) {
+  const fs::path folder = own_folder();
+  test::write_text(folder / "small.toml", small);
+  const auto answer = run_havers(folder, "sweep small.toml -o out --set loading.max_strain=0.001");
+  EXPECT_EQ(answer.exit_code, 1) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("NOT to be trusted: too many runs failed or did not break"));
+  EXPECT_THAT(answer.out, HasSubstr("8 runs, 0 failed, 8 did not break"));
+  EXPECT_THAT(answer.out, HasSubstr("undecided              strength -; 0 runs"));
+  const auto result = nlohmann::json::parse(test::read_text(folder / "out/result.json"));
+  EXPECT_EQ(result["trusted"], false);
+  EXPECT_EQ(result["unbroken_simulations"], 8);
+  EXPECT_EQ(result["sweeps"][0]["laws"][0]["status"], "unbroken_runs");
 }
 
 TEST(Sweep, NamesTheProblemsOfAllFilesTogether) {

@@ -247,6 +247,37 @@ TEST(Check, SaysNoProblemsOrAllOfThem) {
   EXPECT_EQ(nlohmann::json::parse(answer.out).at("problems").size(), 3U);
 }
 
+// Whatever way of TOML the tables are written in.
+TEST(Check, TakesForAStudyWhatFitTakesForOne) {
+  const auto folder = test::folder_with_tests();
+  std::string indented = test::small_study();
+  for (std::size_t at = 0; (at = indented.find("\n[", at)) != std::string::npos; at += 4)
+    indented.insert(at + 1, "  ");
+  const std::string specimens =
+      R"(specimen = [{id = "B0", test = "B0.csv", width_mm = 4.0, thickness_mm = 2.0,)"
+      " gauge_length_mm = 25.0, orientation_deg = 0}]\n";
+  const std::pair<const char*, std::string> studies[] = {
+      {"indented", indented},
+      {"inline", "study.name = \"dotted\"\n" + specimens},
+      {"nameless", specimens}};
+  for (const auto& [name, study] : studies) {
+    test::write_text(folder / "made" / name, study);
+    const auto answer = run_havers(folder, fmt::format("check made/{} --json", name));
+    EXPECT_EQ(answer.exit_code, 0) << name << answer.out;
+    EXPECT_EQ(nlohmann::json::parse(answer.out).at("kind"), "study") << name;
+  }
+}
+
+TEST(Check, SaysThatAFileIsNotTomlBeforeItsKind) {
+  const auto folder = own_folder();
+  test::write_text(folder / "study.toml", "[study]\nname = = 2\n");
+  const auto answer = run_havers(folder, "check study.toml --json");
+  EXPECT_EQ(answer.exit_code, 2);
+  const auto json = nlohmann::json::parse(answer.out);
+  EXPECT_EQ(json.at("kind"), "scene");
+  EXPECT_EQ(json.at("problems").size(), 1U);
+}
+
 TEST(Check, TellsAStudyFromASceneAndReportsAllItsFiles) {
   const auto folder = own_folder();
   test::write_text(folder / "study.toml", test::small_study());

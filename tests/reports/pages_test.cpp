@@ -215,67 +215,6 @@ TEST(WorkPrecisionPage, SaysHowFarRunsCameThatWereStopped) {
                        "1 of 1 stopped after 20.0\u00a0s, at a strain of 0.210\u00a0%"));
 }
 
-calib::PorosityTrial trial_of(const std::string& hardship, double truth, double ours) {
-  calib::PorosityTrial trial{.hardship = hardship, .pixels = 1e6, .truth = truth};
-  trial.readings = {{{0.5, 1e-3}, {0.4, 2e-3}, {0.3, 1e-2}, {ours, 3e-2}}};
-  trial.standard_error = 0.01;
-  return trial;
-}
-
-TEST(MethodsPage, ComparesMethodsByErrorAndTime) {
-  const auto comparison =
-      calib::compare_methods({trial_of("blur", 0.0, 0.0), trial_of("noise", 0.05, 0.052)});
-  const std::string page = methods_page({comparison, {{"seed", "1"}}});
-  expect_sound(page);
-  EXPECT_TRUE(contains(page, "On 2 drawn sections havers porosity errs by 0.20 points"));
-  EXPECT_TRUE(contains(page, "<th>noise</th>"));
-  EXPECT_TRUE(contains(page, "33.3"));  // MPix/s of 0.03 s for a million pixels
-}
-
-calib::ChainRow chain_row(const std::string& chain, double error, long simulations) {
-  return {.chain = chain,
-          .study = 1,
-          .error = error,
-          .cost = 1.0,
-          .informed = 3,
-          .simulations = simulations,
-          .seconds = 0.5,
-          .success = true,
-          .trace = {{simulations / 10, 0.1, 0.4}, {simulations, 0.5, error}}};
-}
-
-TEST(ChainsPage, NamesTheWinnerAndDrawsErrorAgainstCost) {
-  std::vector<calib::ChainRow> rows;
-  for (const calib::Chain& chain : calib::all_chains())
-    rows.push_back(chain_row(chain.name, 0.0123, rows.empty() ? 300 : 400));
-  const auto benchmark = calib::summarise(std::move(rows));
-  const std::string page = chains_page({benchmark, {{"seed", "1"}}});
-  expect_sound(page);
-  EXPECT_TRUE(contains(page, calib::all_chains().front().name + " needs the fewest simulations"));
-  EXPECT_TRUE(contains(page, "It is the default."));
-  EXPECT_TRUE(contains(page, "1.2 (1.2 to 1.2)"));
-  EXPECT_TRUE(contains(page, "bysimulations"));
-}
-
-TEST(CoveragePage, SaysWhichIntervalsHoldLessThanTheyPromise) {
-  calib::Coverage coverage;
-  coverage.summaries = {
-      {.design = "0, 90 deg",
-       .parameter = "young_GPa",
-       .studies = 100,
-       .informed = 100,
-       .inside = calib::rate_of(95, 100),
-       .half_width = {0.01, 0.02, 0.03}},
-      {.design = "0, 90 deg", .parameter = "ratio", .studies = 100, .half_width = {NAN, NAN, NAN}}};
-  const std::string page = coverage_page({coverage, {{"seed", "1"}}});
-  expect_sound(page);
-  EXPECT_TRUE(contains(page, "95.0 % of 100 intervals hold the truth; 95 % should."));
-  EXPECT_TRUE(contains(page, "100 of 100"));
-  EXPECT_TRUE(contains(page, "No parameter differs"));
-  coverage.summaries.front().inside = calib::rate_of(80, 100);
-  EXPECT_TRUE(contains(coverage_page({coverage, {{"seed", "1"}}}), "Some parameters differ"));
-}
-
 TEST(ComparisonPage, PutsFitsSideBySide) {
   const auto a = test::fit_sample();
   auto b = test::fit_sample();

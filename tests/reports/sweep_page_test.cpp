@@ -65,6 +65,17 @@ TEST(SweepPage, IsGreenOnlyWhereEveryFindingAgrees) {
               AllOf(HasSubstr("verdict mixed"), HasSubstr("1 is mixed or undecided (F7)")));
 }
 
+TEST(SweepPage, IsRedWhereRunsDidNotBreakAndTellsWhich) {
+  Case known;
+  known.result.summaries.back().unbroken = 5;
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+              AllOf(HasSubstr("verdict bad"), HasSubstr("80 runs, 0 failed, 5 did not break"),
+                    HasSubstr("Did not break</th>")));
+  known.result.summaries.back().unbroken = 4;
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+              HasSubstr("verdict good"));
+}
+
 TEST(SweepPage, GivesEveryLawWithItsIntervals) {
   const Case known;
   const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);

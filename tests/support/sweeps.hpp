@@ -30,6 +30,7 @@ struct KnownSweep {
         calib::SweepRun run;
         run.point = point;
         run.failed = false;
+        run.broke = true;
         run.measures.fill(value(points[point], k));
         runs.push_back(run);
       }

@@ -100,6 +100,11 @@ TEST(Unknowns, OfAutoLeaveTheScatterToWhatPorosityTells) {
   };
   EXPECT_TRUE(tries_scatter());
   study.specimens[0].porosity = 0.05;
+  EXPECT_TRUE(tries_scatter()) << "windows are of sections";
+  study.porosity.to_scatter = ToScatter::linear;
+  EXPECT_FALSE(tries_scatter());
+  study.specimens[0].sections.emplace_back();
+  study.porosity.to_scatter = ToScatter::window;
   EXPECT_FALSE(tries_scatter());
   study.porosity.to_scatter = ToScatter::none;
   EXPECT_TRUE(tries_scatter());

@@ -28,6 +28,7 @@ TEST(CompareMethods, SumsUpErrorsTimeAndCoverage) {
   EXPECT_NEAR(all.worst_if_none, 0.001, 1e-12);
   EXPECT_NEAR(all.cpu_per_pixel, 5e-8, 1e-15);
   EXPECT_NEAR(comparison.coverage, 0.5, 1e-12);  // an empty section has no interval to speak of
+  EXPECT_EQ(comparison.with_pores, 2U);
   ASSERT_EQ(comparison.hardships.size(), 2U);
   EXPECT_EQ(comparison.hardships[0].hardship, "noise");
   EXPECT_NEAR(ours_of(comparison.hardships[0].methods).worst_error, 0.004, 1e-12);

@@ -144,6 +144,31 @@ TEST(Finding, HasNoInertiaNumberWhereNoneOfItsPointsHasOne) {
   EXPECT_EQ(finding.inertia_high, 0.1);
 }
 
+// One run of a point ended at the strain limit.
+Finding judged_with_an_unbroken_run(Measure response) {
+  KnownSweep known({{"x", {"0", "1"}}}, 20,
+                   [](const SweepPoint&, int k) { return 100.0 + deviation(k); });
+  known.runs.back().broke = false;
+  FindingRequest request;
+  request.keys = {"x"};
+  request.response = response;
+  return judge(request, known.plan, known.points, known.runs).front();
+}
+
+TEST(Finding, IsUndecidedWhereARunDidNotBreak) {
+  const Finding finding = judged_with_an_unbroken_run(Measure::strength);
+  EXPECT_EQ(finding.outcome, FindingOutcome::undecided);
+  EXPECT_THAT(finding.ground, testing::EndsWith("; 1 run did not break: raise loading.max_strain"));
+  EXPECT_EQ(finding.runs, 39);
+  EXPECT_TRUE(std::isnan(finding.value));
+}
+
+TEST(Finding, OfTheModulusNeedsNoBreak) {
+  const Finding finding = judged_with_an_unbroken_run(Measure::modulus);
+  EXPECT_EQ(finding.outcome, FindingOutcome::agrees);
+  EXPECT_EQ(finding.runs, 40);
+}
+
 TEST(Finding, GivesTheWordsOfItsOutcome) {
   EXPECT_EQ(found(FindingTest::same, 0.0, 1.0).meaning, "so it is");
   EXPECT_EQ(found(FindingTest::same, 9.0, 1.0).meaning, "");

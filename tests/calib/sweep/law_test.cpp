@@ -72,8 +72,12 @@ TEST(Law, SaysWhenItCannotBeFitted) {
   EXPECT_EQ(only_law({Measure::strength, {"d"}, ""}, few).status, LawStatus::too_few_runs);
   const KnownSweep same({{"d", {"1", "1"}}}, 5, [](const SweepPoint&, int k) { return k; });
   EXPECT_EQ(only_law({Measure::strength, {"d"}, ""}, same).status, LawStatus::terms_do_not_vary);
-  for (const LawStatus status :
-       {LawStatus::fitted, LawStatus::too_few_runs, LawStatus::terms_do_not_vary})
+  KnownSweep unbroken(two_keys, 2, [](const SweepPoint& p, int) { return p.numbers[0]; });
+  unbroken.runs.back().broke = false;
+  EXPECT_EQ(only_law({Measure::strength, {"d"}, ""}, unbroken).status, LawStatus::unbroken_runs);
+  EXPECT_EQ(only_law({Measure::modulus, {"d"}, ""}, unbroken).status, LawStatus::fitted);
+  for (const LawStatus status : {LawStatus::fitted, LawStatus::too_few_runs,
+                                 LawStatus::terms_do_not_vary, LawStatus::unbroken_runs})
     EXPECT_FALSE(explain(status).empty());
 }
 

@@ -103,6 +103,21 @@ TEST(RunSweep, SeesThePatternsOfBrokenJointsWhenAsked) {
     EXPECT_GT(run[Measure::head_tail_broken] + run[Measure::flank_broken], 0.0);
 }
 
+TEST(RunSweep, TakesNoStrengthFromRunsThatDidNotBreak) {
+  Sweep sweep = small_sweep();
+  sweep.levels = 2;
+  sweep.points.back().scene.loading.max_strain = 0.001;
+  const SweepResult result = run_sweep(sweep, nullptr, 1, {});
+  EXPECT_EQ(result.points.size(), 3U);  // no scale above the last
+  EXPECT_EQ(result.summaries[1].unbroken, 6);
+  EXPECT_EQ(result.summaries[1][Measure::strength].n, 0);
+  EXPECT_EQ(result.summaries[1][Measure::modulus].n, 6);
+  EXPECT_EQ(result.strengths[1].runs, 0);
+  EXPECT_GT(result.runs[6][Measure::strength], 0.0);
+  EXPECT_FALSE(result.trusted());
+  EXPECT_TRUE(run_sweep(small_sweep(), nullptr, 1, {}).trusted());
+}
+
 TEST(RunSweep, TheScaleAboveHasTheStrengthsAsThresholds) {
   Sweep sweep = small_sweep();
   sweep.levels = 2;

@@ -41,6 +41,11 @@ TEST(KnownStudy, AlongTheFibresTheRatioCannotBeToldWhereItIsWellAboveOne) {
   EXPECT_TRUE(test::parameter_of(result, "head_tail_MPa").identifiable);
 }
 
+// Soft fibres reach the strain limit first.
+TEST(KnownStudy, HasNoSpecimensThatDidNotBreak) {
+  EXPECT_TRUE(known_study(along, 1, {0.5, 80.0, 1.0}).study.specimens.empty());
+}
+
 TEST(KnownStudy, OneSpecimenDoesNotTellTheScatter) {
   KnownStudy known = known_study({.name = "one", .degrees = {0.0}}, 1);
   known.study.calibrate.parameters = {"young_GPa", "head_tail_MPa", "scatter"};
@@ -72,6 +77,41 @@ TEST(Coverage, StopsWhenTold) {
   const Coverage coverage =
       measure_coverage({three_orientations()}, 6, 1, [&] { return ++asked < 2; });
   EXPECT_EQ(coverage.rows.size(), 3U);
+}
+
+Coverage shares_of(const std::vector<int>& held, int informed) {
+  Coverage coverage;
+  for (const int part : held)
+    coverage.summaries.push_back({.design = "d",
+                                  .parameter = "p",
+                                  .studies = informed,
+                                  .informed = informed,
+                                  .inside = rate_of(part, informed),
+                                  .half_width = {}});
+  return coverage;
+}
+
+// Twelve misses in a hundred are chance where they are the most of twelve shares, but not alone.
+TEST(Coverage, IsJudgedByAllSharesTogether) {
+  const auto width_of_first = [](const Coverage& coverage) {
+    return coverage.width_of(coverage.summaries.front());
+  };
+  std::vector<int> twelve(12, 95);
+  twelve.front() = 88;
+  EXPECT_EQ(width_of_first(shares_of(twelve, 100)), IntervalWidth::as_promised);
+  EXPECT_TRUE(shares_of(twelve, 100).holds());
+  EXPECT_EQ(width_of_first(shares_of({88}, 100)), IntervalWidth::too_narrow);
+  twelve.front() = 87;
+  EXPECT_EQ(width_of_first(shares_of(twelve, 100)), IntervalWidth::too_narrow);
+  EXPECT_FALSE(shares_of(twelve, 100).holds());
+  EXPECT_TRUE(shares_of({0}, 1).holds()) << "one study says nothing";
+  EXPECT_TRUE(shares_of({0}, 0).holds());
+}
+
+TEST(Coverage, OfTooWideIntervalsHolds) {
+  const Coverage coverage = shares_of({100}, 100);
+  EXPECT_EQ(coverage.width_of(coverage.summaries.front()), IntervalWidth::too_wide);
+  EXPECT_TRUE(coverage.holds());
 }
 
 // Wilson's interval for 19 of 20: (0.7639, 0.9911).

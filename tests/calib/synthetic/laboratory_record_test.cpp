@@ -42,6 +42,17 @@ double standard_deviation(const std::vector<double>& values) {
   return std::sqrt(squares / (n - 1.0));
 }
 
+TEST(LaboratoryRecord, IsOfARunThatBroke) {
+  sim::Simulation simulation = brittle();
+  simulation.status = sim::SimulationStatus::broken;
+  EXPECT_TRUE(is_test(simulation)) << simulation.why_not_trusted();
+  for (const auto status : {sim::SimulationStatus::strain_limit, sim::SimulationStatus::severed}) {
+    simulation.status = status;
+    EXPECT_TRUE(simulation.trusted());
+    EXPECT_FALSE(is_test(simulation));
+  }
+}
+
 TEST(LaboratoryRecord, OfALinearCurveIsTheLineUpToTheBreak) {
   const Bar bar;
   const Laboratory laboratory = silent();

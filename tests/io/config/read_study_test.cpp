@@ -213,14 +213,18 @@ TEST_F(ReadStudy, SaysWhichKeysChangeNothing) {
   EXPECT_THAT(warnings("[sections]\nrim_um = 3\n[porosity]\nto_scatter = \"linear\"\n"),
               ElementsAre("sections changes nothing: no specimen has any",
                           "porosity changes nothing: no specimen has sections or a porosity"));
-  EXPECT_THAT(warnings("porosity = 0.1\npixel_size_um = 2\ngauge_columns.force = 2\n"),
-              ElementsAre("gauge_columns of specimen A1 changes nothing: it has no gauge",
-                          "pixel_size_um of specimen A1 changes nothing: it has no sections"));
+  const std::string no_window =
+      "porosity of specimen A1 changes nothing for the scatter: \"window\" needs sections";
+  EXPECT_THAT(
+      warnings("porosity = 0.1\npixel_size_um = 2\ngauge_columns.force = 2\n"),
+      ElementsAre("gauge_columns of specimen A1 changes nothing: it has no gauge",
+                  "pixel_size_um of specimen A1 changes nothing: it has no sections", no_window));
   EXPECT_THAT(warnings("porosity = 0.1\n[porosity]\nlinear_slope = 2\n[calibrate]\n"
                        "parameters = [\"modulus_exponent\"]\n"),
               ElementsAre("porosity.linear_slope changes nothing: to_scatter is not \"linear\"",
                           "modulus_exponent in calibrate.parameters changes nothing: to_modulus is "
-                          "not \"power\""));
+                          "not \"power\"",
+                          no_window));
   EXPECT_THAT(warnings("porosity = 0.1\n[porosity]\nto_scatter = \"linear\"\n"
                        "[model.joints]\nscatter = 0.3\n"),
               ElementsAre("model.joints.scatter changes nothing: every specimen has one from its "

@@ -90,18 +90,20 @@ TEST_F(RefusedStudy, NeedsASpecimenToFit) {
 
 TEST_F(RefusedStudy, FitsNoScatterThatPorosityGives) {
   const std::string fits_scatter = "[calibrate]\nparameters = [\"ratio\", \"scatter\"]\n";
-  const std::string sentence =
-      "calibrate.parameters: names \"scatter\", which specimen A1 has from its porosity (set "
-      "porosity.to_scatter = \"none\" to fit it, or leave it out of the parameters)";
-  for (const char* measured : {"porosity = 0.05\n", "sections = [\"s.png\"]\n"}) {
-    EXPECT_THAT(complaints(one_specimen + measured + fits_scatter),
-                ElementsAre("study.toml:6: " + sentence));
-    EXPECT_THAT(complaints(one_specimen + measured + "[porosity]\nto_scatter = \"linear\"\n" +
-                           fits_scatter),
-                ElementsAre("study.toml:8: " + sentence));
-    EXPECT_THAT(
-        complaints(one_specimen + measured + "[porosity]\nto_scatter = \"none\"\n" + fits_scatter),
-        ElementsAre());
+  const auto sentence = [](const std::string& measured) {
+    return "calibrate.parameters: names \"scatter\", which specimen A1 has from its " + measured +
+           " (set porosity.to_scatter = \"none\" to fit it, or leave it out of the parameters)";
+  };
+  const std::string porosity = one_specimen + "porosity = 0.05\n";
+  const std::string sections = one_specimen + "sections = [\"s.png\"]\n";
+  EXPECT_THAT(complaints(porosity + fits_scatter), ElementsAre()) << "windows are of sections";
+  EXPECT_THAT(complaints(sections + fits_scatter),
+              ElementsAre("study.toml:6: " + sentence("sections")));
+  for (const auto& [measured, name] : {std::pair{porosity, "porosity"}, {sections, "sections"}}) {
+    EXPECT_THAT(complaints(measured + "[porosity]\nto_scatter = \"linear\"\n" + fits_scatter),
+                ElementsAre("study.toml:8: " + sentence(name)));
+    EXPECT_THAT(complaints(measured + "[porosity]\nto_scatter = \"none\"\n" + fits_scatter),
+                ElementsAre());
   }
   EXPECT_THAT(complaints(one_specimen + fits_scatter), ElementsAre());
 }
