@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr int sets_from_answers = 12;  // each answer being where the next sweeps start
-constexpr int sets_from_sweeps = 5;    // then sweeps go on from where they were, ever longer
+constexpr int sets_from_sweeps = 8;    // then sweeps go on from where they were, ever longer
 constexpr int most_sweeps = 200;       // between two sets
 constexpr int quiet_sweeps = 10;       // sweeps without a change of state
 // Where the nearest answer is looked for, the first sweeps are so many times as long, and go on to
