@@ -70,6 +70,7 @@ struct TermResult {
   double replicates = 0.0;  ///< Of one draw of the model against a mean of n.
   double scatter = 0.0;     ///< By the error of the specimen's scatter.
   double specimens = 0.0;   ///< Between specimens, beyond all that.
+  double parameters = 0.0;  ///< By the errors of the fit, which did not see this specimen.
   double sd = 0.0;          ///< Of all together.
   double residual = 0.0;    ///< (simulated − measured)/sd; 0 where a bound is not contradicted.
   double share = 0.0;       ///< Of the cost ½ Σ residual² of all fitted specimens. [-]

@@ -2,7 +2,6 @@
 // and what would tell more.
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -62,8 +61,7 @@ std::vector<std::string> directions_of(const FitProblem& problem, const Answer& 
 }
 
 void set_correlation(const Answer& answer, CalibrationResult& result) {
-  const Eigen::MatrixXd follow =
-      answer.slopes.jacobian.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd& follow = answer.uncertainty.follow;
   const Eigen::MatrixXd covariance = follow * follow.transpose();
   for (Index i = 0; i < covariance.rows(); ++i) {
     auto& row = result.correlation.emplace_back();

@@ -20,7 +20,7 @@ Check check_orientations(const FitProblem& problem, const Answer& answer);
 Check check_specimen_spread(const FitProblem& problem, const Answer& answer);
 
 /// Specimens kept for validation lie where the fitted ones say.
-Check check_validation(const CalibrationResult& result);
+Check check_validation(const CalibrationResult& result, bool all_fitted);
 
 /// The simulations break, so that there is a strength to compare.
 Check check_censored(const FitProblem& problem, const Answer& answer);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "calib/fit/specimen_slopes.hpp"
+
 namespace havers::calib {
 namespace {
 
@@ -33,34 +35,13 @@ std::size_t nearest(const FitProblem& problem, double orientation) {
   return best;
 }
 
-// Slopes of a specimen that does not exist, measured like specimen `like` of the study. All
-// unknowns are shared.
+// Rows of the Jacobian of a specimen that does not exist, measured like specimen `like` of the
+// study: as much of it counts.
 MatrixXd simulated_rows(SimulationBatch& batch, const FitProblem& problem, const Answer& answer,
-                        std::size_t like, Specimen specimen) {
-  Study other = problem.study;
-  other.specimens = {std::move(specimen)};
-  FitProblem one = make_problem(other);
-  one.unknowns = problem.unknowns;  // "auto" may try others for this specimen alone
-  for (Unknown& unknown : one.unknowns) unknown.specimens = {0};
-
-  std::vector<Point> points;
-  for (const Index k : answer.active)
-    for (const double side : {-slope_step, slope_step}) {
-      Point moved = answer.best.point;
-      moved[k] += side;
-      points.push_back(inside_bounds(problem.unknowns, moved));
-    }
-  const auto found = predict(one, batch, points, answer.replicates);
-  MatrixXd rows = MatrixXd::Zero(landmark_count, static_cast<Index>(answer.active.size()));
-  for (std::size_t i = 0; i < answer.active.size(); ++i) {
-    const auto &low = found[2 * i], &high = found[2 * i + 1];
-    const double span = (high.point - low.point).norm();
-    if (low.failed || high.failed || !(span > 0.0)) return {};
-    // Of such a specimen as much counts as of those there are.
-    const Landmarks change = problem.targets[like].present.select(
-        high.predictions.front().mean - low.predictions.front().mean, 0.0);
-    rows.col(static_cast<Index>(i)) = change / answer.weights.sd[like] / span;
-  }
+                        std::size_t like, const Specimen& specimen) {
+  MatrixXd rows = specimen_slopes(batch, problem, answer, specimen, like);
+  for (Index q = 0; q < rows.rows(); ++q)
+    rows.row(q) *= problem.targets[like].present[q] ? 1.0 / answer.weights.sd[like][q] : 0.0;
   return rows;
 }
 
@@ -78,7 +59,7 @@ MatrixXd further_rows(SimulationBatch& batch, const FitProblem& problem, const A
   Specimen turned = problem.study.specimens[problem.fitted[near]];
   turned.orientation = orientation;
   turned.id = fmt::format("next at {:.4g}", orientation / degree);
-  return simulated_rows(batch, problem, answer, problem.fitted[near], std::move(turned));
+  return simulated_rows(batch, problem, answer, problem.fitted[near], turned);
 }
 
 // A specimen once more, pulled faster. In the quasi-static limit it is the same test.
@@ -87,7 +68,7 @@ MatrixXd faster_rows(SimulationBatch& batch, const FitProblem& problem, const An
   Specimen faster = problem.study.specimens[like];
   if (!all_shared(problem) || !(faster.test.strain_rate > 0.0)) return {};
   faster.test.strain_rate *= faster_by;
-  return simulated_rows(batch, problem, answer, like, std::move(faster));
+  return simulated_rows(batch, problem, answer, like, faster);
 }
 
 std::vector<double> errors(const MatrixXd& normal) {

@@ -1,6 +1,5 @@
 #include "calib/fit/randomness.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -42,8 +41,7 @@ VectorXd variance_of_mean(const FitProblem& problem, const Answer& answer) {
 }  // namespace
 
 Randomness randomness_of(SimulationBatch& batch, const FitProblem& problem, const Answer& answer) {
-  const Eigen::MatrixXd follow =
-      answer.slopes.jacobian.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd& follow = answer.uncertainty.follow;
   Randomness result{.replicates = answer.replicates};
   result.replicates_needed = replicates_needed(problem, answer.weights);
   result.common_gain = answer.slopes.paired > 0.0 ? answer.slopes.independent / answer.slopes.paired

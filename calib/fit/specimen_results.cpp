@@ -6,6 +6,7 @@
 #include "calib/fit/answer.hpp"
 #include "calib/fit/curve_band.hpp"
 #include "calib/fit/replicate_spread.hpp"
+#include "calib/fit/specimen_slopes.hpp"
 
 namespace havers::calib {
 namespace {
@@ -53,7 +54,7 @@ std::vector<ReplicateResult> replicates_of(const std::vector<sim::Scene>& scenes
 // (F6), (F7), term by term.
 std::vector<TermResult> terms_of(const Prediction& prediction, const Landmarks& spread,
                                  const Target& target, const Landmarks& scatter,
-                                 const Landmarks& between) {
+                                 const Landmarks& between, const Landmarks& parameters) {
   std::vector<TermResult> terms;
   if (!target.usable || prediction.usable == 0) return terms;
   const Landmarks distance = difference(prediction, target);
@@ -66,8 +67,10 @@ std::vector<TermResult> terms_of(const Prediction& prediction, const Landmarks& 
     term.replicates = spread[q] * std::sqrt(1.0 + 1.0 / prediction.usable);
     term.scatter = scatter[q];
     term.specimens = between[q];
+    term.parameters = parameters[q];
     term.sd = std::sqrt(std::pow(term.machine, 2) + std::pow(term.replicates, 2) +
-                        std::pow(term.scatter, 2) + std::pow(term.specimens, 2));
+                        std::pow(term.scatter, 2) + std::pow(term.specimens, 2) +
+                        std::pow(term.parameters, 2));
     term.residual = distance[q] / term.sd;
     terms.push_back(std::move(term));
   }
@@ -138,6 +141,17 @@ SpecimenResult result_of(const FitProblem& problem, std::size_t s, const Simulat
   return result;
 }
 
+// (F24) What the errors of the fit make of the prediction of a specimen that it did not see.
+Landmarks error_of_parameters(const FitProblem& problem, SimulationBatch& batch,
+                              const Answer& answer, std::size_t s) {
+  const Specimen& specimen = problem.study.specimens[s];
+  if (specimen.use == Use::fit || answer.slopes.failed || !problem.targets[s].usable)
+    return Landmarks::Zero();
+  const Eigen::MatrixXd slopes = specimen_slopes(batch, problem, answer, specimen, s);
+  if (slopes.size() == 0) return Landmarks::Zero();
+  return (slopes * answer.uncertainty.follow).rowwise().norm();
+}
+
 void set_shares(std::vector<SpecimenResult>& specimens) {
   const double sum = 2.0 * cost_of(specimens, 0.0);
   for (auto& specimen : specimens)
@@ -167,9 +181,10 @@ std::vector<SpecimenResult> specimens_of(const FitProblem& problem, SimulationBa
   std::vector<SpecimenResult> results;
   for (std::size_t s = 0; s < simulated.size(); ++s) {
     SpecimenResult& result = results.emplace_back(result_of(problem, s, simulated[s]));
-    result.terms = terms_of(simulated[s].prediction, spread[s], problem.targets[s],
-                            answer.weights.scatter.empty() ? none : answer.weights.scatter[s],
-                            answer.weights.specimen);
+    result.terms =
+        terms_of(simulated[s].prediction, spread[s], problem.targets[s],
+                 answer.weights.scatter.empty() ? none : answer.weights.scatter[s],
+                 answer.weights.specimen, error_of_parameters(problem, batch, answer, s));
     result.residual = standardised(result.terms);
   }
   set_shares(results);

@@ -75,11 +75,10 @@ bool at_bound(const Unknown& unknown, double position) {
 Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, const Evaluation& at,
                            const Active& active, const Eigen::MatrixXd& slopes) {
   const Eigen::MatrixXd jacobian = slopes.leftCols(static_cast<Eigen::Index>(active.size()));
-  // Row k of the pseudo-inverse says how unknown k follows each residual, which has unit variance.
-  const Eigen::MatrixXd follow = jacobian.completeOrthogonalDecomposition().pseudoInverse();
   const Replicates replicates = replicates_of(problem, weights, at);
 
-  Uncertainty result;
+  Uncertainty result{.follow = jacobian.completeOrthogonalDecomposition().pseudoInverse()};
+  const Eigen::MatrixXd& follow = result.follow;
   result.freedom = residuals_told(problem, at) - parameters_spent(slopes);
   result.standard_error = follow.rowwise().norm();
   result.half_width = result.standard_error;

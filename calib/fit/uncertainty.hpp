@@ -9,6 +9,7 @@ namespace havers::calib {
 
 /// Standard errors of the active unknowns, in the scale of their search (F11).
 struct Uncertainty {
+  Eigen::MatrixXd follow;  ///< How each unknown follows the residuals, which have unit variance.
   Eigen::VectorXd standard_error;
   Eigen::VectorXd half_width;    ///< t quantile of 95 % times the standard error.
   Eigen::VectorXd lower, upper;  ///< Ends of the 95 % interval, from the answer (F11), (F22).

@@ -174,7 +174,8 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_influence(result));
   checks.push_back(check_randomness(result));
   checks.push_back(check_confirmation(result));
-  checks.push_back(check_validation(result));
+  checks.push_back(
+      check_validation(result, problem.study.calibrate.automatic || answer.left.empty()));
   checks.push_back(check_censored(problem, answer));
   if (answer.best.failed)
     leave_unchecked(checks, "there is no answer");

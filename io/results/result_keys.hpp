@@ -172,6 +172,7 @@ void keys(Table& table, calib::TermResult& term) {
   table.key("sd_replicates", term.replicates);
   table.key("sd_scatter", term.scatter);
   table.key("sd_specimens", term.specimens);
+  table.key("sd_parameters", term.parameters);
   table.key("sd", term.sd);
   table.key("residual", term.residual);
   table.key("share", term.share);

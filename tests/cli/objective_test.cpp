@@ -86,7 +86,8 @@ TEST(Objective, CanBeComputedByHandFromTheFilesOfAFit) {
   int strengths = 0;
   for (const Row& term : rows_of(folder / "out/terms.csv")) {
     double variance = 0.0;
-    for (const char* source : {"sd_machine", "sd_replicates", "sd_scatter", "sd_specimens"})
+    for (const char* source :
+         {"sd_machine", "sd_replicates", "sd_scatter", "sd_specimens", "sd_parameters"})
       variance += std::pow(at(term, source), 2);
     const double residual = (at(term, "simulated") - at(term, "measured")) / std::sqrt(variance);
     EXPECT_NEAR(at(term, "residual"), residual, 1e-9);
