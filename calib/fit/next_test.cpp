@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "calib/fit/specimen_slopes.hpp"
 
@@ -27,11 +28,16 @@ double distance(const FitProblem& problem, std::size_t fitted, double orientatio
   return std::abs(problem.study.specimens[problem.fitted[fitted]].orientation - orientation);
 }
 
-// The fitted specimen nearest to an orientation, which one that does not exist is made from.
+// The fitted specimen nearest to an orientation, which one that does not exist is made from: one
+// that broke, if there is one.
 std::size_t nearest(const FitProblem& problem, double orientation) {
+  const auto rank = [&](std::size_t f) {
+    const bool stopped = !problem.study.specimens[problem.fitted[f]].broke;
+    return std::pair(distance(problem, f, orientation), stopped);
+  };
   std::size_t best = 0;
   for (std::size_t f = 1; f < problem.fitted.size(); ++f)
-    if (distance(problem, f, orientation) < distance(problem, best, orientation)) best = f;
+    if (rank(f) < rank(best)) best = f;
   return best;
 }
 

@@ -66,5 +66,18 @@ TEST(NextTest, KnowsWhatATestAtAnotherRateWouldTell) {
     EXPECT_NEAR(result.next_tests[3].width[k], result.next_tests[0].width[k], 1e-6);
 }
 
+// A stopped test tells no strength; one more would.
+TEST(NextTest, IsLikeOneThatBroke) {
+  auto study = test::synthetic_study({0.0, 45.0});
+  study.specimens[0].broke = study.specimens[0].test.broke = false;
+  study.specimens[0].test.strength *= 0.5;
+  study.specimens[0].test.failure_strain *= 0.5;
+  const auto result = test::fit(study);
+  const auto strength = static_cast<std::size_t>(std::ranges::find(result.fitted, "head_tail_MPa") -
+                                                 result.fitted.begin());
+  ASSERT_LT(strength, result.fitted.size());
+  EXPECT_LT(result.next_tests[0].width[strength], 0.9);
+}
+
 }  // namespace
 }  // namespace havers::calib
