@@ -92,6 +92,9 @@ bool steps_over_failure(const Simulation& run) {
 }  // namespace
 
 std::string Simulation::why_not_trusted() const {
+  const bool given = regime == Regime::dynamic && !step_error;
+  if (status == SimulationStatus::not_converged && given)
+    return explain(status) + "; a shorter step_s may have one, and without it one is looked for";
   if (!has_ended(*this)) return explain(status);
   if (status == SimulationStatus::severed) return "";  // however its pieces lie
   if (step_error && std::isnan(step_error->failure_strain))

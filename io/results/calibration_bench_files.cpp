@@ -20,7 +20,7 @@ nlohmann::json progress_json(const std::vector<calib::Progress>& progress, const
 
 std::string chains_csv(const calib::ChainBenchmark& benchmark) {
   std::string text;
-  for (calib::ChainRow one : benchmark.rows) {
+  for (const calib::ChainRow& one : benchmark.rows) {
     CsvRow row("chain", one.chain);
     row.key("study", one.study);
     row.key("error", one.error);
@@ -55,7 +55,7 @@ nlohmann::json chains_json(const calib::ChainBenchmark& benchmark, const Provena
 
 std::string coverage_csv(const calib::Coverage& coverage) {
   std::string text;
-  for (calib::CoverageRow one : coverage.rows) {
+  for (const calib::CoverageRow& one : coverage.rows) {
     CsvRow row("design", one.design);
     row.key("study", one.study);
     row.key("parameter", one.parameter);

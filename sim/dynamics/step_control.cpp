@@ -89,9 +89,13 @@ Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer) {
   run.failure_strain = run.strength = never_compared;
   std::string finer_failed;
   int agreed = 0;
-  for (int halving = 0; halving <= most_halvings; ++halving) {
+  for (int halving = 0; halving <= most_halvings; ++halving, stepping.step *= 0.5) {
     Simulation finer = summarised_run(scene, stepping, observer);
-    if (halving > 0 && !has_ended(finer) && finer.status != SimulationStatus::cancelled) {
+    const bool first = !has_ended(run);
+    // Long steps may have no answer where friction is strong; short ones do.
+    if (first && finer.status == SimulationStatus::not_converged && halving < most_halvings)
+      continue;
+    if (!first && !has_ended(finer) && finer.status != SimulationStatus::cancelled) {
       finer_failed = fmt::format("; a run of half of it has no answer: {}", explain(finer.status));
       show_again(scene, stepping, observer, run);
       break;
@@ -100,8 +104,7 @@ Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer) {
     run = std::move(finer);
     agreed = run.step_error->largest() < 0.5 * scene.solver.step_accuracy ? agreed + 1 : 0;
     if (!has_ended(run) || agreed == 2) break;
-    if (halving > 0 && 2 * run.steps > most_steps) break;
-    stepping.step *= 0.5;
+    if (!first && 2 * run.steps > most_steps) break;
   }
   run.regime_ground = ground_of(run, scene.solver.step_accuracy, finer_failed);
   return run;
