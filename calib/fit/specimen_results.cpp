@@ -51,10 +51,15 @@ std::vector<ReplicateResult> replicates_of(const std::vector<sim::Scene>& scenes
   return results;
 }
 
+// Standard deviations of a specimen's landmarks beside the machine's.
+struct Sources {
+  Landmarks replicates;  // of one draw of the model
+  Landmarks scatter, specimens, parameters;
+};
+
 // (F6), (F7), term by term.
-std::vector<TermResult> terms_of(const Prediction& prediction, const Landmarks& spread,
-                                 const Target& target, const Landmarks& scatter,
-                                 const Landmarks& between, const Landmarks& parameters) {
+std::vector<TermResult> terms_of(const Prediction& prediction, const Target& target,
+                                 const Sources& sources) {
   std::vector<TermResult> terms;
   if (!target.usable || prediction.usable == 0) return terms;
   const Landmarks distance = difference(prediction, target);
@@ -64,10 +69,10 @@ std::vector<TermResult> terms_of(const Prediction& prediction, const Landmarks& 
     term.measured = target.value[q];
     term.simulated = prediction.mean[q];
     term.machine = target.noise[q];
-    term.replicates = spread[q] * std::sqrt(1.0 + 1.0 / prediction.usable);
-    term.scatter = scatter[q];
-    term.specimens = between[q];
-    term.parameters = parameters[q];
+    term.replicates = sources.replicates[q] * std::sqrt(1.0 + 1.0 / prediction.usable);
+    term.scatter = sources.scatter[q];
+    term.specimens = sources.specimens[q];
+    term.parameters = sources.parameters[q];
     term.sd = std::sqrt(std::pow(term.machine, 2) + std::pow(term.replicates, 2) +
                         std::pow(term.scatter, 2) + std::pow(term.specimens, 2) +
                         std::pow(term.parameters, 2));
@@ -182,9 +187,11 @@ std::vector<SpecimenResult> specimens_of(const FitProblem& problem, SimulationBa
   for (std::size_t s = 0; s < simulated.size(); ++s) {
     SpecimenResult& result = results.emplace_back(result_of(problem, s, simulated[s]));
     result.terms =
-        terms_of(simulated[s].prediction, spread[s], problem.targets[s],
-                 answer.weights.scatter.empty() ? none : answer.weights.scatter[s],
-                 answer.weights.specimen, error_of_parameters(problem, batch, answer, s));
+        terms_of(simulated[s].prediction, problem.targets[s],
+                 {.replicates = spread[s],
+                  .scatter = answer.weights.scatter.empty() ? none : answer.weights.scatter[s],
+                  .specimens = answer.weights.specimen,
+                  .parameters = error_of_parameters(problem, batch, answer, s)});
     result.residual = standardised(result.terms);
   }
   set_shares(results);
