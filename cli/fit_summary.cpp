@@ -1,8 +1,12 @@
 #include "cli/fit_summary.hpp"
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 namespace havers::cli {
 namespace {
@@ -26,11 +30,29 @@ void print_specimen(const calib::SpecimenResult& specimen) {
              specimen.measured.broke ? "" : "  not broken");
 }
 
+// The checks that failed, or how the searches ended.
+std::string ground_of(const calib::CalibrationResult& result) {
+  std::vector<std::string_view> failed;
+  for (const calib::Check& check : result.verdict)
+    if (check.outcome == calib::Outcome::fail) failed.push_back(check.check);
+  if (failed.empty() || result.status != calib::CalibrationStatus::converged)
+    return calib::explain(result.status);
+  return fmt::format("{} of {} checks failed ({})", failed.size(), result.verdict.size(),
+                     fmt::join(failed, ", "));
+}
+
+std::string reservations_of(const calib::CalibrationResult& result) {
+  const auto warned =
+      std::ranges::count(result.verdict, calib::Outcome::warn, &calib::Check::outcome);
+  if (!result.trusted() || warned == 0) return "";
+  return fmt::format(", with {} reservation{}", warned, warned == 1 ? "" : "s");
+}
+
 }  // namespace
 
 void print_fit_summary(const calib::CalibrationResult& result, double wall_seconds) {
-  fmt::print("{}: {}\n", result.trusted() ? "to be trusted" : "NOT to be trusted",
-             calib::explain(result.status));
+  fmt::print("{}{}: {}\n", result.trusted() ? "to be trusted" : "NOT to be trusted",
+             reservations_of(result), ground_of(result));
   for (const calib::Check& check : result.verdict)
     fmt::print("  {:<5}{}: {}\n", check.done ? calib::to_string(check.outcome) : "-", check.check,
                check.text);

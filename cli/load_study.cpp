@@ -128,6 +128,20 @@ void take_specimen(const io::SpecimenFiles& files, Outcome outcome, LoadedStudy&
   loaded.study.specimens.push_back(std::move(outcome.specimen));
 }
 
+// A file that names another specimen of the study than the one that it is given to.
+void doubt_names(const std::vector<io::SpecimenFiles>& specimens,
+                 const std::vector<Outcome>& outcomes, LoadedStudy& loaded) {
+  for (std::size_t i = 0; i < specimens.size(); ++i) {
+    const std::string& named = outcomes[i].record.raw.specimen_id;
+    if (named == specimens[i].id ||
+        std::ranges::find(specimens, named, &io::SpecimenFiles::id) == specimens.end())
+      continue;
+    loaded.warnings.push_back(fmt::format(
+        "{} is of specimen {} by its own words, and specimen {} has it: are two exchanged?",
+        specimens[i].test.string(), named, specimens[i].id));
+  }
+}
+
 // What can be fitted, though it is hardly meant.
 void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStudy& loaded) {
   std::map<std::pair<std::filesystem::path, std::string>, std::string> tests;
@@ -221,6 +235,7 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   loaded.inputs = std::move(read.inputs);
   loaded.warnings = std::move(read.warnings);
   doubt_specimens(read.specimens, loaded);
+  doubt_names(read.specimens, outcomes, loaded);
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     take_specimen(read.specimens[i], std::move(outcomes[i]), loaded);
   require_specimens(loaded, file);

@@ -150,7 +150,8 @@ Check check_intervals(const CalibrationResult& result) {
       differ += fmt::format("{}{} ({:.2g} times as wide)", differ.empty() ? "" : ", ",
                             parameter.name, part);
   }
-  if (compared == 0) return {name, Outcome::pass, "No profile was asked for or could be had."};
+  if (compared == 0)
+    return {name, Outcome::pass, "Not checked: no profile was asked for or could be had.", false};
   if (differ.empty())
     return {name, Outcome::pass,
             fmt::format("Profile likelihood gives intervals {} times as wide as the slopes do.",
@@ -180,8 +181,10 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
                            problem.study.laws);
   if (!std::isfinite(law.criterion) || !std::isfinite(law.model_criterion))
     return {name, Outcome::pass,
-            fmt::format("{} strengths are too few to compare the model with a law without fibres.",
-                        specimens.size())};
+            fmt::format("Not checked: {} strengths are too few to compare the model with a law "
+                        "without fibres.",
+                        specimens.size()),
+            false};
   const double better = law.criterion - law.model_criterion;
   const std::string numbers = fmt::format(
       "AICc of the strengths is {:.1f} for the model and {:.1f} for the best linear "

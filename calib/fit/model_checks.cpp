@@ -210,7 +210,12 @@ Check check_specimen_spread(const FitProblem& problem, const Answer& answer) {
       "Specimens differ by {} (standard deviations) beyond noise, scatter and the model's own "
       "randomness",
       told);
-  if (std::max(part[modulus], part[strength]) > 0.3)
+  const double most = std::max(part[modulus], part[strength]);
+  if (most > 0.5)
+    return {name, Outcome::fail,
+            text + ": no model of one bone describes them. Are tests, sizes or angles exchanged?" +
+                rest};
+  if (most > 0.3)
     return {name, Outcome::warn,
             text + ": are they of one kind?" +
                 (answer.active.empty() ? "" : " The intervals include it.") + rest};
@@ -255,10 +260,10 @@ Check check_censored(const FitProblem& problem, const Answer& answer) {
   const auto censored = std::ranges::count_if(answer.best.predictions, &Prediction::censored);
   if (censored == 0)
     return {"simulations break", Outcome::pass, "Every specimen's simulations break."};
-  return {
-      "simulations break", Outcome::fail,
-      fmt::format("{} of {} specimens do not break in the simulations: raise loading.max_strain.",
-                  censored, problem.fitted.size())};
+  return {"simulations break", Outcome::fail,
+          fmt::format(
+              "{} of {} specimens do not break in the simulations: raise model.loading.max_strain.",
+              censored, problem.fitted.size())};
 }
 
 }  // namespace havers::calib

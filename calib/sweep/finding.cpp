@@ -143,8 +143,8 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
     if (worst.step && finding.outcome == FindingOutcome::undecided)
       finding.ground += "; this step goes the other way";
     if (request.test == FindingTest::matters) finding.outcome = opposite(finding.outcome);
+    finding.meaning = meaning_of(request, finding.outcome);
   }
-  finding.meaning = meaning_of(request, finding.outcome);
   return finding;
 }
 

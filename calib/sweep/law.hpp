@@ -1,6 +1,7 @@
 // Linear laws of what a sweep measured, by least squares (W1).
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,20 +19,21 @@ struct LawRequest {
 enum class LawStatus { fitted, too_few_runs, terms_do_not_vary, unbroken_runs };
 
 struct Law {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();  ///< Of no fitted law.
   LawRequest request;
   std::string at;  ///< The value of `per`.
   LawStatus status = LawStatus::too_few_runs;
   std::vector<double> coefficients;     ///< Those of the terms, then the constant. SI units.
   std::vector<double> standard_errors;  ///< Of each, from the replicates.
-  double confidence_factor = 0.0;       ///< Half a 95 % interval over the standard error. [-]
-  double residual_sd = 0.0;             ///< Of the runs around the law. SI units.
-  double explained = 0.0;               ///< R². [-]
+  double confidence_factor = none;      ///< Half a 95 % interval over the standard error. [-]
+  double residual_sd = none;            ///< Of the runs around the law. SI units.
+  double explained = none;              ///< R². [-]
   long runs = 0;
   std::vector<std::size_t> points;
 
   // Lack of fit (W2): the points' means around the law against the runs around their means.
-  double lack_of_fit = 0.0;      ///< F; NaN where it cannot be tested. [-]
-  double lack_of_fit_p = 0.0;    ///< Its probability if the law held. [-]
+  double lack_of_fit = none;     ///< F; NaN where it cannot be tested. [-]
+  double lack_of_fit_p = none;   ///< Its probability if the law held. [-]
   double worst_deviation = 0.0;  ///< Largest |mean of a point − law|. SI units.
 
   [[nodiscard]] double value(const SweepPoint& point, const SweepPlan& plan) const;

@@ -12,6 +12,15 @@
 namespace havers::io {
 namespace {
 
+// What is behind the parser's most frequent complaints.
+const char* hint_for(std::string_view complaint) {
+  if (complaint.find("saw ','") != std::string_view::npos)
+    return "write numbers with a point, 4.02";
+  if (complaint.find("redefine existing table") != std::string_view::npos)
+    return "write [[specimen]], with two brackets, for each of several";
+  return "";
+}
+
 toml::table parse_file(const std::filesystem::path& file) {
   const std::string text = read_text(file, "a TOML file is expected there");
   try {
@@ -21,12 +30,12 @@ toml::table parse_file(const std::filesystem::path& file) {
     return table;
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
-    throw InputError(fmt::format("{}:{}:{}", file.string(), at.line, at.column),
-                     fmt::format("is not TOML: {}", error.description()),
-                     file.extension() == ".toml"
-                         ? ""
-                         : "a study, scene or sweep is; havers import reads tests, havers porosity "
-                           "images");
+    throw InputError(
+        fmt::format("{}:{}:{}", file.string(), at.line, at.column),
+        fmt::format("is not TOML: {}", error.description()),
+        file.extension() == ".toml"
+            ? hint_for(error.description())
+            : "a study, scene or sweep is; havers import reads tests, havers porosity images");
   }
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -96,6 +98,17 @@ void doubt_specimens(TableReader top, const StudyFile& read, Sentences& found) {
   }
 }
 
+// All angles of a study in radians are small numbers.
+void doubt_angles(const StudyFile& read, Sentences& found) {
+  constexpr double most = 1.6;  // a little more than a right angle in radians
+  double largest = 0.0;
+  for (const calib::Specimen& specimen : read.study.specimens)
+    largest = std::max(largest, std::abs(specimen.orientation) * 180.0 / std::numbers::pi);
+  if (largest > 0.0 && largest < most)
+    found.push_back(fmt::format(
+        "orientation_deg is in degrees, and the largest is {:.4g}: were radians meant?", largest));
+}
+
 void doubt_reduction(const TableReader& reduction, const StudyFile& read, Sentences& found) {
   for (const char* key : {"largest_modulus_error", "largest_noise"})
     if (!read.reduction.quality_control && reduction.has(key))
@@ -137,6 +150,7 @@ std::vector<std::string> study_doubts(TableReader top, const StudyFile& read) {
   }
   doubt_model(top.table("model"), read, found);
   doubt_porosity(top, read, found);
+  doubt_angles(read, found);
   doubt_specimens(top, read, found);
   doubt_reduction(top.table("reduction"), read, found);
   return found;

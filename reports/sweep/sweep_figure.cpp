@@ -65,8 +65,11 @@ Line line_of(const Panel& panel, std::vector<std::size_t> points) {
   const double scale = words_of(panel.wanted.response).scale;
   Line line;
   for (const std::size_t point : points) {
-    const calib::Statistics& s = panel.result.summaries[point][panel.wanted.response];
-    if (s.n == 0) continue;
+    const calib::PointSummary& summary = panel.result.summaries[point];
+    const calib::Statistics& s = summary[panel.wanted.response];
+    // Where some did not break, the others are the weaker ones.
+    const bool some_open = summary.unbroken > 0 && calib::needs_break(panel.wanted.response);
+    if (s.n == 0 || some_open) continue;
     const double half = s.n > 1 ? s.half_width() : 0.0;
     line.x.push_back(x_of(point));
     line.mean.push_back(s.mean / scale);

@@ -148,6 +148,15 @@ std::string grade_of(const std::vector<Row>& rows, const std::vector<SweepReport
   return agree ? "good" : "mixed";
 }
 
+// What comes before all findings.
+std::string too_many_without_strength(const std::vector<SweepReport>& sweeps, long failed,
+                                      long unbroken, long runs) {
+  if (std::ranges::all_of(sweeps, [](const SweepReport& one) { return one.result.trusted(); }))
+    return "";
+  return fmt::format("Not to be trusted: of {} {} failed and {} did not break. ",
+                     count(runs, "run"), failed, unbroken);
+}
+
 std::string with_unit(const MeasureWords& words) {
   return words.unit.empty() ? words.name : fmt::format("{} ({})", words.name, words.unit);
 }
@@ -285,7 +294,8 @@ std::string sweep_page(const std::string& title, const std::vector<SweepReport>&
   return render_page(
       title, "sweep",
       {{"grade", text(grade_of(rows, sweeps))},
-       {"sentence", text(sentence_of(rows, runs))},
+       {"sentence",
+        text(too_many_without_strength(sweeps, failed, unbroken, runs) + sentence_of(rows, runs))},
        {"detail",
         text(fmt::format(
             "{}, {} failed, {} did not break, {} wall time; seeds are not shared between points.",

@@ -125,6 +125,7 @@ std::string with_interval(double value, double low, double high, std::string_vie
 }
 
 std::string chance(double p) {
+  if (std::isnan(p)) return "–";
   return p < 1e-6 ? "p < 10⁻⁶" : fmt::format("p = {}", number(p, 2));
 }
 

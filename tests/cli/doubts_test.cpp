@@ -75,6 +75,30 @@ TEST(FitSummary, TicksNoCheckThatWasNotDoneAndCountsSimulationsOnce) {
               HasSubstr(fmt::format(" of {} simulations", result["evaluations"].get<long>())));
 }
 
+TEST(Check, DoubtsExchangedTestsAndAnglesInRadians) {
+  const fs::path folder = folder_with_tests();
+  fs::rename(folder / "made/B0.csv", folder / "made/other.csv");
+  fs::rename(folder / "made/B90.csv", folder / "made/B0.csv");
+  fs::rename(folder / "made/other.csv", folder / "made/B90.csv");
+  test::write_text(
+      folder / "made/study.toml",
+      replaced_once(test::small_study(), "orientation_deg = 90", "orientation_deg = 1.571"));
+  const auto checked = run_havers(folder, "check made/study.toml");
+  EXPECT_THAT(checked.out, HasSubstr("B0.csv is of specimen B90 by its own words, and specimen B0 "
+                                     "has it: are two exchanged?"));
+  EXPECT_THAT(checked.out, HasSubstr("the largest is 1.571: were radians meant?"));
+}
+
+// The page's first line and the terminal's say the same.
+TEST(FitSummary, NamesTheChecksThatFailed) {
+  const fs::path folder = folder_with_tests();
+  const auto answer =
+      run_havers(folder, "fit made/study.toml -o out --set model.loading.max_strain=0.0002");
+  EXPECT_THAT(answer.out, testing::StartsWith("NOT to be trusted: "));
+  EXPECT_THAT(answer.out, HasSubstr(" checks failed (simulations break"));
+  EXPECT_THAT(answer.out, HasSubstr("raise model.loading.max_strain"));
+}
+
 TEST(Check, SaysWhatAStudyLeavesOutAndTakesTwice) {
   const fs::path folder = folder_with_tests();
   std::string study = replaced_once(test::small_study(), "orientation_deg = 0\n", "");

@@ -116,6 +116,14 @@ TEST(Verdict, ComparesOrientationsOnlyWhereItCan) {
   EXPECT_EQ(check_of(test::fit(study), "residuals unstructured").outcome, Outcome::fail);
 }
 
+TEST(Verdict, RejectsSpecimensThatDifferByMoreThanHalf) {
+  auto study = test::synthetic_study(test::three_orientations);
+  std::swap(study.specimens[0].test, study.specimens[4].test);  // one along, one across
+  const auto check = check_of(test::fit(study), "spread between specimens");
+  EXPECT_EQ(check.outcome, Outcome::fail);
+  EXPECT_TRUE(says(check, "exchanged?")) << check.text;
+}
+
 TEST(Verdict, SaysThatAsManyParametersAsStrengthsLeaveNoSpread) {
   auto study = test::synthetic_study({0.0, 0.0}, {.specimen_effect = 0.1});
   study.calibrate.parameters = {"young_GPa", "head_tail_MPa"};

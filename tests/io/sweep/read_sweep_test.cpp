@@ -49,6 +49,8 @@ TEST(ReadSweep, SaysWhichKeysChangeNothing) {
   EXPECT_THAT(read_sweep(file, {"joints.seed=3", "sweep.points=9"}).warnings,
               ElementsAre(HasSubstr("joints.seed changes nothing: sweep.seed"),
                           HasSubstr("sweep.points changes nothing: a list or a grid")));
+  EXPECT_THAT(read_sweep(file, {"sweep.seeds=1"}).warnings,
+              ElementsAre(HasSubstr("sweep.seeds is 1: no finding can be decided")));
   const auto sample = folder.write(
       "sample.toml",
       "[sweep]\nsample = \"sobol\"\npoints = 9\nkeys.\"joints.scatter\" = [0.2, 0.8]\n");
@@ -119,7 +121,10 @@ TEST(ReadSweep, NamesAMarginThatCannotBe) {
       "keys = [\"joints.scatter\"]\nmargin = -1\ntest = ";
   const auto file = folder.write("s.toml", text + "\"same\"\n");
   EXPECT_THAT(complaints_of(folder, [&] { read_sweep(file); }),
-              ElementsAre(HasSubstr("finding.margin: is -1, must be 0 or more")));
+              ElementsAre(HasSubstr("finding.margin: is -1, must be at least 0 and less than 1")));
+  EXPECT_THAT(
+      complaints_of(folder, [&] { read_sweep(file, {"finding=[{test=\"same\",margin=5}]"}); }),
+      testing::Contains(HasSubstr("margin: is 5, must be at least 0 and less than 1")));
   EXPECT_NO_THROW(read_sweep(folder.write("s.toml", text + "\"above\"\n")));
 }
 
