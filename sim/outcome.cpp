@@ -59,8 +59,7 @@ void summarise(Simulation& simulation) {
   simulation.broken_joints = curve.back().broken_joints;
   simulation.first_break_strain = std::numeric_limits<double>::quiet_NaN();
   for (const JointOutcome& joint : simulation.joints)
-    if (joint.broken && !is_missing(joint.threshold) &&
-        !(simulation.first_break_strain <= joint.broken_at_strain))
+    if (joint.broke() && !(simulation.first_break_strain <= joint.broken_at_strain))
       simulation.first_break_strain = joint.broken_at_strain;
   const double end = std::isnan(simulation.first_break_strain) ? curve.back().strain
                                                                : simulation.first_break_strain;

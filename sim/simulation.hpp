@@ -52,6 +52,9 @@ struct JointOutcome {
   double reaction_normal = 0.0;   ///< R_N, compression positive. [N/m]
   double reaction_tangent = 0.0;  ///< R_T. [N/m]
   double gap = 0.0;               ///< g ≥ 0. [m]
+
+  /// In this run: it was not missing from the start.
+  [[nodiscard]] bool broke() const { return broken && !is_missing(threshold); }
 };
 
 /// Something the run did without, and on what ground. Section 7.

@@ -26,7 +26,7 @@ std::vector<Segment> broken_segments(const sim::Assembly& assembly,
   const double unit = 1e-7 * std::max(assembly.width, assembly.height);
   std::vector<Segment> segments;
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    if (!joints[i].broken) continue;
+    if (!joints[i].broke()) continue;
     const sim::Joint& joint = assembly.joints[i];
     Segment segment{.kind = joint.kind, .ends = {}, .places = {}};
     for (std::size_t k = 0; k < 2; ++k) {

@@ -63,6 +63,11 @@ cv::Mat without_alpha(const cv::Mat& image) {
 // (I1): projection on the first principal axis of the colours, which is grey itself for a grey
 // image and the stain's colour for a stained one. Its sign follows brightness.
 cv::Mat along_main_colour(const cv::Mat& colour) {
+  if (is_grey(colour)) {
+    cv::Mat grey;
+    cv::extractChannel(colour, grey, 0);
+    return grey;
+  }
   cv::Mat few;
   cv::resize(colour, few, fitted(colour.size(), 100), 0.0, 0.0, cv::INTER_NEAREST);
   few.convertTo(few, CV_32F);
@@ -109,6 +114,18 @@ std::vector<cv::Mat> read_pages(const std::filesystem::path& file) {
   return pages;
 }
 
+bool is_grey(const cv::Mat& image) {
+  if (image.channels() < 3) return true;
+  std::vector<cv::Mat> channels;
+  for (int y = 0; y < image.rows; y += 32) {  // in strips, as above
+    cv::split(image.rowRange(y, std::min(y + 32, image.rows)), channels);
+    if (cv::norm(channels[0], channels[1], cv::NORM_INF) > 0.0 ||
+        cv::norm(channels[0], channels[2], cv::NORM_INF) > 0.0)
+      return false;
+  }
+  return true;
+}
+
 cv::Mat to_grey(const cv::Mat& image, const std::string& name) {
   double lowest = 0.0, highest = 0.0;
   cv::minMaxLoc(image.reshape(1), &lowest, &highest);
@@ -137,7 +154,7 @@ cv::Mat read_mask(const std::filesystem::path& file, cv::Size size,
                          fmt::format("the mask is {} × {} pixels, its image {} × {}", mask.cols,
                                      mask.rows, size.width, size.height),
                          "draw the mask on the image itself");
-  if (mask.channels() == 4) cv::cvtColor(mask, mask, cv::COLOR_BGRA2GRAY);
+  if (mask.channels() == 4) mask = without_alpha(mask);
   if (mask.channels() == 3) cv::cvtColor(mask, mask, cv::COLOR_BGR2GRAY);
   double highest = 0.0;
   cv::minMaxLoc(mask, nullptr, &highest);

@@ -17,6 +17,9 @@ std::vector<cv::Mat> read_pages(const std::filesystem::path& file);
 /// @throws io::InputError when it is of one grey level only.
 cv::Mat to_grey(const cv::Mat& image, const std::string& name);
 
+/// Whether it has one channel, or colours of equal channels: then levels are those of the file.
+bool is_grey(const cv::Mat& image);
+
 /// Reads a mask of the given size: 255 where the file is brighter than half its own range.
 /// Much grey in it is a warning.
 /// @throws io::InputError when it cannot be read, is of another size, or marks nothing.

@@ -143,9 +143,20 @@ Regions regions_of(const cv::Mat& whole, const io::SectionOptions& options, Warn
   return divide(whole, options.pores);
 }
 
+// Levels along a colour's own axis are not those of the file.
+void refuse_levels_of_colour(const cv::Mat& image, const std::string& name,
+                             const std::vector<io::DensityReference>& references) {
+  const bool in_levels = std::ranges::any_of(
+      references, [](const io::DensityReference& known) { return known.width == 0; });
+  if (in_levels && !is_grey(image))
+    throw io::InputError(name, "grey levels mean nothing in a colour image",
+                         "give rectangles for density");
+}
+
 io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
                                     const io::SectionOptions& options) {
   const cv::Mat whole = to_grey(image, name);
+  refuse_levels_of_colour(image, name, options.density);
   image.release();
   Warnings warnings;
   Regions regions = regions_of(whole, options, warnings);

@@ -61,12 +61,19 @@ bool may_be_requoted(std::string_view text) {
   return 2 * quoted > lines;
 }
 
+// 10:00:01 or 2026-05-01: loggers write such a column beside their numbers.
+bool is_clock_time(std::string_view cell) {
+  if (cell.find_first_not_of("0123456789:/-.T ") != std::string_view::npos) return false;
+  const auto marks = std::ranges::count_if(cell, [](char c) { return c == '/' || c == '-'; });
+  return cell.find(':') != std::string_view::npos || (marks == 2 && cell.front() != '-');
+}
+
 }  // namespace
 
 bool is_number_row(const PreviewRow& row, char decimal) {
   int numbers = 0;
   for (const std::string& cell : row.cells) {
-    if (cell.empty()) continue;
+    if (cell.empty() || is_clock_time(cell)) continue;
     if (!is_number(cell, decimal)) return false;
     ++numbers;
   }

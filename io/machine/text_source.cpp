@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <iconv.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -95,8 +96,10 @@ void TextSource::convert_block() {
     if (fault == EINVAL && !stream_.eof()) break;
     if (fault == EILSEQ || fault == EINVAL) {
       text_ += '?';
-      ++in;
-      --in_left;
+      const std::size_t unit = encoding_.starts_with("UTF-16") ? 2 : 1;  // a lone surrogate
+      const std::size_t skipped = std::min(unit, in_left);
+      in += skipped;
+      in_left -= skipped;
     }
   }
   block_.erase(0, block_.size() - in_left);

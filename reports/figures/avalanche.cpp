@@ -26,7 +26,7 @@ struct Broken {
 std::vector<Broken> in_order(const sim::Simulation& simulation) {
   std::vector<Broken> broken;
   for (std::size_t i = 0; i < simulation.joints.size(); ++i)
-    if (simulation.joints[i].broken) broken.push_back({i, simulation.joints[i].broken_at_strain});
+    if (simulation.joints[i].broke()) broken.push_back({i, simulation.joints[i].broken_at_strain});
   std::ranges::stable_sort(broken, {}, &Broken::strain);
   return broken;
 }

@@ -45,7 +45,7 @@ std::vector<sim::Joint> broken_joints(const Drawing& drawing, sim::JointKind kin
   const auto& joints = drawing.assembly.joints;
   const auto& outcomes = drawing.simulation.joints;
   for (std::size_t i = 0; i < std::min(joints.size(), outcomes.size()); ++i)
-    if (joints[i].kind == kind && outcomes[i].broken) broken.push_back(joints[i]);
+    if (joints[i].kind == kind && outcomes[i].broke()) broken.push_back(joints[i]);
   return broken;
 }
 

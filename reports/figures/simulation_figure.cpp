@@ -93,7 +93,7 @@ std::vector<double> break_strains(const SimulationReport& report, sim::JointKind
   std::vector<double> strains;
   for (std::size_t j = 0; j < report.simulation.joints.size(); ++j) {
     const sim::JointOutcome& joint = report.simulation.joints[j];
-    if (report.assembly.joints[j].kind == kind && joint.broken && !is_missing(joint.threshold))
+    if (report.assembly.joints[j].kind == kind && joint.broke())
       strains.push_back(joint.broken_at_strain);
   }
   std::ranges::sort(strains);

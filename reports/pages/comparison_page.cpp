@@ -54,8 +54,11 @@ std::string settings_of(const FitReport& fit) {
     if (name != "Command") continue;
     std::istringstream words(value);
     for (std::string word, next; words >> word;)
-      if ((word == "--set" || word == "--seed") && words >> next)
-        settings.push_back(fmt::format("{} {}", word, next));
+      for (const std::string option : {"--set", "--seed"})
+        if (word == option && words >> next)
+          settings.push_back(fmt::format("{} {}", option, next));
+        else if (word.starts_with(option + "="))
+          settings.push_back(fmt::format("{} {}", option, word.substr(option.size() + 1)));
   }
   return settings.empty() ? "none" : joined(settings);
 }

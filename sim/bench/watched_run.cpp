@@ -46,7 +46,7 @@ class Watcher {
     }
     for (std::size_t j = 0; j < joints.size(); ++j) {
       const JointOutcome& joint = joints[j];
-      if (!joint.broken || is_missing(joint.threshold) || seen(j)) continue;
+      if (!joint.broke() || seen(j)) continue;
       run_->order.push_back(static_cast<int>(j));
       run_->forces_at_break.push_back(forces_of(joints));
     }

@@ -58,7 +58,7 @@ TEST(FractureSvg, StatesItsScaleAndItsMagnification) {
 TEST(FractureSvg, StaysSmall) {
   const auto assembly = sim::build_assembly({.layers = 30, .fibres = 21}, sim::Lateral::periodic);
   auto simulation = test::simulation_sample(assembly);
-  for (auto& joint : simulation.joints) joint.broken = true;
+  for (auto& joint : simulation.joints) joint = {.threshold = {1.0, 1.0}, .broken = true};
   EXPECT_LT(fracture_svg(assembly, simulation).size(), 400'000U);
 }
 

@@ -125,9 +125,11 @@ TEST(Avalanche, ShowsEveryBrokenJointInItsTurn) {
   sim::Simulation run;
   run.joints.resize(assembly.joints.size());
   for (std::size_t i = 0; i < 3; ++i) {
+    run.joints[i].threshold = {1.0, 1.0};
     run.joints[i].broken = true;
     run.joints[i].broken_at_strain = 0.003 + 0.001 * static_cast<double>(i);
   }
+  run.joints[3].broken = true;  // missing from the start
   const std::string svg = avalanche_svg(assembly, run);
   EXPECT_THAT(svg, HasSubstr("3 broken joints"));
   EXPECT_THAT(svg, HasSubstr("at 0.3000\u00a0%, to the last, at 0.5000\u00a0%"));

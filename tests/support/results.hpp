@@ -216,6 +216,7 @@ inline sim::Simulation simulation_sample(const sim::Assembly& assembly) {
       s.displacements(2 * (body.first_node + k)) = 0.004 * assembly.width;
   for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
     const sim::Joint& joint = assembly.joints[i];
+    s.joints[i].threshold = {1.0, 1.0};  // none is missing
     s.joints[i].broken = right(assembly.bodies[static_cast<std::size_t>(joint.body_a)]) !=
                          right(assembly.bodies[static_cast<std::size_t>(joint.body_b)]);
     s.broken_joints += s.joints[i].broken ? 1 : 0;

@@ -18,7 +18,7 @@ struct Wall {
 
   void break_where(const std::function<bool(const sim::Joint&)>& chosen) {
     for (std::size_t i = 0; i < joints.size(); ++i)
-      if (chosen(assembly.joints[i])) joints[i].broken = true;
+      if (chosen(assembly.joints[i])) joints[i] = {.threshold = {1.0, 1.0}, .broken = true};
   }
   [[nodiscard]] Pattern pattern() const { return pattern_of(assembly, joints); }
 };

@@ -151,6 +151,14 @@ TEST(Section, ObeysAMask) {
   const double truth = cv::sum(drawn.pores(part))[0] / part.area();
   EXPECT_NEAR(100.0 * measured.porosity, 100.0 * truth, 0.2);
   EXPECT_NEAR(measured.bone_area, part.area() * pixel * pixel, 1e-18);
+
+  // A layer painted white on transparent keeps colours where nothing is seen.
+  cv::Mat layer;
+  const cv::Mat white(mask.size(), CV_8U, cv::Scalar(255));
+  cv::merge(std::vector<cv::Mat>{white, white, white, mask}, layer);
+  EXPECT_EQ(measure(drawn, "layer.png", {.pixel_size = pixel, .mask = test::write(layer, "l.png")})
+                .bone_area,
+            measured.bone_area);
 }
 
 // As another program has segmented it: one grain of pore in the middle of a rock, or half of it.

@@ -80,5 +80,19 @@ TEST(SectionQuantities, ReadsDensityFromMaterialsOfKnownOne) {
   EXPECT_TRUE(std::isnan(without.density) && std::isnan(without.density_residual));
 }
 
+// Saved in colours, a grey image is the same; levels along a colour's own axis are none of a
+// file's.
+TEST(SectionQuantities, HaveNoDensityByGreyLevelsOfAColour) {
+  auto drawn = test::draw({.blur = 0.7});
+  const SectionOptions options{
+      .pixel_size = side_of_pixel,
+      .density = {{.grey = 51.0, .density = 0.0}, {.grey = 204.0, .density = 1900.0}}};
+  const double grey = quantities(drawn, "grey.png", options).density;
+  cv::cvtColor(drawn.image, drawn.image, cv::COLOR_GRAY2BGR);
+  EXPECT_EQ(quantities(drawn, "colours.png", options).density, grey);
+  cv::multiply(drawn.image, cv::Scalar(1.0, 0.8, 0.9), drawn.image);
+  EXPECT_THROW(quantities(drawn, "tinted.png", options), InputError);
+}
+
 }  // namespace
 }  // namespace havers::io

@@ -73,6 +73,17 @@ TEST(ColumnChoice, TurnsWhatCountsCompression) {
                                      "its name: its sign is turned"});
 }
 
+// Nothing is read of it, and rows of it are rows of numbers.
+TEST(ColumnChoice, PassesOverAColumnOfClockTimes) {
+  for (const char* first : {"10:00:0", "2026-05-01T10:00:0", "01/05/2026 10:00:0"}) {
+    std::string text = "Clock,Load (N),Strain (%)\n";
+    for (const char* row : {"1,1,0.1\n", "2,2,0.2\n"}) text += std::string(first) + row;
+    const TestFile file = choice_of(text);
+    EXPECT_EQ(file.test.force, (std::vector{1.0, 2.0})) << first;
+    EXPECT_EQ(file.test.strain, (std::vector{0.001, 0.002})) << first;
+  }
+}
+
 TEST(ColumnChoice, NamesTheKeyOfASignalInVolts) {
   const test::TemporaryFile file("Time (s),Strain gauge 1 (V),Strain gauge 2 (V)\n0,1,2\n1,2,3\n");
   EXPECT_EQ(

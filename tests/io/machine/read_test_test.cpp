@@ -91,6 +91,12 @@ TEST(ReadTest, ReadsEveryEncoding) {
   }
 }
 
+TEST(ReadTest, LosesNoMoreThanTheHalfCharacterOfUtf16) {
+  const std::string lone("\x00\xD8", 2);
+  expect_the_numbers(read("\xFF\xFE" + encoded("Label,\"A", "UTF-16LE") + lone +
+                          encoded("B\"\r\n" + bluehill, "UTF-16LE")));
+}
+
 TEST(ReadTest, ReadsPolishInItsCodePage) {
   std::string polish = replaced(bluehill, "Width", "Szerokość");
   polish = replaced(replaced(polish, "Load", "Siła"), "Extension", "Wydłużenie");
