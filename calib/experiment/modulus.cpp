@@ -81,6 +81,8 @@ Window straight_window(const Curve& curve, double strength, const ReductionOptio
     if (window.straight || (!toe && !yields)) break;
     (toe ? window.low : window.high) += (toe ? 1.0 : -1.0) * narrowing_step * full;
   }
+  if (!window.straight)  // nothing is gained by a part of it
+    return {options.window_low * strength, options.window_high * strength, whole, false};
   return window;
 }
 
