@@ -69,7 +69,7 @@ Imported import_joined(io::ImportSettings settings, const ImportArguments& argum
   settings.columns.has_logger = true;
   io::TestFile file = io::read_test(arguments.files.front(), settings.columns);
   const io::TestFile logger = io::read_test(*arguments.gauge, settings.gauge_columns);
-  calib::JoinedTest joined = calib::join_logger(file.test, logger.test);
+  calib::JoinedTest joined = calib::join_logger(file.test, logger.test, settings.reduction);
   file.test = std::move(joined.test);
   Imported imported{std::move(file), std::move(joined.clocks), {{}, std::move(joined.problems)}};
   if (imported.reduction.problems.empty())

@@ -50,7 +50,8 @@ std::optional<calib::RawTest> read_file(const std::filesystem::path& file,
   }
 }
 
-void read_specimen(const io::SpecimenFiles& files, Outcome& outcome) {
+void read_specimen(const io::SpecimenFiles& files, const calib::ReductionOptions& reduction,
+                   Outcome& outcome) {
   io::ReadOptions options = with_sizes(files.columns, files);
   options.has_logger = files.gauge.has_value();
   std::optional<calib::RawTest> test = read_file(files.test, options, outcome), logger;
@@ -59,7 +60,7 @@ void read_specimen(const io::SpecimenFiles& files, Outcome& outcome) {
   if (!test || files.gauge.has_value() != logger.has_value()) return;
   outcome.record.raw = std::move(*test);
   if (!logger) return;
-  calib::JoinedTest joined = calib::join_logger(outcome.record.raw, *logger);
+  calib::JoinedTest joined = calib::join_logger(outcome.record.raw, *logger, reduction);
   outcome.record.raw = std::move(joined.test);
   outcome.record.clocks = std::move(joined.clocks);
   outcome.rejections = std::move(joined.problems);
@@ -94,7 +95,7 @@ Outcome load_specimen(const calib::Specimen& declared, const io::SpecimenFiles& 
                       const io::StudyFile& study) {
   Outcome outcome;
   outcome.specimen = declared;
-  read_specimen(files, outcome);
+  read_specimen(files, study.reduction, outcome);
   if (outcome.problems.empty() && outcome.rejections.empty())
     reduce(files, study.reduction, outcome);
   io::SectionOptions options = study.sections;
@@ -223,7 +224,7 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
     if (sound)
       outcomes[i] = load_specimen(read.study.specimens[i], read.specimens[i], read);
     else  // its tests may have problems too
-      read_specimen(read.specimens[i], outcomes[i]);
+      read_specimen(read.specimens[i], read.reduction, outcomes[i]);
   });
 
   for (const Outcome& outcome : outcomes) collect(problems, outcome.problems);

@@ -13,15 +13,25 @@ double median(std::vector<double> values) {
 
 // (X7) Second differences of white noise have six times its variance. The median is deaf to breaks
 // and jumps.
-double noise_of(std::span<const double> values) {
+double noise_of(std::span<const double> values, std::size_t lag) {
   const std::size_t stride = 1 + values.size() / enough_for_median;
   std::vector<double> differences;
-  for (std::size_t i = 1; i + 1 < values.size(); i += stride) {
-    const double difference = std::abs(values[i - 1] - 2.0 * values[i] + values[i + 1]);
+  for (std::size_t i = lag; i + lag < values.size(); i += stride) {
+    const double difference = std::abs(values[i - lag] - 2.0 * values[i] + values[i + lag]);
     if (std::isfinite(difference)) differences.push_back(difference);
   }
   constexpr double normal_sd_per_median = 1.4826;
   return normal_sd_per_median * median(std::move(differences)) / std::sqrt(6.0);
+}
+
+// (X7) What a median of so few rows scatters is no growth.
+double settled_noise_of(std::span<const double> values) {
+  constexpr std::size_t fewest_lags = 40;  // in the record: over more of it the signal itself bends
+  const double growth = 1.0 + 3.0 / std::sqrt(static_cast<double>(values.size()));
+  double noise = noise_of(values);
+  for (std::size_t lag = 2; lag * fewest_lags <= values.size(); lag *= 2)
+    if (const double farther = noise_of(values, lag); farther > growth * noise) noise = farther;
+  return noise;
 }
 
 // (X8) Over a twentieth of the record, so that noise between neighbours does not count.
@@ -34,6 +44,21 @@ double median_rate(std::span<const double> values, std::span<const double> time)
     if (time[i + span] > time[i])
       rates.push_back((values[i + span] - values[i]) / (time[i + span] - time[i]));
   return median(std::move(rates));
+}
+
+double rows_per_independent(std::span<const double> residuals) {
+  constexpr std::size_t furthest = 200;
+  double squares = 0.0, rows = 1.0;
+  for (const double residual : residuals) squares += residual * residual;
+  if (!(squares > 0.0)) return rows;
+  for (std::size_t lag = 1; lag < std::min(furthest, residuals.size()); ++lag) {
+    double products = 0.0;
+    for (std::size_t i = lag; i < residuals.size(); ++i)
+      products += residuals[i] * residuals[i - lag];
+    if (products * std::sqrt(static_cast<double>(residuals.size())) < 2.0 * squares) break;
+    rows += 2.0 * products / squares;
+  }
+  return rows;
 }
 
 }  // namespace havers::calib

@@ -77,9 +77,10 @@ void clean_channels(RawTest& test, const ReductionOptions& options) {
     const char* name;
     std::vector<double>& values;
   };
-  for (const Named& channel :
-       std::array{Named{"force", test.force}, Named{"stress", test.stress},
-                  Named{"strain", test.strain}, Named{"extension", test.extension}})
+  for (const Named& channel : std::array{
+           Named{"force", test.force}, Named{"stress", test.stress}, Named{"strain", test.strain},
+           Named{"extension", test.extension}, Named{"the gauge's volts", test.volts},
+           Named{"the load cell's volts", test.load_volts}})
     if (const std::size_t rows = remove_spikes(channel.values); rows > 0)
       test.corrections.push_back(
           {"spikes", fmt::format("{} of {} stood out of {} neighbours: replaced by the mean of the "

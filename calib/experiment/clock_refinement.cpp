@@ -68,21 +68,6 @@ struct ValueRange {
   [[nodiscard]] double part(double value) const { return (value - low) / extent; }
 };
 
-// How many rows tell as much as one that is independent of the others: what a model leaves is no
-// white noise.
-double rows_per_independent(const std::vector<double>& residuals, double squares) {
-  constexpr std::size_t furthest = 200;
-  double rows = 1.0;
-  for (std::size_t lag = 1; lag < std::min(furthest, residuals.size()); ++lag) {
-    double products = 0.0;
-    for (std::size_t i = lag; i < residuals.size(); ++i)
-      products += residuals[i] * residuals[i - lag];
-    if (products * std::sqrt(static_cast<double>(residuals.size())) < 2.0 * squares) break;
-    rows += 2.0 * products / squares;
-  }
-  return rows;
-}
-
 // Sums over rows: splines by splines, splines by (offset, rate), and so on.
 struct RowSums {
   Eigen::MatrixXd splines = Eigen::MatrixXd::Zero(spline, spline);
@@ -172,7 +157,7 @@ double Refinement::add_rows(const ClockFit& fit, RowSums& sums) {
   const auto surplus = static_cast<double>(residuals.size()) - static_cast<double>(spline) - 2.0;
   if (surplus <= 0.0) return std::numeric_limits<double>::infinity();
   constexpr double finest = 1e-6;  // of the range: no recorder resolves less
-  return std::max(finest * finest, squares / surplus * rows_per_independent(residuals, squares));
+  return std::max(finest * finest, squares / surplus * rows_per_independent(residuals));
 }
 
 // A symmetric matrix without its negative part.

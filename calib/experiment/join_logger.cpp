@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "calib/experiment/clean_channels.hpp"
+#include "calib/experiment/engineering_curve.hpp"
 #include "calib/experiment/robust_line.hpp"
 #include "calib/experiment/signal_rates.hpp"
 
@@ -121,21 +123,38 @@ void list_clocks(const ClockFit& clocks, RawTest& test) {
   test.corrections.push_back({"two clocks", detail});
 }
 
+// The clocks are matched by what the test is reduced to: one row that stands out stretches the
+// range of a signal, and a load whose sign is turned falls where the gauge rises.
+RawTest cleaned(RawTest record, const ReductionOptions& options) {
+  clean_channels(record, options);
+  turn_negative_load(record);
+  return record;
+}
+
+void list_repairs(const RawTest& logger, RawTest& test) {
+  const std::string whose = "in the logger's record: ";
+  for (const Correction& correction : logger.corrections)
+    test.corrections.push_back({correction.what, whose + correction.detail});
+  for (const std::string& warning : logger.warnings) test.warnings.push_back(whose + warning);
+}
+
 }  // namespace
 
-JoinedTest join_logger(const RawTest& machine, const RawTest& logger, const ClockOptions& options) {
-  JoinedTest joined{.test = machine, .clocks = {}, .problems = {}};
+JoinedTest join_logger(const RawTest& machine, const RawTest& recorded,
+                       const ReductionOptions& options, const ClockOptions& clock_options) {
+  JoinedTest joined{.test = cleaned(machine, options), .clocks = {}, .problems = {}};
   RawTest& test = joined.test;
-  const auto& load =
-      first_of({&machine.force, &machine.load_volts, &machine.stress, &machine.extension});
+  const RawTest logger = cleaned(recorded, options);
+  list_repairs(logger, test);
+  const auto& load = first_of({&test.force, &test.load_volts, &test.stress, &test.extension});
   const auto& signal = first_of(
       {&logger.force, &logger.load_volts, &logger.strain, &logger.volts, &logger.extension});
-  if (machine.time.empty() || load.empty() || logger.time.empty() || signal.empty()) {
+  if (test.time.empty() || load.empty() || logger.time.empty() || signal.empty()) {
     joined.problems.emplace_back(
         "to join a logger, the test needs time and force, the logger time and a gauge");
     return joined;
   }
-  joined.clocks = fit_clocks({machine.time, load}, {logger.time, signal}, options);
+  joined.clocks = fit_clocks({test.time, load}, {logger.time, signal}, clock_options);
   if (!joined.clocks.problem.empty()) {
     joined.problems.push_back(joined.clocks.problem);
     return joined;

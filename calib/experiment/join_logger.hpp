@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "calib/experiment/clocks.hpp"
-#include "calib/experiment/raw_test.hpp"
+#include "calib/experiment/measured_test.hpp"
 
 namespace havers::calib {
 
@@ -19,8 +19,9 @@ struct JoinedTest {
 /// Matches the clocks by the test's force (or stress or extension) and the logger's force, strain
 /// or volts; then the strain of the test is the logger's, at the machine's rows that the logger saw
 /// too. Volts become strain by a line fitted to the test's own strain, a force in volts becomes one
-/// by the logger's (X19).
-JoinedTest join_logger(const RawTest& machine, const RawTest& logger,
-                       const ClockOptions& options = {});
+/// by the logger's (X19). Both records are cleaned before, and a load that is written negative is
+/// turned (X11), (X12), (X22); the joined test lists it.
+JoinedTest join_logger(const RawTest& machine, const RawTest& recorded,
+                       const ReductionOptions& options, const ClockOptions& clock_options = {});
 
 }  // namespace havers::calib

@@ -42,7 +42,7 @@ struct MeasuredTest {
          window_high = 0.0;              ///< Strains between which the modulus was fitted. [-]
   double max_force = 0.0;                ///< [N]
   double strength = 0.0;                 ///< Largest stress. [Pa]
-  double strength_standard_error = 0.0;  ///< From the noise of the force channel. [Pa]
+  double strength_standard_error = 0.0;  ///< The noise of the stress (X7). [Pa]
   double failure_strain = 0.0;           ///< Corrected strain at the strength. [-]
   bool load_turned =
       false;          ///< The load was recorded negative, as a machine may count tension (X22).

@@ -81,7 +81,16 @@ Window straight_window(const Curve& curve, double strength, const ReductionOptio
     if (window.straight || (!toe && !yields)) break;
     (toe ? window.low : window.high) += (toe ? 1.0 : -1.0) * narrowing_step * full;
   }
+  if (!window.straight)  // nothing is gained by a part of it
+    return {options.window_low * strength, options.window_high * strength, whole, false};
   return window;
+}
+
+// (X4) Where successive points err alike, there are fewer of them.
+void widen_by_likeness(std::span<const double> strain, std::span<const double> stress, Line& line) {
+  if (line.fitted)
+    line.slope_standard_error *=
+        std::sqrt(rows_per_independent(residuals_of(line, strain, stress)));
 }
 
 // (X6) The line of ISO 527-1, where it can be one: the curve spans its window, and the line meets
@@ -95,11 +104,13 @@ bool fit_standard(const Curve& curve, const ReductionOptions& options, ModulusFi
     x.push_back(curve.strain[i]);
     y.push_back(curve.stress[i]);
   }
-  const Line plain = fit_plain_line(x, y), robust = fit_robust_line(x, y);
+  Line plain = fit_plain_line(x, y);
+  const Line robust = fit_robust_line(x, y);
   const bool spanned = curve.strain.back() >= options.standard_high;
   if (!spanned || x.size() < 2 * fewest_half_window || plain.slope <= 0.0) return false;
   const double half = 0.5 * (options.standard_high - options.standard_low);
   if (std::abs(plain.intercept / plain.slope) > half) return false;
+  widen_by_likeness(x, y, plain);
   fit.line = plain;
   // Two ways to draw a line through a bend differ by more than the noise: that is its uncertainty.
   fit.line.slope_standard_error =
@@ -160,6 +171,8 @@ ModulusFit fit_modulus(std::span<const double> strain, std::span<const double> s
   ModulusFit fit;
   fit.window = between(stress, window.low, window.high);
   fit.line = curve.robust(fit.window);
+  widen_by_likeness(strain.subspan(fit.window.first, fit.window.rows()),
+                    stress.subspan(fit.window.first, fit.window.rows()), fit.line);
   if (window.straight)
     steepen(curve, fit.window, fit.line);
   else

@@ -162,6 +162,7 @@ void doubt_strain(MeasuredTest& test) {
 
 void take_failure(MeasuredTest& test) {
   const std::size_t peak = row_of_strength(test);
+  test.strength_standard_error = settled_noise_of(std::span(test.stress).first(peak + 1));
   test.failure_strain = test.strain[peak];
   test.energy_to_failure = energy_to(test, peak);
   if (!test.time.empty())

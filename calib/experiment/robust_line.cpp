@@ -8,7 +8,6 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
-#include <vector>
 
 namespace havers::calib {
 namespace {
@@ -89,6 +88,15 @@ Line fit_robust_line(std::span<const double> x, std::span<const double> y) {
 
 Line fit_plain_line(std::span<const double> x, std::span<const double> y) {
   return fit(x, y, gsl_multifit_robust_ols);
+}
+
+std::vector<double> residuals_of(const Line& line, std::span<const double> x,
+                                 std::span<const double> y) {
+  std::vector<double> residuals = means(y);
+  const std::vector<double> points = means(x);
+  for (std::size_t i = 0; i < residuals.size(); ++i)
+    residuals[i] -= line.intercept + line.slope * points[i];
+  return residuals;
 }
 
 }  // namespace havers::calib

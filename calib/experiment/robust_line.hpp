@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace havers::calib {
 
@@ -24,5 +25,9 @@ Line fit_robust_line(std::span<const double> x, std::span<const double> y);
 
 /// Ordinary least squares: every point counts.
 Line fit_plain_line(std::span<const double> x, std::span<const double> y);
+
+/// What a line leaves of y at the points that are fitted: the rows, or means of them.
+std::vector<double> residuals_of(const Line& line, std::span<const double> x,
+                                 std::span<const double> y);
 
 }  // namespace havers::calib

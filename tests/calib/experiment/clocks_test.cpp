@@ -126,7 +126,7 @@ TEST(Clocks, RefusesCyclesThatFitAnywhere) {
 }
 
 TEST(JoinLogger, GivesTheTestTheLoggersStrain) {
-  const JoinedTest joined = join_logger(machine_record(2), logger_record({}, 2));
+  const JoinedTest joined = join_logger(machine_record(2), logger_record({}, 2), {});
   ASSERT_TRUE(joined.problems.empty()) << joined.problems[0];
   EXPECT_EQ(joined.test.strain.size(), joined.test.force.size());
   EXPECT_EQ(joined.test.corrections.at(0).what, "two clocks");
@@ -143,13 +143,14 @@ TEST(JoinLogger, FitsWhatAVoltIs) {
   logger.volts = logger.strain;
   for (double& volts : logger.volts) volts = 0.2 + 500.0 * volts;
   logger.strain.clear();
-  const JoinedTest joined = join_logger(machine, logger);
+  const JoinedTest joined = join_logger(machine, logger, {});
   ASSERT_TRUE(joined.problems.empty()) << joined.problems[0];
   EXPECT_EQ(joined.test.corrections.at(0).what, "gauge factor");
   EXPECT_TRUE(joined.test.corrections[0].detail.starts_with("a volt is 0."))
       << joined.test.corrections[0].detail;  // % of strain
   machine.strain.clear();
-  EXPECT_NE(join_logger(machine, logger).problems.at(0).find("what a volt is"), std::string::npos);
+  EXPECT_NE(join_logger(machine, logger, {}).problems.at(0).find("what a volt is"),
+            std::string::npos);
 }
 
 TEST(JoinLogger, FitsWhatAVoltOfTheLoadCellIs) {
@@ -158,14 +159,14 @@ TEST(JoinLogger, FitsWhatAVoltOfTheLoadCellIs) {
   machine.load_volts = machine.force;
   for (double& volts : machine.load_volts) volts = 0.1 + volts / 500.0;
   machine.force.clear();
-  const JoinedTest joined = join_logger(machine, logger);
+  const JoinedTest joined = join_logger(machine, logger, {});
   ASSERT_TRUE(joined.problems.empty()) << joined.problems[0];
   EXPECT_EQ(joined.test.corrections.at(0).what, "load cell factor");
   const Reduction reduction = reduce_test(joined.test);
   ASSERT_TRUE(reduction.problems.empty()) << reduction.problems[0];
   EXPECT_NEAR(reduction.test.max_force, 4.5e-3 * young * area, 0.01 * 4.5e-3 * young * area);
   logger.force.clear();
-  EXPECT_EQ(join_logger(machine, logger).problems.at(0),
+  EXPECT_EQ(join_logger(machine, logger, {}).problems.at(0),
             "the test's force is in volts, and the logger's force does not tell what a volt is: "
             "give force_unit, as in \"500 N/V\"");
 }
@@ -174,19 +175,78 @@ TEST(JoinLogger, DividesAnElongationByTheGaugeLength) {
   RawTest machine = machine_record(5), logger = logger_record({}, 5);
   logger.extension = std::exchange(logger.strain, {});
   for (double& elongation : logger.extension) elongation *= 25e-3;
-  EXPECT_NE(join_logger(machine, logger).problems.at(0).find("give gauge_length_mm"),
+  EXPECT_NE(join_logger(machine, logger, {}).problems.at(0).find("give gauge_length_mm"),
             std::string::npos);
   machine.gauge_length = 25e-3;
-  const JoinedTest joined = join_logger(machine, logger);
+  const JoinedTest joined = join_logger(machine, logger, {});
   ASSERT_TRUE(joined.problems.empty()) << joined.problems[0];
   EXPECT_NEAR(std::ranges::max(joined.test.strain), 4.5e-3, 2e-5);
+}
+
+// Rows that the logger saw, and what they say of the specimen.
+void expect_the_specimen(const JoinedTest& joined) {
+  ASSERT_TRUE(joined.problems.empty()) << joined.problems[0];
+  const Reduction reduction = reduce_test(joined.test);
+  ASSERT_TRUE(reduction.problems.empty()) << reduction.problems[0];
+  EXPECT_NEAR(reduction.test.modulus, young, 0.02 * young);
+  EXPECT_NEAR(reduction.test.failure_strain, 4.5e-3, 0.02 * 4.5e-3);
+}
+
+// One row stretches the range, by parts of which the clocks are matched.
+TEST(JoinLogger, MatchesWhatIsLeftWithoutSpikes) {
+  RawTest machine = machine_record(6), logger = logger_record({}, 6);
+  machine.force[100] = 5000.0;
+  JoinedTest joined = join_logger(machine, logger, {});
+  expect_the_specimen(joined);
+  ASSERT_EQ(joined.test.corrections.size(), 2U);
+  EXPECT_TRUE(joined.test.corrections[0].detail.starts_with("1 row of force stood out"));
+  EXPECT_NE(join_logger(machine, logger, {.remove_spikes = false}).problems.size(), 0U);
+
+  machine = machine_record(6);
+  logger.strain[150] = 0.3;
+  joined = join_logger(machine, logger, {});
+  expect_the_specimen(joined);
+  ASSERT_EQ(joined.test.corrections.size(), 2U);
+  EXPECT_TRUE(joined.test.corrections[0].detail.starts_with(
+      "in the logger's record: 1 row of strain stood out"));
+}
+
+TEST(JoinLogger, MatchesALoadThatIsWrittenNegative) {
+  RawTest machine = machine_record(7);
+  for (double& force : machine.force) force = -force;
+  for (const double time : machine.time) machine.extension.push_back(1e-5 * time);
+  const JoinedTest joined = join_logger(machine, logger_record({}, 7), {});
+  expect_the_specimen(joined);
+  ASSERT_EQ(joined.test.warnings.size(), 1U);
+  EXPECT_TRUE(joined.test.warnings[0].starts_with("the force is negative while"));
+}
+
+TEST(JoinLogger, SpreadsRepeatedTimesBeforeItMatches) {
+  RawTest logger = logger_record({}, 8);
+  for (std::size_t i = 0; i < logger.time.size(); ++i) logger.time[i] = logger.time[i - i % 20];
+  const JoinedTest joined = join_logger(machine_record(8), logger, {});
+  expect_the_specimen(joined);
+  EXPECT_EQ(joined.test.corrections.at(0).what, "repeated times");
+  const Clocks truth;
+  EXPECT_NEAR(joined.clocks.offset, truth.offset + truth.rate * joined.clocks.reference, 0.2);
+}
+
+TEST(JoinLogger, KeepsTheRowsThatBothSaw) {
+  const JoinedTest joined = join_logger(machine_record(2), logger_record({}, 2, 22.0, 68.0), {});
+  expect_the_specimen(joined);
+  EXPECT_NEAR(joined.test.time.front(), 22.0, 0.2);
+  EXPECT_GE(joined.test.time.front(), 22.0 - 0.1);
+  EXPECT_LE(joined.test.time.back(), 68.0);
+  EXPECT_EQ(joined.test.force.size(), joined.test.time.size());
+  EXPECT_EQ(joined.test.strain.size(), joined.test.time.size());
 }
 
 TEST(JoinLogger, SaysWhatIsMissing) {
   RawTest machine = machine_record(1);
   machine.time.clear();
-  EXPECT_NE(join_logger(machine, logger_record({}, 1)).problems.at(0).find("needs time and force"),
-            std::string::npos);
+  EXPECT_NE(
+      join_logger(machine, logger_record({}, 1), {}).problems.at(0).find("needs time and force"),
+      std::string::npos);
 }
 
 }  // namespace

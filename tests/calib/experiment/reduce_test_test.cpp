@@ -82,32 +82,6 @@ TEST(ReduceTest, MovesTheWindowBelowYielding) {
   EXPECT_LT(test.linearity, 0.3);
 }
 
-// A slope that fades from the start leaves the modulus to a convention, and that is said.
-TEST(ReduceTest, TakesTheStandardWindowWhereNothingIsStraight) {
-  const TensileTruth truth{.strength = 200e6};
-  RawTest raw = record(truth);
-  for (std::size_t i = 0; i < raw.rows(); ++i) {
-    const double stress = raw.force[i] / truth.area();
-    raw.strain[i] = stress / truth.young * (0.5 + stress / truth.strength);
-  }
-  const MeasuredTest test = reduced(raw, {.remove_toe = false});
-  ASSERT_EQ(test.warnings.size(), 1U);
-  EXPECT_NE(test.warnings[0].find("no straight part between 20 and 80 MPa"), std::string::npos);
-  EXPECT_NE(test.warnings[0].find("ISO 527-1"), std::string::npos);
-  EXPECT_NEAR(test.window_low, 0.0005, 2e-5);
-  EXPECT_NEAR(test.window_high, 0.0025, 2e-5);
-}
-
-TEST(ReduceTest, SaysWhenNotEvenTheStandardWindowServes) {
-  const TensileTruth truth{.strength = 20e6};  // fails before 0.25 % strain
-  RawTest raw = record(truth);
-  for (std::size_t i = 0; i < raw.rows(); ++i) {
-    const double part = raw.force[i] / (truth.area() * truth.strength);
-    raw.strain[i] = truth.failure_strain() * part * (0.5 + part);
-  }
-  EXPECT_NE(reduced(raw).warnings.at(0).find("the modulus is a mean slope"), std::string::npos);
-}
-
 TEST(ReduceTest, RecoversThroughNoiseWithinTheErrorItStates) {
   int within_one = 0, within_two = 0, within_three = 0;
   for (unsigned seed = 1; seed <= 200; ++seed) {

@@ -1,0 +1,111 @@
+// The modulus of curves that are nowhere straight, and its error where the noise is not white.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "calib/experiment/measured_test.hpp"
+#include "tests/support/machine_files.hpp"
+#include "tests/support/reduction.hpp"
+
+namespace havers::calib {
+namespace {
+
+using test::detail_of;
+using test::record;
+using test::reduced;
+using test::TensileTruth;
+
+// A slope that fades from the start leaves the modulus to a convention, and that is said.
+TEST(Modulus, TakesTheStandardWindowWhereNothingIsStraight) {
+  const TensileTruth truth{.strength = 200e6};
+  RawTest raw = record(truth);
+  for (std::size_t i = 0; i < raw.rows(); ++i) {
+    const double stress = raw.force[i] / truth.area();
+    raw.strain[i] = stress / truth.young * (0.5 + stress / truth.strength);
+  }
+  const MeasuredTest test = reduced(raw, {.remove_toe = false});
+  ASSERT_EQ(test.warnings.size(), 1U);
+  EXPECT_NE(test.warnings[0].find("no straight part between 20 and 80 MPa"), std::string::npos);
+  EXPECT_NE(test.warnings[0].find("ISO 527-1"), std::string::npos);
+  EXPECT_NEAR(test.window_low, 0.0005, 2e-5);
+  EXPECT_NEAR(test.window_high, 0.0025, 2e-5);
+}
+
+TEST(Modulus, SaysWhenNotEvenTheStandardWindowServes) {
+  const TensileTruth truth{.strength = 20e6};  // fails before 0.25 % strain
+  RawTest raw = record(truth);
+  for (std::size_t i = 0; i < raw.rows(); ++i) {
+    const double part = raw.force[i] / (truth.area() * truth.strength);
+    raw.strain[i] = truth.failure_strain() * part * (0.5 + part);
+  }
+  EXPECT_NE(reduced(raw).warnings.at(0).find("the modulus is a mean slope"), std::string::npos);
+}
+
+// Stiffening by the root, or fading by a power, from the start: no part of the window is straight,
+// and none is spoken of.
+TEST(Modulus, LeavesTheWindowAsItWasWhereNothingIsStraight) {
+  for (const double power : {0.5, 1.0 / 0.45}) {
+    const TensileTruth truth{.strength = 100e6};
+    RawTest raw = record(truth);
+    for (std::size_t i = 0; i < raw.rows(); ++i)
+      raw.strain[i] = 0.01 * std::pow(raw.force[i] / (truth.area() * truth.strength), power);
+    const MeasuredTest test = reduced(raw, {.remove_toe = false});
+    EXPECT_EQ(detail_of(test, "modulus window"), "") << power;
+    ASSERT_FALSE(test.warnings.empty());
+    EXPECT_NE(test.warnings[0].find("no straight part between 10 and 40 MPa"), std::string::npos)
+        << test.warnings[0];
+    if (test.warnings[0].find("ISO 527-1") != std::string::npos) continue;
+    EXPECT_NEAR(test.window_low, 0.01 * std::pow(0.1, power), 5e-5) << power;
+    EXPECT_NEAR(test.window_high, 0.01 * std::pow(0.4, power), 5e-5) << power;
+  }
+}
+
+// Stationary noise of which each row keeps a part of the one before, added to the force. [N]
+void add_noise(RawTest& raw, double sd, double kept, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0.0, sd);
+  double noise = normal(random);
+  for (double& force : raw.force) {
+    force += noise;
+    noise = kept * noise + std::sqrt(1.0 - kept * kept) * normal(random);
+  }
+}
+
+struct Scatter {
+  double modulus = 0.0, modulus_stated = 0.0, strength = 0.0, strength_stated = 0.0;
+};
+
+// Root mean squares of errors and of standard errors. [Pa]
+Scatter scatter(const TensileTruth& truth, double kept) {
+  constexpr unsigned draws = 200;
+  const RawTest clean = record(truth);
+  Scatter sum;
+  const auto add = [](double& squares, double error) { squares += error * error / draws; };
+  for (unsigned seed = 1; seed <= draws; ++seed) {
+    RawTest raw = clean;
+    add_noise(raw, 0.5, kept, seed);
+    const MeasuredTest test = reduced(raw);
+    add(sum.modulus, test.modulus - truth.young);
+    add(sum.modulus_stated, test.modulus_standard_error);
+    add(sum.strength, test.strength - truth.strength);
+    add(sum.strength_stated, test.strength_standard_error);
+  }
+  return {std::sqrt(sum.modulus), std::sqrt(sum.modulus_stated), std::sqrt(sum.strength),
+          std::sqrt(sum.strength_stated)};
+}
+
+// Load cells are filtered: half of real exports have a correlation of 0.85 to 0.91 between rows.
+// With a window of 415 rows, and of 2300, whose means are fitted.
+TEST(Modulus, StatesItsErrorTrulyWhereRowsErrAlike) {
+  for (const double rate : {3.3e-5, 6e-6})
+    for (const double kept : {0.0, 0.9}) {
+      const Scatter all = scatter({.strain_rate = rate}, kept);
+      EXPECT_NEAR(all.modulus_stated, all.modulus, all.modulus / 3.0) << rate << ", " << kept;
+      EXPECT_NEAR(all.strength_stated, all.strength, all.strength / 3.0) << rate << ", " << kept;
+    }
+}
+
+}  // namespace
+}  // namespace havers::calib
