@@ -162,8 +162,7 @@ void write_page(const OutputFolder& output, const PorosityArguments& arguments,
     page.sections.push_back(section.measured.porosity);
     page.overlays.push_back(overlay);
     page.scatter.push_back(section.scatter);
-    page.histograms.push_back({section.measured.histogram.depth, section.measured.histogram.share,
-                               section.measured.histogram.threshold});
+    page.histograms.push_back(section.measured.histogram);
   }
   page.mean = mean_of(sections);
   page.provenance = page_facts(provenance_of(common, arguments.images, watch));

@@ -47,18 +47,11 @@ struct ImportReport {
   const calib::ClockFit* clocks = nullptr;  ///< Of a second logger, where there is one.
 };
 
-/// How many of a section's bone pixels are how deep: 0 in bone, 1 in pores.
-struct DepthHistogram {
-  std::vector<double> depth;  ///< Middle of each bin. [-]
-  std::vector<double> share;  ///< Of the pixels, one a bin. [-]
-  double threshold = 0.0;     ///< [-]
-};
-
 struct PorosityReport {
   std::vector<calib::SectionPorosity> sections;
   std::vector<std::vector<std::uint8_t>> overlays;  ///< PNG, one per section.
   std::vector<double> scatter;                      ///< d, one per section; NaN: unknown. [-]
-  std::vector<DepthHistogram> histograms;           ///< One per section.
+  std::vector<calib::DepthHistogram> histograms;    ///< One per section.
   calib::SpecimenPorosity mean;                     ///< Over all sections.
   Provenance provenance;
 };

@@ -55,4 +55,11 @@ struct SectionPorosity {
   std::vector<std::string> warnings;
 };
 
+/// How many of a section's bone pixels are how deep; the depth is 0 in bone and 1 in pores.
+struct DepthHistogram {
+  std::vector<double> depth;  ///< Middle of each bin. [-]
+  std::vector<double> share;  ///< Of the bone's pixels, one a bin. [-]
+  double threshold = 0.0;     ///< Deeper is pore. [-]
+};
+
 }  // namespace havers::calib

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
+
+#include "sim/structure/disjoint_sets.hpp"
 
 namespace havers::calib {
 namespace {
@@ -39,23 +40,18 @@ std::vector<Segment> broken_segments(const sim::Assembly& assembly,
   return segments;
 }
 
-// Height of the highest chain. Union-find over the segments by their common ends.
+// Height of the highest chain: of the segments that hang together by common ends.
 double highest_chain(const std::vector<Segment>& segments) {
-  std::vector<std::size_t> root(segments.size());
-  std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto find = [&root](std::size_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
+  sim::DisjointSets chains(segments.size());
   std::map<Place, std::size_t> at;
   for (std::size_t i = 0; i < segments.size(); ++i)
     for (const Place& place : segments[i].places)
-      root[find(i)] = find(at.try_emplace(place, i).first->second);
+      chains.unite(at.try_emplace(place, i).first->second, i);
 
   std::map<std::size_t, std::pair<double, double>> extent;
   for (std::size_t i = 0; i < segments.size(); ++i)
     for (const Eigen::Vector2d& end : segments[i].ends) {
-      auto& [low, high] = extent.try_emplace(find(i), end.y(), end.y()).first->second;
+      auto& [low, high] = extent.try_emplace(chains.find(i), end.y(), end.y()).first->second;
       low = std::min(low, end.y());
       high = std::max(high, end.y());
     }

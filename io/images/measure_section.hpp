@@ -44,18 +44,11 @@ struct SectionOptions {
   bool pictures = true;                        ///< Whether to draw overlay and histogram.
 };
 
-/// How many pixels of bone are how deep; the depth is 0 in bone and 1 in pores.
-struct Histogram {
-  std::vector<double> depth;  ///< Middle of each bin. [-]
-  std::vector<double> share;  ///< Of the bone's pixels, one a bin. [-]
-  double threshold = 0.0;     ///< Deeper is pore. [-]
-};
-
 struct SectionMeasurement {
   calib::SectionPorosity porosity;
   std::vector<std::uint8_t>
       overlay_png;  ///< The section with bone outline and pores drawn in; may be scaled down.
-  Histogram histogram;
+  calib::DepthHistogram histogram;
 };
 
 /// Whether this build can read images.

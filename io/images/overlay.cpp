@@ -45,10 +45,11 @@ std::vector<std::uint8_t> draw_overlay(const cv::Mat& grey, const PoreMap& map,
   return png;
 }
 
-io::Histogram histogram_of(const Depth& depth, const PoreMap& map) {
+calib::DepthHistogram histogram_of(const Depth& depth, const PoreMap& map) {
   constexpr int bins = 80;
   constexpr double from = -0.5, width = 2.0 / bins;
-  io::Histogram histogram{.share = std::vector<double>(bins, 0.0), .threshold = map.threshold};
+  calib::DepthHistogram histogram{.share = std::vector<double>(bins, 0.0),
+                                  .threshold = map.threshold};
   const std::vector<float> samples = sample_depths(depth, map.bone, 100000);
   for (int bin = 0; bin < bins; ++bin) histogram.depth.push_back(from + width * (bin + 0.5));
   for (const float value : samples) {

@@ -14,6 +14,6 @@ std::vector<std::uint8_t> draw_overlay(const cv::Mat& grey, const PoreMap& map,
                                        const cv::Rect& box);
 
 /// Depths of the bone's pixels, pores included.
-io::Histogram histogram_of(const Depth& depth, const PoreMap& map);
+calib::DepthHistogram histogram_of(const Depth& depth, const PoreMap& map);
 
 }  // namespace havers::images

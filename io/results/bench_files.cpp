@@ -52,8 +52,8 @@ Cells row_cells(const sim::BenchRow& row) {
   return cells;
 }
 
-nlohmann::json object_of(const sim::BenchSetting& setting, const Cells& cells) {
-  nlohmann::json object{{"text", to_string(setting)}};
+nlohmann::json object_of(const Cells::value_type& first, const Cells& cells) {
+  nlohmann::json object{{first.first, first.second}};
   for (const auto& [name, value] : cells) object[name] = value;
   return object;
 }
@@ -76,16 +76,24 @@ void add_cell(CsvRow& row, const std::string& name, const nlohmann::json& value)
     row.key(name.c_str(), value.is_null() ? NAN : value.get<double>());
 }
 
+// All but the name; the reason, which may be long, at the end.
+Cells stability_cells(const sim::StabilityResult& result) {
+  Cells cells{{"outcome", to_string(result.outcome)}, {"as_it_must", result.as_it_must}};
+  const auto add = [&](const char* name, double value) {
+    cells.emplace_back(name, json_of(value));
+  };
+  add("error", result.error);
+  add("residual", result.residual);
+  add("energy_defect", result.energy_defect);
+  add("penetration", result.penetration);
+  add("wall_s", result.wall);
+  cells.emplace_back("reason", result.reason);
+  return cells;
+}
+
 CsvRow row_of(const sim::StabilityResult& result) {
   CsvRow row("scene", result.name);
-  row.key("outcome", to_string(result.outcome));
-  row.key("as_it_must", result.as_it_must);
-  row.key("error", result.error);
-  row.key("residual", result.residual);
-  row.key("energy_defect", result.energy_defect);
-  row.key("penetration", result.penetration);
-  row.key("wall_s", result.wall);
-  row.key("reason", result.reason);
+  for (const auto& [name, value] : stability_cells(result)) add_cell(row, name, value);
   return row;
 }
 
@@ -107,7 +115,7 @@ nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPreci
                                    const Provenance& provenance) {
   nlohmann::json rows = nlohmann::json::array(), cheapest = nlohmann::json::array();
   for (const sim::BenchRow& row : study.rows)
-    rows.push_back(object_of(row.setting, row_cells(row)));
+    rows.push_back(object_of({"text", to_string(row.setting)}, row_cells(row)));
   for (const sim::CheapestSetting& entry : study.cheapest)
     cheapest.push_back(
         {{"quantity", entry.quantity},
@@ -116,7 +124,8 @@ nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPreci
                                : nlohmann::json()}});
   return {{"complete", study.complete},
           {"summary", summary(study)},
-          {"reference", object_of(study.reference, setting_cells(study.reference))},
+          {"reference",
+           object_of({"text", to_string(study.reference)}, setting_cells(study.reference))},
           {"reference_ground", study.reference_ground},
           {"joint_forces_at_strain", study.bonded_strain},
           {"seeds", study.seeds},
@@ -131,29 +140,20 @@ nlohmann::json stability_json(const std::vector<sim::StabilityResult>& results,
                               const Provenance& provenance) {
   nlohmann::json scenes = nlohmann::json::array();
   for (const sim::StabilityResult& result : results)
-    scenes.push_back({{"name", result.name},
-                      {"outcome", to_string(result.outcome)},
-                      {"as_it_must", result.as_it_must},
-                      {"reason", result.reason},
-                      {"error", result.error},
-                      {"residual", result.residual},
-                      {"energy_defect", result.energy_defect},
-                      {"penetration", result.penetration},
-                      {"wall_s", result.wall}});
+    scenes.push_back(object_of({"name", result.name}, stability_cells(result)));
   return {{"summary", sim::summary(results)},
           {"scenes", scenes},
           {"provenance", provenance_object(provenance)}};
 }
 
 std::string work_precision_csv(const sim::WorkPrecision& study) {
-  std::string text;
+  CsvTable table;
   for (const sim::BenchRow& one : study.rows) {
     CsvRow row("setting", to_string(one.setting));
     for (const auto& [name, value] : row_cells(one)) add_cell(row, name, value);
-    if (text.empty()) text = row.names();
-    text += row.cells();
+    table.add(row);
   }
-  return text;
+  return table.text;
 }
 
 std::string stability_csv(const std::vector<sim::StabilityResult>& results) {
@@ -176,7 +176,7 @@ nlohmann::json methods_json(const calib::MethodComparison& comparison,
 }
 
 std::string methods_csv(const calib::MethodComparison& comparison) {
-  std::string text;
+  CsvTable table;
   for (const calib::PorosityTrial& trial : comparison.trials)
     for (std::size_t i = 0; i < trial.readings.size(); ++i) {
       const auto method = static_cast<calib::PorosityMethod>(i);
@@ -188,10 +188,9 @@ std::string methods_csv(const calib::MethodComparison& comparison) {
       row.key("porosity", trial.readings.at(i).porosity);
       row.key("cpu_s", trial.readings.at(i).cpu);
       row.key("standard_error", method == calib::PorosityMethod::ours ? trial.standard_error : NAN);
-      if (text.empty()) text = row.names();
-      text += row.cells();
+      table.add(row);
     }
-  return text;
+  return table.text;
 }
 
 }  // namespace havers::io

@@ -19,7 +19,7 @@ nlohmann::json progress_json(const std::vector<calib::Progress>& progress, const
 }  // namespace
 
 std::string chains_csv(const calib::ChainBenchmark& benchmark) {
-  std::string text;
+  CsvTable table;
   for (const calib::ChainRow& one : benchmark.rows) {
     CsvRow row("chain", one.chain);
     row.key("study", one.study);
@@ -29,10 +29,9 @@ std::string chains_csv(const calib::ChainBenchmark& benchmark) {
     row.key("simulations", one.simulations);
     row.key("wall_s", one.seconds);
     row.key("success", one.success);
-    if (text.empty()) text = row.names();
-    text += row.cells();
+    table.add(row);
   }
-  return text;
+  return table.text;
 }
 
 nlohmann::json chains_json(const calib::ChainBenchmark& benchmark, const Provenance& provenance) {
@@ -54,7 +53,7 @@ nlohmann::json chains_json(const calib::ChainBenchmark& benchmark, const Provena
 }
 
 std::string coverage_csv(const calib::Coverage& coverage) {
-  std::string text;
+  CsvTable table;
   for (const calib::CoverageRow& one : coverage.rows) {
     CsvRow row("design", one.design);
     row.key("study", one.study);
@@ -65,10 +64,9 @@ std::string coverage_csv(const calib::Coverage& coverage) {
     row.key("upper", one.upper);
     row.key("informed", one.informed);
     row.key("inside", one.inside);
-    if (text.empty()) text = row.names();
-    text += row.cells();
+    table.add(row);
   }
-  return text;
+  return table.text;
 }
 
 nlohmann::json coverage_json(const calib::Coverage& coverage, const Provenance& provenance) {

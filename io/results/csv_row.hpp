@@ -1,4 +1,4 @@
-// One row of a table whose columns are named by the keys of its items.
+// Rows of a table whose columns are named by the keys of its items.
 #pragma once
 
 #include <fmt/format.h>
@@ -41,6 +41,16 @@ class CsvRow {
   }
 
   std::string names_, cells_;
+};
+
+/// Rows below the names of the first.
+struct CsvTable {
+  std::string text{};
+
+  void add(const CsvRow& row) {
+    if (text.empty()) text = row.names();
+    text += row.cells();
+  }
 };
 
 }  // namespace havers::io

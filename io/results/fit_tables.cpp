@@ -9,15 +9,14 @@ namespace {
 template <class Item>
 std::string table_of(const std::vector<calib::SpecimenResult>& specimens,
                      std::vector<Item> calib::SpecimenResult::*items) {
-  std::string text;
+  CsvTable table;
   for (const calib::SpecimenResult& specimen : specimens)
     for (Item item : specimen.*items) {
       CsvRow row("specimen", specimen.id);
       keys(row, item);
-      if (text.empty()) text = row.names();
-      text += row.cells();
+      table.add(row);
     }
-  return text;
+  return table.text;
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ Figure test_figure(const ImportReport& report, const std::string& id);
 Figure clocks_figure(const calib::ClockFit& clocks, const std::string& id);
 
 /// Pixels of a section by depth, with the threshold.
-Figure histogram_figure(const DepthHistogram& histogram, const std::string& id);
+Figure histogram_figure(const calib::DepthHistogram& histogram, const std::string& id);
 
 /// Error of porosity against CPU time, of every drawn section by every method.
 Figure methods_figure(const calib::MethodComparison& comparison, const std::string& id);

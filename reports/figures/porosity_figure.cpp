@@ -8,7 +8,7 @@
 
 namespace havers::reports {
 
-Figure histogram_figure(const DepthHistogram& histogram, const std::string& id) {
+Figure histogram_figure(const calib::DepthHistogram& histogram, const std::string& id) {
   Figure figure{.id = id,
                 .description = "Pixels of the bone by depth, with the threshold",
                 .width = 440,  // half a page

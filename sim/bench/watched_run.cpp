@@ -164,11 +164,8 @@ double first_break_by_uniform_stress(const Scene& scene) {
   double first = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < thresholds.size(); ++j) {
     if (is_missing(thresholds[j])) continue;
-    const JointLaw law = intact_law(thresholds[j]);
-    const Local r = forces.segment<2>(static_cast<Index>(2 * j));
-    const double denominator = std::abs(r.y()) - law.friction * r.x();
-    if (denominator > noise * std::max(1.0, law.friction))
-      first = std::min(first, law.friction * law.cohesion / denominator);
+    const Local at_unit_strain = forces.segment<2>(static_cast<Index>(2 * j));
+    first = std::min(first, strain_at_cone(at_unit_strain, intact_law(thresholds[j]), 1.0, noise));
   }
   return first;
 }

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "sim/scene.hpp"
 
@@ -31,6 +33,19 @@ JointLaw broken_law(double friction);
 /// How far inside the cone a reaction is, μ (R_N + c) − |R_T|; negative outside. [N/m]
 inline double cone_margin(const Local& reaction, const JointLaw& law) {
   return law.friction * (reaction.x() + law.cohesion) - std::abs(reaction.y());
+}
+
+/// Strain at which a reaction that grows as `modulus` · r · strain meets the cone (M5),
+///
+///   ε = μ c / (E (|r_T| − μ r_N)) ;
+///
+/// infinite where it never does, or where what tells is no more than the `noise` of r. [-]
+inline double strain_at_cone(const Local& reaction, const JointLaw& law, double modulus,
+                             double noise) {
+  const double denominator = std::abs(reaction.y()) - law.friction * reaction.x();
+  if (denominator <= noise * std::max(1.0, law.friction))
+    return std::numeric_limits<double>::infinity();
+  return law.cohesion * law.friction / (modulus * denominator);
 }
 
 /// Nearest point of the shifted cone.

@@ -53,13 +53,9 @@ BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructu
 
 // ε = f_N μ_c / (|r_T| − μ_c r_N), section 6.
 double BreakingRun::meets_cone_at(std::size_t joint) const {
-  constexpr double never = std::numeric_limits<double>::infinity();
-  if (joints_[joint].broken) return never;
-  const JointLaw law = intact_law(joints_[joint].threshold);
-  const Local r = reactions_.segment<2>(static_cast<Index>(2 * joint));
-  const double denominator = std::abs(r.y()) - law.friction * r.x();
-  if (denominator <= noise_ * std::max(1.0, law.friction)) return never;
-  return law.cohesion * law.friction / (scene_.material.young * denominator);
+  if (joints_[joint].broken) return std::numeric_limits<double>::infinity();
+  return strain_at_cone(reactions_.segment<2>(static_cast<Index>(2 * joint)),
+                        intact_law(joints_[joint].threshold), scene_.material.young, noise_);
 }
 
 double BreakingRun::next_event() const {

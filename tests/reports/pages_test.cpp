@@ -86,7 +86,7 @@ TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
   auto section = test::fit_sample().study.specimens.front().sections.front();
   section.warnings = {"The bone touches the edge of the image."};
   section.zones = {{"outer third", 0.031, 2e-6}};
-  const DepthHistogram histogram{{0.0, 0.5, 1.0}, {0.9, 0.02, 0.08}, 0.48};
+  const calib::DepthHistogram histogram{{0.0, 0.5, 1.0}, {0.9, 0.02, 0.08}, 0.48};
   PorosityReport report{.sections = {section, section},
                         .overlays = {test::tiny_png(), test::tiny_png()},
                         .scatter = {0.41, 0.41},

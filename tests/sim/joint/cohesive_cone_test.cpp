@@ -42,6 +42,17 @@ TEST(CohesiveCone, IsCoulombsWhenBroken) {
   EXPECT_LT(cone_margin({-1e-9, 0.0}, law), 0.0);
 }
 
+TEST(CohesiveCone, IsMetAtTheStrainWhereNoMarginIsLeft) {
+  const JointLaw law = intact_law({.normal = 5.0, .tangent = 2.0});
+  constexpr double modulus = 4.0;
+  for (const Local& r : {Local(-1.0, 0.3), Local(-1.0, 0.0), Local(0.5, -2.0)}) {
+    const Local reaction = strain_at_cone(r, law, modulus, 0.0) * modulus * r;
+    EXPECT_NEAR(cone_margin(reaction, law), 0.0, 1e-14);
+  }
+  EXPECT_TRUE(std::isinf(strain_at_cone({1.0, 0.3}, law, modulus, 0.0)));  // held by friction
+  EXPECT_TRUE(std::isinf(strain_at_cone({-1e-9, 0.0}, law, modulus, 1e-8)));
+}
+
 // (M11) is zero where the law holds ...
 TEST(LawResidual, VanishesWhereTheLawHolds) {
   const JointLaw law = intact_law({.normal = 5.0, .tangent = 2.0});
