@@ -1,4 +1,4 @@
-// Self-contained HTML pages and SVG figures. Computes nothing but the scaling of a plot.
+// Self-contained HTML pages and SVG figures of results that were made elsewhere.
 #pragma once
 
 #include <cstdint>

@@ -154,7 +154,12 @@ cv::Mat read_mask(const std::filesystem::path& file, cv::Size size,
                          fmt::format("the mask is {} × {} pixels, its image {} × {}", mask.cols,
                                      mask.rows, size.width, size.height),
                          "draw the mask on the image itself");
-  if (mask.channels() == 4) mask = without_alpha(mask);
+  if (mask.channels() == 4) {  // what is not seen is not bone
+    cv::Mat alpha;
+    cv::extractChannel(mask, alpha, 3);
+    cv::cvtColor(mask, mask, cv::COLOR_BGRA2BGR);
+    mask.setTo(cv::Scalar::all(0.0), alpha < (mask.depth() == CV_8U ? 127.5 : 32767.5));
+  }
   if (mask.channels() == 3) cv::cvtColor(mask, mask, cv::COLOR_BGR2GRAY);
   double highest = 0.0;
   cv::minMaxLoc(mask, nullptr, &highest);

@@ -53,7 +53,7 @@ BenchSpread spread(std::vector<double> values) {
   if (values.empty()) return {not_known, not_known, not_known};
   std::sort(values.begin(), values.end());
   return {gsl_stats_median_from_sorted_data(values.data(), 1, values.size()), values.front(),
-          values.back()};
+          values.back(), static_cast<int>(values.size())};
 }
 
 // A number of every run, as a spread.
@@ -150,6 +150,12 @@ std::optional<Omissions> omissions_of(const std::vector<BenchRow>& rows,
   return omissions;
 }
 
+// Whether every run of a row is to be trusted, has this error, and has the reference's mesh.
+bool is_judged(const WorkPrecision& study, const BenchRow& row, const BenchSpread& error) {
+  return row.setting.refinement == study.reference.refinement && row.trusted == row.runs &&
+         error.of == row.runs;
+}
+
 void name_cheapest(WorkPrecision& study) {
   using Quantity = std::pair<const char*, BenchSpread BenchErrors::*>;
   const std::array quantities{Quantity{"joint forces", &BenchErrors::bonded_forces},
@@ -160,8 +166,8 @@ void name_cheapest(WorkPrecision& study) {
       CheapestSetting cheapest{.quantity = quantity, .target = target};
       for (std::size_t i = 1; i < study.rows.size(); ++i) {  // the first is the reference
         const BenchRow& row = study.rows[i];
-        if (row.setting.refinement != study.reference.refinement) continue;
-        if (row.trusted < row.runs || !((row.errors.*error).high <= target)) continue;
+        if (!is_judged(study, row, row.errors.*error)) continue;
+        if (!((row.errors.*error).high <= target)) continue;
         if (!cheapest.row || row.cpu.median < study.rows[*cheapest.row].cpu.median)
           cheapest.row = i;
       }
@@ -200,15 +206,14 @@ class Bench {
   bool stopped_ = false;
 };
 
-// Of those that may be trusted, on the reference's mesh; null where there is none.
+// Of those that are judged; null where there is none.
 const BenchRow* nearest_to_failure(const WorkPrecision& study) {
   const BenchRow* nearest = nullptr;
   for (std::size_t i = 1; i < study.rows.size(); ++i) {
     const BenchRow& row = study.rows[i];
-    const double error = row.errors.failure_strain.high;
-    if (row.setting.refinement != study.reference.refinement || row.trusted < row.runs) continue;
-    if (std::isfinite(error) && (nearest == nullptr || error < nearest->errors.failure_strain.high))
-      nearest = &row;
+    const BenchSpread& error = row.errors.failure_strain;
+    if (!is_judged(study, row, error)) continue;
+    if (nearest == nullptr || error.high < nearest->errors.failure_strain.high) nearest = &row;
   }
   return nearest;
 }
@@ -217,10 +222,13 @@ const BenchRow* nearest_to_failure(const WorkPrecision& study) {
 
 WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
                                const BenchObserver& observer) {
-  WorkPrecision study{.bonded_strain = 0.4 * first_break_by_uniform_stress(scene),
+  WorkPrecision study{.bonded_strain = std::numeric_limits<double>::infinity(),
                       .time_limit = options.time_limit};
-  for (int i = 0; i < options.seeds; ++i)
-    study.seeds.push_back(scene.joints.seed + static_cast<std::uint64_t>(i));
+  for (Scene seeded = scene; std::ssize(study.seeds) < options.seeds; ++seeded.joints.seed) {
+    study.seeds.push_back(seeded.joints.seed);
+    study.bonded_strain =
+        std::min(study.bonded_strain, 0.4 * first_break_by_uniform_stress(seeded));
+  }
 
   Bench bench(scene, observer, study);
   const std::vector<BenchSetting> settings = bench_settings(scene);

@@ -10,9 +10,10 @@
 
 namespace havers::sim {
 
-/// Median and extremes over the seeds.
+/// Median and extremes over the seeds for which the number is known.
 struct BenchSpread {
   double median = 0.0, low = 0.0, high = 0.0;
+  int of = 0;  ///< How many these are.
 };
 
 /// Relative errors against the reference of the same seed; NaN where a run did not get there. [-]
@@ -60,7 +61,7 @@ struct WorkPrecision {
   bool complete = false;  ///< false: stopped before the last run.
   BenchSetting reference;
   std::string reference_ground;  ///< What the errors are measured against, in a sentence.
-  double bonded_strain = 0.0;    ///< Where forces before the first break are compared. [-]
+  double bonded_strain = 0.0;    ///< Where forces before any seed's first break are compared. [-]
   /// Whether those are compared with their closed form instead of with the reference's.
   bool closed_form = false;
   double time_limit = 0.0;  ///< Wall time of a run, but for the reference's. [s]

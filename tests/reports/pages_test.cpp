@@ -114,8 +114,8 @@ sim::WorkPrecision work_precision_sample() {
   const auto row = [](sim::BenchSetting setting, double error, int trusted) {
     sim::BenchRow made{.setting = setting, .runs = 1, .trusted = trusted};
     made.wall = made.cpu = {0.2, 0.1, 0.3};
-    made.errors = {.bonded_forces = {error, error, error},
-                   .failure_strain = {error, 0.5 * error, 2.0 * error}};
+    made.errors = {.bonded_forces = {error, error, error, 1},
+                   .failure_strain = {error, 0.5 * error, 2.0 * error, 1}};
     made.steps = made.iterations = {1'234'567.0, 0.0, 0.0};
     return made;
   };
@@ -197,7 +197,7 @@ TEST(WorkPrecisionPage, IsNotGreenWithoutAReference) {
 TEST(WorkPrecisionPage, IsNotGreenWhereNothingComesNearTheReference) {
   sim::WorkPrecision study = work_precision_sample();
   study.cheapest.front().row = {};
-  study.rows[1].errors.failure_strain = {0.0005, 0.0001, 0.0042};
+  study.rows[1].errors.failure_strain = {0.0005, 0.0001, 0.0042, 1};
   const std::string page = work_precision_page({{}, study, {}});
   EXPECT_TRUE(contains(page, "verdict mixed"));
   EXPECT_TRUE(
