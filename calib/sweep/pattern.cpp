@@ -18,6 +18,7 @@ using Place = std::pair<long, long>;  // a point, rounded so that equal points a
 
 struct Segment {
   sim::JointKind kind = sim::JointKind::flank;
+  bool broke = true;  // false: missing from the start; a crack runs through it
   std::array<Eigen::Vector2d, 2> ends;
   std::array<Place, 2> places;
 };
@@ -27,9 +28,9 @@ std::vector<Segment> broken_segments(const sim::Assembly& assembly,
   const double unit = 1e-7 * std::max(assembly.width, assembly.height);
   std::vector<Segment> segments;
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    if (!joints[i].broke()) continue;
+    if (!joints[i].broken) continue;
     const sim::Joint& joint = assembly.joints[i];
-    Segment segment{.kind = joint.kind, .ends = {}, .places = {}};
+    Segment segment{.kind = joint.kind, .broke = joints[i].broke(), .ends = {}, .places = {}};
     for (std::size_t k = 0; k < 2; ++k) {
       segment.ends[k] = joint.position + (k == 0 ? -0.5 : 0.5) * joint.length * joint.tangent();
       segment.places[k] = {std::lround(segment.ends[k].x() / unit),
@@ -68,13 +69,14 @@ Pattern pattern_of(const sim::Assembly& assembly, const std::vector<sim::JointOu
   std::set<Place> flank_ends;
   Pattern pattern;
   for (const Segment& segment : segments) {
-    if (segment.kind != sim::JointKind::flank) continue;
+    if (segment.kind != sim::JointKind::flank || !segment.broke) continue;
     ++pattern.flank;
     flank_ends.insert(segment.places.begin(), segment.places.end());
   }
-  pattern.head_tail = static_cast<int>(segments.size()) - pattern.flank;
+  pattern.head_tail =
+      static_cast<int>(std::ranges::count(segments, true, &Segment::broke)) - pattern.flank;
   const auto linked = std::ranges::count_if(segments, [&](const Segment& segment) {
-    return segment.kind == sim::JointKind::head_tail &&
+    return segment.kind == sim::JointKind::head_tail && segment.broke &&
            (flank_ends.contains(segment.places[0]) || flank_ends.contains(segment.places[1]));
   });
   pattern.linked = pattern.head_tail > 0 ? static_cast<double>(linked) / pattern.head_tail

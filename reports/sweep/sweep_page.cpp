@@ -139,22 +139,16 @@ std::string sentence_of(const std::vector<Row>& rows, long runs) {
   return sentence + ".";
 }
 
+bool all_trusted(const std::vector<SweepReport>& sweeps) {
+  return std::ranges::all_of(sweeps, [](const SweepReport& one) { return one.result.trusted(); });
+}
+
 // Runs without an answer are worse than claims that do not hold.
 std::string grade_of(const std::vector<Row>& rows, const std::vector<SweepReport>& sweeps) {
-  if (!std::ranges::all_of(sweeps, [](const SweepReport& one) { return one.result.trusted(); }))
-    return "bad";
+  if (!all_trusted(sweeps)) return "bad";
   const bool agree = std::ranges::all_of(
       rows, [](const Row& row) { return row.finding->outcome == FindingOutcome::agrees; });
   return agree ? "good" : "mixed";
-}
-
-// What comes before all findings.
-std::string too_many_without_strength(const std::vector<SweepReport>& sweeps, long failed,
-                                      long unbroken, long runs) {
-  if (std::ranges::all_of(sweeps, [](const SweepReport& one) { return one.result.trusted(); }))
-    return "";
-  return fmt::format("Not to be trusted: of {} {} failed and {} did not break. ",
-                     count(runs, "run"), failed, unbroken);
 }
 
 std::string with_unit(const MeasureWords& words) {
@@ -291,11 +285,12 @@ std::string sweep_page(const std::string& title, const std::vector<SweepReport>&
     }
     parts.push_back(sweep_part(report));
   }
+  const std::string why_not_trusted =
+      all_trusted(sweeps) ? "" : "Not to be trusted: too many runs failed or did not break. ";
   return render_page(
       title, "sweep",
       {{"grade", text(grade_of(rows, sweeps))},
-       {"sentence",
-        text(too_many_without_strength(sweeps, failed, unbroken, runs) + sentence_of(rows, runs))},
+       {"sentence", text(why_not_trusted + sentence_of(rows, runs))},
        {"detail",
         text(fmt::format(
             "{}, {} failed, {} did not break, {} wall time; seeds are not shared between points.",
