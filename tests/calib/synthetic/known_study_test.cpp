@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "calib/fit/calibration.hpp"
-#include "calib/study/parameter.hpp"
 #include "calib/synthetic/chain_benchmark.hpp"
 #include "calib/synthetic/coverage.hpp"
 #include "tests/support/studies.hpp"
