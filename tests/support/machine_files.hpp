@@ -10,7 +10,6 @@
 #include <fstream>
 #include <random>
 #include <string>
-#include <vector>
 
 #include "calib/experiment/raw_test.hpp"
 

@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "io/input_error.hpp"
 #include "io/results/result_files.hpp"
