@@ -80,12 +80,10 @@ int bench_calibration(const BenchArguments& arguments, const CommonOptions& comm
       calib::benchmark_chains(costly, studies, common.threads, std::ref(counter));
   const io::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::chains_json(benchmark, provenance);
-  io::write_file(output.stage("result.json"), io::json_text(result));
-  io::write_file(output.stage("chains.csv"), io::chains_csv(benchmark));
+  output.write("result.json", io::json_text(result));
+  output.write("chains.csv", io::chains_csv(benchmark));
   const bool page = reports::available() && !benchmark.summaries.empty();
-  if (page)
-    io::write_file(output.stage("report.html"),
-                   reports::chains_page({benchmark, page_facts(provenance)}));
+  if (page) output.write("report.html", reports::chains_page({benchmark, page_facts(provenance)}));
   answer(common, &output, result, page ? "report.html" : "result.json",
          [&] { print_chains(benchmark); });
   const bool usual_wins =
@@ -103,11 +101,10 @@ int bench_coverage(const BenchArguments& arguments, const CommonOptions& common)
       calib::measure_coverage(designs, studies, common.threads, std::ref(counter));
   const io::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::coverage_json(coverage, provenance);
-  io::write_file(output.stage("result.json"), io::json_text(result));
-  io::write_file(output.stage("coverage.csv"), io::coverage_csv(coverage));
+  output.write("result.json", io::json_text(result));
+  output.write("coverage.csv", io::coverage_csv(coverage));
   if (reports::available())
-    io::write_file(output.stage("report.html"),
-                   reports::coverage_page({coverage, page_facts(provenance)}));
+    output.write("report.html", reports::coverage_page({coverage, page_facts(provenance)}));
   answer(common, &output, result, page_or("result.json"), [&] { print_coverage(coverage); });
   return coverage.holds() && !interrupted() ? done : answer_is_no;
 }

@@ -51,11 +51,10 @@ int bench_porosity(const BenchArguments& arguments, const CommonOptions& common)
       try_all(arguments, common, output.stage("section.png"));
   const io::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::methods_json(comparison, provenance);
-  io::write_file(output.stage("result.json"), io::json_text(result));
-  io::write_file(output.stage("porosity.csv"), io::methods_csv(comparison));
+  output.write("result.json", io::json_text(result));
+  output.write("porosity.csv", io::methods_csv(comparison));
   if (reports::available())
-    io::write_file(output.stage("report.html"),
-                   reports::methods_page({comparison, page_facts(provenance)}));
+    output.write("report.html", reports::methods_page({comparison, page_facts(provenance)}));
   answer(common, &output, result, page_or("result.json"), [&] { print_methods(comparison); });
   const calib::MethodSummary& ours = comparison.methods.back();
   const bool good = ours.worst_error <= enough && !(ours.worst_if_none > enough_if_none);

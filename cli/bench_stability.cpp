@@ -41,14 +41,12 @@ int bench_stability(const BenchArguments& arguments, const CommonOptions& common
   const std::vector<sim::StabilityResult> results = run_all(common);
   const io::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::stability_json(results, provenance);
-  io::write_file(output.stage("result.json"), io::json_text(result));
-  io::write_file(output.stage("stability.csv"), io::stability_csv(results));
+  output.write("result.json", io::json_text(result));
+  output.write("stability.csv", io::stability_csv(results));
   if (reports::available())
-    io::write_file(output.stage("report.html"),
-                   reports::stability_page({results, page_facts(provenance)}));
+    output.write("report.html", reports::stability_page({results, page_facts(provenance)}));
   answer(common, &output, result, page_or("result.json"), [&] { print_summary(results); });
-  const bool good = std::all_of(results.begin(), results.end(),
-                                [](const sim::StabilityResult& r) { return r.as_it_must; });
+  const bool good = std::ranges::all_of(results, &sim::StabilityResult::as_it_must);
   return good && !interrupted() ? done : answer_is_no;
 }
 

@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "cli/provenance.hpp"
@@ -19,8 +17,8 @@ fs::path overlay_file(const std::string& id, std::size_t section) {
 }
 
 std::vector<std::uint8_t> read_bytes(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string bytes = io::read_text(file, "");
+  return {bytes.begin(), bytes.end()};
 }
 
 fs::path test_file(const std::string& id, std::size_t figure) {
@@ -45,11 +43,10 @@ void write_page(const OutputFolder& output, const LoadedStudy& loaded,
                 const calib::CalibrationResult& result, const io::Provenance& provenance) {
   const TestFigures tests = draw_tests(loaded);
   for (const auto& [id, figures] : tests)
-    for (std::size_t i = 0; i < figures.size(); ++i)
-      io::write_file(output.stage(test_file(id, i)), figures[i]);
-  io::write_file(output.stage("report.html"),
-                 reports::fit_page({loaded.study, result, loaded.overlays, page_facts(provenance),
-                                    provenance.wall_seconds, tests}));
+    for (std::size_t i = 0; i < figures.size(); ++i) output.write(test_file(id, i), figures[i]);
+  output.write("report.html",
+               reports::fit_page({loaded.study, result, loaded.overlays, page_facts(provenance),
+                                  provenance.wall_seconds, tests}));
 }
 
 }  // namespace
@@ -64,11 +61,11 @@ void write_fit(const OutputFolder& output, const LoadedStudy& loaded,
   io::write_replicates(output.stage("replicates.csv"), result.specimens);
   for (const auto& [id, images] : loaded.overlays)
     for (std::size_t i = 0; i < images.size(); ++i)
-      io::write_file(output.stage(overlay_file(id, i)), {images[i].begin(), images[i].end()});
-  io::write_file(output.stage("scene.toml"), io::scene_toml(result.scene));
+      output.write(overlay_file(id, i), {images[i].begin(), images[i].end()});
+  output.write("scene.toml", io::scene_toml(result.scene));
   if (reports::available()) write_page(output, loaded, result, provenance);
-  io::write_file(output.stage("result.json"),
-                 io::json_text(io::calibration_json(loaded.study, result, provenance)));
+  output.write("result.json",
+               io::json_text(io::calibration_json(loaded.study, result, provenance)));
 }
 
 reports::FitReport FinishedFit::report() const {

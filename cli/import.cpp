@@ -148,15 +148,14 @@ void print_test(const Imported& imported) {
 }
 
 nlohmann::json clocks_json(const calib::ClockFit& clocks) {
-  nlohmann::json json{{"offset_s", clocks.offset - clocks.rate * clocks.reference},
-                      {"rate", clocks.rate},
-                      {"rate_fitted", clocks.rate_fitted},
-                      {"rate_standard_error", clocks.rate_standard_error},
-                      {"reference_s", clocks.reference},
-                      {"machine_time_at_reference_s", clocks.offset},
-                      {"machine_time_standard_error_s", clocks.offset_standard_error},
-                      {"correlation", clocks.correlation}};
-  return json;
+  return {{"offset_s", clocks.offset - clocks.rate * clocks.reference},
+          {"rate", clocks.rate},
+          {"rate_fitted", clocks.rate_fitted},
+          {"rate_standard_error", clocks.rate_standard_error},
+          {"reference_s", clocks.reference},
+          {"machine_time_at_reference_s", clocks.offset},
+          {"machine_time_standard_error_s", clocks.offset_standard_error},
+          {"correlation", clocks.correlation}};
 }
 
 // Every test in "files"; what is said of a single one is beside it too.
@@ -192,19 +191,19 @@ void write_figures(const OutputFolder& output, const std::vector<Imported>& test
                      test.clocks ? &*test.clocks : nullptr});
   std::set<std::string> used;
   const auto write = [&](const std::string& name, const std::string& svg) {
-    io::write_file(output.stage(name_of_its_own(name, used) + ".svg"), svg);
+    output.write(name_of_its_own(name, used) + ".svg", svg);
   };
   for (std::size_t i = 0; i < pages.size(); ++i) {
     write(figure_name(tests, i), reports::test_svg(pages[i]));
     if (pages[i].clocks != nullptr) write("clocks", reports::clocks_svg(*pages[i].clocks));
   }
-  io::write_file(output.stage("report.html"), reports::import_page(pages, facts));
+  output.write("report.html", reports::import_page(pages, facts));
 }
 
 void write_results(const OutputFolder& output, const ImportArguments& arguments,
                    const std::vector<Imported>& tests, const CommonOptions& common,
                    const Stopwatch& watch) {
-  io::write_file(output.stage("import.json"), io::json_text(json_of(tests)));
+  output.write("import.json", io::json_text(json_of(tests)));
   std::vector<std::filesystem::path> inputs = arguments.files;
   if (arguments.gauge) inputs.push_back(*arguments.gauge);
   std::erase_if(inputs, [](const auto& file) { return !std::filesystem::exists(file); });

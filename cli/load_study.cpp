@@ -110,9 +110,7 @@ Outcome load_specimen(const calib::Specimen& declared, const io::SpecimenFiles& 
 
 // A test that cannot be used does not stop the others.
 void leave_out(const io::SpecimenFiles& files, const Outcome& outcome, LoadedStudy& loaded) {
-  std::string why;
-  for (const std::string& rejection : outcome.rejections)
-    why += (why.empty() ? "" : "; ") + rejection;
+  const std::string why = fmt::format("{}", fmt::join(outcome.rejections, "; "));
   loaded.warnings.push_back(
       fmt::format("{}: specimen {} is left out: {}", files.test.string(), files.id, why));
   loaded.left_out.push_back({"specimen " + files.id, why});

@@ -116,6 +116,10 @@ fs::path OutputFolder::stage(const fs::path& name) const {
   return staging_ / name;
 }
 
+void OutputFolder::write(const fs::path& name, const std::string& content) const {
+  io::write_file(stage(name), content);
+}
+
 fs::path OutputFolder::keep(const fs::path& name) const {
   fs::create_directories(folder_);
   return folder_ / name;

@@ -37,6 +37,9 @@ class OutputFolder {
   /// A file's place in the staging folder; folders in between are made.
   [[nodiscard]] std::filesystem::path stage(const std::filesystem::path& name) const;
 
+  /// Writes a file there.
+  void write(const std::filesystem::path& name, const std::string& content) const;
+
   /// A file's place in the target itself, for what must survive a kill.
   [[nodiscard]] std::filesystem::path keep(const std::filesystem::path& name) const;
 

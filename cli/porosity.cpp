@@ -134,8 +134,7 @@ void print_table(const std::vector<Section>& sections) {
   if (calib::removes_joints(mean))
     fmt::print(
         "  note: pores are larger than a window of one fibre: they take away {:.1f} % of the "
-        "joints "
-        "rather than spread their strength\n",
+        "joints rather than spread their strength\n",
         100.0 * calib::missing_joints(mean));
 }
 
@@ -158,7 +157,7 @@ void write_page(const OutputFolder& output, const PorosityArguments& arguments,
   for (const Section& section : sections) {
     const auto& overlay = section.measured.overlay_png;
     const std::string name = name_of_its_own(section.image.stem().string(), used);
-    io::write_file(output.stage(name + "_overlay.png"), {overlay.begin(), overlay.end()});
+    output.write(name + "_overlay.png", {overlay.begin(), overlay.end()});
     page.sections.push_back(section.measured.porosity);
     page.overlays.push_back(overlay);
     page.scatter.push_back(section.scatter);
@@ -166,9 +165,8 @@ void write_page(const OutputFolder& output, const PorosityArguments& arguments,
   }
   page.mean = mean_of(sections);
   page.provenance = page_facts(provenance_of(common, arguments.images, watch));
-  io::write_file(output.stage("porosity.json"), io::json_text(json_of(sections)));
-  if (reports::available())
-    io::write_file(output.stage("report.html"), reports::porosity_page(page));
+  output.write("porosity.json", io::json_text(json_of(sections)));
+  if (reports::available()) output.write("report.html", reports::porosity_page(page));
 }
 
 int run_porosity(const PorosityArguments& arguments, const CommonOptions& common) {

@@ -73,7 +73,7 @@ fs::path write_page(const ReportArguments& arguments, const std::vector<Finished
     return fs::absolute(page).lexically_normal();
   }
   OutputFolder output(arguments.folder, force);
-  io::write_file(output.stage("report.html"), page_of(fits));
+  output.write("report.html", page_of(fits));
   output.publish(OutputFolder::Earlier::stays);
   return output.folder() / "report.html";
 }

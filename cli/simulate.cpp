@@ -56,15 +56,14 @@ void write_results(const OutputFolder& output, const io::SceneFile& file,
     io::write_vtu(output.stage(fmt::format("snapshots/step_{:06}.vtu", snapshot.row)), assembly,
                   snapshot.displacements, snapshot.joints);
   if (reports::available()) {
-    io::write_file(output.stage("fracture.svg"), reports::fracture_svg(assembly, simulation));
-    io::write_file(output.stage("avalanche.svg"), reports::avalanche_svg(assembly, simulation));
-    io::write_file(output.stage("report.html"),
-                   reports::simulation_page({scene, assembly, simulation, page_facts(provenance),
-                                             provenance.wall_seconds,
-                                             file.inputs.front().filename().string()}));
+    output.write("fracture.svg", reports::fracture_svg(assembly, simulation));
+    output.write("avalanche.svg", reports::avalanche_svg(assembly, simulation));
+    output.write("report.html",
+                 reports::simulation_page({scene, assembly, simulation, page_facts(provenance),
+                                           provenance.wall_seconds,
+                                           file.inputs.front().filename().string()}));
   }
-  io::write_file(output.stage("result.json"),
-                 io::json_text(io::simulation_json(scene, simulation, provenance)));
+  output.write("result.json", io::json_text(io::simulation_json(scene, simulation, provenance)));
 }
 
 // No time without its error. The runs of longer steps were timed too.

@@ -119,20 +119,16 @@ void write_all(const OutputFolder& output, const SweepArguments& arguments,
                const std::vector<Done>& all, const io::Provenance& provenance) {
   std::vector<reports::SweepReport> parts;
   for (const Done& one : all) {
-    io::write_file(output.stage(fs::path(one.stem) / "runs.csv"),
-                   io::runs_csv(one.sweep, one.result));
-    io::write_file(output.stage(fs::path(one.stem) / "summary.csv"),
-                   io::summary_csv(one.sweep, one.result));
+    output.write(fs::path(one.stem) / "runs.csv", io::runs_csv(one.sweep, one.result));
+    output.write(fs::path(one.stem) / "summary.csv", io::summary_csv(one.sweep, one.result));
     if (!one.result.laws.empty())
-      io::write_file(output.stage(fs::path(one.stem) / "laws.json"),
-                     io::json_text(io::laws_json(one.result)));
+      output.write(fs::path(one.stem) / "laws.json", io::json_text(io::laws_json(one.result)));
     parts.push_back({one.stem, one.sweep, one.result});
   }
   if (reports::available())
-    io::write_file(output.stage("report.html"),
-                   reports::sweep_page(arguments.title, parts, page_facts(provenance),
-                                       provenance.wall_seconds));
-  io::write_file(output.stage("result.json"), io::json_text(json_of_all(all, provenance)));
+    output.write("report.html", reports::sweep_page(arguments.title, parts, page_facts(provenance),
+                                                    provenance.wall_seconds));
+  output.write("result.json", io::json_text(json_of_all(all, provenance)));
 }
 
 // "strength 12.3 % (11.9 to 12.7)", to two digits of the interval's width; a dash where nothing

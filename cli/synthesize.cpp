@@ -230,7 +230,7 @@ int run_synthesize(const SynthesizeArguments& arguments, const CommonOptions& co
   if (!all_are_tests(made))
     return without_result(common, interrupted() ? "cancelled" : "failed", "nothing was written");
   const nlohmann::json truth = truth_of(file, made);
-  io::write_file(output.stage("truth.json"), io::json_text(truth));
+  output.write("truth.json", io::json_text(truth));
   for (const fs::path& input : file.inputs)
     fs::copy_file(input, output.stage(input == arguments.study ? "study.toml"
                                                                : place(arguments.study, input)));

@@ -7,11 +7,6 @@
 
 namespace havers::sim {
 
-double lateral_contraction(const Material& material) {
-  const double nu = material.poisson;
-  return material.plane == Plane::stress ? nu : nu / (1.0 - nu);
-}
-
 std::vector<JointOutcome> initial_outcomes(const std::vector<Threshold>& thresholds) {
   std::vector<JointOutcome> joints;
   joints.reserve(thresholds.size());
@@ -51,9 +46,7 @@ std::optional<double> stress_at(const std::vector<CurvePoint>& curve, double str
 void summarise(Simulation& simulation) {
   const std::vector<CurvePoint>& curve = simulation.curve;
   if (curve.empty()) return;
-  const auto strongest = std::max_element(
-      curve.begin(), curve.end(),
-      [](const CurvePoint& a, const CurvePoint& b) { return a.stress_right < b.stress_right; });
+  const auto strongest = std::ranges::max_element(curve, {}, &CurvePoint::stress_right);
   simulation.strength = strongest->stress_right;
   simulation.failure_strain = strongest->strain;
   simulation.broken_joints = curve.back().broken_joints;

@@ -8,10 +8,6 @@
 
 namespace havers::sim {
 
-/// ν of the lateral strain −ν ε under uniaxial stress in the plane: ν, or ν/(1−ν) in plane strain.
-/// [-]
-double lateral_contraction(const Material& material);
-
 /// All joints with their thresholds, intact but for those that are missing.
 std::vector<JointOutcome> initial_outcomes(const std::vector<Threshold>& thresholds);
 

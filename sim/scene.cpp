@@ -37,6 +37,16 @@ double young_of_layer(const Material& material, int layer) {
   return material.young * (layer % 2 == 0 ? 1.0 : material.layer_contrast);
 }
 
+double lateral_contraction(const Material& material) {
+  const double nu = material.poisson;
+  return material.plane == Plane::stress ? nu : nu / (1.0 - nu);
+}
+
+double plane_stiffening(const Material& material) {
+  const double nu = material.poisson;
+  return material.plane == Plane::stress ? 1.0 : 1.0 / (1.0 - nu * nu);
+}
+
 double wave_speed(const Material& material) {
   return std::sqrt(material.young / material.density);
 }

@@ -38,6 +38,11 @@ struct Material {
 /// Young's modulus of a layer of fibres, counted from the lower left corner. [Pa]
 double young_of_layer(const Material& material, int layer);
 
+/// Plane strain is plane stress with ν/(1−ν) for ν, the lateral contraction under uniaxial stress
+/// in the plane, and with E/(1−ν²) for E. [-]
+double lateral_contraction(const Material& material);
+double plane_stiffening(const Material& material);  ///< 1, or 1/(1−ν²).
+
 /// c = √(E/ρ). [m/s]
 double wave_speed(const Material& material);
 

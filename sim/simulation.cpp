@@ -2,59 +2,46 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "sim/outcome.hpp"
 
 namespace havers::sim {
+namespace {
+
+struct StatusWords {
+  const char *word, *sentence;
+};
+
+// In the order of the enumerators.
+constexpr std::array<StatusWords, 8> status_words{{
+    {"broken",
+     "after a break both sides bear less than the part of the strength to which failure is "
+     "followed"},
+    {"strain_limit",
+     "the strain limit was reached before the specimen broke; the strength is a lower bound"},
+    {"severed", "missing joints sever the specimen before it is pulled: it bears nothing"},
+    {"step_limit",
+     "ten million time steps were taken before the specimen broke; a rate that is higher, a "
+     "smaller max_strain or the quasi-static regime takes fewer"},
+    {"not_determined",
+     "more than one set of joint forces bears the load, as where nearly all fibres reach from end "
+     "to end; more fibres in a layer leave one"},
+    {"not_converged", "a step or a break has no answer that was found"},
+    {"not_finite", "a number left the range of doubles"},
+    {"cancelled", "stopped by the user"},
+}};
+
+}  // namespace
 
 std::string to_string(SimulationStatus status) {
-  switch (status) {
-    case SimulationStatus::broken:
-      return "broken";
-    case SimulationStatus::strain_limit:
-      return "strain_limit";
-    case SimulationStatus::severed:
-      return "severed";
-    case SimulationStatus::step_limit:
-      return "step_limit";
-    case SimulationStatus::not_determined:
-      return "not_determined";
-    case SimulationStatus::not_converged:
-      return "not_converged";
-    case SimulationStatus::not_finite:
-      return "not_finite";
-    case SimulationStatus::cancelled:
-      return "cancelled";
-  }
-  return "unknown";
+  return status_words.at(static_cast<std::size_t>(status)).word;
 }
 
 std::string explain(SimulationStatus status) {
-  switch (status) {
-    case SimulationStatus::broken:
-      return "after a break both sides bear less than the part of the strength to which failure is "
-             "followed";
-    case SimulationStatus::strain_limit:
-      return "the strain limit was reached before the specimen broke; the strength is a lower "
-             "bound";
-    case SimulationStatus::severed:
-      return "missing joints sever the specimen before it is pulled: it bears nothing";
-    case SimulationStatus::step_limit:
-      return "ten million time steps were taken before the specimen broke; a rate that is higher, "
-             "a smaller max_strain or the quasi-static regime takes fewer";
-    case SimulationStatus::not_determined:
-      return "more than one set of joint forces bears the load, as where nearly all fibres reach "
-             "from end to end; more fibres in a layer leave one";
-    case SimulationStatus::not_converged:
-      return "a step or a break has no answer that was found";
-    case SimulationStatus::not_finite:
-      return "a number left the range of doubles";
-    case SimulationStatus::cancelled:
-      return "stopped by the user";
-  }
-  return "unknown";
+  return status_words.at(static_cast<std::size_t>(status)).sentence;
 }
 
 std::string explain(const Simulation& simulation) {

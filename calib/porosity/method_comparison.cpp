@@ -23,7 +23,7 @@ MethodSummary summary_of(PorosityMethod method, const std::vector<PorosityTrial>
     pixels += trial.pixels;
     cpu += trial.readings.at(static_cast<std::size_t>(method)).cpu;
   }
-  summary.worst_error = *std::max_element(errors.begin(), errors.end());
+  summary.worst_error = std::ranges::max(errors);
   summary.median_error = gsl_stats_median(errors.data(), 1, errors.size());
   summary.cpu_per_pixel = cpu / pixels;
   return summary;
@@ -50,17 +50,9 @@ void add_coverage(const std::vector<PorosityTrial>& trials, MethodComparison& co
 }  // namespace
 
 std::string to_string(PorosityMethod method) {
-  switch (method) {
-    case PorosityMethod::naive:
-      return "middle of the grey scale, whole image";
-    case PorosityMethod::otsu:
-      return "Otsu, whole image";
-    case PorosityMethod::otsu_in_mask:
-      return "Otsu inside the bone";
-    case PorosityMethod::ours:
-      return "havers porosity";
-  }
-  return "";
+  constexpr std::array words{"middle of the grey scale, whole image", "Otsu, whole image",
+                             "Otsu inside the bone", "havers porosity"};
+  return words.at(static_cast<std::size_t>(method));
 }
 
 double PorosityTrial::error(PorosityMethod method) const {
@@ -73,12 +65,11 @@ MethodComparison compare_methods(std::vector<PorosityTrial> trials) {
   add_coverage(trials, comparison);
   std::vector<std::string> known;
   for (const PorosityTrial& trial : trials)
-    if (std::find(known.begin(), known.end(), trial.hardship) == known.end())
-      known.push_back(trial.hardship);
+    if (std::ranges::find(known, trial.hardship) == known.end()) known.push_back(trial.hardship);
   for (const std::string& hardship : known) {
     std::vector<PorosityTrial> some;
-    std::copy_if(trials.begin(), trials.end(), std::back_inserter(some),
-                 [&](const PorosityTrial& trial) { return trial.hardship == hardship; });
+    for (const PorosityTrial& trial : trials)
+      if (trial.hardship == hardship) some.push_back(trial);
     comparison.hardships.push_back({hardship, summaries_of(some)});
   }
   comparison.trials = std::move(trials);

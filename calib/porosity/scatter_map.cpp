@@ -143,12 +143,6 @@ double scatter_standard_error(const SpecimenPorosity& porosity, const PorosityOp
   return std::hypot(by_sd, d / solid * porosity.porosity_standard_error);
 }
 
-double window_sd_closed_form(double porosity, double window_area, double pore_area_ratio) {
-  assert(porosity >= 0.0 && porosity <= 1.0 && window_area >= 0.0 && pore_area_ratio >= 0.0);
-  if (pore_area_ratio == 0.0) return 0.0;
-  return std::sqrt(porosity * (1.0 - porosity) / (1.0 + window_area / pore_area_ratio));
-}
-
 double modulus_factor(const SpecimenPorosity& porosity, const PorosityOptions& options) {
   if (options.to_modulus == ToModulus::none) return 1.0;
   return std::pow(1.0 - porosity.porosity, options.modulus_exponent);

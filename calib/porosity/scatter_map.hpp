@@ -62,10 +62,6 @@ double scatter_of(const SpecimenPorosity& porosity, const PorosityOptions& optio
 /// Standard error of `scatter_of`, from those of window SD and porosity. [-]
 double scatter_standard_error(const SpecimenPorosity& porosity, const PorosityOptions& options);
 
-/// SD of local porosity in a window of area A [m²], for pores of area ratio a* = E[a²]/E[a] [m²]
-/// (K2). [-]
-double window_sd_closed_form(double porosity, double window_area, double pore_area_ratio);
-
 /// Factor (1−p)^m on the modulus (K4); 1 with `none`. [-]
 double modulus_factor(const SpecimenPorosity& porosity, const PorosityOptions& options);
 

@@ -2,7 +2,6 @@
 // report.
 #pragma once
 
-#include <string>
 #include <string_view>
 #include <vector>
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -97,15 +98,8 @@ std::string ground_of(const FindingRequest& request) {
 }
 
 std::string meaning_of(const FindingRequest& request, FindingOutcome outcome) {
-  switch (outcome) {
-    case FindingOutcome::agrees:
-      return request.if_agrees;
-    case FindingOutcome::disagrees:
-      return request.if_disagrees;
-    case FindingOutcome::undecided:
-      return request.if_undecided;
-  }
-  return "";
+  if (outcome == FindingOutcome::undecided) return request.if_undecided;
+  return outcome == FindingOutcome::agrees ? request.if_agrees : request.if_disagrees;
 }
 
 Finding judge_group(const Evidence& evidence, const PointGroup& group) {
@@ -151,15 +145,8 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
 }  // namespace
 
 std::string to_string(FindingOutcome outcome) {
-  switch (outcome) {
-    case FindingOutcome::agrees:
-      return "agrees";
-    case FindingOutcome::disagrees:
-      return "disagrees";
-    case FindingOutcome::undecided:
-      return "undecided";
-  }
-  return "";
+  constexpr std::array words{"agrees", "disagrees", "undecided"};
+  return words.at(static_cast<std::size_t>(outcome));
 }
 
 std::vector<Finding> judge(const FindingRequest& request, const SweepPlan& plan,

@@ -4,6 +4,7 @@
 #include <gsl/gsl_multifit.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -117,17 +118,10 @@ void fit(const SweepPlan& plan, const std::vector<SweepPoint>& points,
 }  // namespace
 
 std::string explain(LawStatus status) {
-  switch (status) {
-    case LawStatus::fitted:
-      return "fitted";
-    case LawStatus::too_few_runs:
-      return "there are not more runs than coefficients";
-    case LawStatus::terms_do_not_vary:
-      return "the terms do not vary enough to be told apart";
-    case LawStatus::unbroken_runs:
-      return "runs did not break: raise loading.max_strain";
-  }
-  return "";
+  constexpr std::array sentences{"fitted", "there are not more runs than coefficients",
+                                 "the terms do not vary enough to be told apart",
+                                 "runs did not break: raise loading.max_strain"};
+  return sentences.at(static_cast<std::size_t>(status));
 }
 
 double Law::value(const SweepPoint& point, const SweepPlan& plan) const {

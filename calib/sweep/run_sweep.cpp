@@ -7,7 +7,6 @@
 #include "calib/fit/normal_form.hpp"
 #include "calib/fit/simulation_batch.hpp"
 #include "calib/sweep/sweep.hpp"
-#include "sim/simulate.hpp"
 #include "sim/simulation.hpp"
 
 namespace havers::calib {

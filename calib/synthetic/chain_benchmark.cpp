@@ -13,16 +13,6 @@ namespace {
 constexpr int steps_of_progress = 24;
 constexpr double equal_error = 1.1;
 
-class Clock {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
-
 // Over the parameters `counts` says yes to.
 template <class Counts>
 double log_error(const std::vector<std::pair<std::string, double>>& values, const KnownStudy& known,
@@ -48,13 +38,15 @@ ChainRow fit_by(const Chain& chain, KnownStudy known, int number) {
     std::vector<std::pair<std::string, double>> best;
   };
   std::vector<Step> steps;
-  const Clock clock;
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   const CalibrationResult result =
       calibrate(known.study, nullptr, [&](const CalibrationProgress& progress) {
-        steps.push_back({{progress.simulated, clock.seconds(), 0.0}, progress.best});
+        steps.push_back({{progress.simulated, seconds(), 0.0}, progress.best});
         return true;
       });
-  row.seconds = clock.seconds();
+  row.seconds = seconds();
   row.cost = result.cost;
   row.simulations = result.simulated;
   row.success = result.status == CalibrationStatus::converged;

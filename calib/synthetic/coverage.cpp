@@ -53,15 +53,8 @@ int CoverageSummary::held() const {
 }
 
 std::string to_string(IntervalWidth width) {
-  switch (width) {
-    case IntervalWidth::as_promised:
-      return "as promised";
-    case IntervalWidth::too_wide:
-      return "too wide";
-    case IntervalWidth::too_narrow:
-      return "too narrow";
-  }
-  return "";
+  constexpr std::array words{"as promised", "too wide", "too narrow"};
+  return words.at(static_cast<std::size_t>(width));
 }
 
 IntervalWidth Coverage::width_of(const CoverageSummary& summary) const {

@@ -1,6 +1,5 @@
 #include "io/config/read_import.hpp"
 
-#include "io/config/reduction_table.hpp"
 #include "io/config/study_keys.hpp"
 #include "io/config/table_reader.hpp"
 

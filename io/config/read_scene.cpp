@@ -1,7 +1,5 @@
 #include "io/config/read_scene.hpp"
 
-#include <fmt/format.h>
-
 #include "io/config/file_kind.hpp"
 #include "io/config/scene_tables.hpp"
 
@@ -16,8 +14,7 @@ SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrid
 
   TableReader output = top.table("output");
   output.key("snapshots", read.snapshots);
-  if (read.snapshots < 0)
-    output.complain("snapshots", fmt::format("is {}, must be 0 or more", read.snapshots));
+  output.require(read.snapshots >= 0, "snapshots", read.snapshots, "0 or more");
 
   config.finish();
   read.inputs = config.inputs();

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <set>
 
 #include "calib/study/parameter.hpp"
 #include "io/config/file_kind.hpp"
 #include "io/config/nearest.hpp"
-#include "io/config/reduction_table.hpp"
 #include "io/config/scene_tables.hpp"
 #include "io/config/study_doubts.hpp"
 #include "io/config/study_keys.hpp"
@@ -19,18 +17,13 @@
 namespace havers::io {
 namespace {
 
-void require(bool holds, TableReader& table, std::string_view key, double value,
-             std::string_view rule) {
-  if (!holds) table.complain(key, fmt::format("is {:g}, must be {}", value, rule));
-}
-
 void require_positive(TableReader& table, std::string_view key, const std::optional<double>& value,
                       KeyUnit unit = {}) {
-  if (value) require(*value > 0.0, table, key, from_si(*value, unit), "above 0");
+  if (value) table.require(*value > 0.0, key, from_si(*value, unit), "above 0");
 }
 
 void require_not_negative(TableReader& table, std::string_view key, double value) {
-  require(value >= 0.0, table, key, value, "0 or more");
+  table.require(value >= 0.0, key, value, "0 or more");
 }
 
 // The id names files of the result.
@@ -62,11 +55,12 @@ void check_specimen(TableReader& table, const SpecimenFiles& specimen) {
   require_positive(table, "pixel_size_um", specimen.pixel_size, micrometre);
   constexpr double right_angle = std::numbers::pi / 2.0;
   if (specimen.orientation)
-    require(*specimen.orientation > -right_angle && *specimen.orientation <= right_angle, table,
-            "orientation_deg", from_si(*specimen.orientation, degree), "above -90 and at most 90");
+    table.require(*specimen.orientation > -right_angle && *specimen.orientation <= right_angle,
+                  "orientation_deg", from_si(*specimen.orientation, degree),
+                  "above -90 and at most 90");
   if (specimen.porosity)
-    require(*specimen.porosity >= 0.0 && *specimen.porosity < 1.0, table, "porosity",
-            *specimen.porosity, "at least 0 and below 1");
+    table.require(*specimen.porosity >= 0.0 && *specimen.porosity < 1.0, "porosity",
+                  *specimen.porosity, "at least 0 and below 1");
 }
 
 void check_files(TableReader& table, const SpecimenFiles& specimen) {
@@ -103,8 +97,8 @@ void read_porosity(TableReader table, calib::PorosityOptions& porosity) {
   keys(table, porosity);
   require_not_negative(table, "strength_exponent", porosity.strength_exponent);
   require_not_negative(table, "modulus_exponent", porosity.modulus_exponent);
-  require(porosity.linear_offset >= 0.0 && porosity.linear_offset < 2.0, table, "linear_offset",
-          porosity.linear_offset, "at least 0 and below 2");
+  table.require(porosity.linear_offset >= 0.0 && porosity.linear_offset < 2.0, "linear_offset",
+                porosity.linear_offset, "at least 0 and below 2");
   require_not_negative(table, "linear_slope", porosity.linear_slope);
 }
 
@@ -205,8 +199,8 @@ void read_synthesize(TableReader table, SynthesizeOptions& options) {
   require_positive(table, "sampling_s", options.sampling);
   require_positive(table, "crosshead_mm_per_min", options.crosshead_rate, millimetre_per_minute);
   require_positive(table, "pore_radius_um", options.pore_radius, micrometre);
-  require(options.section_pixels >= 16, table, "section_pixels", options.section_pixels,
-          "at least 16");
+  table.require(options.section_pixels >= 16, "section_pixels", options.section_pixels,
+                "at least 16");
 }
 
 void read_sections(TableReader table, SectionOptions& options) {
@@ -254,6 +248,24 @@ StudyFile read_tables(ConfigFile& config, const std::filesystem::path& file, Fil
 }
 
 }  // namespace
+
+void read_reduction(TableReader table, calib::ReductionOptions& options) {
+  keys(table, options);
+  // Of two that do not rise the one that the user gave is wrong.
+  const bool rises = options.window_low < options.window_high;
+  const bool high_is_given = table.has("window_high");
+  table.require(options.window_low >= 0.0 && (rises || high_is_given), "window_low",
+                options.window_low, "0 or more and below window_high");
+  table.require(options.window_high <= 1.0 && (rises || !high_is_given), "window_high",
+                options.window_high, "above window_low and at most 1");
+  table.require(options.break_part > 0.0 && options.break_part < 1.0, "break_part",
+                options.break_part, "between 0 and 1");
+  require_not_negative(table, "straightness", options.straightness);
+  require_not_negative(table, "machine_compliance_mm_per_kN",
+                       from_si(options.machine_compliance, millimetre_per_kilonewton));
+  require_positive(table, "largest_modulus_error", options.largest_modulus_error);
+  require_positive(table, "largest_noise", options.largest_noise);
+}
 
 StudyFile read_study(const std::filesystem::path& file, const Overrides& overrides, Files files) {
   ConfigFile config(file, overrides);

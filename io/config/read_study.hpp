@@ -67,4 +67,10 @@ StudyFile read_study(const std::filesystem::path& file, const Overrides& overrid
 StudyFile read_study(const std::filesystem::path& file, const Overrides& overrides,
                      std::vector<Problem>& problems);
 
+class TableReader;
+
+/// [reduction], of a study and of `--set` for `havers import`; what is wrong is collected in the
+/// table's file.
+void read_reduction(TableReader table, calib::ReductionOptions& options);
+
 }  // namespace havers::io

@@ -15,21 +15,11 @@ namespace havers::io {
 namespace {
 
 std::string_view kind(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::string:
-      return "a text";
-    case toml::node_type::integer:
-    case toml::node_type::floating_point:
-      return "a number";
-    case toml::node_type::boolean:
-      return "true or false";
-    case toml::node_type::array:
-      return "a list";
-    case toml::node_type::table:
-      return "a table";
-    default:
-      return "a date or time";
-  }
+  if (node.is_string()) return "a text";
+  if (node.is_number()) return "a number";
+  if (node.is_boolean()) return "true or false";
+  if (node.is_array()) return "a list";
+  return node.is_table() ? "a table" : "a date or time";
 }
 
 std::string join(const std::string& path, std::string_view name) {
@@ -83,6 +73,10 @@ void TableReader::complain(const std::vector<Problem>& problems) {
   for (const Problem& problem : problems) file_->complain(problem);
 }
 
+void TableReader::require(bool holds, std::string_view name, double value, std::string_view rule) {
+  if (!holds) complain(name, fmt::format("is {:g}, must be {}", value, rule));
+}
+
 bool TableReader::wrong_type(std::string_view name, const toml::node& node,
                              std::string_view expected) {
   complain(name, fmt::format("is {}, must be {}", kind(node), expected));
@@ -99,6 +93,15 @@ bool TableReader::key(std::string_view name, double& value, KeyUnit unit) {
     return false;
   }
   value = to_si(number, unit);
+  return true;
+}
+
+template <class T>
+bool TableReader::take(std::string_view name, T& value, std::string_view expected) {
+  const toml::node* node = ask(name);
+  if (node == nullptr) return false;
+  if (!node->is<T>()) return wrong_type(name, *node, expected);
+  value = **node->as<T>();
   return true;
 }
 
@@ -135,19 +138,11 @@ bool TableReader::key(std::string_view name, std::uint64_t& value) {
 }
 
 bool TableReader::key(std::string_view name, bool& value) {
-  const toml::node* node = ask(name);
-  if (node == nullptr) return false;
-  if (!node->is_boolean()) return wrong_type(name, *node, "true or false");
-  value = **node->as_boolean();
-  return true;
+  return take(name, value, "true or false");
 }
 
 bool TableReader::key(std::string_view name, std::string& value) {
-  const toml::node* node = ask(name);
-  if (node == nullptr) return false;
-  if (!node->is_string()) return wrong_type(name, *node, "a text");
-  value = **node->as_string();
-  return true;
+  return take(name, value, "a text");
 }
 
 bool TableReader::key(std::string_view name, std::pair<double, double>& value) {

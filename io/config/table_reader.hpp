@@ -80,10 +80,14 @@ class TableReader {
   /// A complaint about a key, dotted where it is of an inner table; it need not be in the file.
   void complain(std::string_view name, std::string what, std::string hint = {});
   void complain(const std::vector<Problem>& problems);  ///< Of a file that is named here.
+  /// Complains unless the rule holds; the value is that of the key, in its unit.
+  void require(bool holds, std::string_view name, double value, std::string_view rule);
 
  private:
   const toml::node* ask(std::string_view name);
   bool wrong_type(std::string_view name, const toml::node& node, std::string_view expected);
+  template <class T>
+  bool take(std::string_view name, T& value, std::string_view expected);
   std::optional<std::int64_t> whole_number(std::string_view name);
   std::optional<std::size_t> word_index(std::string_view name,
                                         const std::vector<std::string_view>& known);

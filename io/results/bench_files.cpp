@@ -6,7 +6,6 @@
 
 #include "io/results/csv_row.hpp"
 #include "io/results/json_table.hpp"
-#include "io/results/result_keys.hpp"
 
 namespace havers::io {
 namespace {
@@ -15,12 +14,9 @@ namespace {
 using Cells = std::vector<std::pair<std::string, nlohmann::json>>;
 
 Cells setting_cells(const sim::BenchSetting& setting) {
-  return {{"regime", word(setting.regime)},
-          {"contact", word(setting.contact)},
-          {"tolerance", setting.tolerance},
-          {"step_s", setting.step ? nlohmann::json(*setting.step) : nlohmann::json()},
-          {"refinement", setting.refinement},
-          {"leave_out", setting.leave_out}};
+  return {{"regime", word(setting.regime)},   {"contact", word(setting.contact)},
+          {"tolerance", setting.tolerance},   {"step_s", json_of(setting.step)},
+          {"refinement", setting.refinement}, {"leave_out", setting.leave_out}};
 }
 
 // What a row is computed with; its numbers, the median over the seeds, with the extremes of what
@@ -63,8 +59,7 @@ nlohmann::json omissions_json(const std::optional<sim::Omissions>& omissions) {
   return {{"setting", to_string(omissions->setting)},
           {"largest_change", omissions->change},
           {"cpu_ratio", omissions->cpu_ratio},
-          {"until_strain",
-           omissions->until_strain ? nlohmann::json(*omissions->until_strain) : nlohmann::json()}};
+          {"until_strain", json_of(omissions->until_strain)}};
 }
 
 void add_cell(CsvRow& row, const std::string& name, const nlohmann::json& value) {
@@ -78,17 +73,14 @@ void add_cell(CsvRow& row, const std::string& name, const nlohmann::json& value)
 
 // All but the name; the reason, which may be long, at the end.
 Cells stability_cells(const sim::StabilityResult& result) {
-  Cells cells{{"outcome", to_string(result.outcome)}, {"as_it_must", result.as_it_must}};
-  const auto add = [&](const char* name, double value) {
-    cells.emplace_back(name, json_of(value));
-  };
-  add("error", result.error);
-  add("residual", result.residual);
-  add("energy_defect", result.energy_defect);
-  add("penetration", result.penetration);
-  add("wall_s", result.wall);
-  cells.emplace_back("reason", result.reason);
-  return cells;
+  return {{"outcome", to_string(result.outcome)},
+          {"as_it_must", result.as_it_must},
+          {"error", json_of(result.error)},
+          {"residual", json_of(result.residual)},
+          {"energy_defect", json_of(result.energy_defect)},
+          {"penetration", json_of(result.penetration)},
+          {"wall_s", json_of(result.wall)},
+          {"reason", result.reason}};
 }
 
 CsvRow row_of(const sim::StabilityResult& result) {

@@ -3,8 +3,6 @@
 
 #include "io/results/bench_files.hpp"
 #include "io/results/csv_row.hpp"
-#include "io/results/json_table.hpp"
-#include "io/results/result_keys.hpp"
 
 namespace havers::io {
 namespace {

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <type_traits>
-#include <vector>
 
 #include "io/config/key_unit.hpp"
 #include "io/config/words.hpp"
@@ -33,7 +32,15 @@ concept List = requires(T& value) {
 }
 &&!TextMap<T> && !std::is_same_v<T, std::string>;
 
-/// JSON of a value given in SI units. A number that is not finite becomes null.
+/// JSON of a number given in SI units; null where it is not finite, or none.
+inline nlohmann::json json_of(double value, KeyUnit unit = {}) {
+  return std::isfinite(value) ? nlohmann::json(from_si(value, unit)) : nlohmann::json();
+}
+inline nlohmann::json json_of(const std::optional<double>& value) {
+  return value ? json_of(*value) : nlohmann::json();
+}
+
+/// JSON of anything else, its numbers given in SI units.
 template <class T>
 nlohmann::json json_of(T& value, KeyUnit unit = {});
 
@@ -64,9 +71,7 @@ class JsonWriter {
 template <class T>
 nlohmann::json json_of(T& value, KeyUnit unit) {
   nlohmann::json json;
-  if constexpr (std::is_same_v<T, double>) {
-    if (std::isfinite(value)) json = from_si(value, unit);
-  } else if constexpr (Worded<T>) {
+  if constexpr (Worded<T>) {
     json = word(value);
   } else if constexpr (TextMap<T>) {
     json = nlohmann::json::object();

@@ -9,14 +9,6 @@ nlohmann::json column_json(const Column& column) {
   return {{"name", column.name}, {"unit", column.unit}, {"quantity", to_string(column.quantity)}};
 }
 
-nlohmann::json size_json(std::optional<double> size) {
-  return size ? json_of(*size) : nlohmann::json();
-}
-
-nlohmann::json finite(double value) {
-  return json_of(value);
-}
-
 }  // namespace
 
 nlohmann::json import_json(const TestFile& file, const calib::Reduction& reduction) {
@@ -34,9 +26,9 @@ nlohmann::json import_json(const TestFile& file, const calib::Reduction& reducti
   for (const Column& column : file.columns) json["columns"].push_back(column_json(column));
   json["rows"] = file.rows;
   json["specimen_id"] = file.test.specimen_id;
-  json["width_m"] = size_json(file.test.width);
-  json["thickness_m"] = size_json(file.test.thickness);
-  json["gauge_length_m"] = size_json(file.test.gauge_length);
+  json["width_m"] = json_of(file.test.width);
+  json["thickness_m"] = json_of(file.test.thickness);
+  json["gauge_length_m"] = json_of(file.test.gauge_length);
   json["problems"] = reduction.problems;
   return json;
 }
@@ -51,8 +43,8 @@ nlohmann::json porosity_json(const calib::SectionPorosity& section, double scatt
 nlohmann::json mean_porosity_json(const calib::SpecimenPorosity& mean) {
   return {{"porosity", mean.porosity},
           {"porosity_standard_error", mean.porosity_standard_error},
-          {"window_sd", finite(mean.window_sd)},
-          {"scatter", finite(calib::scatter_of(mean, {}))},
+          {"window_sd", json_of(mean.window_sd)},
+          {"scatter", json_of(calib::scatter_of(mean, {}))},
           {"missing_joints", calib::missing_joints(mean)}};
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <cmath>
 
 #include "io/results/csv_numbers.hpp"
 #include "io/results/json_table.hpp"
@@ -13,33 +14,30 @@ nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& s
                                const Provenance& provenance) {
   sim::Scene used = scene;
   used.joints.reinforced_boundary = sim::reinforced_boundary(scene);
-  auto number = [](double value) { return json_of(value); };
-  sim::Regime regime = simulation.regime;
+  const sim::StepError error = simulation.step_error.value_or(sim::StepError{NAN, NAN});
   std::vector<sim::LeftOut> left_out = simulation.left_out;
   return {
       {"status", sim::to_string(simulation.status)},
       {"status_text", sim::explain(simulation)},
       {"trusted", simulation.trusted()},
-      {"regime", json_of(regime)},
+      {"regime", word(simulation.regime)},
       {"regime_ground", simulation.regime_ground},
-      {"step_s", number(simulation.step)},
-      {"step_error",
-       simulation.step_error ? number(simulation.step_error->failure_strain) : nullptr},
-      {"step_error_of_strength",
-       simulation.step_error ? number(simulation.step_error->strength) : nullptr},
-      {"strength_Pa", number(simulation.strength)},
-      {"failure_strain", number(simulation.failure_strain)},
-      {"modulus_Pa", number(simulation.modulus)},
-      {"first_break_strain", number(simulation.first_break_strain)},
+      {"step_s", json_of(simulation.step)},
+      {"step_error", json_of(error.failure_strain)},
+      {"step_error_of_strength", json_of(error.strength)},
+      {"strength_Pa", json_of(simulation.strength)},
+      {"failure_strain", json_of(simulation.failure_strain)},
+      {"modulus_Pa", json_of(simulation.modulus)},
+      {"first_break_strain", json_of(simulation.first_break_strain)},
       {"broken_joints", simulation.broken_joints},
-      {"end_fraction_used", number(simulation.end_fraction_used)},
+      {"end_fraction_used", json_of(simulation.end_fraction_used)},
       {"steps", simulation.steps},
       {"iterations", simulation.iterations},
-      {"energy_defect", number(simulation.energy_defect)},
-      {"energy_gain", number(simulation.energy_gain)},
-      {"worst_residual", number(simulation.worst_residual)},
-      {"worst_penetration_m", number(simulation.worst_penetration)},
-      {"wall_s", number(provenance.wall_seconds)},
+      {"energy_defect", json_of(simulation.energy_defect)},
+      {"energy_gain", json_of(simulation.energy_gain)},
+      {"worst_residual", json_of(simulation.worst_residual)},
+      {"worst_penetration_m", json_of(simulation.worst_penetration)},
+      {"wall_s", json_of(provenance.wall_seconds)},
       {"left_out", json_of(left_out)},
       {"scene", scene_json(used)},
       {"provenance", provenance_object(provenance)},

@@ -4,7 +4,6 @@
 
 #include <cassert>
 #include <mutex>
-#include <utility>
 
 #include "io/input_error.hpp"
 #include "io/results/sha256.hpp"

@@ -125,13 +125,12 @@ nlohmann::json sweep_json(const calib::Sweep& sweep, const calib::SweepResult& r
               ? nlohmann::json(point.values[k].substr(1, point.values[k].size() - 2))
               : nlohmann::json::parse(point.values[k], nullptr, false);
     for (std::size_t m = 0; m < calib::measure_count; ++m) {
-      calib::Statistics s = summary[measure(m)];
-      double error = s.standard_error();
+      const calib::Statistics& s = summary[measure(m)];
       if (s.n > 0)
         measures[name_of(measure(m))] = {{"n", s.n},
                                          {"mean", json_of(s.mean)},
                                          {"sd", json_of(s.sd)},
-                                         {"standard_error", json_of(error)}};
+                                         {"standard_error", json_of(s.standard_error())}};
     }
     calib::StrengthLaw strength = result.strengths[i];
     points.push_back({{"level", point.level},

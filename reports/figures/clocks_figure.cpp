@@ -2,7 +2,6 @@
 
 #include "reports/figures/figures.hpp"
 #include "reports/figures/thin.hpp"
-#include "reports/text/format.hpp"
 
 namespace havers::reports {
 namespace {

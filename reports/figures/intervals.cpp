@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -71,9 +70,8 @@ Figure intervals_figure(const std::vector<FitReport>& fits, const std::string& i
                 .height = static_cast<int>(height)};
   if (panels.empty()) return figure;
   figure.commands =
-      "set multiplot\nunset key\nset lmargin at screen 0.36\nset offsets graph 0.08, graph 0.08, "
-      "0, "
-      "0\n" +
+      "set multiplot\nunset key\nset lmargin at screen 0.36\n"
+      "set offsets graph 0.08, graph 0.08, 0, 0\n" +
       fit_names(fits);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const double top = 1.0 - (static_cast<double>(i) * (axis + rows) + 4.0) / height;

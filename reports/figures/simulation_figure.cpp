@@ -72,10 +72,7 @@ std::vector<sim::CurvePoint> with_parabolas(const sim::Simulation& simulation) {
 // Rows of a long run are thinned evenly; those at which a joint broke and the strongest all stay.
 std::string curve_data(const std::vector<sim::CurvePoint>& curve) {
   const std::size_t stride = curve.size() / most_points + 1;
-  const auto strongest = std::max_element(curve.begin(), curve.end(),
-                                          [](const sim::CurvePoint& a, const sim::CurvePoint& b) {
-                                            return a.stress_right < b.stress_right;
-                                          });
+  const auto strongest = std::ranges::max_element(curve, {}, &sim::CurvePoint::stress_right);
   const auto peak = static_cast<std::size_t>(strongest - curve.begin());
   std::string block = "$curve << EOD\n";
   for (std::size_t i = 0; i < curve.size(); ++i) {

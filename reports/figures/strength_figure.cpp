@@ -156,9 +156,8 @@ std::string group_plot(int number, const Group& group, int shape) {
   const auto style = static_cast<std::size_t>(shape) % colours.size();
   const bool fitted = group.second == calib::Use::fit;
   return fmt::format(
-      ", $group{0} using ($1*1e-6):($2*1e-6):($3*1e-6):($4*1e-6) with xyerrorbars pt {1} ps 1.2 lw "
-      "1.4 "
-      "lc rgb {2} title '{3}°{4}', "
+      ", $group{0} using ($1*1e-6):($2*1e-6):($3*1e-6):($4*1e-6) with xyerrorbars pt {1} ps 1.2 "
+      "lw 1.4 lc rgb {2} title '{3}°{4}', "
       "$group{0} using ($1*1e-6):($2*1e-6):5 with labels noenhanced left offset 1.3,-0.6 "
       "font ',11' tc rgb '#555555' notitle, "
       "$group{0} using ($1*1e-6):($2*1e-6):6 with labels noenhanced right offset -1.3,0.6 "

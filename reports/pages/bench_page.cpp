@@ -120,8 +120,7 @@ std::string stability_page(const StabilityReport& report) {
   mstch::array rows;
   for (const sim::StabilityResult& result : report.results)
     rows.emplace_back(stability_row(result));
-  const bool good = std::all_of(report.results.begin(), report.results.end(),
-                                [](const sim::StabilityResult& r) { return r.as_it_must; });
+  const bool good = std::ranges::all_of(report.results, &sim::StabilityResult::as_it_must);
   return render_page("havers bench: stiff and extreme scenes", "stability",
                      {{"sentence", text(sim::summary(report.results))},
                       {"detail", text("h c/L is the time step over L/c, the time that a wave takes "

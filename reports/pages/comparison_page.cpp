@@ -111,9 +111,7 @@ std::string differs_in(const FitReport& fit, const FitReport& first) {
   if (const std::string files = files_unlike(fit, first); !files.empty())
     parts.push_back("contents of " + files);
   compare("program", program_of);
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : "; ") + part;
-  return text.empty() ? "nothing" : text;
+  return parts.empty() ? "nothing" : fmt::format("{}", fmt::join(parts, "; "));
 }
 
 mstch::map fit_content(const FitReport& fit, const FitReport& first) {

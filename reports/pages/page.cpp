@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -13,21 +14,8 @@ namespace havers::reports {
 namespace {
 
 std::string mark_of(const calib::Check& check) {
-  if (!check.done) return "–";
-  switch (check.outcome) {
-    case calib::Outcome::pass:
-      return "✓";
-    case calib::Outcome::warn:
-      return "△";
-    case calib::Outcome::fail:
-      return "✗";
-  }
-  return "";
-}
-
-long count_of(const std::vector<calib::Check>& checks, calib::Outcome outcome) {
-  return std::count_if(checks.begin(), checks.end(),
-                       [&](const calib::Check& check) { return check.outcome == outcome; });
+  constexpr std::array marks{"✓", "△", "✗"};
+  return check.done ? marks.at(static_cast<std::size_t>(check.outcome)) : "–";
 }
 
 }  // namespace
@@ -78,8 +66,10 @@ mstch::node check_section(const std::vector<calib::Check>& checks) {
 }
 
 std::string fit_sentence(const calib::CalibrationResult& result) {
-  const long warned = count_of(result.verdict, calib::Outcome::warn);
-  const long failed = count_of(result.verdict, calib::Outcome::fail);
+  const auto how_many = [&](calib::Outcome outcome) {
+    return std::ranges::count(result.verdict, outcome, &calib::Check::outcome);
+  };
+  const long warned = how_many(calib::Outcome::warn), failed = how_many(calib::Outcome::fail);
   if (result.trusted())
     return warned == 0
                ? "The fit can be trusted."
@@ -93,8 +83,8 @@ std::string fit_sentence(const calib::CalibrationResult& result) {
 }
 
 std::string status_sentence(const calib::CalibrationResult& result) {
-  const auto used = std::count_if(result.specimens.begin(), result.specimens.end(),
-                                  [](const auto& s) { return s.use == calib::Use::fit; });
+  const auto used =
+      std::ranges::count(result.specimens, calib::Use::fit, &calib::SpecimenResult::use);
   const auto all = static_cast<long>(result.specimens.size());
   return fmt::format("How the search ended: {}. {} fitted, {} kept for validation.",
                      explain(result.status), count(used, "specimen"), all - used);

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "calib/experiment/measured_test.hpp"
 #include "calib/fit/calibration.hpp"
 #include "reports/pages.hpp"
 

@@ -101,8 +101,7 @@ std::string detail_of(const PorosityReport& report) {
   const double scatter = calib::scatter_of(mean, {});
   if (!std::isfinite(scatter))
     return "Without a pixel size, or where the window of a fibre is larger than the bone, the "
-           "scatter "
-           "of joints is not known.";
+           "scatter of joints is not known.";
   return fmt::format(
       "Pores are smaller than the window of one fibre: they spread the joints' strength by a "
       "scatter of d = {}.",

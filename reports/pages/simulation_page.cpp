@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -118,19 +119,14 @@ Facts key_numbers(const SimulationReport& report) {
 std::string end_of(const SimulationReport& report) {
   const sim::Simulation& s = report.simulation;
   if (s.status != Status::broken) return "The assembly at the end of the run.";
-  const std::string part = setting(s.end_fraction_used, "", 3);
-  return ends_early(report)
-             ? fmt::format(
-                   "The assembly when both sides first bear less than {} of the strength, where "
-                   "the "
-                   "run ends: what the avalanche breaks thereafter is neither shown nor counted "
-                   "(solver.leave_out = false follows it on, to {}).",
-                   part, setting(report.scene.loading.end_fraction))
-             : fmt::format(
-                   "The assembly when both sides first bear less than {} of the strength, where "
-                   "the "
-                   "run ends.",
-                   part);
+  const std::string when = fmt::format(
+      "The assembly when both sides first bear less than {} of the strength, where the run ends",
+      setting(s.end_fraction_used, "", 3));
+  if (!ends_early(report)) return when + ".";
+  return fmt::format(
+      "{}: what the avalanche breaks thereafter is neither shown nor counted (solver.leave_out = "
+      "false follows it on, to {}).",
+      when, setting(report.scene.loading.end_fraction));
 }
 
 std::string followed_to(const SimulationReport& report) {
@@ -141,15 +137,8 @@ std::string followed_to(const SimulationReport& report) {
 }
 
 std::string to_string(sim::Distribution distribution) {
-  switch (distribution) {
-    case sim::Distribution::uniform:
-      return "uniform";
-    case sim::Distribution::weibull:
-      return "Weibull";
-    case sim::Distribution::lognormal:
-      return "log-normal";
-  }
-  return "";
+  constexpr std::array words{"uniform", "Weibull", "log-normal"};
+  return words.at(static_cast<std::size_t>(distribution));
 }
 
 // What a scene seldom sets, where it does.

@@ -111,14 +111,11 @@ void find_sides(const HalfFibres& halves, double tolerance, Assembly& assembly) 
         assembly.right.insert(assembly.right.end(), edge.begin(), edge.end());
     }
   for (std::vector<int>* side : {&assembly.left, &assembly.right}) {
-    std::sort(side->begin(), side->end());
+    std::ranges::sort(*side);
     side->erase(std::unique(side->begin(), side->end()), side->end());
   }
-  const auto lower = [&](int a, int b) {
-    return assembly.nodes[static_cast<std::size_t>(a)].y() <
-           assembly.nodes[static_cast<std::size_t>(b)].y();
-  };
-  assembly.corner = *std::min_element(assembly.left.begin(), assembly.left.end(), lower);
+  const auto y = [&](int node) { return assembly.nodes[static_cast<std::size_t>(node)].y(); };
+  assembly.corner = *std::ranges::min_element(assembly.left, {}, y);
 }
 
 }  // namespace

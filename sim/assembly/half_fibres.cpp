@@ -1,5 +1,6 @@
 #include "sim/assembly/half_fibres.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,48 +14,32 @@ constexpr double smallest_area = 1e-6;    // of a half fibre
 constexpr double smallest_closed = 1e-8;  // of one whose neighbours fill a sliver's place
 constexpr int most_passes = 5;
 
-// Fibre frame (ξ along the fibre, η across) turned by θ about the corner.
-struct FibreFrame {
-  explicit FibreFrame(double angle) : axis(std::cos(angle), std::sin(angle)) {}
-  [[nodiscard]] Vector2d to_specimen(double xi, double eta) const {
-    return {xi * axis.x() - eta * axis.y(), xi * axis.y() + eta * axis.x()};
-  }
-  [[nodiscard]] Vector2d to_fibres(const Vector2d& p) const {
-    return {p.x() * axis.x() + p.y() * axis.y(), p.y() * axis.x() - p.x() * axis.y()};
-  }
-  Vector2d axis;
-};
-
 // Columns and layers of half fibres that can meet the rectangle.
 struct GridRange {
   int first_column, last_column, first_layer, last_layer;
 };
 
-GridRange grid_range(const AssemblyOptions& options, const FibreFrame& frame) {
-  Vector2d low(INFINITY, INFINITY), high(-INFINITY, -INFINITY);
-  for (const double x : {0.0, options.width()}) {
-    for (const double y : {0.0, options.height()}) {
-      const Vector2d p = frame.to_fibres({x, y});
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-  }
+GridRange grid_range(const AssemblyOptions& options) {
+  const Eigen::Rotation2Dd to_fibres(-options.orientation);
+  Eigen::AlignedBox2d box;
+  for (const double x : {0.0, options.width()})
+    for (const double y : {0.0, options.height()}) box.extend(to_fibres * Vector2d(x, y));
+  const Vector2d &low = box.min(), &high = box.max();
   const double half = 0.5 * options.fibre_length, height = options.fibre_height;
   const auto floor = [](double v) { return static_cast<int>(std::floor(v)); };
   return {floor(low.x() / half) - 1, floor(high.x() / half) + 1, floor(low.y() / height) - 1,
           floor(high.y() / height) + 1};
 }
 
-// The corners of the half fibres, and what of these lies in the specimen.
+// The corners of the half fibres, turned by θ about the specimen's, and what of these lies in it.
 class Grid {
  public:
-  explicit Grid(const AssemblyOptions& options)
-      : options_(options), range_(grid_range(options, FibreFrame(options.orientation))) {
-    const FibreFrame frame(options.orientation);
+  explicit Grid(const AssemblyOptions& options) : options_(options), range_(grid_range(options)) {
+    const Eigen::Rotation2Dd to_specimen(options.orientation);
     for (int layer = range_.first_layer; layer <= range_.last_layer + 1; ++layer)
       for (int column = range_.first_column; column <= range_.last_column + 1; ++column)
-        corners_.push_back(
-            frame.to_specimen(0.5 * column * options.fibre_length, layer * options.fibre_height));
+        corners_.emplace_back(to_specimen * Vector2d(0.5 * column * options.fibre_length,
+                                                     layer * options.fibre_height));
   }
 
   // Those of which something is left.

@@ -54,8 +54,7 @@ std::vector<OuterEdge> outer_edges(const HalfFibres& halves, const Assembly& ass
         edges.push_back({half.body, nodes, p.x(), q.x()});
     }
   }
-  std::sort(edges.begin(), edges.end(),
-            [](const auto& a, const auto& b) { return a.from < b.from; });
+  std::ranges::sort(edges, {}, &OuterEdge::from);
   return edges;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -66,7 +67,7 @@ bool all_finite(const Simulation& run) {
            std::isfinite(point.kinetic) && std::isfinite(point.elastic) &&
            std::isfinite(point.dissipated);
   };
-  return std::all_of(run.curve.begin(), run.curve.end(), finite) && run.displacements.allFinite() &&
+  return std::ranges::all_of(run.curve, finite) && run.displacements.allFinite() &&
          std::isfinite(run.worst_residual) && std::isfinite(run.energy_defect) &&
          std::isfinite(run.worst_penetration);
 }
@@ -83,22 +84,12 @@ std::string what_is_wrong(const StabilityResult& result, bool finite) {
 }  // namespace
 
 std::string to_string(StabilityOutcome outcome) {
-  switch (outcome) {
-    case StabilityOutcome::solved:
-      return "solved";
-    case StabilityOutcome::refused:
-      return "refused";
-    case StabilityOutcome::failed:
-      return "failed";
-    case StabilityOutcome::wrong:
-      return "wrong";
-  }
-  return "unknown";
+  constexpr std::array words{"solved", "refused", "failed", "wrong"};
+  return words.at(static_cast<std::size_t>(outcome));
 }
 
 std::string summary(const std::vector<StabilityResult>& results) {
-  const auto good = std::count_if(results.begin(), results.end(),
-                                  [](const StabilityResult& result) { return result.as_it_must; });
+  const auto good = std::ranges::count(results, true, &StabilityResult::as_it_must);
   return fmt::format("{} of {} scenes solved or refused as they must be.", good, results.size());
 }
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <ctime>
 #include <limits>
+#include <set>
 
 #include "sim/joint/cohesive_cone.hpp"
 #include "sim/joint/thresholds.hpp"
@@ -46,7 +46,7 @@ class Watcher {
     }
     for (std::size_t j = 0; j < joints.size(); ++j) {
       const JointOutcome& joint = joints[j];
-      if (!joint.broke() || seen(j)) continue;
+      if (!joint.broke() || !seen_.insert(j).second) continue;
       run_->order.push_back(static_cast<int>(j));
       run_->forces_at_break.push_back(forces_of(joints));
     }
@@ -55,13 +55,8 @@ class Watcher {
  private:
   // Another run: a chosen step is halved, or one in the limit done again with care.
   void begin_again() {
-    run_->bonded_forces.resize(0);
-    run_->order.clear();
-    run_->forces_at_break.clear();
-    seen_.clear();
-    before_.resize(0);
-    strain_ = 0.0;
-    broken_ = 0;
+    *run_ = {};
+    *this = Watcher(bonded_strain_, *run_);
   }
 
   // Before the first row everything is 0.
@@ -71,18 +66,11 @@ class Watcher {
     run_->bonded_forces = (1.0 - w) * before_ + w * forces;
   }
 
-  bool seen(std::size_t joint) {
-    if (seen_.size() <= joint) seen_.resize(joint + 1, 0);
-    const bool was = seen_[joint] != 0;
-    seen_[joint] = 1;
-    return was;
-  }
-
   double bonded_strain_, strain_ = 0.0;
   std::size_t row_ = 0;
   int broken_ = 0;
   VectorXd before_;
-  std::vector<char> seen_;
+  std::set<std::size_t> seen_;
   WatchedRun* run_;
 };
 
@@ -90,10 +78,6 @@ class Watcher {
 VectorXd bonded_forces_in_limit(const Scene& scene, double strain) {
   if (some_are_missing(scene.joints)) return {};
   return scene.material.young * strain * intact_structure(scene)->answer().reactions;
-}
-
-double plane_factor(const Material& material) {
-  return material.plane == Plane::strain ? 1.0 / (1.0 - material.poisson * material.poisson) : 1.0;
 }
 
 }  // namespace
@@ -118,10 +102,8 @@ WatchedRun watch(const Scene& scene, const WatchOptions& options, const KeepGoin
 }
 
 std::size_t same_breaks(const WatchedRun& run, const WatchedRun& reference) {
-  const std::vector<int>& a = run.order;
-  const std::vector<int>& b = reference.order;
-  const auto parting = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
-  return static_cast<std::size_t>(parting.first - a.begin());
+  const auto parting = std::ranges::mismatch(run.order, reference.order);
+  return static_cast<std::size_t>(parting.in1 - run.order.begin());
 }
 
 double force_error(const WatchedRun& run, const WatchedRun& reference) {
@@ -140,7 +122,7 @@ double bonded_modulus(const Scene& scene) {
   const double second = along ? static_cast<double>(seconds) / assembly.layers : 0.5;
   const double first = 1.0 - second, contrast = material.layer_contrast;
   const double mean = along ? first + second * contrast : 1.0 / (first + second / contrast);
-  return mean * material.young * plane_factor(material);
+  return mean * material.young * plane_stiffening(material);
 }
 
 VectorXd bonded_forces_at(const Scene& scene, double strain) {
@@ -150,7 +132,7 @@ VectorXd bonded_forces_at(const Scene& scene, double strain) {
   for (std::size_t j = 0; j < assembly.joints.size(); ++j) {  // flanks bear nothing
     const int layer = assembly.bodies[static_cast<std::size_t>(assembly.joints[j].body_a)].layer;
     forces.segment<2>(static_cast<Index>(2 * j)) *= young_of_layer(scene.material, layer) *
-                                                    plane_factor(scene.material) /
+                                                    plane_stiffening(scene.material) /
                                                     bonded_modulus(scene);
   }
   return forces;

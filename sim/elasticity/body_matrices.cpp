@@ -26,8 +26,7 @@ Eigen::MatrixX3d own_motions(const Assembly& assembly, const Body& body) {
 }  // namespace
 
 BodyMatrices body_matrices(const Assembly& assembly, const Body& body, const Material& material) {
-  const Eigen::Matrix3d D =
-      young_of_layer(material, body.layer) * plane_elasticity(material.poisson, material.plane);
+  const Eigen::Matrix3d D = young_of_layer(material, body.layer) * plane_elasticity(material);
   BodyMatrices matrices{Eigen::MatrixXd::Zero(2 * body.nodes, 2 * body.nodes),
                         Eigen::VectorXd::Zero(2 * body.nodes), own_motions(assembly, body)};
   for (int t = body.first_triangle; t < body.first_triangle + body.triangles; ++t) {

@@ -1,4 +1,4 @@
-// Stiffness and mass of one body, per unit thickness.
+// Stiffness and mass (M2) of one body, per unit thickness.
 #pragma once
 
 #include <Eigen/Core>

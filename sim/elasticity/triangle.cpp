@@ -2,14 +2,11 @@
 
 namespace havers::sim {
 
-Eigen::Matrix3d plane_elasticity(double poisson, Plane plane) {
-  // Plane strain is plane stress with E/(1−ν²) and ν/(1−ν).
-  const bool stress = plane == Plane::stress;
-  const double young = stress ? 1.0 : 1.0 / (1.0 - poisson * poisson);
-  const double nu = stress ? poisson : poisson / (1.0 - poisson);
+Eigen::Matrix3d plane_elasticity(const Material& material) {
+  const double nu = lateral_contraction(material);
   Eigen::Matrix3d D;
   D << 1.0, nu, 0.0, nu, 1.0, 0.0, 0.0, 0.0, 0.5 * (1.0 - nu);
-  return young / (1.0 - nu * nu) * D;
+  return plane_stiffening(material) / (1.0 - nu * nu) * D;
 }
 
 double triangle_area(const Corners& c) {

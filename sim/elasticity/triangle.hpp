@@ -10,8 +10,8 @@ namespace havers::sim {
 
 using Corners = std::array<Eigen::Vector2d, 3>;  ///< Anticlockwise. [m]
 
-/// σ = D ε with ε = (ε_xx, ε_yy, γ_xy), for a Young's modulus of 1. [-]
-Eigen::Matrix3d plane_elasticity(double poisson, Plane plane);
+/// D / E of σ = D ε with ε = (ε_xx, ε_yy, γ_xy). [-]
+Eigen::Matrix3d plane_elasticity(const Material& material);
 
 double triangle_area(const Corners& corners);  ///< [m²]
 

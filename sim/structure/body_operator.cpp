@@ -12,18 +12,17 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-std::vector<Index> free_dofs(const std::vector<char>& held) {
-  std::vector<Index> free;
+// The degrees of freedom that the boundary prescribes, or the others.
+std::vector<Index> dofs_of(const std::vector<char>& held, bool prescribed) {
+  std::vector<Index> dofs;
   for (std::size_t i = 0; i < held.size(); ++i)
-    if (held[i] == 0) free.push_back(static_cast<Index>(i));
-  return free;
+    if ((held[i] != 0) == prescribed) dofs.push_back(static_cast<Index>(i));
+  return dofs;
 }
 
 // Of a body's motions as a whole those that the boundary leaves to it.
 MatrixXd motions_left(const MatrixXd& motions, const std::vector<char>& held) {
-  std::vector<Index> fixed;
-  for (std::size_t i = 0; i < held.size(); ++i)
-    if (held[i] != 0) fixed.push_back(static_cast<Index>(i));
+  const std::vector<Index> fixed = dofs_of(held, true);
   if (fixed.empty()) return motions;
   Eigen::FullPivLU<MatrixXd> of_fixed(motions(fixed, Eigen::all));
   of_fixed.setThreshold(1e-10);
@@ -59,7 +58,7 @@ PortSplit split_by_ports(const MatrixXd& ports) {
 BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
                                 const std::vector<char>& held, const Shift& shift) {
   BodyOperator body;
-  const std::vector<Index> free = free_dofs(held);
+  const std::vector<Index> free = dofs_of(held, false);
   const Index n = ports.cols(), p = ports.rows();
   body.shifted = shift.beta * matrices.stiffness;
   body.shifted.diagonal() += shift.alpha * matrices.mass;

@@ -69,8 +69,7 @@ class Halves {
   void halve(std::span<int> bodies, const Vector2d& axis) {
     const auto place = [&](int body) { return centres_[static_cast<std::size_t>(body)].dot(axis); };
     const auto half = bodies.size() / 2;
-    std::nth_element(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(half),
-                     bodies.end(), [&](int a, int b) { return place(a) < place(b); });
+    std::ranges::nth_element(bodies, bodies.begin() + static_cast<std::ptrdiff_t>(half), {}, place);
     for (std::size_t i = 0; i < bodies.size(); ++i)
       second_[static_cast<std::size_t>(bodies[i])] = i < half ? 0 : 1;
   }
@@ -82,8 +81,7 @@ class Halves {
     return side == second_[static_cast<std::size_t>(b)] ? side : 2;
   }
   [[nodiscard]] std::ptrdiff_t crossing(const std::vector<int>& unknowns) const {
-    return std::count_if(unknowns.begin(), unknowns.end(),
-                         [&](int unknown) { return side_of(unknown) == 2; });
+    return std::ranges::count(unknowns, 2U, [&](int unknown) { return side_of(unknown); });
   }
 
   const std::vector<std::array<int, 2>>& bodies_of_;

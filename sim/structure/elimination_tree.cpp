@@ -105,10 +105,7 @@ EliminationTree elimination_tree(const Eigen::SparseMatrix<double>& lower, std::
 }
 
 const Panel& EliminationTree::panel_of(int column) const {
-  const auto behind =
-      std::upper_bound(panels.begin(), panels.end(), column,
-                       [](int place_of, const Panel& panel) { return place_of < panel.first; });
-  return *std::prev(behind);
+  return *std::prev(std::ranges::upper_bound(panels, column, {}, &Panel::first));
 }
 
 }  // namespace havers::sim

@@ -86,8 +86,7 @@ std::vector<Structure::Branch> Structure::network(const std::vector<int>& place)
     if (conducts[a] != 0) branches.push_back({last(j, 0), ground, a});
     if (conducts[b] != 0) branches.push_back({last(j, 1), ground, b});
   }
-  std::sort(branches.begin(), branches.end(),
-            [](const Branch& x, const Branch& y) { return x.place < y.place; });
+  std::ranges::sort(branches, {}, &Branch::place);
   return branches;
 }
 
@@ -144,9 +143,8 @@ std::vector<int> Structure::elimination_order(const Eigen::SparseMatrix<double>&
       place[static_cast<std::size_t>(first_multiplier(goes) + i)] = branch.place + 1;
   }
   for (Index row = unknowns_; row < matrix.rows(); ++row) order.push_back(static_cast<int>(row));
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return place[static_cast<std::size_t>(a)] < place[static_cast<std::size_t>(b)];
-  });
+  std::ranges::stable_sort(order, {},
+                           [&](int row) { return place[static_cast<std::size_t>(row)]; });
   return order;
 }
 

@@ -76,8 +76,7 @@ MatrixXd Structure::reactions_to(const std::vector<SharedJump>& jumps, const Mat
       for (const std::size_t k : {0U, 1U})
         displacements(port_b(jumps[i]->joint, k)) += y(static_cast<Index>(2 * i + k), c);
     const VectorXd multipliers = unknowns.col(c).tail(bodies_->compatibilities());
-    reactions.col(c) =
-        reactions_of(bodies_->port_forces(displacements, multipliers)).head(2 * joints());
+    reactions.col(c) = reactions_of(bodies_->port_forces(displacements, multipliers));
   }
   return reactions;
 }

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <random>
-#include <string>
 
 #include "calib/experiment/measured_test.hpp"
 #include "io/machine/read_test.hpp"

@@ -1,8 +1,6 @@
 // A step's joint problem as Siconos sees it: u = W r + q with Coulomb's law, three rows a joint.
 #pragma once
 
-#include <string>
-
 #include "sim/contact/joint_step.hpp"
 
 namespace havers::test {

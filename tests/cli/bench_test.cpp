@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -17,24 +17,23 @@ std::string header_of(const std::string& table) {
 }
 
 TEST(Bench, LeavesPageFigureTableAndResult) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "scene.toml", test::small_scene());
+  const fs::path folder = test::folder_with_scene();
   const auto answer = run_havers(folder, "bench scene.toml -o out --seeds 1");
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
-  const auto result = nlohmann::json::parse(test::read_text(folder / "out/result.json"));
+  const auto result = nlohmann::json::parse(test::contents(folder / "out/result.json"));
   EXPECT_TRUE(result["complete"]);
   EXPECT_EQ(result["cheapest"].size(), 9U);
-  const std::string table = test::read_text(folder / "out/bench.csv");
+  const std::string table = test::contents(folder / "out/bench.csv");
   EXPECT_EQ(std::ranges::count(table, '\n'), static_cast<long>(result["rows"].size()) + 1);
   EXPECT_TRUE(answer.out.starts_with(result["summary"].get<std::string>())) << answer.out;
   for (const auto& [name, value] : result["rows"][0].items())
-    EXPECT_NE(("," + header_of(table) + ",").find("," + (name == "text" ? "setting" : name) + ","),
-              std::string::npos)
+    EXPECT_THAT(("," + header_of(table) + ","),
+                testing::HasSubstr("," + (name == "text" ? "setting" : name) + ","))
         << name;
   for (const char* column :
        {"regime", "contact", "tolerance", "step (ns)", "refinement", "leave out", "dynamic",
         "quasi-static", "active-set", "With nothing left out the answer differs by"})
-    EXPECT_NE(answer.out.find(column), std::string::npos) << column;
+    EXPECT_THAT(answer.out, testing::HasSubstr(column)) << column;
 }
 
 TEST(Bench, NeedsASceneUnlessAFlagSaysOtherwise) {
@@ -115,7 +114,7 @@ TEST(Bench, MeasuresWhatIntervalsHoldWithoutAScene) {
   const auto result = nlohmann::json::parse(answer.out);
   ASSERT_EQ(result["coverage"].size(), 12U);
   for (const auto& row : result["coverage"]) EXPECT_EQ(row["studies"], 1);
-  const std::string table = test::read_text(folder / "out/coverage.csv");
+  const std::string table = test::contents(folder / "out/coverage.csv");
   EXPECT_EQ(std::ranges::count(table, '\n'), 13);
 }
 

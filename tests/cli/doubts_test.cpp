@@ -70,7 +70,7 @@ TEST(FitSummary, TicksNoCheckThatWasNotDoneAndCountsSimulationsOnce) {
   const fs::path folder = folder_with_tests();
   EXPECT_THAT(run_havers(folder, "fit made/study.toml -o out").out,
               HasSubstr("\n  -    held-out specimens: Not checked"));
-  const auto result = nlohmann::json::parse(test::read_text(folder / "out/result.json"));
+  const auto result = nlohmann::json::parse(test::contents(folder / "out/result.json"));
   EXPECT_THAT(result["left_out"].dump(),
               HasSubstr(fmt::format(" of {} simulations", result["evaluations"].get<long>())));
 }

@@ -1,5 +1,5 @@
 // A build without its optional parts says how to get them and exits 2.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "tests/cli/run_havers.hpp"
 
@@ -12,7 +12,7 @@ TEST(Lean, SaysHowToGetWhatIsNotBuiltIn) {
   for (const char* arguments : {"porosity section.png --pixel-size-um 5", "report ."}) {
     const auto answer = test::run_havers(folder, arguments);
     EXPECT_EQ(answer.exit_code, 2);
-    EXPECT_NE(answer.err.find("apt-get install"), std::string::npos) << answer.err;
+    EXPECT_THAT(answer.err, testing::HasSubstr("apt-get install"));
   }
 }
 

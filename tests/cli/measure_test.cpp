@@ -1,6 +1,6 @@
 // import, and what it says of good and bad test files.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +16,11 @@ namespace fs = std::filesystem;
 using test::folder_with_tests;
 using test::own_folder;
 using test::run_havers;
+using testing::HasSubstr;
 
 TEST(Import, GivesBackWhatSynthesizePutIn) {
   const fs::path folder = folder_with_tests();
-  const auto truth = nlohmann::json::parse(test::read_text(folder / "made/truth.json"));
+  const auto truth = nlohmann::json::parse(test::contents(folder / "made/truth.json"));
   const auto answer = run_havers(folder, "import made/B0.csv made/B90.csv --json");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   const auto files = nlohmann::json::parse(answer.out).at("files");
@@ -55,8 +56,8 @@ TEST(Import, ShowsTheReadableFilesAndNamesTheOthers) {
   test::write_text(folder / "empty.csv", "");
   const auto answer = run_havers(folder, "import made/B0.csv empty.csv");
   EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_NE(answer.out.find("B0.csv"), std::string::npos);
-  EXPECT_NE(answer.err.find("empty.csv"), std::string::npos);
+  EXPECT_THAT(answer.out, HasSubstr("B0.csv"));
+  EXPECT_THAT(answer.err, HasSubstr("empty.csv"));
 }
 
 std::string million_columns() {
@@ -88,7 +89,7 @@ TEST(Import, RefusesEveryBadFileInOneSentence) {
     EXPECT_EQ(answer.exit_code, 2) << name;
     EXPECT_EQ(answer.out, "") << name;
     EXPECT_EQ(std::ranges::count(answer.err, '\n'), 1) << answer.err;
-    EXPECT_NE(answer.err.find(name), std::string::npos) << answer.err;
+    EXPECT_THAT(answer.err, HasSubstr(name));
   }
 }
 
@@ -133,16 +134,14 @@ TEST(Import, TakesWhatAStudyCouldSay) {
     const auto answer = run_havers(folder, "import made/B0.csv --json " + options);
     return nlohmann::json::parse(answer.out).at("corrections").dump();
   };
-  EXPECT_NE(corrections("").find("toe"), std::string::npos);
-  EXPECT_EQ(corrections("--set reduction.remove_toe=false").find("\"toe\""), std::string::npos);
-  EXPECT_NE(
-      run_havers(folder, "import made/B0.csv --set reduction.remove_to=1").err.find("remove_toe"),
-      std::string::npos);
+  EXPECT_THAT(corrections(""), HasSubstr("toe"));
+  EXPECT_THAT(corrections("--set reduction.remove_toe=false"), testing::Not(HasSubstr("\"toe\"")));
+  EXPECT_THAT(run_havers(folder, "import made/B0.csv --set reduction.remove_to=1").err,
+              HasSubstr("remove_toe"));
   test::write_text(folder / "bare.csv", "0,1\n1,2\n2,3\n");
-  EXPECT_NE(
-      run_havers(folder, "import bare.csv")
-          .err.find("(say which is which by --set columns.KEY=VALUE; from the numbers it may "),
-      std::string::npos);
+  EXPECT_THAT(
+      run_havers(folder, "import bare.csv").err,
+      HasSubstr("(say which is which by --set columns.KEY=VALUE; from the numbers it may "));
   const auto named = run_havers(
       folder, "import bare.csv --set columns.force=2 --set columns.force_unit=kN --json");
   EXPECT_EQ(nlohmann::json::parse(named.out).at("columns").at(1).at("quantity"), "force");
@@ -170,7 +169,7 @@ TEST(Import, ShowsATestThatCannotBeReduced) {
   test::write_text(folder / "bare.csv", "Time (s),Load (N)\n0,1\n1,2\n2,3\n");
   const auto answer = run_havers(folder, "import bare.csv --json -o out");
   EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_NE(answer.err.find("--width-mm"), std::string::npos);
+  EXPECT_THAT(answer.err, HasSubstr("--width-mm"));
   EXPECT_TRUE(nlohmann::json::parse(answer.out)["strength_Pa"].is_null());
   EXPECT_TRUE(fs::exists(folder / "out/import.json"));
 }
@@ -181,17 +180,16 @@ TEST(Study, LeavesOutASpecimenThatCannotBeUsedAndSaysWhy) {
                    "Width,4,mm\nThickness,2,mm\n\nTime (s),Load (N),Strain\n0,0,0\n1,1,1e-6\n");
   const auto answer = run_havers(folder, "check made/study.toml");
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
-  EXPECT_NE(answer.out.find("specimen B90 is left out: 2 rows are too few"), std::string::npos)
-      << answer.out;
+  EXPECT_THAT(answer.out, HasSubstr("specimen B90 is left out: 2 rows are too few"));
   const auto none = run_havers(folder, "check made/study.toml --set reduction.largest_noise=1e-12");
   EXPECT_EQ(none.exit_code, 2);
-  EXPECT_NE(none.err.find("no specimen is left to fit"), std::string::npos) << none.err;
+  EXPECT_THAT(none.err, HasSubstr("no specimen is left to fit"));
 }
 
 TEST(Import, AsksForSizesOnlyWhereSomeAreLacking) {
   const fs::path folder = own_folder();
   test::write_text(folder / "short.csv", "Time (s),Load (N),Strain (%)\n0,0,0\n1,2,0.1\n2,5,0.2\n");
-  EXPECT_NE(run_havers(folder, "import short.csv").err.find("--width-mm"), std::string::npos);
+  EXPECT_THAT(run_havers(folder, "import short.csv").err, HasSubstr("--width-mm"));
   EXPECT_EQ(run_havers(folder, "import short.csv --width-mm 4 --thickness-mm 2").err,
             "havers: short.csv: 3 rows are too few\n");
 }
@@ -200,7 +198,7 @@ TEST(Porosity, HasADashForWhatIsNotKnown) {
   const auto answer = run_havers(
       own_folder(), "porosity " HAVERS_SOURCE_DIR "/data_samples/bone_bars/A1_section.png");
   if (answer.exit_code == 2) GTEST_SKIP() << "this build reads no images";
-  EXPECT_EQ(answer.out.find("nan"), std::string::npos) << answer.out;
+  EXPECT_THAT(answer.out, testing::Not(HasSubstr("nan")));
 }
 
 TEST(Import, TakesSizesFromTheCommandLine) {

@@ -22,7 +22,7 @@ std::vector<std::string> cells_of(const std::string& line) {
 }
 
 std::vector<Row> rows_of(const fs::path& file) {
-  std::istringstream in(test::read_text(file));
+  std::istringstream in(test::contents(file));
   std::string line;
   std::getline(in, line);
   const std::vector<std::string> names = cells_of(line);

@@ -1,5 +1,5 @@
 // Nothing is overwritten unasked, nothing is left half-written.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "tests/cli/run_havers.hpp"
 
@@ -9,12 +9,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::own_folder;
 using test::run_havers;
-
-fs::path folder_with_scene() {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "scene.toml", test::small_scene());
-  return folder;
-}
+using testing::HasSubstr;
 
 std::size_t entries(const fs::path& folder) {
   return static_cast<std::size_t>(
@@ -22,31 +17,31 @@ std::size_t entries(const fs::path& folder) {
 }
 
 TEST(OutputFolder, IsNotReplacedUnlessForceIsGiven) {
-  const fs::path folder = folder_with_scene();
+  const fs::path folder = test::folder_with_scene();
   ASSERT_EQ(run_havers(folder, "simulate scene.toml -o out").exit_code, 0);
   fs::create_directories(folder / "out/snapshots");  // as a run with VTK leaves and notes them
-  test::write_text(folder / "out/.havers", test::read_text(folder / "out/.havers") + "snapshots\n");
-  const std::string first = test::read_text(folder / "out/curve.csv");
+  test::write_text(folder / "out/.havers", test::contents(folder / "out/.havers") + "snapshots\n");
+  const std::string first = test::contents(folder / "out/curve.csv");
   test::write_text(folder / "out/notes.txt", "mine");
 
   const auto refused = run_havers(folder, "simulate scene.toml -o out --seed 5");
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.err.find("--force"), std::string::npos) << refused.err;
-  EXPECT_EQ(test::read_text(folder / "out/curve.csv"), first);
+  EXPECT_THAT(refused.err, HasSubstr("--force"));
+  EXPECT_EQ(test::contents(folder / "out/curve.csv"), first);
 
   EXPECT_EQ(run_havers(folder, "simulate scene.toml -o out --seed 5 --force").exit_code, 0);
-  EXPECT_NE(test::read_text(folder / "out/curve.csv"), first);
+  EXPECT_NE(test::contents(folder / "out/curve.csv"), first);
   EXPECT_FALSE(fs::exists(folder / "out/snapshots"))
       << "an earlier run's snapshots beside a later run";
-  EXPECT_EQ(test::read_text(folder / "out/notes.txt"), "mine");
+  EXPECT_EQ(test::contents(folder / "out/notes.txt"), "mine");
 }
 
 // A kill between two files, for which a name stands that cannot be removed.
 TEST(OutputFolder, LosesTheResultBeforeItsFiles) {
-  const fs::path folder = folder_with_scene();
+  const fs::path folder = test::folder_with_scene();
   ASSERT_EQ(run_havers(folder, "simulate scene.toml -o out").exit_code, 0);
   const std::string behind_curve = "d" + std::string(300, 'x') + "\n";
-  test::write_text(folder / "out/.havers", test::read_text(folder / "out/.havers") + behind_curve);
+  test::write_text(folder / "out/.havers", test::contents(folder / "out/.havers") + behind_curve);
   EXPECT_EQ(run_havers(folder, "simulate scene.toml -o out --force").exit_code, 2);
   EXPECT_FALSE(fs::exists(folder / "out/curve.csv"));
   EXPECT_FALSE(fs::exists(folder / "out/result.json")) << "a result without its files";
@@ -60,7 +55,7 @@ TEST(OutputFolder, IsRefusedBeforeAnythingIsDone) {
     const auto answer = run_havers(folder, command + std::string(" -o full"));
     EXPECT_EQ(answer.exit_code, 2);
     EXPECT_EQ(answer.out, "") << command;
-    EXPECT_NE(answer.err.find("is not empty"), std::string::npos) << answer.err;
+    EXPECT_THAT(answer.err, HasSubstr("is not empty"));
   }
   EXPECT_EQ(run_havers(folder, "import none.csv -o far/away/from/here").exit_code, 2);
   EXPECT_FALSE(fs::exists(folder / "far"));
@@ -68,29 +63,29 @@ TEST(OutputFolder, IsRefusedBeforeAnythingIsDone) {
 
 // Not even by --force: neither a scene and curves of the user's own, nor his result.
 TEST(OutputFolder, KeepsWhatNoRunHasWritten) {
-  const fs::path folder = folder_with_scene();
+  const fs::path folder = test::folder_with_scene();
   fs::create_directories(folder / "curves");
   test::write_text(folder / "curves/mine.csv", "mine");
   ASSERT_EQ(run_havers(folder, "simulate scene.toml -o . --force").exit_code, 0);
   ASSERT_EQ(run_havers(folder, "simulate scene.toml -o . --force").exit_code, 0);
-  EXPECT_EQ(test::read_text(folder / "scene.toml"), test::small_scene());
-  EXPECT_EQ(test::read_text(folder / "curves/mine.csv"), "mine");
+  EXPECT_EQ(test::contents(folder / "scene.toml"), test::small_scene());
+  EXPECT_EQ(test::contents(folder / "curves/mine.csv"), "mine");
 
   for (const std::string mine : {"result.json", "curve.csv"}) {
     fs::create_directories(folder / "other");
     test::write_text(folder / "other" / mine, "mine");
     const auto refused = run_havers(folder, "simulate scene.toml -o other --force");
     EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_NE(refused.err.find(mine), std::string::npos) << refused.err;
+    EXPECT_THAT(refused.err, HasSubstr(mine));
     EXPECT_EQ(entries(folder / "other"), 1U);
-    EXPECT_EQ(test::read_text(folder / "other" / mine), "mine");
+    EXPECT_EQ(test::contents(folder / "other" / mine), "mine");
     fs::remove_all(folder / "other");
   }
 }
 
 // A folder may be a disk of its own: what is staged is staged in it.
 TEST(OutputFolder, ThatIsThereHoldsWhatIsStaged) {
-  const fs::path folder = folder_with_scene();
+  const fs::path folder = test::folder_with_scene();
   fs::create_directories(folder / "out/.partial/killed");
   EXPECT_EQ(run_havers(folder, "simulate scene.toml -o out").exit_code, 0);
   EXPECT_TRUE(fs::exists(folder / "out/result.json"));
@@ -98,7 +93,7 @@ TEST(OutputFolder, ThatIsThereHoldsWhatIsStaged) {
 }
 
 TEST(OutputFolder, ThatCannotBeMadeIsNamed) {
-  const fs::path folder = folder_with_scene();
+  const fs::path folder = test::folder_with_scene();
   const auto answer = run_havers(folder, "simulate scene.toml -o /proc/none/out");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_TRUE(answer.err.starts_with("havers: /proc/none/out: cannot be written: ")) << answer.err;
@@ -106,11 +101,10 @@ TEST(OutputFolder, ThatCannotBeMadeIsNamed) {
 
 // A build without pages leaves none; one that another build adds is not the user's.
 TEST(OutputFolder, KnowsAPageThatWasAdded) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "study.toml", test::small_study());
+  const fs::path folder = test::folder_with_study();
   ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
   const int answer = run_havers(folder, "fit made/study.toml -o out").exit_code;
-  std::string names = test::read_text(folder / "out/.havers");
+  std::string names = test::contents(folder / "out/.havers");
   const std::size_t page = names.find("report.html\n");
   if (page == std::string::npos) GTEST_SKIP() << "this build makes no pages";
   test::write_text(folder / "out/.havers", names.erase(page, 12));
@@ -120,7 +114,7 @@ TEST(OutputFolder, KnowsAPageThatWasAdded) {
 }
 
 TEST(OutputFolder, MayExistWhenEmptyAndMayBeDeep) {
-  const fs::path folder = folder_with_scene();
+  const fs::path folder = test::folder_with_scene();
   fs::create_directories(folder / "empty");
   EXPECT_EQ(run_havers(folder, "simulate scene.toml -o empty/").exit_code, 0);
   EXPECT_EQ(run_havers(folder, "simulate scene.toml -o a/b/c").exit_code, 0);
@@ -137,10 +131,10 @@ TEST(OutputFolder, IsNotMadeForABadInput) {
 }
 
 TEST(OutputFolder, CannotBeAFile) {
-  const fs::path folder = folder_with_scene();
+  const fs::path folder = test::folder_with_scene();
   const auto answer = run_havers(folder, "simulate scene.toml -o scene.toml --force");
   EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_EQ(test::read_text(folder / "scene.toml"), test::small_scene());
+  EXPECT_EQ(test::contents(folder / "scene.toml"), test::small_scene());
 }
 
 }  // namespace

@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <cstdio>
 #include <fstream>
-#include <sstream>
 
 namespace havers::test {
 
@@ -17,24 +15,18 @@ Answer run_havers(const fs::path& folder, const std::string& arguments) {
                               " </dev/null >'" + out.string() + "' 2>'" + err.string() + "'";
   const int status = std::system(command.c_str());
   return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
-          .out = read_text(out),
-          .err = read_text(err)};
+          .out = contents(out),
+          .err = contents(err)};
 }
 
 fs::path own_folder() {
+  static const ScratchFolder of_this_run;  // as the tests of another may run at the same time
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  fs::path folder = fs::path(testing::TempDir()) / "havers_cli" /
-                    (std::string(test->test_suite_name()) + "." + test->name());
+  fs::path folder =
+      of_this_run.path() / (std::string(test->test_suite_name()) + "." + test->name());
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;
-}
-
-std::string read_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
 }
 
 void write_text(const fs::path& file, const std::string& text) {
@@ -84,9 +76,20 @@ budget = 60
   return text;
 }
 
-std::filesystem::path folder_with_tests() {
-  const std::filesystem::path folder = own_folder();
+fs::path folder_with_scene() {
+  const fs::path folder = own_folder();
+  write_text(folder / "scene.toml", small_scene());
+  return folder;
+}
+
+fs::path folder_with_study() {
+  const fs::path folder = own_folder();
   write_text(folder / "study.toml", small_study());
+  return folder;
+}
+
+fs::path folder_with_tests() {
+  const fs::path folder = folder_with_study();
   EXPECT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
   return folder;
 }

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/support/scratch_folder.hpp"
+
 namespace havers::test {
 
 struct Answer {
@@ -17,7 +19,6 @@ Answer run_havers(const std::filesystem::path& folder, const std::string& argume
 /// A new, empty folder of the running test's own.
 std::filesystem::path own_folder();
 
-std::string read_text(const std::filesystem::path& file);
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 /// A scene that runs in milliseconds: 5 fibres in 8 layers, quasi-static.
@@ -27,7 +28,10 @@ std::string small_scene();
 /// sections.
 std::string small_study();
 
-/// A folder of its own with that study, and its tests in "made", made by the program.
+/// A folder of its own with scene.toml; with study.toml; with that and its tests in "made", made by
+/// the program.
+std::filesystem::path folder_with_scene();
+std::filesystem::path folder_with_study();
 std::filesystem::path folder_with_tests();
 
 }  // namespace havers::test

@@ -1,6 +1,6 @@
 // The sample study, as a newcomer runs it: the truth is beside it.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -13,6 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::own_folder;
 using test::run_havers;
+using testing::HasSubstr;
 
 const fs::path bars = HAVERS_SOURCE_DIR "/data_samples/bone_bars";
 
@@ -22,7 +23,7 @@ TEST(SampleStudy, FindsTheTruthAgainAndIsTrusted) {
       run_havers(folder, "fit '" + (bars / "study.toml").string() + "' -o out --json");
   ASSERT_EQ(answer.exit_code, 0) << answer.out << answer.err;
   const auto result = nlohmann::json::parse(answer.out);
-  const auto truth = nlohmann::json::parse(test::read_text(bars / "truth.json"));
+  const auto truth = nlohmann::json::parse(test::contents(bars / "truth.json"));
   const std::map<std::string, double> tolerance{
       {"young_GPa", 0.01}, {"head_tail_MPa", 0.03}, {"ratio", 0.5}};
   for (const auto& parameter : result["parameters"]) {
@@ -46,16 +47,16 @@ TEST(SampleStudy, FindsTheTruthAgainAndIsTrusted) {
       << "one cost under one name: " << cost;
 
   // The page again, and the calibrated model as a scene of its own.
-  const std::string page = test::read_text(folder / "out/report.html");
+  const std::string page = test::contents(folder / "out/report.html");
   fs::remove(folder / "out/report.html");
   EXPECT_EQ(run_havers(folder, "report out").exit_code, 0);
-  EXPECT_NEAR(static_cast<double>(test::read_text(folder / "out/report.html").size()) /
+  EXPECT_NEAR(static_cast<double>(test::contents(folder / "out/report.html").size()) /
                   static_cast<double>(page.size()),
               1.0, 0.01);
   EXPECT_EQ(run_havers(folder, "report out out/result.json -o both").exit_code, 0);
-  const std::string both = test::read_text(folder / "both/report.html");
+  const std::string both = test::contents(folder / "both/report.html");
   for (const char* name : {"out (six bone bars)", "out_2 (six bone bars)"})
-    EXPECT_NE(both.find(name), std::string::npos) << "fits of one study are told apart";
+    EXPECT_THAT(both, HasSubstr(name)) << "fits of one study are told apart";
   fs::copy_file(folder / "out/result.json", folder / "out/A.json");
   fs::copy_file(folder / "out/result.json", folder / "alone.json");
   EXPECT_EQ(run_havers(folder, "report out/A.json -o copy").exit_code, 0);
@@ -66,7 +67,7 @@ TEST(SampleStudy, FindsTheTruthAgainAndIsTrusted) {
             "curves with it)\n");
   const auto refused = run_havers(folder, "report out --set study.name=other");
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.err.find("--set study.name=other: sets nothing"), std::string::npos);
+  EXPECT_THAT(refused.err, HasSubstr("--set study.name=other: sets nothing"));
   EXPECT_EQ(run_havers(folder, "simulate out/scene.toml -o again").exit_code, 0);
 }
 
@@ -79,10 +80,10 @@ TEST(SampleStudy, IsWhatItsCommandMakes) {
                   "--set model.joints.ratio=1.2 --set model.material.young_GPa=16.5 --json");
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   const auto made = nlohmann::json::parse(answer.out)["specimens"];
-  const auto there = nlohmann::json::parse(test::read_text(bars / "truth.json"))["specimens"];
+  const auto there = nlohmann::json::parse(test::contents(bars / "truth.json"))["specimens"];
   ASSERT_EQ(made.size(), there.size());
   const auto rows = [](const fs::path& file) {
-    return std::ranges::count(test::read_text(file), '\n');
+    return std::ranges::count(test::contents(file), '\n');
   };
   for (std::size_t i = 0; i < made.size(); ++i) {
     const auto id = made[i]["id"].get<std::string>();
@@ -104,19 +105,18 @@ TEST(SampleStudy, SectionsThatAreListedTwiceAreDoubted) {
 
   const fs::path folder = own_folder();
   fs::copy(bars, folder / "bars");
-  std::string study = test::read_text(bars / "study.toml");
+  std::string study = test::contents(bars / "study.toml");
   study.insert(study.find("\"A1_section.png\""), "\"./A1_section.png\", ");
   test::write_text(folder / "bars/twice.toml", study);
   const auto checked = run_havers(folder, "check bars/twice.toml");
   EXPECT_EQ(checked.exit_code, 0) << checked.err;
-  EXPECT_NE(
-      checked.out.find("specimen A1 lists section bars/A1_section.png again: it counts twice"),
-      std::string::npos)
+  EXPECT_THAT(checked.out,
+              HasSubstr("specimen A1 lists section bars/A1_section.png again: it counts twice"))
       << checked.out;
 }
 
 TEST(SampleStudy, SectionsHaveThePorosityThatWasDrawn) {
-  const auto truth = nlohmann::json::parse(test::read_text(bars / "truth.json"));
+  const auto truth = nlohmann::json::parse(test::contents(bars / "truth.json"));
   for (const auto& specimen : truth["specimens"]) {
     const auto id = specimen["id"].get<std::string>();
     const auto answer =
@@ -155,7 +155,7 @@ TEST(SampleScenes, ImpactBreaksTheSameWayAgainAndForAnyNumberOfThreads) {
     const auto result = nlohmann::json::parse(answer.out);
     EXPECT_EQ(result["status"], "broken");
     EXPECT_LE(result["energy_defect"].get<double>(), 1e-10);
-    const std::string curve = test::read_text(folder / "out/curve.csv");
+    const std::string curve = test::contents(folder / "out/curve.csv");
     if (first.empty()) first = curve;
     EXPECT_EQ(curve, first) << "on " << threads;
   }

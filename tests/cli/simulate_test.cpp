@@ -1,6 +1,5 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_havers.hpp"
@@ -9,22 +8,21 @@ namespace havers {
 namespace {
 
 namespace fs = std::filesystem;
-using test::own_folder;
 using test::run_havers;
+using testing::HasSubstr;
 
 // Turns the small scene into one that is stepped in time.
 constexpr const char* impact =
     " --set loading.strain_rate_per_s=1000 --set solver.regime=dynamic --set solver.step_s=2e-8";
 
 TEST(Simulate, LeavesTheFilesOfTheContract) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "scene.toml", test::small_scene());
+  const fs::path folder = test::folder_with_scene();
   const auto answer = run_havers(folder, "simulate scene.toml -o out");
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_TRUE(answer.err.find('\r') == std::string::npos) << "progress without a terminal";
   for (const char* file : {"curve.csv", "joints.csv", "result.json"})
     EXPECT_TRUE(fs::exists(folder / "out" / file));
-  const auto result = nlohmann::json::parse(test::read_text(folder / "out/result.json"));
+  const auto result = nlohmann::json::parse(test::contents(folder / "out/result.json"));
   for (const char* key :
        {"status", "trusted", "strength_Pa", "failure_strain", "modulus_Pa", "first_break_strain",
         "broken_joints", "end_fraction_used", "steps", "energy_defect", "worst_residual",
@@ -32,13 +30,12 @@ TEST(Simulate, LeavesTheFilesOfTheContract) {
     EXPECT_TRUE(result.contains(key)) << key;
   EXPECT_EQ(result["status"], "broken");
   EXPECT_NEAR(result["modulus_Pa"].get<double>() / 13e9, 1.0, 1e-9);
-  EXPECT_EQ(test::read_text(folder / "out/curve.csv").substr(0, 31),
+  EXPECT_EQ(test::contents(folder / "out/curve.csv").substr(0, 31),
             "time_s,strain,stress_right_Pa,s");
 }
 
 TEST(Simulate, SummaryPutsTheVerdictFirstAndThePathLast) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "scene.toml", test::small_scene());
+  const fs::path folder = test::folder_with_scene();
   const auto answer = run_havers(folder, "simulate scene.toml -o out");
   EXPECT_TRUE(answer.out.starts_with("to be trusted: ")) << answer.out;
   std::string last = answer.out.substr(0, answer.out.size() - 1);
@@ -48,23 +45,20 @@ TEST(Simulate, SummaryPutsTheVerdictFirstAndThePathLast) {
 
 // No time without the error of what it bought.
 TEST(Simulate, PrintsTheStepsErrorBesideTheTime) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "scene.toml", test::small_scene());
+  const fs::path folder = test::folder_with_scene();
   const auto time_of = [&](const std::string& settings) {
     const std::string out = run_havers(folder, "simulate scene.toml -o out --force" + settings).out;
     const std::size_t line = out.find("\ntime ");
     return out.substr(line, out.find(';', line) - line);
   };
-  EXPECT_NE(time_of(" --set loading.strain_rate_per_s=1000 --set solver.step_accuracy=0.1")
-                .find("longer ones, step error "),
-            std::string::npos);
-  EXPECT_NE(time_of(impact).find("steps, whose error is not known"), std::string::npos);
-  EXPECT_NE(time_of("").find(" events"), std::string::npos);
+  EXPECT_THAT(time_of(" --set loading.strain_rate_per_s=1000 --set solver.step_accuracy=0.1"),
+              HasSubstr("longer ones, step error "));
+  EXPECT_THAT(time_of(impact), HasSubstr("steps, whose error is not known"));
+  EXPECT_THAT(time_of(""), HasSubstr(" events"));
 }
 
 TEST(Simulate, IsTrustedButForAStepThatWasGiven) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "scene.toml", test::small_scene());
+  const fs::path folder = test::folder_with_scene();
   const auto answer = run_havers(folder, std::string("simulate scene.toml -o out") + impact);
   EXPECT_EQ(answer.exit_code, 0);
   EXPECT_TRUE(
@@ -74,45 +68,39 @@ TEST(Simulate, IsTrustedButForAStepThatWasGiven) {
 }
 
 TEST(Simulate, SaysDownToWhereBrokenJointsAreCounted) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "scene.toml", test::small_scene());
+  const fs::path folder = test::folder_with_scene();
   const auto out = [&](const std::string& settings) {
     return run_havers(folder, "simulate scene.toml -o out --force" + settings).out;
   };
   const std::string early = out("");
-  EXPECT_NE(early.find("bear less than 0.688 of the strength\n"), std::string::npos) << early;
-  EXPECT_NE(early.find("; counted down to 0.688 of the strength (solver.leave_out = false follows "
-                       "on, to 0.3)\n"),
-            std::string::npos)
-      << early;
+  EXPECT_THAT(early, HasSubstr("bear less than 0.688 of the strength\n"));
+  EXPECT_THAT(early,
+              HasSubstr("; counted down to 0.688 of the strength (solver.leave_out = false follows "
+                        "on, to 0.3)\n"));
   const std::string whole = out(" --set solver.leave_out=false");
-  EXPECT_NE(whole.find("bear less than 0.3 of the strength\n"), std::string::npos) << whole;
-  EXPECT_EQ(whole.find("counted down"), std::string::npos) << whole;
+  EXPECT_THAT(whole, HasSubstr("bear less than 0.3 of the strength\n"));
+  EXPECT_THAT(whole, testing::Not(HasSubstr("counted down")));
 }
 
 TEST(Simulate, GivesABoundOfTheStrengthOfARunThatDidNotBreak) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "scene.toml", test::small_scene());
+  const fs::path folder = test::folder_with_scene();
   const std::string out =
       run_havers(folder, "simulate scene.toml -o out --set loading.max_strain=1e-4").out;
-  EXPECT_NE(out.find("\nstrength       at least 1.3 MPa\n"), std::string::npos) << out;
-  EXPECT_NE(out.find("\nfailure strain -, not reached within the strain limit of 0.01 %\n"),
-            std::string::npos)
-      << out;
-  EXPECT_NE(out.find("penetration 0 m\n"), std::string::npos) << out;
+  EXPECT_THAT(out, HasSubstr("\nstrength       at least 1.3 MPa\n"));
+  EXPECT_THAT(out,
+              HasSubstr("\nfailure strain -, not reached within the strain limit of 0.01 %\n"));
+  EXPECT_THAT(out, HasSubstr("penetration 0 m\n"));
 }
 
 TEST(Simulate, JsonIsTheResultFile) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "scene.toml", test::small_scene());
+  const fs::path folder = test::folder_with_scene();
   const auto answer = run_havers(folder, "simulate scene.toml -o out --json");
   EXPECT_EQ(nlohmann::json::parse(answer.out),
-            nlohmann::json::parse(test::read_text(folder / "out/result.json")));
+            nlohmann::json::parse(test::contents(folder / "out/result.json")));
 }
 
 TEST(Simulate, KeepsTheDigestOfItsThresholds) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "scene.toml", test::small_scene());
+  const fs::path folder = test::folder_with_scene();
   ASSERT_EQ(run_havers(folder, "simulate scene.toml -o out").exit_code, 0);
   const auto answer = run_havers(folder,
                                  "simulate scene.toml -o again --json --set "
@@ -123,8 +111,7 @@ TEST(Simulate, KeepsTheDigestOfItsThresholds) {
 }
 
 TEST(Simulate, SetAndSeedReplaceTheScenesValues) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "scene.toml", test::small_scene());
+  const fs::path folder = test::folder_with_scene();
   const auto answer = run_havers(folder,
                                  "simulate scene.toml -o out --json --seed 42 --set "
                                  "material.young_GPa=20 --set loading.lateral=free");
@@ -135,12 +122,11 @@ TEST(Simulate, SetAndSeedReplaceTheScenesValues) {
 
   const auto wrong = run_havers(folder, "simulate scene.toml -o wrong --set material.yung_GPa=20");
   EXPECT_EQ(wrong.exit_code, 2);
-  EXPECT_NE(wrong.err.find("young_GPa"), std::string::npos) << wrong.err;
+  EXPECT_THAT(wrong.err, HasSubstr("young_GPa"));
 }
 
 TEST(Simulate, GivesTheSameBytesAgainAndForAnyNumberOfThreads) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "scene.toml", test::small_scene());
+  const fs::path folder = test::folder_with_scene();
   for (const std::string regime : {"", impact}) {
     for (const std::string threads : {"1", "1", "2", "4"}) {
       SCOPED_TRACE(regime + " on " + threads);
@@ -150,16 +136,15 @@ TEST(Simulate, GivesTheSameBytesAgainAndForAnyNumberOfThreads) {
           0);
       if (!fs::exists(folder / "first")) fs::copy(folder / "out", folder / "first");
       for (const char* file : {"curve.csv", "joints.csv"})
-        EXPECT_EQ(test::read_text(folder / "first" / file), test::read_text(folder / "out" / file));
+        EXPECT_EQ(test::contents(folder / "first" / file), test::contents(folder / "out" / file));
     }
     fs::remove_all(folder / "first");
   }
-  EXPECT_GT(std::ranges::count(test::read_text(folder / "out/curve.csv"), '\n'), 100);
+  EXPECT_GT(std::ranges::count(test::contents(folder / "out/curve.csv"), '\n'), 100);
 }
 
 TEST(Simulate, ExitsOneWhenTheRunIsNotToBeTrusted) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "scene.toml", test::small_scene());
+  const fs::path folder = test::folder_with_scene();
   const auto answer =
       run_havers(folder, std::string("simulate scene.toml -o out --set solver.contact=gauss-seidel "
                                      "--set solver.max_iterations=1") +

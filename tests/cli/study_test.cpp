@@ -1,5 +1,5 @@
 // synthesize and fit on a study that is small enough for a test.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 
@@ -9,63 +9,55 @@ namespace havers {
 namespace {
 
 namespace fs = std::filesystem;
-using test::own_folder;
 using test::run_havers;
-
-fs::path folder_with_study() {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "study.toml", test::small_study());
-  return folder;
-}
+using testing::HasSubstr;
 
 TEST(Synthesize, MakesTheSameFilesForTheSameSeedAndOthersForAnother) {
-  const fs::path folder = folder_with_study();
+  const fs::path folder = test::folder_with_study();
   for (const char* arguments :
        {"-o one --seed 3 --threads 1", "-o two --seed 3 --threads 2", "-o three --seed 4"})
     ASSERT_EQ(run_havers(folder, std::string("synthesize study.toml ") + arguments).exit_code, 0);
   for (const char* file : {"B0.csv", "B90.csv", "truth.json", "study.toml"})
-    EXPECT_EQ(test::read_text(folder / "one" / file), test::read_text(folder / "two" / file))
-        << file;
-  EXPECT_NE(test::read_text(folder / "one/B0.csv"), test::read_text(folder / "three/B0.csv"));
+    EXPECT_EQ(test::contents(folder / "one" / file), test::contents(folder / "two" / file)) << file;
+  EXPECT_NE(test::contents(folder / "one/B0.csv"), test::contents(folder / "three/B0.csv"));
 }
 
 TEST(Synthesize, KeepsTheStudyAsItIsWhenTheTruthIsSetApart) {
-  const fs::path folder = folder_with_study();
+  const fs::path folder = test::folder_with_study();
   ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made --set model.material.young_GPa=17")
                 .exit_code,
             0);
-  EXPECT_EQ(test::read_text(folder / "made/study.toml"), test::small_study());
-  const auto truth = nlohmann::json::parse(test::read_text(folder / "made/truth.json"));
+  EXPECT_EQ(test::contents(folder / "made/study.toml"), test::small_study());
+  const auto truth = nlohmann::json::parse(test::contents(folder / "made/truth.json"));
   EXPECT_EQ(truth["parameters"]["young_GPa"], 17.0);
 }
 
 TEST(Synthesize, RefusesFilesOutsideTheStudysFolder) {
-  const fs::path folder = folder_with_study();
+  const fs::path folder = test::folder_with_study();
   std::string study = test::small_study();
   study.replace(study.find("\"B0.csv\""), 8, "\"../B0.csv\"");
   test::write_text(folder / "study.toml", study);
   const auto answer = run_havers(folder, "synthesize study.toml -o made");
   EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_NE(answer.err.find("outside"), std::string::npos) << answer.err;
+  EXPECT_THAT(answer.err, HasSubstr("outside"));
   EXPECT_FALSE(fs::exists(folder / "made"));
 }
 
 TEST(Synthesize, RefusesWhatItDoesNotMake) {
-  const fs::path folder = folder_with_study();
+  const fs::path folder = test::folder_with_study();
   test::write_text(folder / "study.toml", test::small_study() +
                                               "gauge = \"g.csv\"\nmask = \"m.png\"\n"
                                               "specimen_in_file = 2\n");
   const auto answer = run_havers(folder, "synthesize study.toml -o made");
   EXPECT_EQ(answer.exit_code, 2);
   for (const char* key : {"a gauge", "a mask", "specimen_in_file"})
-    EXPECT_NE(answer.err.find("study.toml: specimen B90: has " + std::string(key) + ", which is"),
-              std::string::npos)
-        << answer.err;
+    EXPECT_THAT(answer.err,
+                HasSubstr("study.toml: specimen B90: has " + std::string(key) + ", which is"));
   EXPECT_FALSE(fs::exists(folder / "made"));
 }
 
 TEST(Synthesize, WritesNoBreakThatTheModelDidNotHave) {
-  const fs::path folder = folder_with_study();
+  const fs::path folder = test::folder_with_study();
   const std::vector<std::pair<std::string, std::string>> cases{
       {"model.loading.max_strain=0.002",
        "specimen B0: does not break within model.loading.max_strain = 0.2 %: raise it\n"},
@@ -79,7 +71,7 @@ TEST(Synthesize, WritesNoBreakThatTheModelDidNotHave) {
 }
 
 TEST(Synthesize, BringsTheLawsOfTheStudyAlong) {
-  const fs::path folder = folder_with_study();
+  const fs::path folder = test::folder_with_study();
   const std::string laws = R"({"laws": [{"response": "strength", "status": "fitted",
     "terms": ["joints.scatter"], "coefficients": [1.0, 2.0]}]})";
   fs::create_directories(folder / "sweep");
@@ -88,7 +80,7 @@ TEST(Synthesize, BringsTheLawsOfTheStudyAlong) {
   study.replace(study.find("[calibrate]\n"), 12, "[calibrate]\nlaws = \"sweep/laws.json\"\n");
   test::write_text(folder / "study.toml", study);
   ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
-  EXPECT_EQ(test::read_text(folder / "made/sweep/laws.json"), laws);
+  EXPECT_EQ(test::contents(folder / "made/sweep/laws.json"), laws);
   EXPECT_EQ(run_havers(folder, "check made/study.toml").exit_code, 0);
 
   fs::create_directories(folder / "deep");
@@ -96,11 +88,11 @@ TEST(Synthesize, BringsTheLawsOfTheStudyAlong) {
   test::write_text(folder / "deep/study.toml", study);
   const auto outside = run_havers(folder, "synthesize deep/study.toml -o again");
   EXPECT_EQ(outside.exit_code, 2);
-  EXPECT_NE(outside.err.find("outside"), std::string::npos) << outside.err;
+  EXPECT_THAT(outside.err, HasSubstr("outside"));
 }
 
 TEST(Fit, WritesItsFilesAndResumesOnlyWhatHasNoResult) {
-  const fs::path folder = folder_with_study();
+  const fs::path folder = test::folder_with_study();
   ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made --set model.material.young_GPa=16")
                 .exit_code,
             0);
@@ -122,7 +114,7 @@ TEST(Fit, WritesItsFilesAndResumesOnlyWhatHasNoResult) {
 }
 
 TEST(Fit, GivesTheSameAnswerAgainAndForAnyNumberOfThreads) {
-  const fs::path folder = folder_with_study();
+  const fs::path folder = test::folder_with_study();
   ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
   nlohmann::json first;
   for (const std::string threads : {"1", "1", "2", "4"}) {
@@ -140,19 +132,19 @@ TEST(Fit, GivesTheSameAnswerAgainAndForAnyNumberOfThreads) {
 }
 
 TEST(Fit, ReportsTheProblemsOfAllFilesAtOnceAndWritesNothing) {
-  const fs::path folder = folder_with_study();
+  const fs::path folder = test::folder_with_study();
   test::write_text(folder / "B0.csv", "");
   test::write_text(folder / "B90.csv", "not a test\n");
   const auto answer = run_havers(folder, "fit study.toml -o out");
   EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_NE(answer.err.find("B0.csv"), std::string::npos) << answer.err;
-  EXPECT_NE(answer.err.find("B90.csv"), std::string::npos) << answer.err;
+  EXPECT_THAT(answer.err, HasSubstr("B0.csv"));
+  EXPECT_THAT(answer.err, HasSubstr("B90.csv"));
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
 // The object that --json promises, of runs that have no result.
 TEST(Json, SaysHowARunEndedThatLeavesNothing) {
-  const fs::path folder = folder_with_study();
+  const fs::path folder = test::folder_with_study();
   const auto failed = run_havers(folder,
                                  "synthesize study.toml -o made --json --set "
                                  "model.solver.regime=dynamic --set model.solver.max_iterations=1 "
@@ -162,11 +154,11 @@ TEST(Json, SaysHowARunEndedThatLeavesNothing) {
   const auto answer = nlohmann::json::parse(failed.out);
   EXPECT_EQ(answer["status"], "failed");
   EXPECT_EQ(answer["trusted"], false);
-  EXPECT_NE(failed.err.find("nothing was written"), std::string::npos) << failed.err;
+  EXPECT_THAT(failed.err, HasSubstr("nothing was written"));
 }
 
 TEST(Json, SaysThatAFitWasCancelled) {
-  const fs::path folder = folder_with_study();
+  const fs::path folder = test::folder_with_study();
   ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
   const auto stopped = run_havers(
       folder, "-h >help; '" HAVERS_PROGRAM
@@ -175,7 +167,7 @@ TEST(Json, SaysThatAFitWasCancelled) {
               "for i in $(seq 1000); do [ -e out/evaluations.sqlite ] && break; sleep 0.01; done; "
               "kill $!; wait $! #");
   EXPECT_EQ(stopped.exit_code, 1);
-  EXPECT_EQ(nlohmann::json::parse(test::read_text(folder / "said"))["status"], "cancelled");
+  EXPECT_EQ(nlohmann::json::parse(test::contents(folder / "said"))["status"], "cancelled");
   EXPECT_FALSE(fs::exists(folder / "out/result.json"));
 }
 

@@ -44,7 +44,7 @@ TEST(Sweep, LeavesTablesLawsResultAndStore) {
   for (const char* file : {"small/runs.csv", "small/summary.csv", "small/laws.json", "result.json",
                            "evaluations.sqlite"})
     EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
-  const auto result = nlohmann::json::parse(test::read_text(folder / "out/result.json"));
+  const auto result = nlohmann::json::parse(test::contents(folder / "out/result.json"));
   EXPECT_EQ(result["evaluations"], 8);
   EXPECT_EQ(result["sweeps"][0]["simulated"], 8);
   EXPECT_THAT(answer.out, HasSubstr("F1"));
@@ -77,7 +77,7 @@ TEST(Sweep, IsNotTrustedWhereRunsDidNotBreak) {
   EXPECT_THAT(answer.out, HasSubstr("NOT to be trusted: too many runs failed or did not break"));
   EXPECT_THAT(answer.out, HasSubstr("8 runs, 0 failed, 8 did not break"));
   EXPECT_THAT(answer.out, HasSubstr("undecided              strength -; 0 runs"));
-  const auto result = nlohmann::json::parse(test::read_text(folder / "out/result.json"));
+  const auto result = nlohmann::json::parse(test::contents(folder / "out/result.json"));
   EXPECT_EQ(result["trusted"], false);
   EXPECT_EQ(result["unbroken_simulations"], 8);
   EXPECT_EQ(result["sweeps"][0]["laws"][0]["status"], "unbroken_runs");

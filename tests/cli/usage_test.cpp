@@ -1,5 +1,5 @@
 // What a user meets first: help, version, and mistakes in the command line.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -11,6 +11,7 @@ namespace {
 
 using test::own_folder;
 using test::run_havers;
+using testing::HasSubstr;
 
 constexpr std::array commands{"fit",        "simulate", "import", "porosity", "check",
                               "synthesize", "report",   "bench",  "sweep"};
@@ -19,8 +20,7 @@ TEST(Usage, HelpListsEveryCommand) {
   const auto answer = run_havers(own_folder(), "-h");
   EXPECT_EQ(answer.exit_code, 0);
   EXPECT_TRUE(answer.err.empty()) << answer.err;
-  for (const char* command : commands)
-    EXPECT_NE(answer.out.find(command), std::string::npos) << command;
+  for (const char* command : commands) EXPECT_THAT(answer.out, HasSubstr(command)) << command;
 }
 
 TEST(Usage, WithoutACommandTheHelpIsShownAsAMistake) {
@@ -36,11 +36,10 @@ TEST(Usage, EveryCommandShowsExamplesAndExitCodes) {
   for (const char* command : commands) {
     const auto answer = run_havers(folder, std::string(command) + " -h");
     EXPECT_EQ(answer.exit_code, 0);
-    EXPECT_NE(answer.out.find("Examples:\n  havers " + std::string(command)), std::string::npos)
-        << answer.out;
+    EXPECT_THAT(answer.out, HasSubstr("Examples:\n  havers " + std::string(command)));
     for (const char* option : {"--json", "-q", "-v", "--threads", "--seed", "--set", "--force",
                                "--version", "Exit codes"})
-      EXPECT_NE(answer.out.find(option), std::string::npos) << command << " " << option;
+      EXPECT_THAT(answer.out, HasSubstr(option)) << command << " " << option;
   }
 }
 
@@ -96,7 +95,7 @@ TEST(Usage, VersionSaysWhatIsBuiltIn) {
   EXPECT_EQ(answer.exit_code, 0);
   for (const char* part :
        {"havers ", "images O", "reports O", "VTK snapshots O", "Eigen 3", "Ceres 2", "NLopt 2"})
-    EXPECT_NE(answer.out.find(part), std::string::npos) << part;
+    EXPECT_THAT(answer.out, HasSubstr(part)) << part;
 }
 
 TEST(Usage, MistakesInTheCommandLineAreOneLineAndExitTwo) {
@@ -169,7 +168,7 @@ TEST(Usage, AnAnswerThatCannotBePrintedIsSaid) {
         "--version", "fit -h"}) {
     const auto answer = run_havers(folder, std::string(arguments) + " >/dev/full 2>said #");
     EXPECT_EQ(answer.exit_code, 1) << arguments;
-    EXPECT_TRUE(test::read_text(folder / "said")
+    EXPECT_TRUE(test::contents(folder / "said")
                     .ends_with("havers: stdout: cannot be written (is the disk full?)\n"))
         << arguments;
   }
@@ -182,7 +181,7 @@ TEST(Usage, NamesOfFilesNeedNotBeUtf8) {
   const auto answer = run_havers(folder, "import " + name + " --json -o out");
   const auto json = nlohmann::json::parse(answer.out);
   EXPECT_EQ(json["file"], "\uFFFDprouvette.csv");
-  EXPECT_EQ(nlohmann::json::parse(test::read_text(folder / "out/import.json")), json);
+  EXPECT_EQ(nlohmann::json::parse(test::contents(folder / "out/import.json")), json);
 }
 
 TEST(Usage, AMissingFileAFolderAndOneThatIsForbiddenAreToldApart) {
@@ -205,7 +204,7 @@ TEST(Usage, MissingFilesAreNamed) {
     SCOPED_TRACE(arguments);
     const auto answer = run_havers(folder, arguments);
     EXPECT_EQ(answer.exit_code, 2);
-    EXPECT_NE(answer.err.find("none."), std::string::npos) << answer.err;
+    EXPECT_THAT(answer.err, HasSubstr("none."));
     EXPECT_TRUE(std::filesystem::is_empty(folder));
   }
 }
@@ -239,8 +238,7 @@ TEST(Check, SaysNoProblemsOrAllOfThem) {
   answer = run_havers(folder, "check bad.toml");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_TRUE(answer.out.empty());
-  for (const char* word : {"layers", "fibres", "scatter"})
-    EXPECT_NE(answer.err.find(word), std::string::npos) << answer.err;
+  for (const char* word : {"layers", "fibres", "scatter"}) EXPECT_THAT(answer.err, HasSubstr(word));
 
   answer = run_havers(folder, "check bad.toml --json");
   EXPECT_EQ(answer.exit_code, 2);
@@ -279,12 +277,11 @@ TEST(Check, SaysThatAFileIsNotTomlBeforeItsKind) {
 }
 
 TEST(Check, TellsAStudyFromASceneAndReportsAllItsFiles) {
-  const auto folder = own_folder();
-  test::write_text(folder / "study.toml", test::small_study());
+  const auto folder = test::folder_with_study();
   const auto answer = run_havers(folder, "check study.toml");
   EXPECT_EQ(answer.exit_code, 2);
-  EXPECT_NE(answer.err.find("B0.csv"), std::string::npos) << answer.err;
-  EXPECT_NE(answer.err.find("B90.csv"), std::string::npos) << answer.err;
+  EXPECT_THAT(answer.err, HasSubstr("B0.csv"));
+  EXPECT_THAT(answer.err, HasSubstr("B90.csv"));
 }
 
 }  // namespace

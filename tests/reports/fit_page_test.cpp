@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "reports/bench_pages.hpp"
 #include "tests/reports/sound_page.hpp"
 
 namespace havers::reports {

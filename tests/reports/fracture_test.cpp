@@ -1,6 +1,5 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
-#include <algorithm>
 #include <numbers>
 
 #include "reports/pages.hpp"
@@ -8,6 +7,8 @@
 
 namespace havers::reports {
 namespace {
+
+using testing::HasSubstr;
 
 std::size_t occurrences(const std::string& text, std::string_view part) {
   std::size_t n = 0;
@@ -51,8 +52,8 @@ TEST(FractureSvg, DrawsEveryBrokenJointByItsKind) {
 TEST(FractureSvg, StatesItsScaleAndItsMagnification) {
   const auto assembly = sim::build_assembly({.layers = 6, .fibres = 4}, sim::Lateral::free);
   const std::string svg = fracture_svg(assembly, test::simulation_sample(assembly));
-  EXPECT_NE(svg.find(">100 µm<"), std::string::npos);
-  EXPECT_NE(svg.find(">displacements × 5<"), std::string::npos);
+  EXPECT_THAT(svg, HasSubstr(">100 µm<"));
+  EXPECT_THAT(svg, HasSubstr(">displacements × 5<"));
 }
 
 TEST(FractureSvg, StaysSmall) {
@@ -63,12 +64,12 @@ TEST(FractureSvg, StaysSmall) {
 }
 
 TEST(FractureSvg, SurvivesWhatIsMissing) {
-  EXPECT_NE(fracture_svg({}, {}).find("the assembly is empty"), std::string::npos);
+  EXPECT_THAT(fracture_svg({}, {}), HasSubstr("the assembly is empty"));
   const auto assembly = sim::build_assembly({.layers = 2, .fibres = 2}, sim::Lateral::free);
   auto simulation = test::simulation_sample(assembly);
   simulation.displacements.setConstant(test::nan);
-  EXPECT_EQ(fracture_svg(assembly, simulation).find("nan"), std::string::npos);
-  EXPECT_EQ(fracture_svg(assembly, {}).find("nan"), std::string::npos);
+  EXPECT_THAT(fracture_svg(assembly, simulation), testing::Not(HasSubstr("nan")));
+  EXPECT_THAT(fracture_svg(assembly, {}), testing::Not(HasSubstr("nan")));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "reports/pages.hpp"
 
@@ -7,8 +7,8 @@ namespace {
 
 TEST(UnavailablePages, SayHowToGetThem) {
   EXPECT_FALSE(available());
-  EXPECT_NE(import_page({}, {}).find("libmstch-dev"), std::string::npos);
-  EXPECT_NE(comparison_page({}).find("gnuplot"), std::string::npos);
+  EXPECT_THAT(import_page({}, {}), testing::HasSubstr("libmstch-dev"));
+  EXPECT_THAT(comparison_page({}), testing::HasSubstr("gnuplot"));
 }
 
 }  // namespace

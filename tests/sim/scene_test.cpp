@@ -1,6 +1,6 @@
 #include "sim/scene.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <numbers>
 
@@ -82,7 +82,7 @@ TEST(Scene, RefusesARateThatLeadsNowhereFromRest) {
   EXPECT_TRUE(scene.problems().empty());
   scene.solver.leave_out = false;
   ASSERT_EQ(scene.problems().size(), 1U);
-  EXPECT_NE(scene.problems().front().hint.find("leave_out = true"), std::string::npos);
+  EXPECT_THAT(scene.problems().front().hint, testing::HasSubstr("leave_out = true"));
 }
 
 // How far failure is, given thresholds say, not the strength that they replace.

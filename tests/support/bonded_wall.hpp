@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <memory>
 
 #include "sim/contact/joint_step.hpp"
 #include "sim/joint/thresholds.hpp"

@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 #include <iconv.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <random>
 #include <string>
-#include <vector>
 
 #include "calib/experiment/raw_test.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace havers::test {
 
@@ -82,25 +80,14 @@ inline calib::RawTest record(const TensileTruth& truth) {
 /// A file in a folder of its own, gone with the object.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::string& content, const std::string& name = "test.csv") {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    std::string folder = std::string("havers_") + test->test_suite_name() + "_" + test->name();
-    std::ranges::replace(folder, '/', '_');
-    folder_ = std::filesystem::path(testing::TempDir()) / folder;
-    std::filesystem::create_directories(folder_);
-    path_ = folder_ / name;
-    std::ofstream(path_, std::ios::binary) << content;
-  }
-  ~TemporaryFile() { std::filesystem::remove_all(folder_); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  TemporaryFile(TemporaryFile&&) = delete;
-  TemporaryFile& operator=(TemporaryFile&&) = delete;
+  explicit TemporaryFile(const std::string& content, const std::string& name = "test.csv")
+      : path_(folder_.write(name, content)) {}
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
-  std::filesystem::path folder_, path_;
+  ScratchFolder folder_;
+  std::filesystem::path path_;
 };
 
 /// UTF-8 text in another encoding, as iconv names it.

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "sim/joint/cohesive_cone.hpp"
-#include "sim/joint/thresholds.hpp"
 #include "sim/simulation.hpp"
 #include "tests/sim/contact/enumerated_contact.hpp"
 #include "tests/sim/structure/dense_structure.hpp"

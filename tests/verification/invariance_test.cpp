@@ -2,9 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 #include <thread>
-#include <vector>
 
 #include "sim/simulation.hpp"
 #include "tests/support/scenes.hpp"

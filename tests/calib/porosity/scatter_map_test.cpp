@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 
 namespace havers::calib {
 namespace {
@@ -15,41 +14,6 @@ SectionPorosity section(double porosity, double bone_area, double window_sd) {
   made.bone_area = bone_area;
   made.window_sd = window_sd;
   return made;
-}
-
-// A window over bone that is either all pore or all solid: nothing averages out.
-TEST(WindowSd, IsThatOfACoinWhereTheWindowIsAPoint) {
-  EXPECT_NEAR(window_sd_closed_form(0.2, 0.0, 50e-12), std::sqrt(0.2 * 0.8), 1e-15);
-}
-
-TEST(WindowSd, FallsAsTheRootOfTheWindowWhereItHoldsManyPores) {
-  const double once = window_sd_closed_form(0.1, 1e-6, 1e-10);
-  EXPECT_NEAR(window_sd_closed_form(0.1, 4e-6, 1e-10), 0.5 * once, 1e-4 * once);
-}
-
-TEST(WindowSd, IsNothingWithoutPores) {
-  EXPECT_EQ(window_sd_closed_form(0.0, 1e-9, 0.0), 0.0);
-  EXPECT_EQ(window_sd_closed_form(0.0, 1e-9, 1e-10), 0.0);
-}
-
-// The definition that (K2) approximates, by drawing: equal pores that fill whole windows' cells.
-TEST(WindowSd, AgreesWithABinomialDrawOfManyCells) {
-  std::mt19937_64 random(3);
-  const double p = 0.15;
-  const int cells = 40, windows = 20000;
-  double sum = 0.0, squares = 0.0;
-  for (int window = 0; window < windows; ++window) {
-    int pores = 0;
-    for (int cell = 0; cell < cells; ++cell)
-      pores += static_cast<double>(random() >> 11U) * 0x1p-53 < p ? 1 : 0;
-    const double local = static_cast<double>(pores) / cells;
-    sum += local;
-    squares += local * local;
-  }
-  const double mean = sum / windows;
-  const double sd = std::sqrt(squares / windows - mean * mean);
-  // A window of 40 cells holds 40 a*: (K2) has 1 + A/a* where the draw has A/a*.
-  EXPECT_NEAR(window_sd_closed_form(p, cells, 1.0), sd, 0.02 * sd);
 }
 
 // (K3) by its meaning: thresholds uniform on an interval of length d (1 − p)^n have the scatter's

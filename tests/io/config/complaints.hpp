@@ -10,6 +10,16 @@
 
 namespace havers::test {
 
+/// What the InputError that `call` throws says; "none" where it throws none.
+inline std::string refusal_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const io::InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
 /// The sentences of the InputError that `read` throws; empty when it throws none.
 inline std::vector<std::string> complaints_of(const ScratchFolder& folder,
                                               const std::function<void()>& read) {

@@ -1,12 +1,10 @@
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 
-#include "io/input_error.hpp"
 #include "io/results/result_files.hpp"
+#include "tests/io/config/complaints.hpp"
 #include "tests/support/results.hpp"
-#include "tests/support/scratch_folder.hpp"
 
 namespace havers::io {
 namespace {
@@ -141,31 +139,23 @@ TEST(CalibrationJson, SpellsStatusesAndOutcomesAsTheCalibrationDoes) {
   }
 }
 
-std::string refusal(const test::ScratchFolder& folder) {
-  try {
-    read_fit_folder(folder.path());
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
-}
-
 TEST(FitFolder, SaysWhatIsWrongWithAFolder) {
   const test::ScratchFolder folder;
-  EXPECT_THAT(refusal(folder),
+  const auto refusal = [&] { return test::refusal_of([&] { read_fit_folder(folder.path()); }); };
+  EXPECT_THAT(refusal(),
               HasSubstr("result.json: is not there (name a fit's folder or its result.json)"));
   folder.write("result.json", "{ \"verdict\": ");
-  EXPECT_THAT(refusal(folder),
+  EXPECT_THAT(refusal(),
               HasSubstr("result.json: is not JSON (name a fit's folder or its result.json)"));
   folder.write("result.json", R"({"status": "broken"})");
-  EXPECT_THAT(refusal(folder),
+  EXPECT_THAT(refusal(),
               HasSubstr("result.json: is not the result of a fit (havers fit STUDY.toml"));
   folder.write("result.json", R"({"verdict": [], "study": {}, "status": 3})");
-  EXPECT_THAT(refusal(folder), HasSubstr("result.json: lacks what the result of a fit has, or has "
-                                         "it otherwise (run the fit again"));
+  EXPECT_THAT(refusal(), HasSubstr("result.json: lacks what the result of a fit has, or has "
+                                   "it otherwise (run the fit again"));
   write_folder(folder, sample(), {});
   std::filesystem::remove(folder.path() / "curves/A1.csv");
-  EXPECT_THAT(refusal(folder), HasSubstr("A1.csv: is not there"));
+  EXPECT_THAT(refusal(), HasSubstr("A1.csv: is not there"));
 }
 
 TEST(ImportJson, HoldsTheKeysOfTheContract) {

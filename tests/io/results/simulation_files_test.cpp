@@ -5,10 +5,9 @@
 #include <sstream>
 
 #include "io/config/read_scene.hpp"
-#include "io/input_error.hpp"
 #include "io/results/result_files.hpp"
+#include "tests/io/config/complaints.hpp"
 #include "tests/support/results.hpp"
-#include "tests/support/scratch_folder.hpp"
 
 namespace havers::io {
 namespace {
@@ -134,19 +133,10 @@ TEST(SimulationJson, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(json["provenance"]["cpu_s"], 2.5);
 }
 
-std::string complaint(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
-}
-
 TEST(Thresholds, MustNameEveryJointOnce) {
   const test::ScratchFolder folder;
   const auto refused = [&](const std::string& text) {
-    return complaint([&] { read_thresholds(folder.write("t.csv", text)); });
+    return test::refusal_of([&] { read_thresholds(folder.write("t.csv", text)); });
   };
   EXPECT_THAT(refused("joint,f_N,f_T\n0,1,2\n0,3,4\n"),
               HasSubstr("t.csv:3: names joint 0 again, after line 2"));
@@ -167,7 +157,7 @@ TEST(Thresholds, MustNameEveryJointOnce) {
   EXPECT_THAT(refused("joint,f_N,f_T\n0,1\n"),
               HasSubstr("t.csv:2: column f_T is empty, must be a number"));
   EXPECT_THAT(refused(""), HasSubstr("t.csv: is empty (the columns needed are joint,f_N,f_T)"));
-  EXPECT_THAT(complaint([&] { read_thresholds(folder.path() / "none.csv"); }),
+  EXPECT_THAT(test::refusal_of([&] { read_thresholds(folder.path() / "none.csv"); }),
               HasSubstr("none.csv: is not there (a CSV file"));
 }
 
@@ -182,9 +172,9 @@ TEST(WriteFile, ReplacesAFileWhole) {
 TEST(WriteFile, LeavesNothingWhereItCannotWrite) {
   const test::ScratchFolder folder;
   folder.write("taken/inside", "");
-  EXPECT_THAT(complaint([&] { write_file(folder.path() / "taken", "text"); }),
+  EXPECT_THAT(test::refusal_of([&] { write_file(folder.path() / "taken", "text"); }),
               HasSubstr("taken: cannot be written: "));
-  EXPECT_THAT(complaint([&] { write_file(folder.path() / "no" / "a.txt", "text"); }),
+  EXPECT_THAT(test::refusal_of([&] { write_file(folder.path() / "no" / "a.txt", "text"); }),
               HasSubstr("a.txt: cannot be written: No such file or directory"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }

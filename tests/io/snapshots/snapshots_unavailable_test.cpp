@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "io/input_error.hpp"
 #include "io/snapshots/snapshots.hpp"
@@ -13,7 +13,7 @@ TEST(Snapshots, SayHowToGetThemWhereTheyAreNotBuiltIn) {
     const SnapshotRecorder recorder(3);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("apt-get install libvtk9-dev"), std::string::npos);
+    EXPECT_THAT(std::string(error.what()), testing::HasSubstr("apt-get install libvtk9-dev"));
   }
   EXPECT_THROW(write_vtu("any.vtu", {}, {}, {}), InputError);
 }

@@ -12,8 +12,7 @@
 #include <limits>
 #include <thread>
 
-#include "io/input_error.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/io/config/complaints.hpp"
 
 namespace havers::io {
 namespace {
@@ -56,12 +55,7 @@ void expect_same(const std::optional<Response>& found, const Response& saved) {
 class Store : public testing::Test {
  protected:
   std::string refusal() {
-    try {
-      open_store(file);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "none";
+    return test::refusal_of([this] { open_store(file); });
   }
   void run_sql(const char* sql) {
     sqlite3* database = nullptr;
