@@ -1,0 +1,72 @@
+// Where a run that leaves something out ends (end_fraction_used).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sim/quasi_static/breaking_sequence.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace havers::sim {
+namespace {
+
+// Wide intervals of thresholds stop many an avalanche below half of what the specimen bore before,
+// and it bears more thereafter.
+TEST(AvalancheEnd, GivesTheSameRunWhenNothingIsLeftOut) {
+  for (const double degrees : {0.0, 45.0})
+    for (const double scatter : {0.2, 1.0, 1.9})
+      for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+        Scene scene = test::small_scene(degrees, 8, 5);
+        scene.joints.scatter = scatter;
+        scene.joints.seed = seed;
+        const Simulation one = simulate(scene);
+        scene.solver.leave_out = false;
+        const Simulation all = simulate(scene);
+        EXPECT_NEAR(one.strength / all.strength, 1.0, 1e-9) << degrees << " " << scatter;
+        EXPECT_NEAR(one.failure_strain / all.failure_strain, 1.0, 1e-9);
+        ASSERT_LE(one.curve.size(), all.curve.size());
+        EXPECT_TRUE(scatter <= 1.0 || one.curve.size() == all.curve.size());
+        for (std::size_t i = 0; i < one.curve.size(); ++i)
+          EXPECT_NEAR(one.curve[i].stress_right / all.strength,
+                      all.curve[i].stress_right / all.strength, 1e-8);
+      }
+}
+
+// The deepest fall of the stress before a wall bears more than ever, as part of what it bore.
+double deepest_recovered_fall(const Simulation& simulation) {
+  double strength = 0.0, least = 0.0, deepest = 0.0;
+  for (const CurvePoint& point : simulation.curve) {
+    if (point.stress_right > strength) {
+      if (strength > 0.0) deepest = std::max(deepest, 1.0 - least / strength);
+      strength = least = point.stress_right;
+    }
+    least = std::min(least, point.stress_right);
+  }
+  return deepest;
+}
+
+// Among the walls in which avalanches stopped late, for their size.
+TEST(AvalancheEnd, FollowsAvalanchesThatStopAsFarAsTheyDo) {
+  struct Wall {
+    int layers;
+    std::uint64_t seed;
+    double fall;
+  };
+  for (const Wall& wall : {Wall{13, 8, 0.07}, Wall{13, 19, 0.06}, Wall{13, 329, 0.16},
+                           Wall{20, 9, 0.05}, Wall{20, 25, 0.08}}) {
+    Scene scene = test::small_scene(0.0, wall.layers, 6);
+    scene.assembly.fibre_length = 20.0 * scene.assembly.fibre_height;
+    scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 1.2);
+    scene.joints.scatter = 1.0;
+    scene.joints.seed = wall.seed;
+    const Simulation one = simulate(scene);
+    scene.solver.leave_out = false;
+    const Simulation all = simulate(scene);
+    EXPECT_GT(deepest_recovered_fall(all), wall.fall);
+    EXPECT_LT(one.curve.size(), all.curve.size());
+    EXPECT_NEAR(one.strength / all.strength, 1.0, 1e-9) << wall.layers << ", " << wall.seed;
+    EXPECT_NEAR(one.failure_strain / all.failure_strain, 1.0, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace havers::sim
