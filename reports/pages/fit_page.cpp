@@ -170,6 +170,7 @@ std::string fit_page(const FitReport& report) {
        {"detail", text(status_sentence(result))},
        {"doubts", mstch::node{doubts_of(result)}},
        {"checks", check_section(result.verdict)},
+       {"study_notes", text_section(result.notes)},
        {"parameters", mstch::node{parameters}},
        {"strength_figure", text(draw(strength_figure(result.specimens, "strength")))},
        {"specimens", mstch::node{specimens}},
