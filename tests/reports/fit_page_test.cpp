@@ -165,6 +165,20 @@ TEST(FitPage, TellsTheDoubtsAboutStudyTestsAndSections) {
   }
 }
 
+// An interval holds wherever the parameter that was left out may be, the curve at its value alone.
+TEST(FitPage, SaysWhyAnIntervalReachesBeyondItsProfile) {
+  auto sample = test::fit_sample();
+  sample.result.fitted = {"young_GPa"};
+  sample.result.profiles = {{"young_GPa", {12.9, 13.1, 13.3}, {2.0, 0.0, 2.0}, 1.9, {12.0, 14.0}}};
+  const std::string said = "The curves hold r = 1.5";
+  sample.result.parameters.back() = {.name = "ratio", .unit = "", .value = 1.5};
+  EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), said));
+  sample.result.parameters.back().left_out_because = "nothing changes with it";
+  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), said));
+  sample.study.calibrate.automatic = true;
+  EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), said));
+}
+
 TEST(FitPage, LeavesAnIntervalOpenWhereItsProfileHasNoEnd) {
   auto sample = test::fit_sample();
   sample.result.fitted = {"young_GPa"};

@@ -76,11 +76,28 @@ TEST(SweepPage, IsRedWhereRunsDidNotBreakAndTellsWhich) {
               HasSubstr("verdict good"));
 }
 
+TEST(SweepPage, SaysHowManyRunsFailedAndWhy) {
+  Case known;
+  known.result.summaries.back().failed = 3;
+  known.result.most_failed_because = "nothing holds the specimen together";
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+              AllOf(HasSubstr("80 runs, 3 failed"), HasSubstr("<th class=\"n\">Failed</th>"),
+                    HasSubstr("most often so: nothing holds the specimen together.")));
+}
+
+TEST(SweepPage, HasADashAloneWhereNothingCouldBeCompared) {
+  Case known;
+  calib::Finding& finding = known.result.findings.front();
+  finding.value = finding.low = finding.high = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+              HasSubstr("Strength, difference: –<br>"));
+}
+
 TEST(SweepPage, GivesEveryLawWithItsIntervals) {
   const Case known;
   const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
   EXPECT_THAT(page, HasSubstr("scatter d: −10.0 ("));
-  EXPECT_THAT(page, HasSubstr("ratio r = 3"));
+  EXPECT_THAT(page, HasSubstr("ratio r\u00a0=\u00a03"));
 }
 
 TEST(SweepPage, TypesetsClaimsAndChancesThatAreNextToNothing) {
@@ -101,9 +118,9 @@ TEST(SweepPage, HasADashForTheInertiaNumberOfTheQuasiStaticLimit) {
 }
 
 TEST(SweepWords, PutTheUnitBehindTheValue) {
-  EXPECT_EQ(place("assembly.orientation_deg", "45"), "θ = 45°");
-  EXPECT_EQ(place("joints.ratio", "3"), "ratio r = 3");
-  EXPECT_EQ(place("joints.distribution", "\"weibull\""), "distribution = weibull");
+  EXPECT_EQ(place("assembly.orientation_deg", "45"), "θ\u00a0=\u00a045°");
+  EXPECT_EQ(place("joints.ratio", "3"), "ratio r\u00a0=\u00a03");
+  EXPECT_EQ(place("joints.distribution", "\"weibull\""), "distribution\u00a0=\u00a0weibull");
 }
 
 TEST(SweepFigures, HaveAPanelForEveryValueOfPer) {
@@ -111,7 +128,7 @@ TEST(SweepFigures, HaveAPanelForEveryValueOfPer) {
   const calib::SweepFigure wanted{.caption = "c", .x = "joints.scatter", .per = "joints.ratio"};
   const auto panels = sweep_figures(known.sweep, known.result, wanted, "f");
   ASSERT_EQ(panels.size(), 2U);
-  EXPECT_EQ(panels[1].at, "ratio r = 3");
+  EXPECT_EQ(panels[1].at, "ratio r\u00a0=\u00a03");
   EXPECT_THAT(panels[0].figure.commands, HasSubstr("Strength (MPa)"));
 }
 
