@@ -261,6 +261,8 @@ TEST(ComparisonPage, PutsFitsSideBySide) {
   expect_sound(page);
   EXPECT_TRUE(contains(page, "13.123 ± 0.087"));
   EXPECT_TRUE(contains(page, "14.200 ± 0.087"));
+  EXPECT_TRUE(contains(page, "<td>bovine femur B</td><td class=\"n\">14.200"));  // wide as one fit
+  EXPECT_EQ(test::after(page, "<th>E (GPa) <", ">").size(), 1U);
   EXPECT_TRUE(contains(page, "The fit cannot be trusted: 1 of 4 checks failed (search)."));
   EXPECT_TRUE(contains(page, "1\u00a0min 1\u00a0s"));
   EXPECT_TRUE(contains(page, "bovine femur B: seed"));
