@@ -60,17 +60,22 @@ std::string coefficients_of(const calib::Law& law) {
   return all;
 }
 
+std::string lack_of_fit(const calib::Law& law) {
+  const std::string ratio = number(law.lack_of_fit, 3);
+  return std::isfinite(law.lack_of_fit) ? fmt::format("{} ({})", ratio, chance(law.lack_of_fit_p))
+                                        : ratio;
+}
+
 mstch::array law_rows(const std::vector<calib::Law>& laws) {
   mstch::array list;
   for (const calib::Law& law : laws)
-    list.emplace_back(mstch::map{
-        {"law", text(law_text(law))},
-        {"at", text(law.request.per.empty() ? "" : place(law.request.per, law.at))},
-        {"coefficients", text(coefficients_of(law))},
-        {"explained", text(number(law.explained, 3))},
-        {"lack",
-         text(fmt::format("{} ({})", number(law.lack_of_fit, 3), chance(law.lack_of_fit_p)))},
-        {"runs", text(std::to_string(law.runs))}});
+    list.emplace_back(
+        mstch::map{{"law", text(law_text(law))},
+                   {"at", text(law.request.per.empty() ? "" : place(law.request.per, law.at))},
+                   {"coefficients", text(coefficients_of(law))},
+                   {"explained", text(number(law.explained, 3))},
+                   {"lack", text(lack_of_fit(law))},
+                   {"runs", text(std::to_string(law.runs))}});
   return list;
 }
 
@@ -140,11 +145,14 @@ mstch::array figures_of(const SweepReport& report) {
 
 std::string about(const SweepReport& report) {
   const std::string& why = report.result.most_failed_because;
+  const bool open = std::ranges::any_of(
+      report.result.summaries, [](const calib::PointSummary& s) { return s.unbroken > 0; });
   return fmt::format(
-      "{} {}, {} each.{}", typeset(report.sweep.text),
+      "{} {}, {} each.{}{}", typeset(report.sweep.text),
       count(static_cast<long>(report.result.points.size()), "point"),
       count(report.sweep.plan.seeds, "run"),
-      why.empty() ? "" : fmt::format(" Runs that failed, most often so: {}.", typeset(why)));
+      why.empty() ? "" : fmt::format(" Runs that failed, most often so: {}.", typeset(why)),
+      open ? " Of points with runs that did not break the modulus alone is drawn." : "");
 }
 
 mstch::node sweep_part(const SweepReport& report) {

@@ -70,7 +70,7 @@ TEST(SweepPage, IsRedWhereRunsDidNotBreakAndTellsWhich) {
   known.result.summaries.back().unbroken = 5;
   EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
               AllOf(HasSubstr("verdict bad"), HasSubstr("80 runs, 0 failed, 5 did not break"),
-                    HasSubstr("Did not break</th>")));
+                    HasSubstr("Did not break</th>"), HasSubstr("the modulus alone is drawn")));
   known.result.summaries.back().unbroken = 4;
   EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
               HasSubstr("verdict good"));
@@ -89,8 +89,11 @@ TEST(SweepPage, HasADashAloneWhereNothingCouldBeCompared) {
   Case known;
   calib::Finding& finding = known.result.findings.front();
   finding.value = finding.low = finding.high = std::numeric_limits<double>::quiet_NaN();
+  finding.what.clear();
+  known.result.laws.front().lack_of_fit = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
-              HasSubstr("Strength, difference: –<br>"));
+              AllOf(HasSubstr("Strength, difference: –<br><span class=\"note\">asked: "),
+                    HasSubstr("<td class=\"n\">–</td><td class=\"n\">40</td>")));
 }
 
 TEST(SweepPage, GivesEveryLawWithItsIntervals) {
@@ -103,10 +106,11 @@ TEST(SweepPage, GivesEveryLawWithItsIntervals) {
 TEST(SweepPage, TypesetsClaimsAndChancesThatAreNextToNothing) {
   Case known;
   known.result.findings.front().claim = "and grows with d (1.8e-6 d)";
+  known.result.laws.front().lack_of_fit = 709.0;
   known.result.laws.front().lack_of_fit_p = 0.0;
   const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
   EXPECT_THAT(page, HasSubstr("1.8 × 10⁻⁶ d"));
-  EXPECT_THAT(page, HasSubstr("(p &lt; 10⁻⁶)"));
+  EXPECT_THAT(page, HasSubstr("709 (p &lt; 10⁻⁶)"));
 }
 
 TEST(SweepPage, HasADashForTheInertiaNumberOfTheQuasiStaticLimit) {
