@@ -33,7 +33,7 @@ Findings look_at(const std::filesystem::path& file, const io::Overrides& overrid
     findings.kind = io::kind_of_file(file, overrides);
     switch (findings.kind) {
       case io::FileKind::study:
-        findings.warnings = load_study(file, overrides).warnings;
+        findings.warnings = load_study(file, overrides).all_notes();
         break;
       case io::FileKind::sweep:
         findings.warnings = io::read_sweep(file, overrides).warnings;

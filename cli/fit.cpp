@@ -52,13 +52,14 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
   LoadedStudy loaded = load_study(arguments.study, common.set);
   loaded.study.calibrate.threads = common.threads;
   if (common.seed) loaded.study.calibrate.seed = *common.seed;
-  for (const std::string& warning : loaded.warnings) note(common, "note: " + warning);
+  for (const std::string& doubt : loaded.all_notes()) note(common, "note: " + doubt);
 
   const bool resumes = was_stopped(arguments.folder);
   OutputFolder output(arguments.folder, common.force || resumes);
   if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
   const auto store = io::open_store(output.keep("evaluations.sqlite"));
   calib::CalibrationResult result = watched_fit(loaded.study, *store, common);
+  result.notes = loaded.notes;
   result.left_out.insert(result.left_out.begin(), loaded.left_out.begin(), loaded.left_out.end());
   if (result.status == calib::CalibrationStatus::cancelled)
     return without_result(common, "cancelled",

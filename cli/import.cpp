@@ -37,8 +37,8 @@ struct ImportArguments {
 };
 
 struct Imported {
-  io::TestFile file;  // with the gauge of the second logger, where there is one
-  std::optional<calib::ClockFit> clocks;
+  io::TestFile file;                      // with the gauge of the second logger, where there is one
+  std::optional<calib::ClockFit> clocks;  // where there is something to show
   calib::Reduction reduction;
 };
 
@@ -71,9 +71,14 @@ Imported import_joined(io::ImportSettings settings, const ImportArguments& argum
   const io::TestFile logger = io::read_test(*arguments.gauge, settings.gauge_columns);
   calib::JoinedTest joined = calib::join_logger(file.test, logger.test, settings.reduction);
   file.test = std::move(joined.test);
-  Imported imported{std::move(file), std::move(joined.clocks), {{}, std::move(joined.problems)}};
-  if (imported.reduction.problems.empty())
+  Imported imported{std::move(file), {}, {{}, std::move(joined.problems)}};
+  if (!joined.clocks.machine.time.empty()) imported.clocks = std::move(joined.clocks);
+  if (imported.reduction.problems.empty()) {
     imported.reduction = calib::reduce_test(imported.file.test, settings.reduction);
+  } else {
+    imported.reduction.test.corrections = imported.file.test.corrections;
+    imported.reduction.test.warnings = imported.file.test.warnings;
+  }
   return imported;
 }
 

@@ -111,13 +111,14 @@ Outcome load_specimen(const calib::Specimen& declared, const io::SpecimenFiles& 
 // A test that cannot be used does not stop the others.
 void leave_out(const io::SpecimenFiles& files, const Outcome& outcome, LoadedStudy& loaded) {
   const std::string why = fmt::format("{}", fmt::join(outcome.rejections, "; "));
-  loaded.warnings.push_back(
+  loaded.file_notes.push_back(
       fmt::format("{}: specimen {} is left out: {}", files.test.string(), files.id, why));
   loaded.left_out.push_back({"specimen " + files.id, why});
 }
 
 void take_specimen(const io::SpecimenFiles& files, Outcome outcome, LoadedStudy& loaded) {
-  loaded.warnings.insert(loaded.warnings.end(), outcome.warnings.begin(), outcome.warnings.end());
+  loaded.file_notes.insert(loaded.file_notes.end(), outcome.warnings.begin(),
+                           outcome.warnings.end());
   if (!outcome.rejections.empty()) {
     leave_out(files, outcome, loaded);
     return;
@@ -135,7 +136,7 @@ void doubt_names(const std::vector<io::SpecimenFiles>& specimens,
     if (named == specimens[i].id ||
         std::ranges::find(specimens, named, &io::SpecimenFiles::id) == specimens.end())
       continue;
-    loaded.warnings.push_back(fmt::format(
+    loaded.notes.push_back(fmt::format(
         "{} is of specimen {} by its own words, and specimen {} has it: are two exchanged?",
         specimens[i].test.string(), named, specimens[i].id));
   }
@@ -146,16 +147,16 @@ void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStud
   std::map<std::pair<std::filesystem::path, std::string>, std::string> tests;
   for (const io::SpecimenFiles& files : specimens) {
     if (!files.orientation)
-      loaded.warnings.push_back(fmt::format(
+      loaded.notes.push_back(fmt::format(
           "specimen {} has no orientation_deg: 0 is taken, fibres along the load", files.id));
     std::set<std::filesystem::path> sections;
     for (const std::filesystem::path& section : files.sections)
       if (!sections.insert(section).second)
-        loaded.warnings.push_back(fmt::format("specimen {} lists section {} again: it counts twice",
-                                              files.id, section.string()));
+        loaded.notes.push_back(fmt::format("specimen {} lists section {} again: it counts twice",
+                                           files.id, section.string()));
     const auto [earlier, fresh] = tests.try_emplace({files.test, files.columns.specimen}, files.id);
     if (!fresh)
-      loaded.warnings.push_back(
+      loaded.notes.push_back(
           fmt::format("specimens {} and {} have the same test, {}: it counts twice",
                       earlier->second, files.id, files.test.string()));
   }
@@ -169,10 +170,10 @@ void doubt_rate(LoadedStudy& loaded) {
   const sim::Scene& model = loaded.study.model;
   const bool given = model.loading.strain_rate != sim::Loading{}.strain_rate;
   if (silent.empty() && given)
-    loaded.warnings.emplace_back(
+    loaded.notes.emplace_back(
         "model.loading.strain_rate_per_s changes nothing: every test has its own");
   if (!silent.empty() && !given && model.solver.regime != sim::Regime::quasi_static)
-    loaded.warnings.push_back(fmt::format(
+    loaded.notes.push_back(fmt::format(
         "no time tells the strain rate of specimen{} {}: {:g} 1/s is taken, and inertia with it "
         "(give model.loading.strain_rate_per_s)",
         silent.size() == 1 ? "" : "s", fmt::join(silent, ", "), model.loading.strain_rate));
@@ -186,7 +187,7 @@ void doubt_search(LoadedStudy& loaded) {
   if (chosen.local == LocalSearch::automatic && chosen.smooth) return;
   const std::size_t costly = calib::costly_unknowns(loaded.study);
   const auto idle = [&](const char* key) {
-    loaded.warnings.push_back(fmt::format(
+    loaded.notes.push_back(fmt::format(
         "calibrate.options.{} changes nothing: what is fitted needs no new simulations, and is "
         "found by least squares alone",
         key));
@@ -194,7 +195,7 @@ void doubt_search(LoadedStudy& loaded) {
   if (costly == 0 && chosen.local != LocalSearch::automatic) idle("local");
   if (costly == 0 && !chosen.smooth) idle("smooth");
   if (costly == 1 && chosen.local == LocalSearch::bobyqa)
-    loaded.warnings.emplace_back(
+    loaded.notes.emplace_back(
         "calibrate.options.local = \"bobyqa\" needs two parameters that need new simulations, and "
         "one is fitted: \"sbplx\" is taken");
 }
@@ -212,6 +213,12 @@ void require_specimens(const LoadedStudy& loaded, const std::filesystem::path& f
 }
 
 }  // namespace
+
+std::vector<std::string> LoadedStudy::all_notes() const {
+  std::vector<std::string> all = notes;
+  all.insert(all.end(), file_notes.begin(), file_notes.end());
+  return all;
+}
 
 LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& overrides) {
   std::vector<io::Problem> problems;
@@ -232,7 +239,7 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   loaded.study = std::move(read.study);
   loaded.study.specimens.clear();
   loaded.inputs = std::move(read.inputs);
-  loaded.warnings = std::move(read.warnings);
+  loaded.notes = std::move(read.warnings);
   doubt_specimens(read.specimens, loaded);
   doubt_names(read.specimens, outcomes, loaded);
   for (std::size_t i = 0; i < outcomes.size(); ++i)

@@ -27,7 +27,11 @@ struct LoadedStudy {
   std::map<std::string, TestRecord> records;  ///< By specimen id.
   std::map<std::string, std::vector<std::vector<std::uint8_t>>> overlays;  ///< Specimen id to PNGs.
   std::vector<std::filesystem::path> inputs;  ///< Every file that was read.
-  std::vector<std::string> warnings;          ///< A sentence each.
+  // Doubts, a sentence each.
+  std::vector<std::string> notes;       ///< Of the study itself.
+  std::vector<std::string> file_notes;  ///< Of tests and sections, which carry them as well.
+
+  [[nodiscard]] std::vector<std::string> all_notes() const;
 };
 
 /// Reads a study, its tests and its sections, the specimens in parallel. A test that cannot be

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "calib/sweep/measure_words.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output_folder.hpp"
@@ -18,7 +19,6 @@
 #include "io/sweep/read_sweep.hpp"
 #include "io/sweep/sweep_files.hpp"
 #include "io/sweep/sweep_keys.hpp"
-#include "reports/sweep/measure_words.hpp"
 #include "reports/sweep/sweep_page.hpp"
 
 namespace havers::cli {
@@ -138,14 +138,18 @@ std::string found(const calib::Finding& finding) {
   const bool of_means =
       finding.test == calib::FindingTest::above || finding.test == calib::FindingTest::below;
   const auto [name, unit, scale] =
-      of_means ? reports::words_of(finding.response) : reports::MeasureWords{"", "%", 0.01};
+      of_means ? calib::words_of(finding.response) : calib::MeasureWords{"", "%", 0.01};
   const double width = (finding.high - finding.low) / scale;
-  const int decimals = std::isfinite(width) && width > 0.0
-                           ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(width))))
-                           : 3;
-  return fmt::format("{} {:.{}f}{}{} ({:.{}f} to {:.{}f})", io::word(finding.response),
-                     finding.value / scale, decimals, unit.empty() ? "" : " ", unit,
-                     finding.low / scale, decimals, finding.high / scale, decimals);
+  const bool known = std::isfinite(width) && width > 0.0;
+  const int decimals = known ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(width)))) : 3;
+  const auto shown = [&, scale = scale](double number) {
+    return fmt::format("{:.{}f}", number / scale, decimals);
+  };
+  return fmt::format("{} {}{}{} ({})", io::word(finding.response), shown(finding.value),
+                     unit.empty() ? "" : " ", unit,
+                     std::isfinite(width)
+                         ? fmt::format("{} to {}", shown(finding.low), shown(finding.high))
+                         : "interval not known");
 }
 
 void print_summary(const std::vector<Done>& all, double wall_seconds) {

@@ -88,20 +88,20 @@ bool gets_longer(const std::vector<double>& elongation, const std::vector<double
 
 }  // namespace
 
-bool turn_negative_load(RawTest& raw) {
+void turn_negative_load(RawTest& raw) {
   const std::vector<double>& elongation = raw.strain.empty() ? raw.extension : raw.strain;
   const char* turned = nullptr;
   for (const auto& [load, name] : {std::pair(&raw.stress, "stress"), {&raw.force, "force"}}) {
     if (load->empty() || !is_compressed(*load) || !gets_longer(elongation, *load)) continue;
     for (double& value : *load) value = -value;
     turned = name;
+    raw.load_turned = true;
   }
   if (turned != nullptr)
     raw.warnings.push_back(
         fmt::format("the {} is negative while the specimen gets longer: it is taken as tension, "
                     "with its sign turned",
                     turned));
-  return turned != nullptr;
 }
 
 EngineeringCurve engineering_curve(const RawTest& raw, double machine_compliance) {

@@ -27,6 +27,7 @@ struct RawTest {
   std::optional<double> width, thickness;  ///< Of the specimen. [m]
   std::optional<double> area;              ///< Used where width or thickness is unknown. [m²]
   std::optional<double> gauge_length;      ///< [m]
+  bool load_turned = false;                ///< The load was read negative, and turned (X22).
   std::vector<Correction> corrections;     ///< What was done before the reduction.
   std::vector<std::string> warnings;       ///< What the reader noticed, a sentence each.
 

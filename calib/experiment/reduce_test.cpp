@@ -178,13 +178,13 @@ Reduction reduce_test(const RawTest& recorded, const ReductionOptions& options) 
   assert(recorded.time.empty() || recorded.time.size() == recorded.rows());
   RawTest raw = recorded;
   clean_channels(raw, options);
-  const bool turned = turn_negative_load(raw);
+  turn_negative_load(raw);
   EngineeringCurve curve = engineering_curve(raw, options.machine_compliance);
   const std::vector<std::string> problems = std::move(curve.problems);
 
   MeasuredTest test = uncorrected(raw, std::move(curve));
   if (!problems.empty()) return unreduced(test, problems);
-  test.load_turned = turned;
+  test.load_turned = raw.load_turned;
   test.strength_standard_error = noise_of(test.stress);
   note_preload(test);
   find_end(raw, options, test);

@@ -177,6 +177,7 @@ struct CalibrationResult {
   std::vector<SpecimenResult> specimens{};
   std::vector<StageLog> stages;
   std::vector<sim::LeftOut> left_out{};
+  std::vector<std::string> notes{};                ///< Doubts about the study as it was read.
   std::vector<std::string> fitted{};               ///< Parameters with an interval, in order.
   std::vector<std::vector<double>> correlation{};  ///< Of `fitted`. [-]
   std::vector<std::string> directions{};  ///< What is determined, best first, a sentence each.

@@ -108,9 +108,8 @@ std::vector<Comparison> variations(const Evidence& evidence, const PointGroup& g
   std::vector<Comparison> all;
   for (const std::size_t point : group.points) {
     const Statistics s = at(evidence, point);
-    if (s.n < 2) continue;
-    const auto freedom = static_cast<double>(s.n - 1);
-    const double cv = s.sd / std::abs(s.mean);
+    const auto freedom = static_cast<double>(std::max(s.n - 1, 1L));
+    const double cv = s.sd / std::abs(s.mean);  // NaN of fewer than two runs
     all.push_back({.what = label(evidence.plan, evidence.points[point], evidence.plan.keys.size()),
                    .value = cv,
                    .low = cv * std::sqrt(freedom / gsl_cdf_chisq_Qinv(0.5 * share, freedom)),
@@ -124,7 +123,6 @@ std::vector<Comparison> means(const Evidence& evidence, const PointGroup& group)
   std::vector<Comparison> all;
   for (const std::size_t point : group.points) {
     const Statistics s = at(evidence, point);
-    if (s.n < 2) continue;
     const double half = s.half_width(share);
     all.push_back({label(evidence.plan, evidence.points[point], evidence.plan.keys.size()), s.mean,
                    s.mean - half, s.mean + half});

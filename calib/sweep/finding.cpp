@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "calib/sweep/comparison.hpp"
+#include "calib/sweep/measure_words.hpp"
 
 namespace havers::calib {
 namespace {
@@ -39,7 +40,9 @@ Bracket range_of(const FindingRequest& request) {
   return {};
 }
 
+// What is not known speaks more against a claim than what lies inside, less than what lies beyond.
 double excess(const Comparison& comparison, Bracket range) {
+  if (std::isnan(comparison.low)) return 0.0;
   return std::max(range.low - comparison.value, comparison.value - range.high);
 }
 
@@ -74,25 +77,30 @@ FindingOutcome opposite(FindingOutcome outcome) {
   return outcome == FindingOutcome::agrees ? FindingOutcome::disagrees : FindingOutcome::agrees;
 }
 
+std::string in_its_unit(Measure measure, double value) {
+  const MeasureWords words = words_of(measure);
+  return fmt::format("{:g}{}{}", value / words.scale, words.unit.empty() ? "" : " ", words.unit);
+}
+
 std::string ground_of(const FindingRequest& request) {
   const double percent = 100.0 * request.margin;
   switch (request.test) {
     case FindingTest::same:
-      return fmt::format("all differences within ±{:g} %", percent);
+      return fmt::format("all differences within ±{:.4g} %", percent);
     case FindingTest::matters:
-      return fmt::format("a difference beyond ±{:g} %", percent);
+      return fmt::format("a difference beyond ±{:.4g} %", percent);
     case FindingTest::rises:
       return "all differences from end to end above 0, none between neighbours below";
     case FindingTest::falls:
       return "all differences from end to end below 0, none between neighbours above";
     case FindingTest::linear:
-      return fmt::format("all means within ±{:g} % of the line", percent);
+      return fmt::format("all means within ±{:.4g} % of the line", percent);
     case FindingTest::steady:
-      return fmt::format("all coefficients of variation below {:g} %", percent);
+      return fmt::format("all coefficients of variation below {:.4g} %", percent);
     case FindingTest::above:
-      return fmt::format("all means above {:g}", request.margin);
+      return fmt::format("all means above {}", in_its_unit(request.response, request.margin));
     case FindingTest::below:
-      return fmt::format("all means below {:g}", request.margin);
+      return fmt::format("all means below {}", in_its_unit(request.response, request.margin));
   }
   return "";
 }
@@ -107,6 +115,7 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
   Finding finding;
   finding.id = request.id;
   finding.claim = request.claim;
+  finding.per = request.per;
   finding.at = group.value;
   finding.test = request.test;
   finding.response = request.response;
@@ -119,6 +128,12 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
     finding.inertia_low = std::fmin(finding.inertia_low, inertia);
     finding.inertia_high = std::fmax(finding.inertia_high, inertia);
   }
+  const long failed = std::ranges::count_if(evidence.runs, [&](const SweepRun& run) {
+    return run.failed && std::ranges::find(group.points, run.point) != group.points.end();
+  });
+  if (failed > 0)
+    finding.ground += fmt::format("; {} run{} failed and {} not count", failed,
+                                  failed == 1 ? "" : "s", failed == 1 ? "does" : "do");
   const long unbroken = unbroken_of(evidence.runs, group.points, request.response);
   if (unbroken > 0)
     finding.ground += fmt::format("; {} {} not break: raise loading.max_strain", unbroken,
@@ -134,7 +149,7 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
     finding.low = worst.low;
     finding.high = worst.high;
     finding.outcome = outcome_of(comparisons, range);
-    if (worst.step && finding.outcome == FindingOutcome::undecided)
+    if (worst.step && outside(worst, range) && finding.outcome == FindingOutcome::undecided)
       finding.ground += "; this step goes the other way";
     if (request.test == FindingTest::matters) finding.outcome = opposite(finding.outcome);
     finding.meaning = meaning_of(request, finding.outcome);

@@ -38,7 +38,8 @@ std::string to_string(FindingOutcome outcome);
 /// are those of the comparison that speaks most against the claim; the intervals of all comparisons
 /// hold together with 95 %.
 struct Finding {
-  std::string id, claim, at;
+  std::string id, claim;
+  std::string per, at;  ///< A key and its value; empty: the finding is of all points.
   FindingTest test = FindingTest::same;
   Measure response = Measure::strength;
   FindingOutcome outcome = FindingOutcome::undecided;

@@ -82,6 +82,7 @@ class Runner {
     }
     result.simulated = batch_.simulated();
     result.failed = batch_.failed();
+    result.most_failed_because = batch_.most_failed_because();
   }
 
  private:

@@ -45,6 +45,7 @@ struct SweepResult {
   std::vector<Law> laws;
   std::vector<Finding> findings;
   long simulated = 0, failed = 0;
+  std::string most_failed_because;  ///< Empty where none failed.
   bool cancelled = false;
 
   /// At most a twentieth of the runs failed or did not break; their points say which.

@@ -177,6 +177,23 @@ void name_doubts(TestFile& file, const ReadOptions& options, const Chosen& chose
   }
 }
 
+// A unit of another quantity than the name's is believed, and said where it decides: where the
+// column is taken by it, or what the name speaks of is missing.
+void name_contradictions(TestFile& file, const ReadOptions& options, const Chosen& chosen) {
+  for (std::size_t i = 0; i < file.columns.size(); ++i) {
+    const Column& column = file.columns[i];
+    const Quantity named = quantity_of_name(column.name), held = column.quantity;
+    if (named == Quantity::other || held == Quantity::other || held == named ||
+        held == in_volts(named) || options.columns.contains(held))
+      continue;
+    if (chosen.contains(named) && chosen.at(held) != i) continue;
+    file.test.warnings.push_back(fmt::format(
+        R"(column "{}" is {} by its name and {} by its unit, {}: the unit is believed ({} corrects it))",
+        column.name, to_string(named), to_string(held), column.unit,
+        column_setting(options, to_string(key_of(named)) + "_unit", "...")));
+  }
+}
+
 // A column whose unit is not known is not used: an error where the load is lost by it.
 void name_unknown_units(TestFile& file, const std::string& where, const ReadOptions& options,
                         const Chosen& chosen) {
@@ -246,6 +263,7 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   Chosen chosen = take_hints(file, where, options);
   choose(file, candidates, options, chosen);
   name_doubts(file, options, chosen);
+  name_contradictions(file, options, chosen);
   name_unknown_units(file, where, options, chosen);
   if (options.logger)
     need_gauge(file, where, options, chosen);

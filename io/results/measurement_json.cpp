@@ -1,6 +1,6 @@
 #include "io/results/json_table.hpp"
+#include "io/results/measured_keys.hpp"
 #include "io/results/result_files.hpp"
-#include "io/results/result_keys.hpp"
 
 namespace havers::io {
 namespace {

@@ -34,7 +34,8 @@ void read_plan(TableReader& top, calib::Sweep& sweep) {
 }
 
 // Every point puts its own value on top.
-void refuse_settings_of_varied_keys(const Overrides& overrides, const calib::SweepPlan& plan) {
+std::vector<Problem> settings_of_varied_keys(const Overrides& overrides,
+                                             const calib::SweepPlan& plan) {
   const toml::table set = parse_toml({}, overrides);
   std::vector<Problem> problems;
   for (const calib::SweepKey& key : plan.keys)
@@ -42,7 +43,7 @@ void refuse_settings_of_varied_keys(const Overrides& overrides, const calib::Swe
       problems.push_back(
           {std::string(override_mark) + key.name, "sets nothing: the sweep varies it",
            fmt::format("--set 'sweep.keys.\"{}\"=[...]' gives its values", key.name)});
-  if (!problems.empty()) throw InputError(std::move(problems));
+  return problems;
 }
 
 // Keys of a scene or of a sample that were pasted along.
@@ -66,16 +67,25 @@ void require_varied(TableReader& table, const calib::SweepPlan& plan, const std:
                    "name a key of [sweep.keys]");
 }
 
+// What is read off the broken joints is known only where they are looked at.
+void require_looked_at(TableReader& table, const calib::Sweep& sweep, calib::Measure response) {
+  if (!sweep.patterns && response >= calib::Measure::head_tail_broken)
+    table.complain("response", "is known only where the broken joints are looked at",
+                   "say patterns = true in [sweep]");
+}
+
 void read_questions(TableReader& top, calib::Sweep& sweep) {
   for (TableReader& table : top.tables("law")) {
     calib::LawRequest& law = sweep.laws.emplace_back();
     keys(table, law);
+    require_looked_at(table, sweep, law.response);
     for (const std::string& term : law.terms) require_varied(table, sweep.plan, term, "terms");
     require_varied(table, sweep.plan, law.per, "per");
   }
   for (TableReader& table : top.tables("finding")) {
     calib::FindingRequest& finding = sweep.findings.emplace_back();
     keys(table, finding);
+    require_looked_at(table, sweep, finding.response);
     for (const std::string& key : finding.keys) require_varied(table, sweep.plan, key, "keys");
     require_varied(table, sweep.plan, finding.per, "per");
     const bool of_keys = finding.test <= calib::FindingTest::linear;
@@ -90,6 +100,7 @@ void read_questions(TableReader& top, calib::Sweep& sweep) {
   for (TableReader& table : top.tables("figure")) {
     calib::SweepFigure& figure = sweep.figures.emplace_back();
     keys(table, figure);
+    require_looked_at(table, sweep, figure.response);
     require_varied(table, sweep.plan, figure.x, "x");
     require_varied(table, sweep.plan, figure.series, "series");
     require_varied(table, sweep.plan, figure.per, "per");
@@ -142,7 +153,6 @@ SweepFile read_sweep(const std::filesystem::path& file, const Overrides& overrid
   SweepFile read{.sweep = {}, .inputs = {file}};
   calib::Sweep& sweep = read.sweep;
   read_plan(top, sweep);
-  refuse_settings_of_varied_keys(overrides, sweep.plan);
   if (!sweep.plan.problems().empty()) {  // no points, so the scene is read as it stands
     sim::Scene scene;
     read_scene_tables(top, scene);
@@ -154,7 +164,7 @@ SweepFile read_sweep(const std::filesystem::path& file, const Overrides& overrid
   if (seed) sweep.plan.seed = *seed;
   if (sweep.name.empty()) sweep.name = file.stem().string();
 
-  std::vector<Problem> problems;
+  std::vector<Problem> problems = settings_of_varied_keys(overrides, sweep.plan);
   for (std::vector<std::string>& values : points_of(sweep.plan)) {
     try {
       sweep.points.push_back(read_point(read, overrides, std::move(values)));

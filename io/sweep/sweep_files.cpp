@@ -152,6 +152,7 @@ nlohmann::json sweep_json(const calib::Sweep& sweep, const calib::SweepResult& r
           {"evaluations", result.runs.size()},
           {"simulated", result.simulated},
           {"failed_simulations", result.failed},
+          {"most_failed_because", result.most_failed_because},
           {"scene", scene_json(sweep.points.front().scene)}};
 }
 

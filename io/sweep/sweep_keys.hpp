@@ -75,6 +75,7 @@ template <class Table>
 void keys(Table& table, calib::Finding& finding) {
   table.key("id", finding.id);
   table.key("claim", finding.claim);
+  table.key("per", finding.per);
   table.key("at", finding.at);
   table.key("test", finding.test);
   table.key("response", finding.response);

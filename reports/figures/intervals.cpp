@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "reports/figures/figures.hpp"
@@ -32,16 +33,21 @@ std::vector<std::vector<Estimate>> by_parameter(const std::vector<FitReport>& fi
 
 std::string panel_commands(const std::vector<Estimate>& estimates, std::size_t number) {
   std::string data = fmt::format("$panel{} << EOD\n", number);
+  double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const auto& [fit, parameter] : estimates) {
     const auto [low, high] = parameter->interval_95;
     const bool known = std::isfinite(low) && std::isfinite(high);
-    data += fmt::format("{:.6g} {} {:.6g} {:.6g}\n", parameter->value, fit + 1,
-                        known ? low : parameter->value, known ? high : parameter->value);
+    const double from = known ? low : parameter->value, to = known ? high : parameter->value;
+    data += fmt::format("{:.6g} {} {:.6g} {:.6g}\n", parameter->value, fit + 1, from, to);
+    least = std::min(least, from);
+    most = std::max(most, to);
   }
+  const std::string tics =  // so few that "16.482" does not meet "16.484"
+      most > least ? fmt::format("{}", round_down((most - least) / 3.0)) : "autofreq";
   return data + fmt::format(
-                    "EOD\nset xlabel '{}' noenhanced offset 0,0.6\n"
+                    "EOD\nset xtics {}\nset xlabel '{}' noenhanced offset 0,0.6\n"
                     "plot $panel{} using 1:2:3:4 with xerrorbars pt 7 ps 0.9 lw 1.8 lc rgb blue\n",
-                    plain(axis_label(estimates.front().parameter->name)), number);
+                    tics, plain(axis_label(estimates.front().parameter->name)), number);
 }
 
 // At most 24 characters of a name, none of them cut in two.

@@ -172,7 +172,7 @@ Figure strength_figure(const std::vector<calib::SpecimenResult>& specimens, cons
   Figure figure{.id = id,
                 .description = "Simulated against measured strength of all specimens",
                 .width = 560,
-                .height = 440};
+                .height = 480};
   const Groups groups = groups_of(specimens);
   if (groups.empty()) return figure;
   const Range range = range_of(groups);
@@ -187,10 +187,9 @@ Figure strength_figure(const std::vector<calib::SpecimenResult>& specimens, cons
     plots += group_plot(number, group, shape);
     ++number;
   }
-  figure.commands = data + panel(0.145, 0.97) + axes(range) + R"(
+  figure.commands = data + panel(0.135, 0.88) + axes(range) + R"(
 set xlabel 'Measured strength (MPa)' offset 0,0.5
 set ylabel 'Simulated strength (MPa)' offset 1,0
-set key inside at graph 0.02, graph 0.98 left top vertical
 plot x with lines lw 1.2 dt 2 lc rgb grey title 'equal')" +
                     plots + "\n";
   return figure;

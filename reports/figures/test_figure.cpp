@@ -77,7 +77,7 @@ RawPoints raw_points(const calib::RawTest& raw, const calib::MeasuredTest& test)
     stress = raw.force;
     for (double& value : stress) value /= test.area;
   }
-  if (test.load_turned)
+  if (test.load_turned && !raw.load_turned)  // a joined test comes turned
     for (double& value : stress) value = -value;
   const std::size_t rows = std::min(strain.size(), stress.size());
   const std::size_t kept = std::min(rows, rows_until_break(raw, test));
@@ -106,7 +106,8 @@ void draw_record(const calib::RawTest& raw, Figure& figure) {
   figure.commands =
       data_block("raw", {points.x, points.y}) + range + panel(0.155, 0.95) +
       fmt::format(record_commands, fmt::arg("x_label", travelled ? "Extension (mm)" : "Time (s)"),
-                  fmt::arg("y_label", loaded ? "Force (N)" : "Stress (MPa)"));
+                  fmt::arg("y_label", fmt::format("{}{}", loaded ? "Force (N)" : "Stress (MPa)",
+                                                  raw.load_turned ? ", sign turned" : "")));
 }
 
 // The line of the modulus' slope through the middle of the points in its window.

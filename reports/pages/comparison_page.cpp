@@ -22,23 +22,24 @@ std::vector<std::string> names_of(const std::vector<FitReport>& fits) {
   return names;
 }
 
-mstch::map cell(const FitReport& fit, const std::string& name) {
-  for (const auto& p : fit.result.parameters) {
-    if (p.name != name) continue;
-    const bool held = !p.left_out_because.empty();
-    return {{"estimate", text(held ? number(p.value) : plus_minus(p.value, p.standard_error))},
-            {"note", text(held ? "held" : interval(p.interval_95[0], p.interval_95[1]))}};
-  }
-  return {{"estimate", text("–")}, {"note", text("")}};
-}
-
+// A row for each fit that has it; the parameter is named in the first.
 mstch::array parameter_rows(const std::vector<FitReport>& fits) {
   mstch::array rows;
   for (const std::string& name : names_of(fits)) {
-    mstch::array cells;
-    for (const FitReport& fit : fits) cells.emplace_back(cell(fit, name));
-    rows.emplace_back(mstch::map{
-        {"symbol", text(axis_label(name))}, {"name", text(name)}, {"cells", mstch::node{cells}}});
+    bool first = true;
+    for (const FitReport& fit : fits) {
+      const auto& all = fit.result.parameters;
+      const auto p = std::ranges::find(all, name, &calib::CalibratedParameter::name);
+      if (p == all.end()) continue;
+      const bool held = !p->left_out_because.empty();
+      rows.emplace_back(mstch::map{
+          {"symbol", text(first ? axis_label(name) : "")},
+          {"key", text(first ? name : "")},
+          {"fit", text(fit.study.name)},
+          {"estimate", text(held ? number(p->value) : plus_minus(p->value, p->standard_error))},
+          {"interval", text(held ? "held" : interval(p->interval_95[0], p->interval_95[1]))}});
+      first = false;
+    }
   }
   return rows;
 }

@@ -108,8 +108,21 @@ mstch::array fitted_symbols(const calib::CalibrationResult& result) {
   return list;
 }
 
+// "r = 1.5, μ = 0.3": what was asked for and left out stays there along the profiles, while the
+// intervals let it go wherever the specimens do. What `auto` leaves out is known.
+std::string held_along(const FitReport& report) {
+  std::string held;
+  if (report.study.calibrate.automatic) return held;
+  for (const calib::CalibratedParameter& p : report.result.parameters)
+    if (!p.left_out_because.empty())
+      held += fmt::format("{}{} = {}", held.empty() ? "" : ", ", symbol_of(p.name),
+                          setting(p.value, p.unit, 4));
+  return held;
+}
+
 // Everything about how well the answer is known; vanishes where nothing was fitted.
-mstch::node knowledge(const calib::CalibrationResult& result) {
+mstch::node knowledge(const FitReport& report) {
+  const calib::CalibrationResult& result = report.result;
   if (result.fitted.empty()) return section({});
   return section({mstch::map{
       {"directions", mstch::node{directions(result)}},
@@ -118,6 +131,7 @@ mstch::node knowledge(const calib::CalibrationResult& result) {
       {"correlation", mstch::node{correlation_rows(result)}},
       {"next", section(next_rows(result))},
       {"influence", section(influence_rows(result))},
+      {"held_along", text(held_along(report))},
       {"profiles",
        text(result.profiles.empty() ? "" : draw(profile_figure(result.profiles, "profiles")))}}});
 }
@@ -170,10 +184,11 @@ std::string fit_page(const FitReport& report) {
        {"detail", text(status_sentence(result))},
        {"doubts", mstch::node{doubts_of(result)}},
        {"checks", check_section(result.verdict)},
+       {"study_notes", text_section(result.notes)},
        {"parameters", mstch::node{parameters}},
        {"strength_figure", text(draw(strength_figure(result.specimens, "strength")))},
        {"specimens", mstch::node{specimens}},
-       {"knowledge", knowledge(result)},
+       {"knowledge", knowledge(report)},
        {"waterfall",
         text(result.starts.empty() ? "" : draw(waterfall_figure(result, "waterfall")))},
        {"flat", mstch::node{starts_agree(result)}},

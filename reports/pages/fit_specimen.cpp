@@ -106,6 +106,17 @@ mstch::array term_rows(const calib::SpecimenResult& specimen) {
   return rows;
 }
 
+// Of the test, then of the sections by their files.
+std::vector<std::string> warnings_of(const FitReport& report,
+                                     const calib::SpecimenResult& specimen) {
+  std::vector<std::string> all = specimen.measured.warnings;
+  if (const calib::Specimen* declared = find_specimen(report.study, specimen.id))
+    for (const calib::SectionPorosity& section : declared->sections)
+      for (const std::string& warning : section.warnings)
+        all.push_back(fmt::format("{}: {}", base_name(section.file), warning));
+  return all;
+}
+
 // The test as read and as used, then the clocks of a second logger.
 mstch::array test_items(const FitReport& report, const std::string& id) {
   mstch::array items;
@@ -143,7 +154,7 @@ mstch::map specimen_content(const FitReport& report, std::size_t index) {
                                                     : count(s.failed_simulations, "simulation") +
                                                           " of this specimen failed.")},
           {"corrections", correction_section(s.measured.corrections)},
-          {"warnings", text_section(s.measured.warnings)},
+          {"warnings", text_section(warnings_of(report, s))},
           {"tests", section(test_items(report, s.id))},
           {"sections", section(section_items(report, s.id))},
           {"overlaid", mstch::node{report.overlays.contains(s.id)}}};

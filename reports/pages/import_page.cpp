@@ -13,11 +13,17 @@ std::string length(const std::optional<double>& metres) {
   return metres ? setting(*metres / in::mm, "mm") : "not in the file";
 }
 
+std::string area_of(const calib::RawTest& raw) {
+  const auto shown = [](double area) { return setting(area / in::mm2, "mm²"); };
+  if (raw.width && raw.thickness) return shown(*raw.width * *raw.thickness) + ", width × thickness";
+  return raw.area ? shown(*raw.area) : "not in the file";
+}
+
 Facts facts_of(const ImportReport& report) {
   const calib::MeasuredTest& test = report.test;
   const calib::RawTest& raw = report.raw;
   Facts sizes{{"Width, thickness", fmt::format("{}, {}", length(raw.width), length(raw.thickness))},
-              {"Area", test.area > 0.0 ? setting(test.area / in::mm2, "mm²") : "not known"},
+              {"Area", area_of(raw)},
               {"Gauge length", length(raw.gauge_length)}};
   if (test.strain.empty()) return sizes;
   const auto bounded = [&](const std::string& name) {
@@ -47,6 +53,11 @@ double known(const ImportReport& report, double value) {
 }
 
 std::string clocks_caption(const calib::ClockFit& clocks) {
+  if (!clocks.problem.empty())
+    return fmt::format(
+        "The two clocks, which cannot be aligned: {}. Drawn is the offset that fits best; nothing "
+        "was taken from it.",
+        typeset(clocks.problem));
   std::string caption = fmt::format(
       "The two clocks. When the logger's shows {} s, the machine's shows {} s. ",
       number(clocks.reference), plus_minus(clocks.offset, clocks.offset_standard_error));

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/sweep/measure_words.hpp"
 #include "reports/figures/thin.hpp"
-#include "reports/sweep/measure_words.hpp"
 #include "reports/sweep/sweep_words.hpp"
 #include "reports/text/format.hpp"
 
@@ -62,7 +62,7 @@ Line line_of(const Panel& panel, std::vector<std::size_t> points) {
       std::ranges::find(keys, panel.wanted.x, &calib::SweepKey::name) - keys.begin());
   const auto x_of = [&](std::size_t point) { return panel.result.points[point].numbers[column]; };
   std::ranges::stable_sort(points, {}, x_of);
-  const double scale = words_of(panel.wanted.response).scale;
+  const double scale = calib::words_of(panel.wanted.response).scale;
   Line line;
   for (const std::size_t point : points) {
     const calib::PointSummary& summary = panel.result.summaries[point];
@@ -107,7 +107,10 @@ std::string axes(const std::vector<Line>& lines) {
   const double margin = x.high > x.low ? 0.04 * (x.high - x.low) : 1.0;
   return (x.many_decades() ? log_axis('x', x)
                            : fmt::format("set xrange [{}:{}]\n", x.low - margin, x.high + margin)) +
-         (y.many_decades() ? log_axis('y', y) : "set offsets 0, 0, graph 0.06, graph 0.06\n");
+         (y.many_decades() ? log_axis('y', y)
+                           : fmt::format("set yrange [{}*:*]\nset offsets 0, 0, graph 0.06, graph "
+                                         "0.06\n",
+                                         y.low >= 0.0 ? "0<" : ""));
 }
 
 // Means with the band of their 95 % intervals, a line for each series.
@@ -135,7 +138,7 @@ std::string mean_commands(const Panel& panel) {
     lines.push_back(line);
   }
   if (lines.empty()) return {};
-  const MeasureWords words = words_of(panel.wanted.response);
+  const calib::MeasureWords words = calib::words_of(panel.wanted.response);
   return data + axes(lines) + key_of(panel) +
          fmt::format(
              "set xlabel '{}' offset 0,0.4\nset ylabel '{}{}' offset 0.5,0\n"

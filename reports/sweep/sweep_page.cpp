@@ -3,140 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <set>
 
+#include "calib/sweep/measure_words.hpp"
 #include "reports/pages/page.hpp"
-#include "reports/sweep/measure_words.hpp"
 #include "reports/sweep/sweep_figure.hpp"
+#include "reports/sweep/sweep_findings.hpp"
 #include "reports/sweep/sweep_words.hpp"
 #include "reports/text/format.hpp"
 
 namespace havers::reports {
 namespace {
 
-using calib::FindingOutcome;
+using calib::words_of;
 
 mstch::node cell(std::string value) {
   return mstch::map{{"text", text(std::move(value))}};
-}
-
-std::string value_of(const calib::Finding& finding) {
-  const MeasureWords words = words_of(finding.response);
-  const bool absolute =
-      finding.test == calib::FindingTest::above || finding.test == calib::FindingTest::below;
-  const std::string what =
-      finding.test == calib::FindingTest::steady   ? words.name + ", coefficient of variation"
-      : finding.test == calib::FindingTest::linear ? words.name + ", away from the line"
-      : absolute                                   ? words.name
-                                                   : words.name + ", difference";
-  const double scale = absolute ? words.scale : in::percent;
-  return fmt::format("{}: {}", what,
-                     with_interval(finding.value / scale, finding.low / scale, finding.high / scale,
-                                   absolute ? words.unit : "%"));
-}
-
-std::string inertia_of(const calib::Finding& finding) {
-  const std::string low = number(finding.inertia_low, 2), high = number(finding.inertia_high, 2);
-  return "I = " + (low == high ? low : fmt::format("{} to {}", low, high));
-}
-
-std::string grade_of(FindingOutcome outcome) {
-  return outcome == FindingOutcome::agrees      ? "pass"
-         : outcome == FindingOutcome::disagrees ? "fail"
-                                                : "warn";
-}
-
-std::string mark_of(FindingOutcome outcome) {
-  return outcome == FindingOutcome::agrees ? "✓" : outcome == FindingOutcome::disagrees ? "✗" : "?";
-}
-
-// Key of the request that a finding is `at` a value of.
-std::string place_of(const calib::Sweep& sweep, const calib::Finding& finding) {
-  for (const calib::FindingRequest& request : sweep.findings)
-    if (request.id == finding.id && request.claim == finding.claim && !request.per.empty() &&
-        !finding.at.empty())
-      return fmt::format("{}: {}", sweep.name, place(request.per, finding.at));
-  return sweep.name;
-}
-
-std::string words_for(std::string what, const calib::SweepPlan& plan) {
-  for (const calib::SweepKey& key : plan.keys) {
-    const std::string named = key.name + " = ";
-    for (std::size_t at = what.find(named); at != std::string::npos; at = what.find(named)) {
-      const std::size_t value = at + named.size();
-      const std::size_t end =
-          std::min({what.find(", ", value), what.find(" against ", value), what.size()});
-      what.replace(at, end - at, place(key.name, what.substr(value, end - value)));
-    }
-  }
-  return what;
-}
-
-struct Row {
-  const calib::Finding* finding;
-  const calib::Sweep* sweep;
-};
-
-// All findings by id, in the order of sweeps within one.
-std::vector<Row> rows_of(const std::vector<SweepReport>& sweeps) {
-  std::vector<Row> rows;
-  for (const SweepReport& report : sweeps)
-    for (const calib::Finding& finding : report.result.findings)
-      rows.push_back({&finding, &report.sweep});
-  std::ranges::stable_sort(rows, {}, [](const Row& row) { return row.finding->id; });
-  return rows;
-}
-
-mstch::array finding_rows(const std::vector<Row>& rows) {
-  mstch::array list;
-  for (const auto& [finding, sweep] : rows)
-    list.emplace_back(
-        mstch::map{{"grade", text(grade_of(finding->outcome))},
-                   {"mark", text(mark_of(finding->outcome))},
-                   {"outcome", text(to_string(finding->outcome))},
-                   {"id", text(finding->id)},
-                   {"claim", text(typeset(finding->claim))},
-                   {"at", text(place_of(*sweep, *finding))},
-                   {"inertia", text(inertia_of(*finding))},
-                   {"value", text(value_of(*finding))},
-                   {"what", text(words_for(finding->what, sweep->plan))},
-                   {"ground", text(typeset("asked: " + finding->ground))},
-                   {"meaning", finding->meaning.empty() ? mstch::node{false}
-                                                        : text(typeset(finding->meaning))},
-                   {"runs", text(std::to_string(finding->runs))}});
-  return list;
-}
-
-// An id holds when all its rows agree, is contradicted when all disagree; else it is mixed.
-std::string sentence_of(const std::vector<Row>& rows, long runs) {
-  if (rows.empty()) return fmt::format("{} of the model.", count(runs, "run"));
-  std::map<std::string, std::set<FindingOutcome>> outcomes;
-  for (const Row& row : rows) outcomes[row.finding->id].insert(row.finding->outcome);
-  std::array<std::string, 3> names;  // holds, contradicted, mixed
-  std::array<int, 3> counts{};
-  for (const auto& [id, set] : outcomes) {
-    const bool one = set.size() == 1;
-    const std::size_t kind = one && set.contains(FindingOutcome::agrees)      ? 0
-                             : one && set.contains(FindingOutcome::disagrees) ? 1
-                                                                              : 2;
-    names.at(kind) += (names.at(kind).empty() ? "" : ", ") + id;
-    ++counts.at(kind);
-  }
-  std::string sentence =
-      fmt::format("Of {}: ", count(static_cast<long>(outcomes.size()), "finding"));
-  const std::array<std::string_view, 3> say{"agree", "disagree", "are mixed or undecided"},
-      of_one{"agrees", "disagrees", "is mixed or undecided"};
-  bool first = true;
-  for (std::size_t kind = 0; kind < 3; ++kind) {
-    if (counts.at(kind) == 0) continue;
-    sentence += fmt::format("{}{} {} ({})", first ? "" : "; ", counts.at(kind),
-                            counts.at(kind) == 1 ? of_one.at(kind) : say.at(kind), names.at(kind));
-    first = false;
-  }
-  return sentence + ".";
 }
 
 bool all_trusted(const std::vector<SweepReport>& sweeps) {
@@ -144,14 +26,15 @@ bool all_trusted(const std::vector<SweepReport>& sweeps) {
 }
 
 // Runs without an answer are worse than claims that do not hold.
-std::string grade_of(const std::vector<Row>& rows, const std::vector<SweepReport>& sweeps) {
+std::string grade_of(const std::vector<FindingRow>& rows, const std::vector<SweepReport>& sweeps) {
   if (!all_trusted(sweeps)) return "bad";
-  const bool agree = std::ranges::all_of(
-      rows, [](const Row& row) { return row.finding->outcome == FindingOutcome::agrees; });
+  const bool agree = std::ranges::all_of(rows, [](const FindingRow& row) {
+    return row.finding->outcome == calib::FindingOutcome::agrees;
+  });
   return agree ? "good" : "mixed";
 }
 
-std::string with_unit(const MeasureWords& words) {
+std::string with_unit(const calib::MeasureWords& words) {
   return words.unit.empty() ? words.name : fmt::format("{} ({})", words.name, words.unit);
 }
 
@@ -177,17 +60,22 @@ std::string coefficients_of(const calib::Law& law) {
   return all;
 }
 
+std::string lack_of_fit(const calib::Law& law) {
+  const std::string ratio = number(law.lack_of_fit, 3);
+  return std::isfinite(law.lack_of_fit) ? fmt::format("{} ({})", ratio, chance(law.lack_of_fit_p))
+                                        : ratio;
+}
+
 mstch::array law_rows(const std::vector<calib::Law>& laws) {
   mstch::array list;
   for (const calib::Law& law : laws)
-    list.emplace_back(mstch::map{
-        {"law", text(law_text(law))},
-        {"at", text(law.request.per.empty() ? "" : place(law.request.per, law.at))},
-        {"coefficients", text(coefficients_of(law))},
-        {"explained", text(number(law.explained, 3))},
-        {"lack",
-         text(fmt::format("{} ({})", number(law.lack_of_fit, 3), chance(law.lack_of_fit_p)))},
-        {"runs", text(std::to_string(law.runs))}});
+    list.emplace_back(
+        mstch::map{{"law", text(law_text(law))},
+                   {"at", text(law.request.per.empty() ? "" : place(law.request.per, law.at))},
+                   {"coefficients", text(coefficients_of(law))},
+                   {"explained", text(number(law.explained, 3))},
+                   {"lack", text(lack_of_fit(law))},
+                   {"runs", text(std::to_string(law.runs))}});
   return list;
 }
 
@@ -210,6 +98,7 @@ mstch::array point_heads(const SweepReport& report) {
   for (const calib::SweepKey& key : report.sweep.plan.keys) head(name_of_key(key.name));
   head("I");
   head("n");
+  head("Failed");
   head("Did not break");
   for (const calib::Measure m : known_measures(report.result)) head(with_unit(words_of(m)));
   head("CV of the strength (%)");
@@ -227,6 +116,7 @@ mstch::node point_row(const SweepReport& report, std::size_t i) {
   for (const std::string& value : point.values) cells.push_back(cell(bare(value)));
   cells.push_back(cell(number(point.inertia_number, 2)));
   cells.push_back(cell(std::to_string(summary.runs - summary.failed)));
+  cells.push_back(cell(std::to_string(summary.failed)));
   cells.push_back(cell(std::to_string(summary.unbroken)));
   for (const calib::Measure m : known_measures(report.result))
     cells.push_back(cell(plus_minus(summary[m].mean / words_of(m).scale,
@@ -253,28 +143,37 @@ mstch::array figures_of(const SweepReport& report) {
   return figures;
 }
 
+std::string about(const SweepReport& report) {
+  const std::string& why = report.result.most_failed_because;
+  const bool open = std::ranges::any_of(
+      report.result.summaries, [](const calib::PointSummary& s) { return s.unbroken > 0; });
+  return fmt::format(
+      "{} {}, {} each.{}{}", typeset(report.sweep.text),
+      count(static_cast<long>(report.result.points.size()), "point"),
+      count(report.sweep.plan.seeds, "run"),
+      why.empty() ? "" : fmt::format(" Runs that failed, most often so: {}.", typeset(why)),
+      open ? " Of points with runs that did not break the modulus alone is drawn." : "");
+}
+
 mstch::node sweep_part(const SweepReport& report) {
   mstch::array rows;
   for (std::size_t i = 0; i < report.result.points.size(); ++i)
     rows.push_back(point_row(report, i));
-  return mstch::map{
-      {"name", text(report.sweep.name)},
-      {"about", text(fmt::format("{} {}, {} each.", typeset(report.sweep.text),
-                                 count(static_cast<long>(report.result.points.size()), "point"),
-                                 count(report.sweep.plan.seeds, "run")))},
-      {"figures", mstch::node{figures_of(report)}},
-      {"has_laws", mstch::node{!report.result.laws.empty()}},
-      {"laws", mstch::node{law_rows(report.result.laws)}},
-      {"count", text(std::to_string(report.result.points.size()))},
-      {"heads", mstch::node{point_heads(report)}},
-      {"rows", mstch::node{rows}}};
+  return mstch::map{{"name", text(report.sweep.name)},
+                    {"about", text(about(report))},
+                    {"figures", mstch::node{figures_of(report)}},
+                    {"has_laws", mstch::node{!report.result.laws.empty()}},
+                    {"laws", mstch::node{law_rows(report.result.laws)}},
+                    {"count", text(std::to_string(report.result.points.size()))},
+                    {"heads", mstch::node{point_heads(report)}},
+                    {"rows", mstch::node{rows}}};
 }
 
 }  // namespace
 
 std::string sweep_page(const std::string& title, const std::vector<SweepReport>& sweeps,
                        const Provenance& provenance, double wall_seconds) {
-  const std::vector<Row> rows = rows_of(sweeps);
+  const std::vector<FindingRow> rows = findings_of(sweeps);
   long runs = 0, failed = 0, unbroken = 0;
   mstch::array parts;
   for (const SweepReport& report : sweeps) {
@@ -290,7 +189,8 @@ std::string sweep_page(const std::string& title, const std::vector<SweepReport>&
   return render_page(
       title, "sweep",
       {{"grade", text(grade_of(rows, sweeps))},
-       {"sentence", text(why_not_trusted + sentence_of(rows, runs))},
+       {"sentence", text(why_not_trusted + (rows.empty() ? count(runs, "run") + " of the model."
+                                                         : findings_sentence(rows)))},
        {"detail",
         text(fmt::format(
             "{}, {} failed, {} did not break, {} wall time; seeds are not shared between points.",

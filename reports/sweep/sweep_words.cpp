@@ -11,6 +11,7 @@ std::string name_of_key(const std::string& key) {
   static const std::map<std::string, std::string> names{
       {"joints.scatter", "scatter d"},
       {"joints.ratio", "ratio r"},
+      {"joints.missing", "share of missing joints"},
       {"joints.distribution", "distribution"},
       {"assembly.layers", "layers N"},
       {"assembly.fibres", "fibres n"},
@@ -29,7 +30,7 @@ std::string place(const std::string& key, const std::string& value) {
   const auto found = with_unit.find(key);
   const auto& [name, unit] =
       found == with_unit.end() ? std::pair{name_of_key(key), std::string()} : found->second;
-  return name + " = " + typeset(bare(value)) + unit;
+  return name + "\u00a0=\u00a0" + typeset(bare(value)) + unit;
 }
 
 std::string bare(const std::string& value) {

@@ -11,7 +11,7 @@ std::string name_of_key(const std::string& key);
 /// A TOML value without its quotes.
 std::string bare(const std::string& value);
 
-/// "θ = 45°", "ratio r = 3": a key at a value, the unit behind it.
+/// "θ = 45°", "ratio r = 3": a key at a value, the unit behind it; blanks do not break.
 std::string place(const std::string& key, const std::string& value);
 
 }  // namespace havers::reports

@@ -121,7 +121,9 @@ std::string with_interval(double value, double low, double high, std::string_vie
                        shows_plainly(std::max(std::abs(value), most), width);
   const std::string shown = plainly ? fixed(value, decimals_for(width)) : number(value, 3);
   const std::string space = unit.empty() ? "" : "\u00a0";
-  return fmt::format("{}{}{} ({})", shown, space, unit, interval(low, high));
+  if (!std::isfinite(value)) return std::string(unknown);
+  return fmt::format("{}{}{} ({})", shown, space, unit,
+                     std::isfinite(width) ? interval(low, high) : "interval not known");
 }
 
 std::string chance(double p) {

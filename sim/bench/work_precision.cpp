@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "sim/outcome.hpp"
 
@@ -206,11 +207,10 @@ class Bench {
   bool stopped_ = false;
 };
 
-// Of those that are judged; null where there is none.
+// Of those that are judged; null where there is none. Precondition: the reference has a row.
 const BenchRow* nearest_to_failure(const WorkPrecision& study) {
   const BenchRow* nearest = nullptr;
-  for (std::size_t i = 1; i < study.rows.size(); ++i) {
-    const BenchRow& row = study.rows[i];
+  for (const BenchRow& row : std::span(study.rows).subspan(1)) {
     const BenchSpread& error = row.errors.failure_strain;
     if (!is_judged(study, row, error)) continue;
     if (nearest == nullptr || error.high < nearest->errors.failure_strain.high) nearest = &row;
@@ -271,16 +271,17 @@ std::string summary(const WorkPrecision& study) {
   if (const auto cheapest = cheapest_for_failure(study)) {
     const BenchRow& row = study.rows[*cheapest];
     return fmt::format(
-        "Cheapest for a failure strain to 0.1 % for every seed: {}, {:.2g} s of CPU time.",
+        "Cheapest on the reference's mesh for a failure strain to 0.1 % for every seed: {}, "
+        "{:.2g} s of CPU time.",
         to_string(row.setting), row.cpu.median);
   }
+  const std::string none =
+      "On the reference's mesh no other setting gives the failure strain to 0.1 % for every seed";
   const BenchRow* nearest = nearest_to_failure(study);
-  return "No setting but the reference gives the failure strain to 0.1 % for every seed" +
-         (nearest == nullptr
-              ? std::string(".")
-              : fmt::format("; the nearest comes to {:.2g} %: {}, {:.2g} s of CPU time.",
+  if (nearest == nullptr) return none + ".";
+  return none + fmt::format("; the nearest comes to {:.2g} %: {}, {:.2g} s of CPU time.",
                             100.0 * nearest->errors.failure_strain.high,
-                            to_string(nearest->setting), nearest->cpu.median));
+                            to_string(nearest->setting), nearest->cpu.median);
 }
 
 std::string explain(const Omissions& omissions) {

@@ -120,6 +120,21 @@ TEST(Check, SaysWhatAStudyLeavesOutAndTakesTwice) {
   EXPECT_FALSE(fs::exists(folder / "again"));
 }
 
+// What went over the terminal stands in the results too.
+TEST(Fit, LeavesItsNotesOnThePageAndInTheResult) {
+  const fs::path folder = folder_with_tests();
+  test::write_text(folder / "made/study.toml",
+                   replaced_once(test::small_study(), "orientation_deg = 0\n", ""));
+  const std::string doubt = "specimen B0 has no orientation_deg: 0 is taken, fibres along the load";
+  EXPECT_THAT(run_havers(folder, "fit made/study.toml -o out").err, HasSubstr(doubt));
+  const auto result = nlohmann::json::parse(test::read_text(folder / "out/result.json"));
+  EXPECT_EQ(result["notes"], nlohmann::json::array({doubt}));
+  const std::string page = test::read_text(folder / "out/report.html");
+  EXPECT_THAT(page, HasSubstr("<li>" + doubt));
+  run_havers(folder, "report out");
+  EXPECT_EQ(test::read_text(folder / "out/report.html"), page);
+}
+
 // A thousand a second is no testing machine's rate.
 TEST(Check, SaysWhichRateIsTakenWhereNoTimeTellsIt) {
   const fs::path folder = folder_with_tests();

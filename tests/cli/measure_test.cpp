@@ -128,6 +128,20 @@ TEST(Import, JoinsASecondLogger) {
   EXPECT_TRUE(fs::exists(folder / "clocks/import.json"));
 }
 
+// Of clocks that are not known nothing is shown, and what was noticed before is.
+TEST(Import, ShowsNoClocksWhereALoggerCannotBeJoined) {
+  const fs::path folder = folder_with_tests();
+  split_off_logger(folder);
+  test::write_text(folder / "short.csv", "Time (s),Strain\n0,0\n1,0.001\n2,0.002\n");
+  const auto answer = run_havers(folder, "import machine.csv --gauge short.csv --json -o out");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_NE(answer.err.find("there are too few rows"), std::string::npos) << answer.err;
+  const auto json = nlohmann::json::parse(answer.out);
+  EXPECT_FALSE(json.contains("clocks"));
+  EXPECT_NE(json["warnings"].dump().find("has no unit, taken as mm/mm"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "out/clocks.svg"));
+}
+
 TEST(Import, TakesWhatAStudyCouldSay) {
   const fs::path folder = folder_with_tests();
   const auto corrections = [&](const std::string& options) {

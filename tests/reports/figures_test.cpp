@@ -65,6 +65,13 @@ TEST(Figure, NamesTheSpecimensThatHaveRoom) {
   EXPECT_TRUE(contains(svg, "90°, validation"));
 }
 
+TEST(Figure, KeepsNumbersBelowIntervalsApart) {
+  auto sample = test::fit_sample();
+  sample.result.parameters.front().interval_95 = {16.472, 16.545};
+  EXPECT_TRUE(contains(intervals_figure({{sample.study, sample.result, {}, {}}}, "b").commands,
+                       "set xtics 0.02\n"));
+}
+
 // Names take turns to the right and to the left of points along the line of equality.
 TEST(Figure, NamesNeighboursOnEitherSide) {
   std::vector<calib::SpecimenResult> specimens;

@@ -144,6 +144,40 @@ TEST(FitPage, TellsWhatIsNotOfBoneRightUnderTheVerdict) {
   EXPECT_LT(page.find("A1: a strength of 77542 MPa"), page.find("goodness of fit"));
 }
 
+TEST(FitPage, TellsTheDoubtsAboutStudyTestsAndSections) {
+  auto sample = test::fit_sample();
+  sample.result.notes = {"specimen A1 has no orientation_deg"};
+  sample.result.specimens.front().measured.warnings = {"no break was seen"};
+  calib::Specimen& declared = sample.study.specimens.front();
+  ASSERT_EQ(declared.id, sample.result.specimens.front().id);
+  declared.sections.resize(1);
+  declared.sections.front().file = "in/A1_s1.png";
+  declared.sections.front().warnings = {"the outline touches the edge"};
+  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  expect_sound(page);
+  const std::size_t specimen = page.find("<h3>A1 ");
+  EXPECT_LT(page.find("<li>specimen A1 has no orientation_deg</li>"), specimen);
+  for (const char* doubt :
+       {"<li>no break was seen</li>", "<li>A1_s1.png: the outline touches the edge</li>"}) {
+    EXPECT_TRUE(contains(page, doubt)) << doubt;
+    EXPECT_GT(page.find(doubt), specimen);
+  }
+}
+
+// An interval holds wherever the parameter that was left out may be, the curve at its value alone.
+TEST(FitPage, SaysWhyAnIntervalReachesBeyondItsProfile) {
+  auto sample = test::fit_sample();
+  sample.result.fitted = {"young_GPa"};
+  sample.result.profiles = {{"young_GPa", {12.9, 13.1, 13.3}, {2.0, 0.0, 2.0}, 1.9, {12.0, 14.0}}};
+  const std::string said = "The curves hold r = 1.5";
+  sample.result.parameters.back() = {.name = "ratio", .unit = "", .value = 1.5};
+  EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), said));
+  sample.result.parameters.back().left_out_because = "nothing changes with it";
+  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), said));
+  sample.study.calibrate.automatic = true;
+  EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), said));
+}
+
 TEST(FitPage, LeavesAnIntervalOpenWhereItsProfileHasNoEnd) {
   auto sample = test::fit_sample();
   sample.result.fitted = {"young_GPa"};

@@ -27,6 +27,40 @@ TEST(ImportPage, DrawsATurnedLoadAsItWasUsed) {
   }
 }
 
+// A test that was joined with a logger comes turned.
+TEST(ImportPage, SaysThatALoadWasTurnedBeforeItWasJoined) {
+  auto raw = test::raw_test(13e9, 43e6, 1);
+  auto measured = test::measured_test(13e9, 43e6, 1);
+  raw.load_turned = measured.load_turned = true;
+  const std::string svg = test_svg({"A1.csv", raw, measured});
+  EXPECT_TRUE(contains(svg, ">as read, sign turned<"));
+  EXPECT_FALSE(contains(svg, ">−10<"));
+  EXPECT_TRUE(contains(test_svg({"A1.csv", raw, {}}), ", sign turned<"));
+}
+
+TEST(ImportPage, SaysWhatTheAreaIs) {
+  auto raw = test::raw_test(13e9, 43e6, 1);
+  const auto measured = test::measured_test(13e9, 43e6, 1);
+  raw.width = 4e-3;
+  raw.thickness = 2e-3;
+  raw.area = 7.5e-6;
+  EXPECT_TRUE(
+      contains(import_page({{"A1.csv", raw, measured}}, {}), "8\u00a0mm², width × thickness<"));
+  raw.thickness.reset();
+  EXPECT_TRUE(contains(import_page({{"A1.csv", raw, measured}}, {}), ">7.5\u00a0mm²<"));
+}
+
+TEST(ImportPage, CallsNothingAlignedWhereTheClocksAreNot) {
+  const auto raw = test::raw_test(13e9, 43e6, 1);
+  const auto measured = test::measured_test(13e9, 43e6, 1);
+  calib::ClockFit clocks;
+  const auto page = [&] { return import_page({{"A1.csv", raw, measured, {}, &clocks}}, {}); };
+  EXPECT_TRUE(contains(page(), "the aligned signals"));
+  clocks.problem = "the signals do not determine the two clocks: several offsets fit alike";
+  EXPECT_FALSE(contains(page(), "the aligned signals"));
+  EXPECT_TRUE(contains(page(), "cannot be aligned: the signals do not determine the two clocks"));
+}
+
 TEST(ImportPage, ShowsNumbersCorrectionsAndWarningsOfEveryTest) {
   const auto raw = test::raw_test(13e9, 43e6, 1);
   auto measured = test::measured_test(13e9, 43e6, 1);
@@ -227,6 +261,8 @@ TEST(ComparisonPage, PutsFitsSideBySide) {
   expect_sound(page);
   EXPECT_TRUE(contains(page, "13.123 ± 0.087"));
   EXPECT_TRUE(contains(page, "14.200 ± 0.087"));
+  EXPECT_TRUE(contains(page, "<td>bovine femur B</td><td class=\"n\">14.200"));  // wide as one fit
+  EXPECT_EQ(test::after(page, "<th>E (GPa) <", ">").size(), 1U);
   EXPECT_TRUE(contains(page, "The fit cannot be trusted: 1 of 4 checks failed (search)."));
   EXPECT_TRUE(contains(page, "1\u00a0min 1\u00a0s"));
   EXPECT_TRUE(contains(page, "bovine femur B: seed"));

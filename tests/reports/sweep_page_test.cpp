@@ -70,26 +70,47 @@ TEST(SweepPage, IsRedWhereRunsDidNotBreakAndTellsWhich) {
   known.result.summaries.back().unbroken = 5;
   EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
               AllOf(HasSubstr("verdict bad"), HasSubstr("80 runs, 0 failed, 5 did not break"),
-                    HasSubstr("Did not break</th>")));
+                    HasSubstr("Did not break</th>"), HasSubstr("the modulus alone is drawn")));
   known.result.summaries.back().unbroken = 4;
   EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
               HasSubstr("verdict good"));
+}
+
+TEST(SweepPage, SaysHowManyRunsFailedAndWhy) {
+  Case known;
+  known.result.summaries.back().failed = 3;
+  known.result.most_failed_because = "nothing holds the specimen together";
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+              AllOf(HasSubstr("80 runs, 3 failed"), HasSubstr("<th class=\"n\">Failed</th>"),
+                    HasSubstr("most often so: nothing holds the specimen together.")));
+}
+
+TEST(SweepPage, HasADashAloneWhereNothingCouldBeCompared) {
+  Case known;
+  calib::Finding& finding = known.result.findings.front();
+  finding.value = finding.low = finding.high = std::numeric_limits<double>::quiet_NaN();
+  finding.what.clear();
+  known.result.laws.front().lack_of_fit = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+              AllOf(HasSubstr("Strength, difference: –<br><span class=\"note\">asked: "),
+                    HasSubstr("<td class=\"n\">–</td><td class=\"n\">40</td>")));
 }
 
 TEST(SweepPage, GivesEveryLawWithItsIntervals) {
   const Case known;
   const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
   EXPECT_THAT(page, HasSubstr("scatter d: −10.0 ("));
-  EXPECT_THAT(page, HasSubstr("ratio r = 3"));
+  EXPECT_THAT(page, HasSubstr("ratio r\u00a0=\u00a03"));
 }
 
 TEST(SweepPage, TypesetsClaimsAndChancesThatAreNextToNothing) {
   Case known;
   known.result.findings.front().claim = "and grows with d (1.8e-6 d)";
+  known.result.laws.front().lack_of_fit = 709.0;
   known.result.laws.front().lack_of_fit_p = 0.0;
   const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
   EXPECT_THAT(page, HasSubstr("1.8 × 10⁻⁶ d"));
-  EXPECT_THAT(page, HasSubstr("(p &lt; 10⁻⁶)"));
+  EXPECT_THAT(page, HasSubstr("709 (p &lt; 10⁻⁶)"));
 }
 
 TEST(SweepPage, HasADashForTheInertiaNumberOfTheQuasiStaticLimit) {
@@ -101,9 +122,9 @@ TEST(SweepPage, HasADashForTheInertiaNumberOfTheQuasiStaticLimit) {
 }
 
 TEST(SweepWords, PutTheUnitBehindTheValue) {
-  EXPECT_EQ(place("assembly.orientation_deg", "45"), "θ = 45°");
-  EXPECT_EQ(place("joints.ratio", "3"), "ratio r = 3");
-  EXPECT_EQ(place("joints.distribution", "\"weibull\""), "distribution = weibull");
+  EXPECT_EQ(place("assembly.orientation_deg", "45"), "θ\u00a0=\u00a045°");
+  EXPECT_EQ(place("joints.ratio", "3"), "ratio r\u00a0=\u00a03");
+  EXPECT_EQ(place("joints.distribution", "\"weibull\""), "distribution\u00a0=\u00a0weibull");
 }
 
 TEST(SweepFigures, HaveAPanelForEveryValueOfPer) {
@@ -111,7 +132,7 @@ TEST(SweepFigures, HaveAPanelForEveryValueOfPer) {
   const calib::SweepFigure wanted{.caption = "c", .x = "joints.scatter", .per = "joints.ratio"};
   const auto panels = sweep_figures(known.sweep, known.result, wanted, "f");
   ASSERT_EQ(panels.size(), 2U);
-  EXPECT_EQ(panels[1].at, "ratio r = 3");
+  EXPECT_EQ(panels[1].at, "ratio r\u00a0=\u00a03");
   EXPECT_THAT(panels[0].figure.commands, HasSubstr("Strength (MPa)"));
 }
 

@@ -101,7 +101,8 @@ TEST(Interval, ShowsTwoDigitsOfItsWidth) {
 TEST(WithInterval, GivesTheValueTheDecimalsOfItsInterval) {
   EXPECT_EQ(with_interval(-25.979, -26.015, -25.943, "%"), "−25.979\u00a0% (−26.015 to −25.943)");
   EXPECT_EQ(with_interval(12.9, 12.7, 13.3), "12.90 (12.70 to 13.30)");
-  EXPECT_EQ(with_interval(1.0, nan, nan), "1.00 (–)");
+  EXPECT_EQ(with_interval(1.0, nan, nan, "%"), "1.00\u00a0% (interval not known)");
+  EXPECT_EQ(with_interval(nan, nan, nan, "%"), "–");
 }
 
 TEST(Chance, IsNeverZero) {

@@ -219,6 +219,7 @@ TEST(JoinLogger, MatchesALoadThatIsWrittenNegative) {
   expect_the_specimen(joined);
   ASSERT_EQ(joined.test.warnings.size(), 1U);
   EXPECT_TRUE(joined.test.warnings[0].starts_with("the force is negative while"));
+  EXPECT_TRUE(joined.test.load_turned);
 }
 
 TEST(JoinLogger, SpreadsRepeatedTimesBeforeItMatches) {

@@ -101,6 +101,46 @@ TEST(Finding, AboveAndBelowCompareTheMeanWithTheMargin) {
   EXPECT_EQ(found(FindingTest::below, 0.0, 1.0, 100.1).outcome, FindingOutcome::undecided);
 }
 
+TEST(Finding, SaysWhatWasAskedInTheUnitOfTheMeasure) {
+  FindingRequest request{.test = FindingTest::above, .margin = 2e7};
+  const KnownSweep known({{"x", {"0", "1"}}}, 20,
+                         [](const SweepPoint&, int k) { return 3e7 + deviation(k); });
+  const auto ground = [&] {
+    return judge(request, known.plan, known.points, known.runs).front().ground;
+  };
+  EXPECT_EQ(ground(), "all means above 20 MPa");
+  request = {.test = FindingTest::below, .response = Measure::failure_strain, .margin = 0.005};
+  EXPECT_EQ(ground(), "all means below 0.5 %");
+  request = {.test = FindingTest::below, .response = Measure::fall_part, .margin = 0.05};
+  EXPECT_EQ(ground(), "all means below 0.05");
+  request = {.test = FindingTest::same, .keys = {"x"}, .margin = 1.0 / 3.0};
+  EXPECT_EQ(ground(), "all differences within ±33.33 %");
+}
+
+// Of three points over x the last has one run left, the others having failed.
+Finding judged_with_failed_runs(FindingTest test) {
+  KnownSweep known({{"x", {"0", "1", "2"}}}, 20, [](const SweepPoint& p, int k) {
+    return 1e6 * (100.0 - 10.0 * p.numbers[0] + deviation(k));
+  });
+  for (std::size_t i = 41; i < known.runs.size(); ++i) known.runs[i].failed = true;
+  FindingRequest request;
+  request.test = test;
+  request.keys = {"x"};
+  request.margin = test == FindingTest::above ? 1e6 : 0.5;
+  return judge(request, known.plan, known.points, known.runs).front();
+}
+
+TEST(Finding, IsUndecidedWhereAPointHasTooFewRuns) {
+  for (const FindingTest test :
+       {FindingTest::falls, FindingTest::same, FindingTest::above, FindingTest::steady}) {
+    const Finding finding = judged_with_failed_runs(test);
+    EXPECT_EQ(finding.outcome, FindingOutcome::undecided);
+    EXPECT_THAT(finding.what, testing::StartsWith("x = 2"));
+    EXPECT_TRUE(std::isnan(finding.low));
+    EXPECT_THAT(finding.ground, testing::EndsWith("; 19 runs failed and do not count"));
+  }
+}
+
 TEST(Finding, LinearAgreesWithALine) {
   EXPECT_EQ(found(FindingTest::linear, 10.0, 1.0).outcome, FindingOutcome::agrees);
 }

@@ -55,6 +55,27 @@ TEST(ColumnChoice, SaysWhatIsUsedForWantOfBetter) {
                                      "is true and not engineering"});
 }
 
+// The better known is the unit; what follows from it has to be seen.
+TEST(ColumnChoice, SaysWhereNameAndUnitContradictEachOther) {
+  const auto warnings_of = [](const std::string& names) {
+    return choice_of(names + "\n1,2,3\n2,3,4\n").test.warnings;
+  };
+  const std::vector<std::string> both = warnings_of("Load (N),Extension (N),Strain (%)");
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_TRUE(both[0].starts_with("columns \"Load\" and \"Extension\" both hold force"));
+  EXPECT_EQ(both[1],
+            "column \"Extension\" is extension by its name and force by its unit, N: the unit is "
+            "believed (extension_unit = ... in [specimen.columns] corrects it)");
+  EXPECT_EQ(
+      warnings_of("Load (N),Stress (mm),Strain (%)"),
+      std::vector<std::string>{
+          "column \"Stress\" is stress by its name and extension by its unit, mm: the unit is "
+          "believed (stress_unit = ... in [specimen.columns] corrects it)"});
+  // Neither is taken, and of both there are better ones.
+  EXPECT_EQ(warnings_of("Load (N),Extension (mm),Load (mm)").size(), 1U);
+  EXPECT_TRUE(warnings_of("Load (N),Extension (mm),Strain (mm/mm)").empty());
+}
+
 // Tension in such a record is negative, and compression in it is no tension.
 TEST(ColumnChoice, TurnsWhatCountsCompression) {
   const std::string numbers = "-1,-0.2,-3\n-2,-0.4,-3\n";

@@ -114,6 +114,34 @@ TEST(ReadSweep, NamesUnknownKeysAndQuestionsAboutWhatDoesNotVary) {
                                             HasSubstr("finding.keys: is missing")));
 }
 
+TEST(ReadSweep, NamesMistypedKeysOfSweepAndSceneTogether) {
+  const ScratchFolder folder;
+  const auto file = folder.write("s.toml",
+                                 "[sweep]\nseds = 3\n[sweep.keys]\n\"joints.scater\" = [0.2, 0.4]\n"
+                                 "[assembly]\nfibers = 3\n");
+  EXPECT_THAT(complaints_of(folder,
+                            [&] {
+                              read_sweep(file, {"joints.scater=1", "joints.ratoi=2"});
+                            }),
+              testing::UnorderedElementsAre(
+                  HasSubstr("sweep.seds: is not a known key"),
+                  HasSubstr("sweep.keys.\"joints.scater\": is not a known key"),
+                  HasSubstr("assembly.fibers: is not a known key"),
+                  HasSubstr("--set joints.ratoi: is not a known key"),
+                  HasSubstr("--set joints.scater: sets nothing: the sweep varies it")));
+}
+
+TEST(ReadSweep, AsksForPatternsWhereAQuestionIsAboutThem) {
+  const ScratchFolder folder;
+  const std::string text =
+      "[sweep.keys]\n\"joints.scatter\" = [0.2]\n[[figure]]\nx = \"joints.scatter\"\n"
+      "response = \"crack_span\"\n";
+  EXPECT_THAT(complaints_of(folder, [&] { read_sweep(folder.write("s.toml", text)); }),
+              ElementsAre(HasSubstr("figure.response: is known only where the broken joints are "
+                                    "looked at (say patterns = true in [sweep])")));
+  EXPECT_NO_THROW(read_sweep(folder.write("s.toml", "[sweep]\npatterns = true\n" + text)));
+}
+
 TEST(ReadSweep, NamesAMarginThatCannotBe) {
   const ScratchFolder folder;
   const std::string text =

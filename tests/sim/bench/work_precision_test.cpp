@@ -135,8 +135,8 @@ TEST(WorkPrecision, NamesTheNearestWhereNothingReachesTheTarget) {
   study.rows[2].errors.failure_strain.high = 0.0042;               // the worst seed counts
   study.rows[3].errors.failure_strain = {0.001, 0.001, 0.001, 0};  // and so does one without
   EXPECT_TRUE(
-      summary(study).starts_with("No setting but the reference gives the failure strain to 0.1 % "
-                                 "for every seed; the nearest comes to 0.42 %: " +
+      summary(study).starts_with("On the reference's mesh no other setting gives the failure "
+                                 "strain to 0.1 % for every seed; the nearest comes to 0.42 %: " +
                                  to_string(study.rows[2].setting)))
       << summary(study);
 }

@@ -1,0 +1,82 @@
+// The keys of what is measured: a test, and a section.
+#pragma once
+
+#include "calib/experiment/measured_test.hpp"
+#include "calib/porosity/scatter_map.hpp"
+#include "io/config/key_unit.hpp"
+
+namespace havers::io {
+
+template <class Table>
+void keys(Table& table, calib::Correction& correction) {
+  table.key("what", correction.what);
+  table.key("detail", correction.detail);
+}
+
+template <class Table>
+void keys(Table& table, calib::MeasuredTest& test) {
+  table.key("area_m2", test.area);
+  table.key("modulus_Pa", test.modulus);
+  table.key("modulus_standard_error_Pa", test.modulus_standard_error);
+  table.key("window_low", test.window_low);
+  table.key("window_high", test.window_high);
+  table.key("max_force_N", test.max_force);
+  table.key("strength_Pa", test.strength);
+  table.key("strength_standard_error_Pa", test.strength_standard_error);
+  table.key("failure_strain", test.failure_strain);
+  table.key("broke", test.broke);
+  table.key("strain_rate_per_s", test.strain_rate);
+  table.key("energy_to_failure_J_per_m3", test.energy_to_failure);
+  table.key("linearity", test.linearity);
+  table.key("corrections", test.corrections);
+  table.key("warnings", test.warnings);
+}
+
+template <class Table>
+void keys(Table& table, calib::PoreClass& pores) {
+  table.key("name", pores.name);
+  table.key("count", pores.count);
+  table.key("area_um2", pores.area, square_micrometre);
+}
+
+template <class Table>
+void keys(Table& table, calib::Zone& zone) {
+  table.key("name", zone.name);
+  table.key("porosity", zone.porosity);
+  table.key("bone_area_um2", zone.bone_area, square_micrometre);
+}
+
+template <class Table>
+void keys(Table& table, calib::SectionPorosity& section) {
+  table.key("file", section.file);
+  table.key("pixel_size_um", section.pixel_size, micrometre);
+  table.key("method", section.method);
+  table.key("threshold", section.threshold);
+  table.key("porosity", section.porosity);
+  table.key("porosity_standard_error", section.porosity_standard_error);
+  table.key("porosity_by_grey", section.porosity_by_grey);
+  table.key("pore_count", section.pore_count);
+  table.key("pore_density_per_m2", section.pore_density);
+  table.key("pore_area_um2", section.pore_area, square_micrometre);
+  table.key("bone_area_um2", section.bone_area, square_micrometre);
+  table.key("total_area_um2", section.total_area, square_micrometre);
+  table.key("marrow_area_um2", section.marrow_area, square_micrometre);
+  table.key("mean_pore_area_um2", section.mean_pore_area, square_micrometre);
+  table.key("pore_area_sd_um2", section.pore_area_sd, square_micrometre);
+  table.key("mean_pore_diameter_um", section.mean_pore_diameter, micrometre);
+  table.key("pore_diameter_sd_um", section.pore_diameter_sd, micrometre);
+  table.key("pore_area_ratio_um2", section.pore_area_ratio, square_micrometre);
+  table.key("window_area_um2", section.window_area, square_micrometre);
+  table.key("window_sd", section.window_sd);
+  table.key("window_sd_standard_error", section.window_sd_standard_error);
+  table.key("crack_count", section.crack_count);
+  table.key("crack_area_um2", section.crack_area, square_micrometre);
+  table.key("speck_count", section.speck_count);
+  table.key("classes", section.classes);
+  table.key("zones", section.zones);
+  table.key("density_kg_per_m3", section.density);
+  table.key("density_residual_kg_per_m3", section.density_residual);
+  table.key("warnings", section.warnings);
+}
+
+}  // namespace havers::io

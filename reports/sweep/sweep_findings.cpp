@@ -1,0 +1,125 @@
+#include "reports/sweep/sweep_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "calib/sweep/measure_words.hpp"
+#include "reports/sweep/sweep_words.hpp"
+#include "reports/text/format.hpp"
+
+namespace havers::reports {
+namespace {
+
+using calib::FindingOutcome;
+
+std::string value_of(const calib::Finding& finding) {
+  const calib::MeasureWords words = calib::words_of(finding.response);
+  const bool absolute =
+      finding.test == calib::FindingTest::above || finding.test == calib::FindingTest::below;
+  const std::string what =
+      finding.test == calib::FindingTest::steady   ? words.name + ", coefficient of variation"
+      : finding.test == calib::FindingTest::linear ? words.name + ", away from the line"
+      : absolute                                   ? words.name
+                                                   : words.name + ", difference";
+  const double scale = absolute ? words.scale : in::percent;
+  return fmt::format("{}: {}", what,
+                     with_interval(finding.value / scale, finding.low / scale, finding.high / scale,
+                                   absolute ? words.unit : "%"));
+}
+
+std::string inertia_of(const calib::Finding& finding) {
+  const std::string low = number(finding.inertia_low, 2), high = number(finding.inertia_high, 2);
+  return "I = " + (low == high ? low : fmt::format("{} to {}", low, high));
+}
+
+std::string grade_of(FindingOutcome outcome) {
+  return outcome == FindingOutcome::agrees      ? "pass"
+         : outcome == FindingOutcome::disagrees ? "fail"
+                                                : "warn";
+}
+
+std::string mark_of(FindingOutcome outcome) {
+  return outcome == FindingOutcome::agrees ? "✓" : outcome == FindingOutcome::disagrees ? "✗" : "?";
+}
+
+std::string place_of(const calib::Sweep& sweep, const calib::Finding& finding) {
+  return finding.per.empty() ? sweep.name
+                             : fmt::format("{}: {}", sweep.name, place(finding.per, finding.at));
+}
+
+std::string words_for(std::string what, const calib::SweepPlan& plan) {
+  for (const calib::SweepKey& key : plan.keys) {
+    const std::string named = key.name + " = ";
+    for (std::size_t at = what.find(named); at != std::string::npos; at = what.find(named)) {
+      const std::size_t value = at + named.size();
+      const std::size_t end =
+          std::min({what.find(", ", value), what.find(" against ", value), what.size()});
+      what.replace(at, end - at, place(key.name, what.substr(value, end - value)));
+    }
+  }
+  return what;
+}
+
+}  // namespace
+
+std::vector<FindingRow> findings_of(const std::vector<SweepReport>& sweeps) {
+  std::vector<FindingRow> rows;
+  for (const SweepReport& report : sweeps)
+    for (const calib::Finding& finding : report.result.findings)
+      rows.push_back({&finding, &report.sweep});
+  std::ranges::stable_sort(rows, {}, [](const FindingRow& row) { return row.finding->id; });
+  return rows;
+}
+
+mstch::array finding_rows(const std::vector<FindingRow>& rows) {
+  mstch::array list;
+  for (const auto& [finding, sweep] : rows)
+    list.emplace_back(
+        mstch::map{{"grade", text(grade_of(finding->outcome))},
+                   {"mark", text(mark_of(finding->outcome))},
+                   {"outcome", text(to_string(finding->outcome))},
+                   {"id", text(finding->id)},
+                   {"claim", text(typeset(finding->claim))},
+                   {"at", text(place_of(*sweep, *finding))},
+                   {"inertia", text(inertia_of(*finding))},
+                   {"value", text(value_of(*finding))},
+                   {"what", text(words_for(finding->what, sweep->plan))},
+                   {"ground", text(typeset("asked: " + finding->ground))},
+                   {"meaning", finding->meaning.empty() ? mstch::node{false}
+                                                        : text(typeset(finding->meaning))},
+                   {"runs", text(std::to_string(finding->runs))}});
+  return list;
+}
+
+std::string findings_sentence(const std::vector<FindingRow>& rows) {
+  std::map<std::string, std::set<FindingOutcome>> outcomes;
+  for (const FindingRow& row : rows) outcomes[row.finding->id].insert(row.finding->outcome);
+  std::array<std::string, 3> names;  // holds, contradicted, mixed
+  std::array<int, 3> counts{};
+  for (const auto& [id, set] : outcomes) {
+    const bool one = set.size() == 1;
+    const std::size_t kind = one && set.contains(FindingOutcome::agrees)      ? 0
+                             : one && set.contains(FindingOutcome::disagrees) ? 1
+                                                                              : 2;
+    names.at(kind) += (names.at(kind).empty() ? "" : ", ") + id;
+    ++counts.at(kind);
+  }
+  std::string sentence =
+      fmt::format("Of {}: ", count(static_cast<long>(outcomes.size()), "finding"));
+  const std::array<std::string_view, 3> say{"agree", "disagree", "are mixed or undecided"},
+      of_one{"agrees", "disagrees", "is mixed or undecided"};
+  bool first = true;
+  for (std::size_t kind = 0; kind < 3; ++kind) {
+    if (counts.at(kind) == 0) continue;
+    sentence += fmt::format("{}{} {} ({})", first ? "" : "; ", counts.at(kind),
+                            counts.at(kind) == 1 ? of_one.at(kind) : say.at(kind), names.at(kind));
+    first = false;
+  }
+  return sentence + ".";
+}
+
+}  // namespace havers::reports
