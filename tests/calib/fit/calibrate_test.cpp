@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <stdexcept>
 
 #include "tests/support/memory_store.hpp"
@@ -77,17 +76,7 @@ TEST(Calibrate, GivesIntervalsThatHoldTheTruthAmongUnequalSpecimens) {
 TEST(Calibrate, GivesIntervalsThatHoldTheTruthWhereFewSpecimensTellHowMuchTheyDiffer) {
   int inside = 0;
   for (unsigned draw = 1; draw <= 100; ++draw) {
-    auto study = test::synthetic_study(test::three_orientations, {.specimen_effect = 0.03}, draw);
-    study.calibrate.replicates = 4;
-    std::mt19937_64 random(draw);
-    std::normal_distribution<double> normal;
-    for (auto& specimen : study.specimens) {
-      const double error = specimen.orientation > 1.0   ? 0.0
-                           : specimen.orientation > 0.1 ? 0.04
-                                                        : 0.07;
-      const double strength = specimen.test.strength * std::exp(error * normal(random));
-      specimen.test = test::straight_test(specimen.test.modulus, strength, 2e-3, 2e-3 + error);
-    }
+    const auto study = test::unequally_known_study(draw, {.specimen_effect = 0.03});
     const auto [low, high] = test::parameter_of(test::fit(study), "head_tail_MPa").interval_95;
     inside += low <= 60.0 && 60.0 <= high ? 1 : 0;
   }
