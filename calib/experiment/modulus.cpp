@@ -16,14 +16,25 @@ constexpr double narrowing_step = 0.1;         // part of the window's stress ra
 constexpr double fewest_remaining = 0.3;  // a window shorter than this part shows no straight line
 constexpr double yielded = 0.5;           // slope ratio of the halves that only yielding explains
 
+// (X4) Points that err alike are fewer, and what few scatter about a line is itself uncertain: the
+// variance of Student's t.
+Line with_true_error(Line line, std::span<const double> strain, std::span<const double> stress) {
+  constexpr double fewest_freedom = 3.0;
+  if (!line.fitted) return line;
+  const std::vector<double> residuals = residuals_of(line, strain, stress);
+  const double alike = rows_per_independent(residuals);
+  const double independent = static_cast<double>(residuals.size()) / alike;
+  const double freedom = std::max(independent - 2.0, fewest_freedom);
+  line.slope_standard_error *= std::sqrt(alike * freedom / (freedom - 2.0));
+  return line;
+}
+
 struct Curve {
   std::span<const double> strain, stress;
 
   [[nodiscard]] Line robust(RowRange r) const {
-    return fit_robust_line(strain.subspan(r.first, r.rows()), stress.subspan(r.first, r.rows()));
-  }
-  [[nodiscard]] Line plain(RowRange r) const {
-    return fit_plain_line(strain.subspan(r.first, r.rows()), stress.subspan(r.first, r.rows()));
+    const auto x = strain.subspan(r.first, r.rows()), y = stress.subspan(r.first, r.rows());
+    return with_true_error(fit_robust_line(x, y), x, y);
   }
 };
 
@@ -86,13 +97,6 @@ Window straight_window(const Curve& curve, double strength, const ReductionOptio
   return window;
 }
 
-// (X4) Where successive points err alike, there are fewer of them.
-void widen_by_likeness(std::span<const double> strain, std::span<const double> stress, Line& line) {
-  if (line.fitted)
-    line.slope_standard_error *=
-        std::sqrt(rows_per_independent(residuals_of(line, strain, stress)));
-}
-
 // (X6) The line of ISO 527-1, where it can be one: the curve spans its window, and the line meets
 // the strain axis within half the window's length of zero, which that of a yielded curve does not.
 bool fit_standard(const Curve& curve, const ReductionOptions& options, ModulusFit& fit) {
@@ -104,13 +108,12 @@ bool fit_standard(const Curve& curve, const ReductionOptions& options, ModulusFi
     x.push_back(curve.strain[i]);
     y.push_back(curve.stress[i]);
   }
-  Line plain = fit_plain_line(x, y);
+  const Line plain = with_true_error(fit_plain_line(x, y), x, y);
   const Line robust = fit_robust_line(x, y);
   const bool spanned = curve.strain.back() >= options.standard_high;
   if (!spanned || x.size() < 2 * fewest_half_window || plain.slope <= 0.0) return false;
   const double half = 0.5 * (options.standard_high - options.standard_low);
   if (std::abs(plain.intercept / plain.slope) > half) return false;
-  widen_by_likeness(x, y, plain);
   fit.line = plain;
   // Two ways to draw a line through a bend differ by more than the noise: that is its uncertainty.
   fit.line.slope_standard_error =
@@ -133,13 +136,6 @@ void steepen(const Curve& curve, RowRange window, Line& line) {
   line.intercept -= (factor - 1.0) * line.slope * mean;
   line.slope *= factor;
   line.slope_standard_error *= factor;
-}
-
-// (X4) What so few rows scatter about a line is itself uncertain: the variance of Student's t.
-double widened_by_few(std::size_t rows) {
-  constexpr double fewest_freedom = 3.0;
-  const double freedom = std::max(static_cast<double>(rows) - 2.0, fewest_freedom);
-  return std::sqrt(freedom / (freedom - 2.0));
 }
 
 void fall_back(const Curve& curve, const Window& window, const ReductionOptions& options,
@@ -171,13 +167,10 @@ ModulusFit fit_modulus(std::span<const double> strain, std::span<const double> s
   ModulusFit fit;
   fit.window = between(stress, window.low, window.high);
   fit.line = curve.robust(fit.window);
-  widen_by_likeness(strain.subspan(fit.window.first, fit.window.rows()),
-                    stress.subspan(fit.window.first, fit.window.rows()), fit.line);
   if (window.straight)
     steepen(curve, fit.window, fit.line);
   else
     fall_back(curve, window, options, fit);
-  fit.line.slope_standard_error *= widened_by_few(fit.window.rows());
   const double low = window.low / strength, high = window.high / strength;
   if (low > options.window_low + 1e-9 || high < options.window_high - 1e-9)
     fit.corrections.push_back(

@@ -147,7 +147,7 @@ void choose_replicates(const FitProblem& problem, Trail& trail, Answer& answer) 
   if (!slopes.failed)
     effect = specimen_effect(problem, trail.weights(), trail.best(), slopes.jacobian);
   reweigh(trail, effect);
-  answer.replicates = replicates_needed(problem, trail.weights());
+  answer.replicates = replicates_needed(problem, trail.weights(), trail.best());
 }
 
 // From here on, at the best point of the scouts; false where they fail there.

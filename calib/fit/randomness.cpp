@@ -43,7 +43,7 @@ VectorXd variance_of_mean(const FitProblem& problem, const Answer& answer) {
 Randomness randomness_of(SimulationBatch& batch, const FitProblem& problem, const Answer& answer) {
   const Eigen::MatrixXd& follow = answer.uncertainty.follow;
   Randomness result{.replicates = answer.replicates};
-  result.replicates_needed = replicates_needed(problem, answer.weights);
+  result.replicates_needed = replicates_needed(problem, answer.weights, answer.best);
   result.common_gain = answer.slopes.paired > 0.0 ? answer.slopes.independent / answer.slopes.paired
                                                   : std::numeric_limits<double>::infinity();
   const VectorXd chance = follow.array().square().matrix() * variance_of_mean(problem, answer);
@@ -58,14 +58,17 @@ Randomness randomness_of(SimulationBatch& batch, const FitProblem& problem, cons
   return result;
 }
 
-int replicates_needed(const FitProblem& problem, const Weights& weights) {
+int replicates_needed(const FitProblem& problem, const Weights& weights, const Evaluation& at) {
   double worst = 0.0;
-  for (const std::size_t s : problem.fitted)
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+    const std::size_t s = problem.fitted[f];
+    const auto told = tells(at.predictions[f], problem.targets[s]);
     for (const Landmark q : {modulus, strength}) {
       // weights.replicates is sd·√(1 + 1/n); the 1/n matters little here.
       const double part = std::pow(weights.replicates[s][q] / weights.sd[s][q], 2);
-      if (problem.targets[s].present[q]) worst = std::max(worst, part);
+      if (told[q]) worst = std::max(worst, part);
     }
+  }
   return std::clamp(static_cast<int>(std::ceil(worst / small_part)), fewest_replicates,
                     most_replicates);
 }

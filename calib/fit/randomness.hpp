@@ -9,7 +9,8 @@ namespace havers::calib {
 /// errors (F17). Precondition: !answer.slopes.failed.
 Randomness randomness_of(SimulationBatch& batch, const FitProblem& problem, const Answer& answer);
 
-/// Replicates with which the chance of their mean is a small part of every residual's variance.
-int replicates_needed(const FitProblem& problem, const Weights& weights);
+/// Replicates with which the chance of their mean is a small part of the variance of every residual
+/// that tells something.
+int replicates_needed(const FitProblem& problem, const Weights& weights, const Evaluation& at);
 
 }  // namespace havers::calib

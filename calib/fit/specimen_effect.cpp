@@ -6,18 +6,14 @@
 namespace havers::calib {
 namespace {
 
-/// Residuals of one landmark: difference of logarithms and its variance without the specimen
-/// effect.
-struct Sample {
-  std::vector<double> difference, variance;
-};
-
 double chi_squared(const Sample& sample, double between) {
   double sum = 0.0;
   for (std::size_t i = 0; i < sample.difference.size(); ++i)
     sum += sample.difference[i] * sample.difference[i] / (sample.variance[i] + between);
   return sum;
 }
+
+}  // namespace
 
 // chi_squared falls with `between`: bisection in the variance.
 double variance_between(const Sample& sample, double freedom) {
@@ -30,8 +26,6 @@ double variance_between(const Sample& sample, double freedom) {
   }
   return high;
 }
-
-}  // namespace
 
 Landmarks parameters_spent(const Eigen::MatrixXd& jacobian) {
   Landmarks spent = Landmarks::Zero();

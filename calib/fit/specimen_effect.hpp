@@ -5,6 +5,16 @@
 
 namespace havers::calib {
 
+/// Residuals of one landmark: difference of logarithms and its variance without the specimen
+/// effect.
+struct Sample {
+  std::vector<double> difference, variance;
+};
+
+/// (F9) The smallest variance between specimens with Σ difference²/(variance + it) = `freedom`; 0
+/// where there is less than `least_freedom`.
+double variance_between(const Sample& sample, double freedom);
+
 /// With less freedom (residuals of a landmark less the parameters spent on it) nothing is told of
 /// how much specimens differ. [-]
 inline constexpr double least_freedom = 0.5;

@@ -12,44 +12,65 @@
 namespace havers::calib {
 namespace {
 
-/// Part of each residual's variance that the replicates' spread makes, and how well that is known:
-/// from the replicates of all specimens of an orientation.
-struct Replicates {
-  Eigen::VectorXd part;             // of each residual
+/// What the residuals' variances rest on: the part that the replicates' spread makes is as well
+/// known as the replicates of all specimens of an orientation tell it.
+struct Sources {
+  Eigen::VectorXd replicates;       // part of each residual's variance
+  Eigen::VectorXd weight;           // 1/variance of each residual; 0 where it tells nothing
   std::vector<double> orientation;  // of each fitted specimen
   std::map<double, double> freedom;
 };
 
-Replicates replicates_of(const FitProblem& problem, const Weights& weights, const Evaluation& at) {
-  Replicates result{.part = Eigen::VectorXd(at.residuals.size()), .orientation = {}, .freedom = {}};
+Sources sources_of(const FitProblem& problem, const Weights& weights, const Evaluation& at) {
+  const Eigen::Index count = at.residuals.size();
+  Sources result{.replicates = Eigen::VectorXd(count),
+                 .weight = Eigen::VectorXd(count),
+                 .orientation = {},
+                 .freedom = {}};
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
+    const Eigen::Index row = landmark_count * static_cast<Eigen::Index>(f);
     result.orientation.push_back(problem.study.specimens[s].orientation);
-    result.part.segment<landmark_count>(landmark_count * static_cast<Eigen::Index>(f)) =
+    result.replicates.segment<landmark_count>(row) =
         (weights.replicates[s] / weights.sd[s]).square();
+    result.weight.segment<landmark_count>(row) =
+        tells(at.predictions[f], problem.targets[s])
+            .select(weights.sd[s].square().inverse(), Landmarks(Landmarks::Zero()));
     result.freedom[result.orientation.back()] += std::max(at.predictions[f].usable - 1, 1);
   }
   return result;
 }
 
+// (F11) Part of an unknown's variance that the specimen effect of landmark q makes. Residuals tell
+// that effect by their weights: the larger of the part as it is, and of that by weight.
+double effect_share(const Eigen::VectorXd& shares, const Eigen::VectorXd& weight, Eigen::Index q) {
+  double share = 0.0, weighted = 0.0, weights = 0.0, told = 0.0;
+  for (Eigen::Index row = q; row < shares.size(); row += landmark_count) {
+    share += shares[row];
+    weighted += shares[row] * weight[row];
+    weights += weight[row];
+    told += weight[row] > 0.0 ? 1.0 : 0.0;
+  }
+  return told > 0.0 ? std::max(share, weighted * told / weights) : share;
+}
+
 // (F11) Satterthwaite: an unknown knows its own error only as well as the few replicates of a
 // specimen, and, where the specimen effect was estimated, the few residuals of a landmark tell it.
 double quantile(const Eigen::VectorXd& shares, const Landmarks& freedom, const Landmarks& effect,
-                const Replicates& replicates) {
+                const Sources& sources) {
   double inverse = 0.0;
   for (Eigen::Index q = 0; q < landmark_count; ++q) {
-    double share = 0.0;
     std::map<double, double> by_replicates;
-    for (Eigen::Index row = q; row < shares.size(); row += landmark_count) {
-      share += shares[row];
-      by_replicates[replicates.orientation[static_cast<std::size_t>(row / landmark_count)]] +=
-          shares[row] * replicates.part[row];
-    }
-    if (effect[q] > 0.0) inverse += share * share / std::max(freedom[q], 1.0);
+    for (Eigen::Index row = q; row < shares.size(); row += landmark_count)
+      by_replicates[sources.orientation[static_cast<std::size_t>(row / landmark_count)]] +=
+          shares[row] * sources.replicates[row];
+    if (effect[q] > 0.0)
+      inverse += std::pow(effect_share(shares, sources.weight, q), 2) / std::max(freedom[q], 1.0);
     for (const auto& [orientation, part] : by_replicates)
-      inverse += part * part / replicates.freedom.at(orientation);
+      inverse += part * part / sources.freedom.at(orientation);
   }
-  return inverse > 1e-6 ? gsl_cdf_tdist_Pinv(0.975, 1.0 / inverse) : gsl_cdf_ugaussian_Pinv(0.975);
+  return inverse > 1e-6 ? gsl_cdf_tdist_Pinv(0.975, std::max(1.0 / inverse, 1.0))
+                        : gsl_cdf_ugaussian_Pinv(0.975);
 }
 
 // (F12) ½ |P r|², P the projection on the columns of the unknowns that are free to move.
@@ -75,7 +96,7 @@ bool at_bound(const Unknown& unknown, double position) {
 Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, const Evaluation& at,
                            const Active& active, const Eigen::MatrixXd& slopes) {
   const Eigen::MatrixXd jacobian = slopes.leftCols(static_cast<Eigen::Index>(active.size()));
-  const Replicates replicates = replicates_of(problem, weights, at);
+  const Sources sources = sources_of(problem, weights, at);
 
   Uncertainty result{.follow = jacobian.completeOrthogonalDecomposition().pseudoInverse()};
   const Eigen::MatrixXd& follow = result.follow;
@@ -85,7 +106,7 @@ Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, co
   for (Eigen::Index k = 0; k < follow.rows(); ++k) {
     const Eigen::VectorXd shares =
         follow.row(k).array().square() / std::max(follow.row(k).squaredNorm(), 1e-300);
-    result.half_width[k] *= quantile(shares, result.freedom, weights.specimen, replicates);
+    result.half_width[k] *= quantile(shares, result.freedom, weights.specimen, sources);
   }
   result.lower = -result.half_width;
   result.upper = result.half_width;

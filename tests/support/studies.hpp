@@ -113,6 +113,21 @@ inline calib::Study synthetic_study(const std::vector<double>& degrees, const Tr
 
 inline const std::vector<double> three_orientations{0.0, 45.0, 90.0};
 
+/// Two specimens at 0, 45 and 90 degrees whose strengths are known to 7, 4 and 0.2 %.
+inline calib::Study unequally_known_study(unsigned draw, const Truth& truth = {}) {
+  calib::Study study = synthetic_study(three_orientations, truth, draw);
+  study.calibrate.replicates = 4;
+  std::mt19937_64 random(draw);
+  std::normal_distribution<double> normal;
+  for (std::size_t s = 0; s < 4; ++s) {
+    calib::MeasuredTest& test = study.specimens[s].test;
+    const double error = s < 2 ? 0.07 : 0.04;
+    test = straight_test(test.modulus, test.strength * std::exp(error * normal(random)),
+                         truth.modulus_error, truth.strength_error + error);
+  }
+  return study;
+}
+
 inline calib::CalibrationResult fit(const calib::Study& study, const ClosedForm& law = {}) {
   return calib::calibrate_with(law.simulator(), study);
 }

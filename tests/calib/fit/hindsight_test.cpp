@@ -127,6 +127,18 @@ TEST(Hindsight, TakesAsManyReplicatesAsItNeeds) {
   EXPECT_NEAR(test::parameter_of(many, "head_tail_MPa").value, 60.0, 2.0);
 }
 
+// Strengths known to 10 %, but for that at which a test was stopped: it tells nothing.
+TEST(Hindsight, NeedsNoReplicatesForABoundThatNothingContradicts) {
+  auto study = test::synthetic_study(test::three_orientations);
+  for (auto& specimen : study.specimens)
+    specimen.test.strength_standard_error = 0.1 * specimen.test.strength;
+  study.specimens.push_back(study.specimens[0]);
+  study.specimens.back().id = "stopped";
+  study.specimens.back().broke = false;
+  study.specimens.back().test = test::straight_test(14e9, 25e6, 2e-3, 2e-3);
+  EXPECT_EQ(test::fit(study, {.noise = 0.02}).randomness.replicates_needed, 4);
+}
+
 TEST(Hindsight, TermsAddUpToTheCost) {
   auto study = test::synthetic_study(test::three_orientations);
   for (const char* more : {"pre-peak curve", "energy", "post-peak drop"})

@@ -197,6 +197,28 @@ TEST(Verdict, SeesAModulusThatDiffersBetweenOrientations) {
   EXPECT_TRUE(says(check, "(p < 1e-6)") || says(check, "(p = 0.00")) << check.text;
 }
 
+// A spread between specimens that chance gave moves the answer off the strengths that are known
+// best: that is no misfit. Of 40 true models 2 were rejected.
+TEST(Verdict, RejectsStrengthsThatDifferBetweenOrientationsAndNoneOfATrueModel) {
+  int of_true = 0, of_false = 0;
+  const auto rejected = [](const Study& study) {
+    const auto check = check_of(test::fit(study), "residuals unstructured");
+    return check.outcome == Outcome::fail ? 1 : 0;
+  };
+  for (unsigned draw = 1; draw <= 40; ++draw) {
+    Study study = test::unequally_known_study(draw);
+    of_true += rejected(study);
+    if (draw > 10) continue;
+    for (const std::size_t s : {4U, 5U}) {
+      auto& test = study.specimens[s].test;
+      test = test::straight_test(test.modulus, 2.5 * test.strength);
+    }
+    of_false += rejected(study);
+  }
+  EXPECT_EQ(of_true, 0);
+  EXPECT_GE(of_false, 8);
+}
+
 TEST(Verdict, SaysWhatIsLeftOut) {
   const auto check = check_of(test::fit(test::synthetic_study({0.0})), "identifiable");
   EXPECT_EQ(check.outcome, Outcome::warn);
