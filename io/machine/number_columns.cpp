@@ -46,6 +46,8 @@ bool take_cells(const Row& row, char decimal, SpecimenColumns& specimen,
     }
     const std::string_view cell = row.cells[channel.column];
     Number number = parse_number(cell, decimal);
+    if (number.fault == NumberFault::text && channel.quantity == Quantity::time)
+      number = parse_clock(cell);
     number.value *= channel.to_si;
     if (std::isinf(number.value)) number.fault = NumberFault::too_large;
     if (number.fault != NumberFault::none) {

@@ -63,9 +63,11 @@ bool may_be_requoted(std::string_view text) {
 
 // 10:00:01 or 2026-05-01: loggers write such a column beside their numbers.
 bool is_clock_time(std::string_view cell) {
-  if (cell.find_first_not_of("0123456789:/-.T ") != std::string_view::npos) return false;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (cell.find_first_not_of("0123456789:/-.,T ") != std::string_view::npos) return false;
+  if (!is_digit(cell.front()) || !is_digit(cell.back())) return false;
   const auto marks = std::ranges::count_if(cell, [](char c) { return c == '/' || c == '-'; });
-  return cell.find(':') != std::string_view::npos || (marks == 2 && cell.front() != '-');
+  return cell.find(':') != std::string_view::npos || marks == 2;
 }
 
 }  // namespace
@@ -78,6 +80,19 @@ bool is_number_row(const PreviewRow& row, char decimal) {
     ++numbers;
   }
   return numbers >= 2;
+}
+
+const std::string* text_among_numbers(const PreviewRow& row, char decimal) {
+  const std::string* text = nullptr;
+  int numbers = 0;
+  for (const std::string& cell : row.cells) {
+    if (cell.empty() || is_clock_time(cell)) continue;
+    if (is_number(cell, decimal))
+      ++numbers;
+    else if (text == nullptr)
+      text = &cell;
+  }
+  return numbers >= 2 ? text : nullptr;
 }
 
 CsvRows rows_of(const Dialect& dialect, std::function<bool(const Row&)> take) {

@@ -84,6 +84,16 @@ TEST(ColumnChoice, PassesOverAColumnOfClockTimes) {
   }
 }
 
+// Where it is the time, it counts from its own zero.
+TEST(ColumnChoice, ReadsTheTimeOfAClock) {
+  for (const char* name : {"Time", "Zeit (hh:mm:ss)", "Time (s)"}) {
+    const TestFile file = choice_of(std::string(name) +
+                                    ";Force (N);Strain (%)\n"
+                                    "09:59:59,5;1;0,1\n10:00:00,0;2;0,2\n");
+    EXPECT_EQ(file.test.time, (std::vector{35999.5, 36000.0})) << name;
+  }
+}
+
 TEST(ColumnChoice, NamesTheKeyOfASignalInVolts) {
   const test::TemporaryFile file("Time (s),Strain gauge 1 (V),Strain gauge 2 (V)\n0,1,2\n1,2,3\n");
   EXPECT_EQ(

@@ -64,6 +64,21 @@ TEST(InputFaults, NamesTextWhereANumberShouldBe) {
   EXPECT_EQ(complaint_of(header + "2,,4\n"), "test.csv:4: column \"Load\": \"\" is empty");
 }
 
+// A clock of colons alone is none; the first and every row are looked at before the columns are.
+TEST(InputFaults, NamesTextThatKeepsARowFromBeingNumbers) {
+  const std::string names = "Clock,Load (N),Strain (%)\n",
+                    ends = ",1,2\n10:00:01,2,3\n10:00:02,3,4\n";
+  for (const std::string cell : {":", "//", "abc"}) {
+    const std::string sentence = "test.csv:2: \"" + cell +
+                                 "\" stands among numbers (correct it, or "
+                                 "leave its column out of the export)";
+    EXPECT_EQ(complaint_of(names + cell + ends), sentence);
+    EXPECT_EQ(complaint_of(names + cell + ",1,2\n" + cell + ",2,3\n"), sentence);
+  }
+  EXPECT_EQ(complaint_of("Time,Load (N),Strain (%)\n0:0:0,1,2\n0:0:1,1,2\n:,2,3\n"),
+            "test.csv:4: column \"Time\": \":\" is not a number");
+}
+
 // Words that name no quantity are no header of a further specimen.
 TEST(InputFaults, NamesARowOfTextAmongTheNumbers) {
   EXPECT_EQ(complaint_of(header + "2,3,4\nx,y,z\n3,4,5\n4,5,6\n5,6,7\n"),
