@@ -141,6 +141,21 @@ bool is_grey(const cv::Mat& image) {
   return true;
 }
 
+cv::Mat colourfulness(const cv::Mat& image) {
+  if (is_grey(image)) return {};
+  const double scale = 255.0 / full_of(image);
+  cv::Mat spread(image.size(), CV_8U);
+  std::vector<cv::Mat> channels;
+  for (int y = 0; y < image.rows; y += 32) {  // in strips, as above
+    const cv::Range rows(y, std::min(y + 32, image.rows));
+    cv::split(image.rowRange(rows), channels);
+    const cv::Mat high = cv::max(cv::max(channels[0], channels[1]), channels[2]);
+    const cv::Mat low = cv::min(cv::min(channels[0], channels[1]), channels[2]);
+    cv::Mat(high - low).convertTo(spread.rowRange(rows), CV_8U, scale);
+  }
+  return spread;
+}
+
 cv::Mat to_grey(const cv::Mat& image, const std::string& name) {
   double lowest = 0.0, highest = 0.0;
   cv::minMaxLoc(image.reshape(1), &lowest, &highest);

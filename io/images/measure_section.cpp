@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <opencv2/imgproc.hpp>
 #include <string_view>
 #include <utility>
 
@@ -73,6 +74,37 @@ void warn_of_bone(const PoreMap& map, bool outlined, cv::Size image,
                     100.0 * share));
 }
 
+// As bright as the bone, a strip with a scale or a label passes for a second piece of it.
+void warn_of_strips(const PoreMap& map, cv::Rect box, cv::Size image, Warnings& warnings) {
+  constexpr int blur = 4;  // [px]
+  const std::vector<Contour> parts = outer_contours(map.bone);
+  for (const Contour& part : parts) {
+    const cv::Rect at = cv::boundingRect(part) + box.tl();
+    const bool lies =
+        at.width > image.width - blur && (at.y < blur || at.br().y > image.height - blur);
+    const bool stands =
+        at.height > image.height - blur && (at.x < blur || at.br().x > image.width - blur);
+    if (parts.size() > 1 && (lies || stands))
+      warnings.push_back(
+          fmt::format("{:.1f} % of the bone is a strip along an edge of the image: if it is a "
+                      "label, cut it off or give a mask",
+                      100.0 * enclosed_area(part) / cv::countNonZero(map.bone)));
+  }
+}
+
+// In bone that is grey, colours are somebody's lines and letters.
+void warn_of_drawings(const PoreMap& map, const cv::Mat& colours, Warnings& warnings) {
+  if (colours.empty()) return;
+  const double bone = cv::countNonZero(map.bone);
+  const int grey = cv::countNonZero((colours < 16) & map.bone);
+  const int drawn = cv::countNonZero((colours > 64) & map.bone);
+  if (grey > 0.9 * bone && drawn >= smallest_pore)
+    warnings.push_back(
+        fmt::format("{:.2g} % of the bone is coloured, and the rest is grey: if that is drawn into "
+                    "the image, measure the image without it",
+                    100.0 * drawn / bone));
+}
+
 void warn_of_side(const PoreMap& map, bool like_background, io::Pores known, Warnings& warnings) {
   const std::string_view side = map.dark ? "dark" : "bright", other = map.dark ? "bright" : "dark";
   if (map.areas.empty() && map.crack_count + map.specks == 0)
@@ -108,8 +140,8 @@ void warn_of_size(const PoreMap& map, const calib::SectionPorosity& section, War
       map.areas.empty() ? 0.0 : *std::max_element(map.areas.begin(), map.areas.end());
   if (largest > 0.05 * bone)
     warnings.push_back(
-        fmt::format("one pore takes {:.1f} % of the bone: if it is the marrow "
-                    "cavity, give a mask without it",
+        fmt::format("one pore takes {:.1f} % of the bone: if it is the marrow cavity, or the "
+                    "background inside a frame, give a mask without it",
                     100.0 * largest / bone));
   if (std::abs(section.porosity - section.porosity_by_grey) > 0.01)
     warnings.push_back(
@@ -171,6 +203,7 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
                                     const io::SectionOptions& options) {
   const cv::Mat whole = to_grey(image, name);
   refuse_levels_of_colour(image, name, options.density);
+  const cv::Mat colours = colourfulness(image);
   image.release();
   Warnings doubts, warnings;
   Regions regions = regions_of(whole, options, doubts);
@@ -193,6 +226,8 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
   measured.porosity.method = method_of(options.threshold);
   add_density(whole, grey, map, options.density, measured.porosity);
   warn_of_bone(map, regions.outlined, whole.size(), options, doubts);
+  warn_of_strips(map, regions.box, whole.size(), doubts);
+  warn_of_drawings(map, colours.empty() ? colours : colours(regions.box), doubts);
   warn_of_side(map, !regions.outlined || map.dark == regions.dark_pores, options.pores, doubts);
   warn_of_size(map, measured.porosity, doubts);
   warn_of_objects(map, warnings);

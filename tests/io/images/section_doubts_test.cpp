@@ -82,6 +82,27 @@ TEST(SectionDoubt, WarnsOfAPoreThatMayBeMarrow) {
   EXPECT_TRUE(warns(measured, "marrow cavity"));
 }
 
+// A microscope's data bar, white as the bone is.
+TEST(SectionDoubt, WarnsOfAStripAlongTheEdge) {
+  auto drawn = test::draw({.blur = 0.8});
+  EXPECT_FALSE(warns(doubted(drawn, "plain.png"), "strip along an edge"));
+  drawn.image.rowRange(drawn.image.rows - 60, drawn.image.rows).setTo(204);
+  const auto labelled = doubted(drawn, "label.png");
+  EXPECT_TRUE(warns(labelled, "strip along an edge of the image"));
+  EXPECT_TRUE(labelled.doubtful);
+}
+
+TEST(SectionDoubt, WarnsOfLinesDrawnIntoTheBoneAndOfNoStain) {
+  const auto stained = test::draw({.blur = 0.8, .colour = true});
+  EXPECT_FALSE(warns(doubted(stained, "stain.png"), "is coloured"));
+  auto drawn = test::draw({.blur = 0.8});
+  cv::cvtColor(drawn.image, drawn.image, cv::COLOR_GRAY2BGR);
+  cv::line(drawn.image, {20, 20}, {500, 20}, cv::Scalar(0, 0, 255), 3);
+  EXPECT_FALSE(warns(doubted(drawn, "outside.png"), "is coloured"));
+  cv::line(drawn.image, {150, 300}, {500, 320}, cv::Scalar(0, 0, 255), 3);
+  EXPECT_TRUE(warns(doubted(drawn, "inside.png"), "is coloured, and the rest is grey"));
+}
+
 // Bright fringes, as phase contrast leaves them, weigh against the pores in the grey levels only.
 TEST(SectionDoubt, WarnsWhereGreyLevelsAndThresholdDisagree) {
   auto drawn = test::draw({.porosity = 0.0});
