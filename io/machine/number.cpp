@@ -155,8 +155,11 @@ Number parse_lone_number(std::string_view cell) {
 }
 
 Number parse_clock(std::string_view cell) {
-  constexpr int parts = 3;                          // hours, minutes, seconds
+  if (cell.ends_with('Z')) cell.remove_suffix(1);
   cell.remove_prefix(cell.find_last_of(" T") + 1);  // npos + 1 is 0
+  const bool minutes =
+      cell.find_first_of(".,") != std::string_view::npos && std::ranges::count(cell, ':') == 1;
+  const int parts = minutes ? 2 : 3;  // hours, minutes, seconds
   Number time;
   for (int part = 0; part < parts; ++part) {
     const std::size_t end = part + 1 < parts ? cell.find(':') : cell.size();

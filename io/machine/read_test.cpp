@@ -48,7 +48,8 @@ Table find_table(const std::string& name, const Preview& preview) {
   if (preview.open_quote_line > 0) throw open_quote(name, preview.open_quote_line);
   for (const PreviewRow& row : preview.rows) refuse_text_among_numbers(name, row, preview);
   throw InputError(name, "no rows of numbers were found in it",
-                   "a test file has a row of column names and rows of two numbers or more");
+                   "a test file has a row of column names and rows of two numbers or more, "
+                   "separated by commas, semicolons, tabs or |");
 }
 
 // Columns without names are called by their numbers, once the user has said which is which.
