@@ -75,13 +75,17 @@ bool is_clock_time(std::string_view cell) {
 }  // namespace
 
 bool is_number_row(const PreviewRow& row, char decimal) {
-  int numbers = 0;
+  int numbers = 0, clocks = 0;
   for (const std::string& cell : row.cells) {
-    if (cell.empty() || is_clock_time(cell)) continue;
-    if (!is_number(cell, decimal)) return false;
-    ++numbers;
+    if (cell.empty()) continue;
+    if (is_clock_time(cell))
+      ++clocks;
+    else if (is_number(cell, decimal))
+      ++numbers;
+    else
+      return false;
   }
-  return numbers >= 2;
+  return numbers >= 2 || (numbers == 1 && clocks > 0);
 }
 
 const std::string* text_among_numbers(const PreviewRow& row, char decimal) {

@@ -92,6 +92,9 @@ TEST(ColumnChoice, ReadsTheTimeOfAClock) {
                                     "09:59:59,5;1;0,1\n10:00:00,0;2;0,2\n");
     EXPECT_EQ(file.test.time, (std::vector{35999.5, 36000.0})) << name;
   }
+  const test::TemporaryFile logger(
+      "Time,Strain (%)\n2026-05-01 09:59:59,0.1\n2026-05-01 10:00:00,0.2\n");
+  EXPECT_EQ(read_test(logger.path(), {.logger = true}).test.time, (std::vector{35999.0, 36000.0}));
 }
 
 TEST(ColumnChoice, NamesTheKeyOfASignalInVolts) {
