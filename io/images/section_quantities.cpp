@@ -12,10 +12,10 @@
 namespace havers::images {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 struct Moments {
-  double mean = unknown, sd = unknown;
+  double mean = not_known, sd = not_known;
 };
 
 Moments moments_of(const std::vector<double>& values) {
@@ -76,7 +76,7 @@ double filled_area(const cv::Mat& mask) {
 
 calib::SectionPorosity section_quantities(const PoreMap& map, bool outlined,
                                           const io::SectionOptions& options) {
-  const double pixel = options.pixel_size.value_or(unknown);
+  const double pixel = options.pixel_size.value_or(not_known);
   const double bone = cv::countNonZero(map.bone), pixel_area = pixel * pixel;
   calib::SectionPorosity section;
   section.pixel_size = pixel;

@@ -47,7 +47,7 @@ std::string joined(const std::vector<std::string>& parts) {
 }
 
 // Of a command as a shell takes it.
-std::vector<std::string> words_of(const std::string& command) {
+std::vector<std::string> shell_words(const std::string& command) {
   std::vector<std::string> words(1);
   bool quoted = false;
   for (std::size_t i = 0; i < command.size(); ++i) {
@@ -68,7 +68,7 @@ std::string settings_of(const FitReport& fit) {
   std::vector<std::string> settings;
   for (const auto& [name, value] : fit.provenance) {
     if (name != "Command") continue;
-    const std::vector<std::string> words = words_of(value);
+    const std::vector<std::string> words = shell_words(value);
     for (std::size_t i = 0; i < words.size(); ++i)
       for (const std::string option : {"--set", "--seed"})
         if (words[i] == option && i + 1 < words.size())
