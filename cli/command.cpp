@@ -52,10 +52,17 @@ CLI::Option* add_output(CLI::App& command, std::filesystem::path& folder, const 
       ->check(CLI::Validator(complaint, ""));
 }
 
+void refuse_seed(const CommonOptions& common, const std::string& what) {
+  if (common.seed)
+    throw io::InputError(fmt::format("--seed {}", *common.seed), "sets nothing: " + what,
+                         "leave it out, -h shows the options that there are");
+}
+
 void refuse_settings(const CommonOptions& common, const std::string& what) {
   if (!common.set.empty())
     throw io::InputError("--set " + common.set.front(), "sets nothing: " + what,
                          "leave it out, -h shows the options that there are");
+  refuse_seed(common, what);
 }
 
 void note(const CommonOptions& common, const std::string& sentence) {

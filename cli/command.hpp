@@ -59,7 +59,10 @@ CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& n
 /// Adds -o,--output DIR, which names a folder.
 CLI::Option* add_output(CLI::App& command, std::filesystem::path& folder, const std::string& help);
 
-/// @throws io::InputError where --set is given to a command that has no settings to set.
+/// @throws io::InputError where --seed is given to a command that draws nothing.
+void refuse_seed(const CommonOptions& common, const std::string& what);
+
+/// @throws io::InputError where --set or --seed is given to a command that has nothing to set.
 void refuse_settings(const CommonOptions& common, const std::string& what);
 
 /// A note for the user on stderr; silent with -q.

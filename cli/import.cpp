@@ -220,6 +220,7 @@ void write_results(const OutputFolder& output, const ImportArguments& arguments,
 
 int run_import(const ImportArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
+  refuse_seed(common, "havers import draws nothing");
   io::ImportSettings settings = io::read_import_settings(common.set);
   give_sizes(settings.columns, arguments);
   give_sizes(settings.gauge_columns, arguments);

@@ -5,11 +5,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
 #include "calib/experiment/join_logger.hpp"
 #include "calib/fit/calibration.hpp"
+#include "calib/porosity/scatter_map.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/input_error.hpp"
 #include "io/machine/read_test.hpp"
@@ -145,20 +147,44 @@ void doubt_names(const std::vector<io::SpecimenFiles>& specimens,
 // What can be fitted, though it is hardly meant.
 void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStudy& loaded) {
   std::map<std::pair<std::filesystem::path, std::string>, std::string> tests;
+  std::map<std::pair<std::filesystem::path, std::optional<std::filesystem::path>>, std::string>
+      owners;  // of sections under their masks
   for (const io::SpecimenFiles& files : specimens) {
     if (!files.orientation)
       loaded.notes.push_back(fmt::format(
           "specimen {} has no orientation_deg: 0 is taken, fibres along the load", files.id));
     std::set<std::filesystem::path> sections;
-    for (const std::filesystem::path& section : files.sections)
+    for (const std::filesystem::path& section : files.sections) {
       if (!sections.insert(section).second)
         loaded.notes.push_back(fmt::format("specimen {} lists section {} again: it counts twice",
                                            files.id, section.string()));
+      const std::string& owner = owners.try_emplace({section, files.mask}, files.id).first->second;
+      if (owner != files.id)
+        loaded.notes.push_back(fmt::format("specimens {} and {} have the same section, {}", owner,
+                                           files.id, section.string()));
+    }
     const auto [earlier, fresh] = tests.try_emplace({files.test, files.columns.specimen}, files.id);
     if (!fresh)
       loaded.notes.push_back(
           fmt::format("specimens {} and {} have the same test, {}: it counts twice",
                       earlier->second, files.id, files.test.string()));
+  }
+}
+
+// Where sections do not tell the scatter, the model's is taken.
+void doubt_scatter(LoadedStudy& loaded) {
+  if (loaded.study.porosity.to_scatter != calib::ToScatter::window) return;
+  for (const calib::Specimen& specimen : loaded.study.specimens) {
+    if (specimen.sections.empty() ||
+        std::isfinite(calib::pool_sections(specimen.sections).window_sd))
+      continue;
+    const bool scaled = std::ranges::any_of(
+        specimen.sections, [](const auto& section) { return std::isfinite(section.pixel_size); });
+    loaded.notes.push_back(
+        fmt::format("the sections of specimen {} do not tell the scatter of its joints: {} "
+                    "(model.joints.scatter) is taken; {}",
+                    specimen.id, loaded.study.model.joints.scatter,
+                    scaled ? "no window of a fibre lies in them" : "give its pixel_size_um"));
   }
 }
 
@@ -245,6 +271,7 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     take_specimen(read.specimens[i], std::move(outcomes[i]), loaded);
   require_specimens(loaded, file);
+  doubt_scatter(loaded);
   doubt_rate(loaded);
   doubt_search(loaded);
   return loaded;

@@ -33,11 +33,15 @@ constexpr const char* main_examples =
     "  havers import data_samples/bone_bars/A1.csv --json\n"
     "havers COMMAND -h says more about a command.";
 
+// As a shell takes it: what is not plain in single quotes, these themselves behind a backslash.
 std::string typed(int argc, char** argv) {
   std::string text = "havers";
   for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    const bool plain = !word.empty() && word.find_first_of(" \t'\"$&|;<>()*?") == std::string::npos;
+    std::string word = argv[i];
+    const bool plain =
+        !word.empty() && word.find_first_of(" \t\n\\'\"`$&|;<>()*?[]{}~#!") == std::string::npos;
+    for (auto at = word.find('\''); at != std::string::npos; at = word.find('\'', at + 4))
+      word.replace(at, 1, "'\\''");
     text += plain ? " " + word : " '" + word + "'";
   }
   return text;

@@ -6,21 +6,19 @@
 namespace havers::calib {
 namespace {
 
-constexpr double smallest_jump = 0.2;  // of the range
-
 struct Jump {
   std::size_t first = 0, last = 0;
   double size = 0.0;
 };
 
 // A spike returns in the next row, a break does not.
-Jump largest_jump(const Signal& signal, double window, double from, double to) {
+Jump largest_jump(const Signal& signal, const BreakSearch& search) {
   const auto& [time, value] = signal;
   Jump jump;
   for (std::size_t i = 0, end = 0; i + 1 < time.size(); ++i) {
-    if (time[i] < from || time[i] > to) continue;
+    if (time[i] < search.from || time[i] > search.to) continue;
     end = std::max(end, i + 1);
-    while (end + 1 < time.size() && time[end + 1] <= time[i] + window) ++end;
+    while (end + 1 < time.size() && time[end + 1] <= time[i] + search.window) ++end;
     const std::size_t after = std::min(end + 1, time.size() - 1);
     const double size =
         std::min(std::abs(value[end] - value[i]), std::abs(value[after] - value[i]));
@@ -31,10 +29,9 @@ Jump largest_jump(const Signal& signal, double window, double from, double to) {
 
 }  // namespace
 
-std::optional<SeenBreak> find_break(const Signal& signal, double window, double from, double to) {
-  const auto [low, high] = std::ranges::minmax(signal.value);
-  Jump jump = largest_jump(signal, window, from, to);
-  if (!(jump.size > smallest_jump * (high - low))) return std::nullopt;
+std::optional<SeenBreak> find_break(const Signal& signal, const BreakSearch& search) {
+  Jump jump = largest_jump(signal, search);
+  if (!(jump.size > search.least)) return std::nullopt;
   // Less than a tenth of it is not yet the break, nine tenths are all of it.
   const auto jumped = [&, start = signal.value[jump.first]](std::size_t row) {
     return std::abs(signal.value[row] - start) / jump.size;

@@ -14,8 +14,12 @@ struct SeenBreak {
   std::size_t rows_before = 0;  ///< Rows up to the first of the two.
 };
 
-/// The largest change within `window` [s] that lasts, of rows at times in [from, to] [s]; nothing
-/// where none is a fifth of the signal's range.
-std::optional<SeenBreak> find_break(const Signal& signal, double window, double from, double to);
+/// Rows at times in [from, to] [s], and the least change within `window` [s] that counts.
+struct BreakSearch {
+  double window = 0.0, from = 0.0, to = 0.0, least = 0.0;
+};
+
+/// The largest change that lasts; nothing where none counts.
+std::optional<SeenBreak> find_break(const Signal& signal, const BreakSearch& search);
 
 }  // namespace havers::calib

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "calib/experiment/channel_noise.hpp"
 #include "calib/experiment/clock_break.hpp"
 #include "calib/experiment/clock_refinement.hpp"
 #include "calib/experiment/signal_rates.hpp"
@@ -89,15 +90,34 @@ std::string doubt(const ClockFit& fit, const ClockOptions& options, double shift
   return {};
 }
 
+constexpr double smallest_jump = 0.2;  // of the range
+
+// A gauge may move little in the break, and stay there. Where the break has to be, what stands out
+// from noise and from the fastest loading is it.
+double least_jump(const Signal& logger, const SignalRates& rates, double step) {
+  constexpr double noises = 10.0,
+                   changes = 2.0;  // of rates that are clipped at twice the loading's
+  return std::min(
+      smallest_jump * extent_of(logger.value),
+      std::max(noises * noise_of(logger.value), changes * step * std::ranges::max(rates.value)));
+}
+
 // The break in both records, where the logger's is about where the machine's lets expect it.
-std::optional<CommonBreak> cut_at_break(double difference, ClockEvidence& evidence) {
+std::optional<CommonBreak> cut_at_break(double difference, const SignalRates& logger_rates,
+                                        ClockEvidence& evidence) {
   Signal &machine = evidence.machine, &logger = evidence.logger;
   constexpr double near = 5.0;  // steps
   const double step = evidence.step;
-  const auto seen = find_break(machine, step, machine.time.front(), machine.time.back());
+  const auto seen = find_break(machine, {.window = step,
+                                         .from = machine.time.front(),
+                                         .to = machine.time.back(),
+                                         .least = smallest_jump * extent_of(machine.value)});
   if (!seen) return std::nullopt;
   const double about = seen->time - difference;
-  const auto logged = find_break(logger, step, about - near * step, about + near * step);
+  const auto logged = find_break(logger, {.window = step,
+                                          .from = about - near * step,
+                                          .to = about + near * step,
+                                          .least = least_jump(logger, logger_rates, step)});
   if (!logged || std::min(seen->rows_before, logged->rows_before) < fewest_rows)
     return std::nullopt;
   machine = {machine.time.first(seen->rows_before), machine.value.first(seen->rows_before)};
@@ -144,7 +164,7 @@ std::string match(const Signal& machine, const Signal& logger, const ClockOption
   if (!fit.problem.empty()) return fit.problem;
   ClockEvidence evidence{
       .machine = machine, .logger = logger, .broke = {}, .step = step, .lowest = above_toe};
-  evidence.broke = cut_at_break(difference, evidence);
+  evidence.broke = cut_at_break(difference, b, evidence);
   set_lag(evidence, difference, fit);
   fit = refine_clocks(evidence, options.largest_rate_error, fit);
   draw_clocks(evidence, machine, logger, fit);

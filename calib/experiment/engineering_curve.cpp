@@ -88,11 +88,12 @@ bool gets_longer(const std::vector<double>& elongation, const std::vector<double
 
 }  // namespace
 
-void turn_negative_load(RawTest& raw) {
+void turn_negative_load(RawTest& raw, bool stretched) {
   const std::vector<double>& elongation = raw.strain.empty() ? raw.extension : raw.strain;
   const char* turned = nullptr;
   for (const auto& [load, name] : {std::pair(&raw.stress, "stress"), {&raw.force, "force"}}) {
-    if (load->empty() || !is_compressed(*load) || !gets_longer(elongation, *load)) continue;
+    if (load->empty() || !is_compressed(*load)) continue;
+    if (!stretched && !gets_longer(elongation, *load)) continue;
     for (double& value : *load) value = -value;
     turned = name;
     raw.load_turned = true;

@@ -20,7 +20,8 @@ struct EngineeringCurve {
 
 /// Force and stress of a machine that writes tension negative, turned, with a warning: where they
 /// are negative while strain, or else the crosshead, says that the specimen gets longer (X22).
-void turn_negative_load(RawTest& raw);
+/// Or another record does: `stretched`.
+void turn_negative_load(RawTest& raw, bool stretched = false);
 
 /// (X1) stress from force and area, else the machine's; (X2) strain from the gauge, else from the
 /// crosshead less what the machine gives way (`machine_compliance` [m/N]).

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "calib/experiment/clean_channels.hpp"
 #include "calib/experiment/engineering_curve.hpp"
@@ -131,6 +132,14 @@ RawTest cleaned(RawTest record, const ReductionOptions& options) {
   return record;
 }
 
+// Whether the logger alone can tell tension from compression, and tells tension.
+bool only_logger_stretches(const RawTest& machine, const RawTest& logger) {
+  const std::vector<double>& signal = first_of({&logger.strain, &logger.extension});
+  if (!machine.strain.empty() || !machine.extension.empty() || signal.empty()) return false;
+  const double sum = std::accumulate(signal.begin(), signal.end(), 0.0);
+  return sum > signal.front() * static_cast<double>(signal.size());
+}
+
 void list_repairs(const RawTest& logger, RawTest& test) {
   const std::string whose = "in the logger's record: ";
   for (const Correction& correction : logger.corrections)
@@ -145,6 +154,7 @@ JoinedTest join_logger(const RawTest& machine, const RawTest& recorded,
   JoinedTest joined{.test = cleaned(machine, options), .clocks = {}, .problems = {}};
   RawTest& test = joined.test;
   const RawTest logger = cleaned(recorded, options);
+  if (only_logger_stretches(test, logger)) turn_negative_load(test, true);
   list_repairs(logger, test);
   const auto& load = first_of({&test.force, &test.load_volts, &test.stress, &test.extension});
   const auto& signal = first_of(

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "calib/experiment/channel_noise.hpp"
 
@@ -84,6 +86,22 @@ struct Fall {
   }
 };
 
+// What a load cell shows that holds nothing any more is its offset, as one has that was zeroed with
+// the specimen in the grips.
+std::string offset_after(const Fall& fall, std::size_t row, double strength) {
+  constexpr std::size_t enough_rows = 5;
+  constexpr double least = 0.025, steady = 0.01;  // of the strength
+  const std::span<const double> rest = fall.stress.subspan(row + (fall.stress.size() - row) / 2);
+  if (rest.size() < enough_rows) return {};
+  const auto [low, high] = std::ranges::minmax(rest);
+  const double middle = 0.5 * (low + high);
+  if (high - low > steady * strength || std::abs(middle) < least * strength) return {};
+  return fmt::format(
+      "after the break the load stays at {:.3g} MPa, {:.1f} % of the strength: if the load cell "
+      "was not zeroed without the specimen, the strength is wrong by that",
+      middle * 1e-6, 100.0 * middle / strength);
+}
+
 RecordEnd parted_at(const Fall& fall, std::size_t row) {
   RecordEnd end{.broke = true, .rows = row, .cut = {}, .warnings = {}};
   end.cut = {"cut after break",
@@ -95,6 +113,8 @@ RecordEnd parted_at(const Fall& fall, std::size_t row) {
         fmt::format("after the break the stress is above {:.2g} of the strength again in {} {}: "
                     "not used",
                     fall.part, again, again == 1 ? "row" : "rows"));
+  if (std::string offset = offset_after(fall, row, strength); !offset.empty())
+    end.warnings.push_back(std::move(offset));
   return end;
 }
 

@@ -36,12 +36,13 @@ struct SectionPorosity {
   double bone_area = 0.0;                ///< Ct.Ar: inside the mask, pores included. [m²]
   double total_area = 0.0;               ///< Tt.Ar: inside the outer outline. [m²]
   double marrow_area = 0.0;              ///< Ma.Ar. [m²]
-  double mean_pore_area = 0.0;           ///< Po.Ar. [m²]
+  double mean_pore_area = 0.0;           ///< Po.Ar; NaN without pores. [m²]
   double pore_area_sd = 0.0;             ///< [m²]
-  double mean_pore_diameter = 0.0;       ///< Po.Dm, of the circle of a pore's area. [m]
-  double pore_diameter_sd = 0.0;         ///< [m]
-  double pore_area_ratio = 0.0;          ///< a* = E[a²]/E[a] over pores (K2). [m²]
-  double window_area = 0.0;              ///< A of the windows below. [m²]
+  double mean_pore_diameter =
+      0.0;                        ///< Po.Dm, of the circle of a pore's area; NaN without pores. [m]
+  double pore_diameter_sd = 0.0;  ///< [m]
+  double pore_area_ratio = 0.0;   ///< a* = E[a²]/E[a] over pores (K2). [m²]
+  double window_area = 0.0;       ///< A of the windows below. [m²]
   double window_sd = 0.0;  ///< SD of local porosity in windows of one fibre; NaN: unknown. [-]
   double window_sd_standard_error = 0.0;  ///< [-]
   int crack_count = 0;
@@ -53,6 +54,7 @@ struct SectionPorosity {
                                                               ///< level; NaN: unknown. [kg/m³]
   double density_residual = 0.0;  ///< RMS of the references about the line. [kg/m³]
   std::vector<std::string> warnings;
+  bool doubtful = false;  ///< Whether a warning doubts the porosity itself.
 };
 
 /// How many of a section's bone pixels are how deep; the depth is 0 in bone and 1 in pores.

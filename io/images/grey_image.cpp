@@ -43,18 +43,32 @@ std::vector<cv::Mat> decoded(const std::filesystem::path& file) {
   return pages;
 }
 
+// What a channel reaches where it is full; of floats, which have no such value, its largest.
+double full_of(const cv::Mat& channels) {
+  if (channels.depth() == CV_8U) return 255.0;
+  if (channels.depth() == CV_16U) return 65535.0;
+  double highest = 0.0;
+  cv::minMaxLoc(channels.reshape(1), nullptr, &highest);
+  return highest;
+}
+
+cv::Mat hidden_in(const cv::Mat& image) {
+  cv::Mat alpha;
+  cv::extractChannel(image, alpha, 3);
+  return alpha < 0.5 * full_of(alpha);
+}
+
 // What is transparent takes the colour, black or white, that is farther from the opaque pixels'
 // mean.
 cv::Mat without_alpha(const cv::Mat& image) {
-  cv::Mat alpha, colour;
-  cv::extractChannel(image, alpha, 3);
+  cv::Mat colour;
   cv::cvtColor(image, colour, cv::COLOR_BGRA2BGR);
-  const double full = image.depth() == CV_8U ? 255.0 : 65535.0;
-  const cv::Mat hidden = alpha < 0.5 * full;
+  const cv::Mat hidden = hidden_in(image);
   if (cv::countNonZero(hidden) == 0) return colour;
   cv::Mat visible;
   cv::bitwise_not(hidden, visible);
   const cv::Scalar mean = cv::mean(colour, visible);
+  const double full = full_of(colour);
   const double paper = mean[0] + mean[1] + mean[2] > 1.5 * full ? 0.0 : full;
   colour.setTo(cv::Scalar::all(paper), hidden);
   return colour;
@@ -62,12 +76,14 @@ cv::Mat without_alpha(const cv::Mat& image) {
 
 // (I1): projection on the first principal axis of the colours, which is grey itself for a grey
 // image and the stain's colour for a stained one. Its sign follows brightness.
-cv::Mat along_main_colour(const cv::Mat& colour) {
+cv::Mat along_main_colour(cv::Mat colour) {
   if (is_grey(colour)) {
     cv::Mat grey;
     cv::extractChannel(colour, grey, 0);
     return grey;
   }
+  if (colour.depth() == CV_32F)
+    cv::normalize(colour, colour, 0.0, 65535.0, cv::NORM_MINMAX, CV_16U);
   cv::Mat few;
   cv::resize(colour, few, fitted(colour.size(), 100), 0.0, 0.0, cv::INTER_NEAREST);
   few.convertTo(few, CV_32F);
@@ -109,7 +125,6 @@ std::vector<cv::Mat> read_pages(const std::filesystem::path& file) {
     if (!cv::checkRange(page))
       throw io::InputError(file.string(), "holds pixels that are no finite numbers",
                            "replace them by the background's value");
-    if (page.channels() > 1) cv::normalize(page, page, 0.0, 65535.0, cv::NORM_MINMAX, CV_16U);
   }
   return pages;
 }
@@ -124,6 +139,21 @@ bool is_grey(const cv::Mat& image) {
       return false;
   }
   return true;
+}
+
+cv::Mat colourfulness(const cv::Mat& image) {
+  if (is_grey(image)) return {};
+  const double scale = 255.0 / full_of(image);
+  cv::Mat spread(image.size(), CV_8U);
+  std::vector<cv::Mat> channels;
+  for (int y = 0; y < image.rows; y += 32) {  // in strips, as above
+    const cv::Range rows(y, std::min(y + 32, image.rows));
+    cv::split(image.rowRange(rows), channels);
+    const cv::Mat high = cv::max(cv::max(channels[0], channels[1]), channels[2]);
+    const cv::Mat low = cv::min(cv::min(channels[0], channels[1]), channels[2]);
+    cv::Mat(high - low).convertTo(spread.rowRange(rows), CV_8U, scale);
+  }
+  return spread;
 }
 
 cv::Mat to_grey(const cv::Mat& image, const std::string& name) {
@@ -155,10 +185,9 @@ cv::Mat read_mask(const std::filesystem::path& file, cv::Size size,
                                      mask.rows, size.width, size.height),
                          "draw the mask on the image itself");
   if (mask.channels() == 4) {  // what is not seen is not bone
-    cv::Mat alpha;
-    cv::extractChannel(mask, alpha, 3);
+    const cv::Mat hidden = hidden_in(mask);
     cv::cvtColor(mask, mask, cv::COLOR_BGRA2BGR);
-    mask.setTo(cv::Scalar::all(0.0), alpha < (mask.depth() == CV_8U ? 127.5 : 32767.5));
+    mask.setTo(cv::Scalar::all(0.0), hidden);
   }
   if (mask.channels() == 3) cv::cvtColor(mask, mask, cv::COLOR_BGR2GRAY);
   double highest = 0.0;

@@ -20,6 +20,9 @@ cv::Mat to_grey(const cv::Mat& image, const std::string& name);
 /// Whether it has one channel, or colours of equal channels: then levels are those of the file.
 bool is_grey(const cv::Mat& image);
 
+/// How far apart a pixel's channels are, in 255ths of what is full; empty for a grey image.
+cv::Mat colourfulness(const cv::Mat& image);
+
 /// Reads a mask of the given size: 255 where the file is brighter than half its own range.
 /// Much grey in it is a warning.
 /// @throws io::InputError when it cannot be read, is of another size, or marks nothing.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <opencv2/imgproc.hpp>
 #include <string_view>
 #include <utility>
 
@@ -48,7 +50,8 @@ std::optional<double> pixel_size_of(const std::filesystem::path& image,
 void warn_of_scale(const io::SectionOptions& options, Warnings& warnings) {
   if (!options.pixel_size)
     warnings.emplace_back(
-        "no pixel size is given: areas and the spread between windows stay unknown");
+        "no pixel size is known: areas and the spread between windows stay unknown; give "
+        "--pixel-size-um, in a study pixel_size_um");
   else if (*options.pixel_size > options.window_height)
     warnings.push_back(
         fmt::format("a pixel ({:g} µm) is larger than the fibre's height ({:g} µm): "
@@ -71,6 +74,37 @@ void warn_of_bone(const PoreMap& map, bool outlined, cv::Size image,
                     100.0 * share));
 }
 
+// As bright as the bone, a strip with a scale or a label passes for a second piece of it.
+void warn_of_strips(const PoreMap& map, cv::Rect box, cv::Size image, Warnings& warnings) {
+  constexpr int blur = 4;  // [px]
+  const std::vector<Contour> parts = outer_contours(map.bone);
+  for (const Contour& part : parts) {
+    const cv::Rect at = cv::boundingRect(part) + box.tl();
+    const bool lies =
+        at.width > image.width - blur && (at.y < blur || at.br().y > image.height - blur);
+    const bool stands =
+        at.height > image.height - blur && (at.x < blur || at.br().x > image.width - blur);
+    if (parts.size() > 1 && (lies || stands))
+      warnings.push_back(
+          fmt::format("{:.1f} % of the bone is a strip along an edge of the image: if it is a "
+                      "label, cut it off or give a mask",
+                      100.0 * enclosed_area(part) / cv::countNonZero(map.bone)));
+  }
+}
+
+// In bone that is grey, colours are somebody's lines and letters.
+void warn_of_drawings(const PoreMap& map, const cv::Mat& colours, Warnings& warnings) {
+  if (colours.empty()) return;
+  const double bone = cv::countNonZero(map.bone);
+  const int grey = cv::countNonZero((colours < 16) & map.bone);
+  const int drawn = cv::countNonZero((colours > 64) & map.bone);
+  if (grey > 0.9 * bone && drawn >= smallest_pore)
+    warnings.push_back(
+        fmt::format("{:.2g} % of the bone is coloured, and the rest is grey: if that is drawn into "
+                    "the image, measure the image without it",
+                    100.0 * drawn / bone));
+}
+
 void warn_of_side(const PoreMap& map, bool like_background, io::Pores known, Warnings& warnings) {
   const std::string_view side = map.dark ? "dark" : "bright", other = map.dark ? "bright" : "dark";
   if (map.areas.empty() && map.crack_count + map.specks == 0)
@@ -87,9 +121,7 @@ void warn_of_side(const PoreMap& map, bool like_background, io::Pores known, War
                     100.0 * map.other_side, other, side));
 }
 
-void warn_of_objects(const PoreMap& map, const calib::SectionPorosity& section,
-                     Warnings& warnings) {
-  const double bone = cv::countNonZero(map.bone);
+void warn_of_objects(const PoreMap& map, Warnings& warnings) {
   if (map.specks > 0)
     warnings.push_back(
         fmt::format("{} objects below {} pixels were left out as too small to tell "
@@ -99,13 +131,17 @@ void warn_of_objects(const PoreMap& map, const calib::SectionPorosity& section,
     warnings.push_back(
         fmt::format("{} long and narrow objects, {:.2f} % of the bone, were taken for cracks and "
                     "do not count as pores",
-                    map.crack_count, 100.0 * map.crack_area / bone));
+                    map.crack_count, 100.0 * map.crack_area / cv::countNonZero(map.bone)));
+}
+
+void warn_of_size(const PoreMap& map, const calib::SectionPorosity& section, Warnings& warnings) {
+  const double bone = cv::countNonZero(map.bone);
   const double largest =
       map.areas.empty() ? 0.0 : *std::max_element(map.areas.begin(), map.areas.end());
   if (largest > 0.05 * bone)
     warnings.push_back(
-        fmt::format("one pore takes {:.1f} % of the bone: if it is the marrow "
-                    "cavity, give a mask without it",
+        fmt::format("one pore takes {:.1f} % of the bone: if it is the marrow cavity, or the "
+                    "background inside a frame, give a mask without it",
                     100.0 * largest / bone));
   if (std::abs(section.porosity - section.porosity_by_grey) > 0.01)
     warnings.push_back(
@@ -143,6 +179,16 @@ Regions regions_of(const cv::Mat& whole, const io::SectionOptions& options, Warn
   return divide(whole, options.pores);
 }
 
+// One level alone may be bone, or no section at all.
+void refuse_nothing(const PoreMap& map, const Regions& regions, const std::string& name,
+                    const io::SectionOptions& options) {
+  const bool told = regions.outlined || options.mask || options.fills_image;
+  if (!told && map.areas.empty() && map.crack_count == 0)
+    throw io::InputError(
+        name, "shows no bone: neither a background nor pores differ from the rest",
+        "if bone without pores fills it, say --fills-image, in a study fills_image = true");
+}
+
 // Levels along a colour's own axis are not those of the file.
 void refuse_levels_of_colour(const cv::Mat& image, const std::string& name,
                              const std::vector<io::DensityReference>& references) {
@@ -157,9 +203,10 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
                                     const io::SectionOptions& options) {
   const cv::Mat whole = to_grey(image, name);
   refuse_levels_of_colour(image, name, options.density);
+  const cv::Mat colours = colourfulness(image);
   image.release();
-  Warnings warnings;
-  Regions regions = regions_of(whole, options, warnings);
+  Warnings doubts, warnings;
+  Regions regions = regions_of(whole, options, doubts);
   const cv::Mat grey = whole(regions.box);
   Depth depth{.levels = bone_levels(grey, regions)};
   cv::Mat bone = find_bone(grey, regions, depth);
@@ -172,15 +219,21 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
                                   .pores = options.pores,
                                   .rim = regions.outlined},
                                  depth);
+  refuse_nothing(map, regions, name, options);
 
   io::SectionMeasurement measured{.porosity = section_quantities(map, regions.outlined, options)};
   measured.porosity.file = name;
   measured.porosity.method = method_of(options.threshold);
   add_density(whole, grey, map, options.density, measured.porosity);
-  warn_of_bone(map, regions.outlined, whole.size(), options, warnings);
-  warn_of_side(map, !regions.outlined || map.dark == regions.dark_pores, options.pores, warnings);
-  warn_of_objects(map, measured.porosity, warnings);
-  measured.porosity.warnings = std::move(warnings);
+  warn_of_bone(map, regions.outlined, whole.size(), options, doubts);
+  warn_of_strips(map, regions.box, whole.size(), doubts);
+  warn_of_drawings(map, colours.empty() ? colours : colours(regions.box), doubts);
+  warn_of_side(map, !regions.outlined || map.dark == regions.dark_pores, options.pores, doubts);
+  warn_of_size(map, measured.porosity, doubts);
+  warn_of_objects(map, warnings);
+  measured.porosity.doubtful = !doubts.empty();
+  std::ranges::move(warnings, std::back_inserter(doubts));
+  measured.porosity.warnings = std::move(doubts);
   if (!options.pictures) return measured;
   measured.overlay_png = draw_overlay(whole, map, regions.box);
   measured.histogram = histogram_of(depth, map);

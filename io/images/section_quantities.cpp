@@ -12,13 +12,16 @@
 namespace havers::images {
 namespace {
 
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
 struct Moments {
-  double mean = 0.0, sd = 0.0;
+  double mean = not_known, sd = not_known;
 };
 
 Moments moments_of(const std::vector<double>& values) {
+  if (values.empty()) return {};
   cv::Scalar mean, deviation;
-  if (!values.empty()) cv::meanStdDev(values, mean, deviation);
+  cv::meanStdDev(values, mean, deviation);
   return {mean[0], deviation[0]};
 }
 
@@ -73,7 +76,7 @@ double filled_area(const cv::Mat& mask) {
 
 calib::SectionPorosity section_quantities(const PoreMap& map, bool outlined,
                                           const io::SectionOptions& options) {
-  const double pixel = options.pixel_size.value_or(std::numeric_limits<double>::quiet_NaN());
+  const double pixel = options.pixel_size.value_or(not_known);
   const double bone = cv::countNonZero(map.bone), pixel_area = pixel * pixel;
   calib::SectionPorosity section;
   section.pixel_size = pixel;

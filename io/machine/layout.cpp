@@ -72,9 +72,14 @@ Table table_at(const Preview& preview, std::size_t numbers) {
   if (above >= 2 && is_unit_row(rows[above - 1]) && may_name(rows[above - 2], columns, decimal))
     units = &rows[--above];
   if (above >= 1 && may_name(rows[above - 1], columns, decimal)) {
-    take_names(table, rows[above - 1], units);
-    table.header_rows = above - 1;
-    if (above >= 2) table.titles = rows[above - 2].cells;
+    --above;
+    const PreviewRow& names = rows[above];
+    if (units == nullptr && above >= 1 && rows[above - 1].cells.size() == names.cells.size() &&
+        is_unit_row(rows[above - 1]))
+      units = &rows[--above];  // or above the names
+    take_names(table, names, units);
+    table.header_rows = above;
+    if (above >= 1) table.titles = rows[above - 1].cells;
   }
   table.units_in_round_brackets =
       units != nullptr && std::ranges::all_of(units->cells, [](const auto& c) {

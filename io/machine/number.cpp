@@ -154,6 +154,26 @@ Number parse_lone_number(std::string_view cell) {
   return parse_number(cell, comma ? ',' : '.');
 }
 
+Number parse_clock(std::string_view cell) {
+  if (cell.ends_with('Z')) cell.remove_suffix(1);
+  cell.remove_prefix(cell.find_last_of(" T") + 1);  // npos + 1 is 0
+  const bool minutes =
+      cell.find_first_of(".,") != std::string_view::npos && std::ranges::count(cell, ':') == 1;
+  const int parts = minutes ? 2 : 3;  // hours, minutes, seconds
+  Number time;
+  for (int part = 0; part < parts; ++part) {
+    const std::size_t end = part + 1 < parts ? cell.find(':') : cell.size();
+    if (end == std::string_view::npos || end == 0 || !is_digit(cell.front()))
+      return {0.0, NumberFault::text};
+    const Number number = parse_lone_number(cell.substr(0, end));
+    if (number.fault != NumberFault::none || (part > 0 && number.value >= 60.0))
+      return {0.0, NumberFault::text};
+    time.value = 60.0 * time.value + number.value;
+    cell.remove_prefix(std::min(end + 1, cell.size()));
+  }
+  return time;
+}
+
 bool is_number(std::string_view cell, char decimal) {
   return parse_number(cell, decimal).fault == NumberFault::none;
 }

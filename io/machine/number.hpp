@@ -24,6 +24,10 @@ Number parse_number(std::string_view cell, char decimal = '.');
 /// decimal mark, and so is the last where there are both; several of one group thousands.
 Number parse_lone_number(std::string_view cell);
 
+/// A time of day or an elapsed time in s: `10:00:01`, `2026-05-01 10:00:01,25`, of a date nothing
+/// is taken; `12:01.5`, minutes where the seconds have decimals.
+Number parse_clock(std::string_view cell);
+
 /// Whether the cell is a finite number.
 bool is_number(std::string_view cell, char decimal = '.');
 

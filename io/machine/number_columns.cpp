@@ -45,9 +45,7 @@ bool take_cells(const Row& row, char decimal, SpecimenColumns& specimen,
       return false;
     }
     const std::string_view cell = row.cells[channel.column];
-    Number number = parse_number(cell, decimal);
-    number.value *= channel.to_si;
-    if (std::isinf(number.value)) number.fault = NumberFault::too_large;
+    const Number number = read_cell(cell, decimal, channel);
     if (number.fault != NumberFault::none) {
       problems.push_back(bad_cell(specimen.file, row.line, specimen.file.columns[channel.in_file],
                                   cell, number.fault));
@@ -74,6 +72,15 @@ void check_width(const Row& row, std::span<const SpecimenColumns> side_by_side,
 
 }  // namespace
 
+Number read_cell(std::string_view cell, char decimal, const Channel& channel) {
+  Number number = parse_number(cell, decimal);
+  if (number.fault == NumberFault::text && channel.quantity == Quantity::time)
+    number = parse_clock(cell);
+  number.value *= channel.to_si;
+  if (std::isinf(number.value)) number.fault = NumberFault::too_large;
+  return number;
+}
+
 void take_numbers(const Row& row, char decimal, std::span<SpecimenColumns> side_by_side,
                   std::vector<Problem>& problems) {
   check_width(row, side_by_side, problems);
@@ -89,7 +96,7 @@ Problem bad_cell(const TestFile& file, std::size_t line, const Column& column,
   return {
       place(file, line),
       fmt::format(R"(column "{}": "{}" {})", excerpt(column.name), excerpt(cell), to_string(fault)),
-      {}};
+      fault == NumberFault::empty ? "export all channels at one rate, or leave the row out" : ""};
 }
 
 }  // namespace havers::io

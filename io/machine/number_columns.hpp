@@ -18,6 +18,9 @@ struct SpecimenColumns {
   std::vector<std::vector<double>> values;  ///< As `channels`, in SI units.
 };
 
+/// A cell of the channel, in SI units; of a time, a clock's too.
+Number read_cell(std::string_view cell, char decimal, const Channel& channel);
+
 /// Appends a row to the specimens' values. A specimen that ended before its neighbours has empty
 /// cells. What is wrong with the row is added to `problems`.
 void take_numbers(const Row& row, char decimal, std::span<SpecimenColumns> side_by_side,

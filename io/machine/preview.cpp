@@ -21,7 +21,8 @@ Preview cut(std::string_view text, const Dialect& dialect) {
   Preview preview;
   preview.dialect = dialect;
   const auto take = [&](const Row& row) {
-    preview.rows.push_back({row.line, {row.cells.begin(), row.cells.end()}});
+    const bool names_delimiter = row.line == 1 && row.cells[0].starts_with("sep=");
+    if (!names_delimiter) preview.rows.push_back({row.line, {row.cells.begin(), row.cells.end()}});
     return true;
   };
   CsvRows rows = rows_of(dialect, take);
@@ -63,21 +64,41 @@ bool may_be_requoted(std::string_view text) {
 
 // 10:00:01 or 2026-05-01: loggers write such a column beside their numbers.
 bool is_clock_time(std::string_view cell) {
-  if (cell.find_first_not_of("0123456789:/-.T ") != std::string_view::npos) return false;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (cell.ends_with('Z')) cell.remove_suffix(1);
+  if (cell.find_first_not_of("0123456789:/-.,T ") != std::string_view::npos) return false;
+  if (cell.empty() || !is_digit(cell.front()) || !is_digit(cell.back())) return false;
   const auto marks = std::ranges::count_if(cell, [](char c) { return c == '/' || c == '-'; });
-  return cell.find(':') != std::string_view::npos || (marks == 2 && cell.front() != '-');
+  return cell.find(':') != std::string_view::npos || marks == 2;
 }
 
 }  // namespace
 
 bool is_number_row(const PreviewRow& row, char decimal) {
+  int numbers = 0, clocks = 0;
+  for (const std::string& cell : row.cells) {
+    if (cell.empty()) continue;
+    if (is_clock_time(cell))
+      ++clocks;
+    else if (is_number(cell, decimal))
+      ++numbers;
+    else
+      return false;
+  }
+  return numbers >= 2 || (numbers == 1 && clocks > 0);
+}
+
+const std::string* text_among_numbers(const PreviewRow& row, char decimal) {
+  const std::string* text = nullptr;
   int numbers = 0;
   for (const std::string& cell : row.cells) {
     if (cell.empty() || is_clock_time(cell)) continue;
-    if (!is_number(cell, decimal)) return false;
-    ++numbers;
+    if (is_number(cell, decimal))
+      ++numbers;
+    else if (text == nullptr)
+      text = &cell;
   }
-  return numbers >= 2;
+  return numbers >= 2 ? text : nullptr;
 }
 
 CsvRows rows_of(const Dialect& dialect, std::function<bool(const Row&)> take) {
@@ -91,7 +112,7 @@ Preview make_preview(std::string_view text) {
   std::ptrdiff_t most = -1;
   for (const bool quoted_again : {false, true}) {
     if (quoted_again && (most > 1 || !may_be_requoted(text))) break;
-    for (const char delimiter : {',', ';', '\t'}) {
+    for (const char delimiter : {',', ';', '\t', '|'}) {
       Preview preview = cut(text, {.delimiter = delimiter, .requoted = quoted_again});
       const char preferred = preferred_decimal(preview);
       for (const char decimal : {preferred, preferred == '.' ? ',' : '.'}) {

@@ -35,7 +35,11 @@ CsvRows rows_of(const Dialect& dialect, std::function<bool(const Row&)> take);
 /// numbers.
 Preview make_preview(std::string_view text);
 
-/// Whether the row holds two numbers or more, and nothing else.
+/// Whether the row holds two numbers or more, of which one may be a clock's time, and no text.
 bool is_number_row(const PreviewRow& row, char decimal);
+
+/// The text that keeps a row with two numbers or more from being one of numbers; null where there
+/// is none.
+const std::string* text_among_numbers(const PreviewRow& row, char decimal);
 
 }  // namespace havers::io

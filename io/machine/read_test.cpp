@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <span>
 
 #include "io/input_error.hpp"
 #include "io/machine/column_hints.hpp"
+#include "io/machine/excerpt.hpp"
 #include "io/machine/guess.hpp"
 #include "io/machine/layout.hpp"
 #include "io/machine/specimen_tables.hpp"
@@ -24,6 +26,14 @@ bool names_results(const PreviewRow& row) {
   return std::ranges::count_if(row.cells, is_result) >= 2;
 }
 
+void refuse_text_among_numbers(const std::string& name, const PreviewRow& row,
+                               const Preview& preview) {
+  if (const std::string* text = text_among_numbers(row, preview.dialect.decimal))
+    throw InputError(fmt::format("{}:{}", name, row.line),
+                     fmt::format("\"{}\" stands among numbers", excerpt(*text)),
+                     "correct it, or leave its column out of the export");
+}
+
 Table find_table(const std::string& name, const Preview& preview) {
   for (const PreviewRow& row : preview.rows)
     if (row.cells.size() > most_columns)
@@ -36,19 +46,22 @@ Table find_table(const std::string& name, const Preview& preview) {
     throw InputError(name, "is a table of results, a row for each specimen",
                      "export the raw data: time, force and extension row by row");
   if (preview.open_quote_line > 0) throw open_quote(name, preview.open_quote_line);
+  for (const PreviewRow& row : preview.rows) refuse_text_among_numbers(name, row, preview);
   throw InputError(name, "no rows of numbers were found in it",
-                   "a test file has a row of column names and rows of two numbers or more");
+                   "a test file has a row of column names and rows of two numbers or more, "
+                   "separated by commas, semicolons, tabs or |");
 }
 
 // Columns without names are called by their numbers, once the user has said which is which.
 void name_columns(Table& table, const std::string& name, const Preview& preview,
                   const ReadOptions& options) {
   if (!table.names.empty()) return;
+  const auto first = std::ranges::find(preview.rows, table.first_line, &PreviewRow::line);
+  if (first != preview.rows.begin()) refuse_text_among_numbers(name, *std::prev(first), preview);
   if (options.columns.empty())
     throw InputError(fmt::format("{}:{}", name, table.first_line), "the columns have no names",
                      fmt::format("say which is which {}; from the numbers it may be {}",
                                  column_place(options), table.guess));
-  const auto first = std::ranges::find(preview.rows, table.first_line, &PreviewRow::line);
   for (std::size_t i = 0; i < first->cells.size(); ++i) {
     table.names.push_back(std::to_string(i + 1));
     table.units.emplace_back();

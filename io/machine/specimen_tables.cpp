@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
+#include "io/machine/excerpt.hpp"
 #include "io/machine/facts.hpp"
 #include "io/machine/number.hpp"
 #include "io/machine/units.hpp"
@@ -102,7 +104,7 @@ void SpecimenTables::read(std::string_view beginning, TextSource& source) {
   if (const std::size_t line = rows.open_quote_line(); line > 0 && problems_.empty())
     throw open_quote(common_.file, line);
   rows.finish();
-  if (!header_.empty()) end_header();
+  if (!header_.empty()) end_file();
   if (!problems_.empty()) throw InputError(std::move(problems_));
 }
 
@@ -156,6 +158,39 @@ bool SpecimenTables::names_a_specimen(const Table& table) const {
          std::ranges::equal(table.names, before, {}, {}, &Column::name);
 }
 
+// What stands below the last numbers, and is none, sums up or says that the test has ended.
+void SpecimenTables::end_file() {
+  const auto is_numbers = [this](const PreviewRow& row) {
+    return is_number_row(row, dialect_.decimal);
+  };
+  const auto is_letter = [](char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<signed char>(c) < 0;
+  };
+  const std::string& first = header_.front().cells.front();
+  if (std::ranges::any_of(header_, is_numbers) || std::ranges::none_of(first, is_letter))
+    return end_header();
+  for (SpecimenColumns& specimen : std::span(specimens_).subspan(current_))
+    specimen.file.test.warnings.push_back(
+        fmt::format("line {}, \"{}\", and what follows it are no rows of numbers: not read",
+                    header_.front().line, excerpt(first)));
+}
+
+// As on every page of a printout: nothing but the same names, and time goes on.
+bool SpecimenTables::goes_on(const Table& table, const Preview& preview) const {
+  constexpr double longest_step = 3.0;  // over the one before
+  const SpecimenColumns& specimen = specimens_[current_];
+  const Channel& first = specimen.channels.front();
+  const std::vector<double>& times = specimen.values.front();
+  if (first.quantity != Quantity::time || times.size() < 2 || table.header_rows > 0 ||
+      current_ + 1 < specimens_.size() ||
+      !std::ranges::equal(table.names, specimen.file.columns, {}, {}, &Column::name))
+    return false;
+  const auto row = std::ranges::find(preview.rows, table.first_line, &PreviewRow::line);
+  const Number next = read_cell(row->cells[first.column], preview.dialect.decimal, first);
+  const double step = next.value - times.back(), before = times.back() - times.end()[-2];
+  return next.fault == NumberFault::none && step >= 0.0 && step <= longest_step * before;
+}
+
 // A header that leads to no table of a specimen was a row of text among the numbers.
 void SpecimenTables::end_header() {
   const Preview preview{dialect_, std::exchange(header_, {})};
@@ -170,7 +205,7 @@ void SpecimenTables::end_header() {
                                  NumberFault::text));
     return;
   }
-  begin(*table, std::span(preview.rows).first(table->header_rows));
+  if (!goes_on(*table, preview)) begin(*table, std::span(preview.rows).first(table->header_rows));
   take_held_back_numbers(preview.rows, table->first_line);
 }
 

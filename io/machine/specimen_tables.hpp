@@ -37,7 +37,9 @@ class SpecimenTables {
   [[nodiscard]] bool begins_header(const Row& row) const;
   void take_header_row(const Row& row);
   [[nodiscard]] bool names_a_specimen(const Table& table) const;
+  [[nodiscard]] bool goes_on(const Table& table, const Preview& preview) const;
   void end_header();
+  void end_file();
   void take_held_back_numbers(const std::vector<PreviewRow>& rows, std::size_t first_line);
 
   TestFile common_;

@@ -33,6 +33,8 @@ constexpr std::array units{
     NamedUnit{"minutes", {time, 60.0}},
     NamedUnit{"hour", {time, 3600.0}},
     NamedUnit{"hours", {time, 3600.0}},
+    NamedUnit{"hh:mm:ss", {time, 1.0}},  // read as a clock, in s
+    NamedUnit{"mm:ss", {time, 1.0}},
     NamedUnit{"N", {force, 1.0}},
     NamedUnit{"kN", {force, 1e3}},
     NamedUnit{"mN", {force, 1e-3}},

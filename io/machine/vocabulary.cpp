@@ -58,6 +58,10 @@ constexpr std::array quantity_words{
     QuantityWord{"temperat", other},
     QuantityWord{"températ", other},
     QuantityWord{"strain", strain},
+    QuantityWord{"extensomet", strain},  // its elongation, where it is in mm
+    QuantityWord{"extensomèt", strain},
+    QuantityWord{"extensómet", strain},
+    QuantityWord{"estensimet", strain},
     QuantityWord{"déform", strain},
     QuantityWord{"dehnung", strain},
     QuantityWord{"deformación", strain},

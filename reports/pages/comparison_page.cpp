@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "reports/figures/figures.hpp"
 #include "reports/pages/page.hpp"
@@ -48,18 +47,35 @@ std::string joined(const std::vector<std::string>& parts) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+// Of a command as a shell takes it.
+std::vector<std::string> shell_words(const std::string& command) {
+  std::vector<std::string> words(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    if (command[i] == '\'')
+      quoted = !quoted;
+    else if (command[i] == ' ' && !quoted)
+      words.emplace_back();
+    else if (command[i] == '\\' && !quoted && i + 1 < command.size())
+      words.back() += command[++i];
+    else
+      words.back() += command[i];
+  }
+  return words;
+}
+
 // What was given on the command line beside the study: "--set model.x=1", "--seed 2".
 std::string settings_of(const FitReport& fit) {
   std::vector<std::string> settings;
   for (const auto& [name, value] : fit.provenance) {
     if (name != "Command") continue;
-    std::istringstream words(value);
-    for (std::string word, next; words >> word;)
+    const std::vector<std::string> words = shell_words(value);
+    for (std::size_t i = 0; i < words.size(); ++i)
       for (const std::string option : {"--set", "--seed"})
-        if (word == option && words >> next)
-          settings.push_back(fmt::format("{} {}", option, next));
-        else if (word.starts_with(option + "="))
-          settings.push_back(fmt::format("{} {}", option, word.substr(option.size() + 1)));
+        if (words[i] == option && i + 1 < words.size())
+          settings.push_back(fmt::format("{} {}", option, words[++i]));
+        else if (words[i].starts_with(option + "="))
+          settings.push_back(fmt::format("{} {}", option, words[i].substr(option.size() + 1)));
   }
   return settings.empty() ? "none" : joined(settings);
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "reports/figures/figures.hpp"
@@ -15,6 +16,7 @@ std::string percent(double share, double error) {
 }
 
 std::string with_sd(double mean, double sd, double unit) {
+  if (!std::isfinite(mean)) return number(mean);
   return fmt::format("{} (SD {})", number(mean / unit, 3), number(sd / unit, 2));
 }
 
@@ -51,12 +53,13 @@ mstch::array class_rows(const std::vector<calib::PoreClass>& classes) {
 
 // What no column of the table says of a section.
 Facts facts_of(const calib::SectionPorosity& s) {
-  Facts facts{
-      {"Threshold", fmt::format("at a depth of {}, 0 bone, 1 pore ({})",
-                                number(1.0 - s.threshold, 3), s.method)},
-      {"Porosity by grey levels", quantity(s.porosity_by_grey / in::percent, "%", 4)},
-      {"Area of a pore", with_sd(s.mean_pore_area, s.pore_area_sd, in::um * in::um) + " µm²"},
-      {"Pixel", quantity(s.pixel_size / in::um, "µm", 3)}};
+  Facts facts{{"Threshold", fmt::format("at a depth of {}, 0 bone, 1 pore ({})",
+                                        number(1.0 - s.threshold, 3), s.method)},
+              {"Porosity by grey levels", quantity(s.porosity_by_grey / in::percent, "%", 4)},
+              {"Pixel", quantity(s.pixel_size / in::um, "µm", 3)}};
+  if (std::isfinite(s.mean_pore_area))
+    facts.emplace_back("Area of a pore",
+                       with_sd(s.mean_pore_area, s.pore_area_sd, in::um * in::um) + " µm²");
   if (s.crack_count > 0)
     facts.emplace_back("Cracks", fmt::format("{}, {} mm², no part of the porosity", s.crack_count,
                                              number(s.crack_area / in::mm2, 3)));
@@ -81,11 +84,19 @@ mstch::map detail(const PorosityReport& report, std::size_t i) {
       {"warnings", text_section(s.warnings)}};
 }
 
+long in_doubt(const PorosityReport& report) {
+  return std::ranges::count(report.sections, true, &calib::SectionPorosity::doubtful);
+}
+
 std::string sentence_of(const PorosityReport& report) {
   const calib::SpecimenPorosity& mean = report.mean;
-  return fmt::format("{}: porosity {} %.",
-                     count(static_cast<long>(report.sections.size()), "section"),
-                     percent(mean.porosity, mean.porosity_standard_error));
+  const auto all = static_cast<long>(report.sections.size()), doubtful = in_doubt(report);
+  const std::string doubt = doubtful == 0 ? "."
+                            : all == 1
+                                ? ", in doubt: see its warnings."
+                                : fmt::format(", {} of them in doubt: see the warnings.", doubtful);
+  return fmt::format("{}: porosity {} %{}", count(all, "section"),
+                     percent(mean.porosity, mean.porosity_standard_error), doubt);
 }
 
 // (K5): which of the two ways the pores act in.
@@ -102,6 +113,8 @@ std::string detail_of(const PorosityReport& report) {
   if (!std::isfinite(scatter))
     return "Without a pixel size, or where the window of a fibre is larger than the bone, the "
            "scatter of joints is not known.";
+  if (mean.porosity == 0.0)
+    return "No pores were found: by the sections joints would be all alike, a scatter of d = 0.";
   return fmt::format(
       "Pores are smaller than the window of one fibre: they spread the joints' strength by a "
       "scatter of d = {}.",
@@ -120,7 +133,7 @@ std::string porosity_page(const PorosityReport& report) {
   return render_page(
       fmt::format("havers porosity: {}", count(static_cast<long>(rows.size()), "section")),
       "porosity",
-      {{"grade", text("good")},
+      {{"grade", text(in_doubt(report) == 0 ? "good" : "mixed")},
        {"sentence", text(sentence_of(report))},
        {"detail", text(detail_of(report))},
        {"rows", mstch::node{rows}},

@@ -36,6 +36,15 @@ TEST(OutputFolder, IsNotReplacedUnlessForceIsGiven) {
   EXPECT_EQ(test::contents(folder / "out/notes.txt"), "mine");
 }
 
+// As a shell takes it again.
+TEST(OutputFolder, KeepsTheCommandWithItsQuotes) {
+  const fs::path folder = folder_with_scene();
+  ASSERT_EQ(run_havers(folder, "simulate scene.toml -o \"it's out\"").exit_code, 0);
+  EXPECT_NE(test::read_text(folder / "it's out/result.json")
+                .find(R"("command": "havers simulate scene.toml -o 'it'\\''s out'")"),
+            std::string::npos);
+}
+
 // A kill between two files, for which a name stands that cannot be removed.
 TEST(OutputFolder, LosesTheResultBeforeItsFiles) {
   const fs::path folder = test::folder_with_scene();

@@ -115,6 +115,25 @@ TEST(SampleStudy, SectionsThatAreListedTwiceAreDoubted) {
       << checked.out;
 }
 
+TEST(SampleStudy, SaysWhichScatterIsTakenWithoutAPixelSizeAndWhoHasTheSameSection) {
+  const fs::path folder = own_folder();
+  fs::copy(bars, folder / "bars");
+  std::string study = test::read_text(bars / "study.toml");
+  const std::string pixel = "pixel_size_um = 2.0\n";
+  study.erase(study.find(pixel), pixel.size());
+  const std::string own = "\"A2_section.png\"";
+  study.replace(study.find(own), own.size(), "\"A1_section.png\"");
+  test::write_text(folder / "bars/doubtful.toml", study);
+  const auto checked =
+      run_havers(folder, "check bars/doubtful.toml --set model.joints.scatter=0.3");
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  for (const char* words :
+       {"the sections of specimen A1 do not tell the scatter of its joints: 0.3 "
+        "(model.joints.scatter) is taken; give its pixel_size_um",
+        "specimens A1 and A2 have the same section, bars/A1_section.png"})
+    EXPECT_NE(checked.out.find(words), std::string::npos) << words << " in\n" << checked.out;
+}
+
 TEST(SampleStudy, SectionsHaveThePorosityThatWasDrawn) {
   const auto truth = nlohmann::json::parse(test::contents(bars / "truth.json"));
   for (const auto& specimen : truth["specimens"]) {

@@ -81,6 +81,10 @@ TEST(Usage, SettingsThatSetNothingAreRefused) {
     EXPECT_TRUE(answer.err.starts_with("havers: --set joints.scatter=0.4: sets nothing: "))
         << arguments << answer.err;
   }
+  for (const char* arguments : {"porosity a.png", "report out", "import a.csv"})
+    EXPECT_TRUE(run_havers(folder, std::string(arguments) + " --seed 3")
+                    .err.starts_with("havers: --seed 3: sets nothing: "))
+        << arguments;
 }
 
 TEST(Usage, KnownDensitiesAreZeroOrMore) {

@@ -209,13 +209,15 @@ TEST(ComparisonPage, SaysInWhatFitsDiffer) {
   auto two = test::fit_sample();
   two.result.parameters.pop_back();
   const Provenance first{{"Command", "havers fit a -o b"}, {"in/a.csv", "SHA-256 12"}};
-  const Provenance second{{"Command", "havers fit a -o c --set=model.x=1 --seed 2"},
-                          {"elsewhere/a.csv", "SHA-256 34"}};
+  const Provenance second{
+      {"Command", "havers fit a -o c --set=model.x=1 --set 'study.name=it'\\''s one' --seed 2"},
+      {"elsewhere/a.csv", "SHA-256 34"}};
   const std::string page =
       comparison_page({{one.study, one.result, {}, first}, {two.study, two.result, {}, second}});
   expect_sound(page);
-  EXPECT_TRUE(
-      contains(page, "parameters: E, σ₁; settings: --set model.x=1, --seed 2; contents of a.csv<"));
+  EXPECT_TRUE(contains(page,
+                       "parameters: E, σ₁; settings: --set model.x=1, --set study.name=it&#39;s "
+                       "one, --seed 2; contents of a.csv<"));
 }
 
 TEST(Provenance, KeepsDigestsFolded) {

@@ -139,6 +139,16 @@ TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
   EXPECT_TRUE(contains(page, "Pores are smaller than the window of one fibre"));
   EXPECT_EQ(after(page, "<img", " ").size(), 2U);
 
+  EXPECT_TRUE(contains(page, "verdict good"));
+  EXPECT_FALSE(contains(page, "in doubt"));
+
+  report.sections[1].doubtful = true;
+  report.sections[1].mean_pore_diameter = std::numeric_limits<double>::quiet_NaN();
+  const std::string doubted = porosity_page(report);
+  EXPECT_TRUE(contains(doubted, "verdict mixed"));
+  EXPECT_TRUE(contains(doubted, "%, 1 of them in doubt: see the warnings."));
+  EXPECT_TRUE(contains(doubted, "<td class=\"n\">–</td>"));
+
   report.mean.window_area = 1e-9;
   report.mean.pore_area_ratio = 2e-9;
   EXPECT_TRUE(contains(porosity_page(report), "of the joints away"));

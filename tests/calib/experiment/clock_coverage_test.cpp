@@ -94,6 +94,7 @@ const std::vector<Situation>& situations() {
        .tells_rate = true},
       {.name = "AYieldingSpecimen", .strain = late_ramp, .force = yielding},
       {.name = "AGaugeThatStaysOnOneHalf", .strain = ramp, .force = with_toe, .after_break = 0.4},
+      {.name = "AGaugeThatFallsByATenth", .strain = late_ramp, .after_break = 0.9},
       {.name = "Noise",
        .strain = ramp_with_hold,
        .force = with_toe,

@@ -214,12 +214,19 @@ TEST(JoinLogger, MatchesWhatIsLeftWithoutSpikes) {
 TEST(JoinLogger, MatchesALoadThatIsWrittenNegative) {
   RawTest machine = machine_record(7);
   for (double& force : machine.force) force = -force;
-  for (const double time : machine.time) machine.extension.push_back(1e-5 * time);
-  const JoinedTest joined = join_logger(machine, logger_record({}, 7), {});
-  expect_the_specimen(joined);
-  ASSERT_EQ(joined.test.warnings.size(), 1U);
-  EXPECT_TRUE(joined.test.warnings[0].starts_with("the force is negative while"));
-  EXPECT_TRUE(joined.test.load_turned);
+  for (const bool crosshead : {true, false}) {  // without one the logger's gauge tells tension
+    for (const double time : machine.time)
+      if (crosshead) machine.extension.push_back(1e-5 * time);
+    const JoinedTest joined = join_logger(machine, logger_record({}, 7), {});
+    expect_the_specimen(joined);
+    ASSERT_EQ(joined.test.warnings.size(), 1U);
+    EXPECT_TRUE(joined.test.warnings[0].starts_with("the force is negative while"));
+    EXPECT_TRUE(joined.test.load_turned);
+    machine.extension.clear();
+  }
+  RawTest pressed = logger_record({}, 7);
+  for (double& strain : pressed.strain) strain = -strain;
+  EXPECT_LT(std::ranges::min(join_logger(machine, pressed, {}).test.force), -100.0);
 }
 
 TEST(JoinLogger, SpreadsRepeatedTimesBeforeItMatches) {

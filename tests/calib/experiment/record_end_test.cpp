@@ -54,6 +54,21 @@ void expect_the_specimen(const MeasuredTest& test, double tolerance) {
               tolerance * the_bar.strength * the_bar.area());
 }
 
+// Zeroed with a specimen in the grips, or not at all: after the break nothing is on the cell.
+TEST(RecordEnd, NamesALoadThatStaysAfterTheBreak) {
+  TensileTruth truth = the_bar;
+  truth.rows_after_break = 20;
+  truth.force_noise = 0.2;
+  EXPECT_FALSE(warns(reduced(record(truth)), "after the break the load stays"));
+  for (const double offset : {0.03, -0.06}) {  // beside the 0.02 of the record
+    RawTest raw = record(truth);
+    raw.stress.clear();
+    for (double& force : raw.force) force += offset * truth.strength * truth.area();
+    const auto test = reduced(raw);
+    EXPECT_TRUE(warns(test, "after the break the load stays"));
+  }
+}
+
 // With noise the largest stress is seldom the last.
 TEST(RecordEnd, KnowsATestThatWasStopped) {
   for (unsigned seed = 1; seed <= 20; ++seed) {

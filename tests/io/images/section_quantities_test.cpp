@@ -90,6 +90,11 @@ TEST(SectionQuantities, HaveNoDensityByGreyLevelsOfAColour) {
   const double grey = quantities(drawn, "grey.png", options).density;
   cv::cvtColor(drawn.image, drawn.image, cv::COLOR_GRAY2BGR);
   EXPECT_EQ(quantities(drawn, "colours.png", options).density, grey);
+  cv::Mat floats;
+  drawn.image.convertTo(floats, CV_32F);
+  const auto file = test::write(drawn.image, "floats.tif");
+  cv::imwrite(file.string(), floats, {cv::IMWRITE_TIFF_COMPRESSION, 1});
+  EXPECT_NEAR(measure_sections(file, options).front().porosity.density, grey, 1e-4 * grey);
   cv::multiply(drawn.image, cv::Scalar(1.0, 0.8, 0.9), drawn.image);
   EXPECT_THROW(quantities(drawn, "tinted.png", options), InputError);
 }

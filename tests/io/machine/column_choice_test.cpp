@@ -105,6 +105,19 @@ TEST(ColumnChoice, PassesOverAColumnOfClockTimes) {
   }
 }
 
+// Where it is the time, it counts from its own zero.
+TEST(ColumnChoice, ReadsTheTimeOfAClock) {
+  for (const char* name : {"Time", "Zeit (hh:mm:ss)", "Time (s)"}) {
+    const TestFile file = choice_of(std::string(name) +
+                                    ";Force (N);Strain (%)\n"
+                                    "09:59:59,5;1;0,1\n10:00:00,0;2;0,2\n");
+    EXPECT_EQ(file.test.time, (std::vector{35999.5, 36000.0})) << name;
+  }
+  const test::TemporaryFile logger(
+      "Time,Strain (%)\n2026-05-01 09:59:59,0.1\n2026-05-01 10:00:00,0.2\n");
+  EXPECT_EQ(read_test(logger.path(), {.logger = true}).test.time, (std::vector{35999.0, 36000.0}));
+}
+
 TEST(ColumnChoice, NamesTheKeyOfASignalInVolts) {
   const test::TemporaryFile file("Time (s),Strain gauge 1 (V),Strain gauge 2 (V)\n0,1,2\n1,2,3\n");
   EXPECT_EQ(

@@ -49,8 +49,7 @@ TEST(InputFaults, NamesABinaryFile) {
 TEST(InputFaults, NamesTextWithoutNumbers) {
   EXPECT_EQ(complaint_of("Dear reader,\nthere is nothing here.\n"),
             "test.csv: no rows of numbers were found in it (a test file has a row of column names "
-            "and rows "
-            "of two numbers or more)");
+            "and rows of two numbers or more, separated by commas, semicolons, tabs or |)");
 }
 
 TEST(InputFaults, NamesATruncatedRow) {
@@ -61,7 +60,25 @@ TEST(InputFaults, NamesATruncatedRow) {
 TEST(InputFaults, NamesTextWhereANumberShouldBe) {
   EXPECT_EQ(complaint_of(header + "2,abc,4\n"),
             "test.csv:4: column \"Load\": \"abc\" is not a number");
-  EXPECT_EQ(complaint_of(header + "2,,4\n"), "test.csv:4: column \"Load\": \"\" is empty");
+  EXPECT_EQ(
+      complaint_of(header + "2,,4\n"),
+      "test.csv:4: column \"Load\": \"\" is empty (export all channels at one rate, or leave the "
+      "row out)");
+}
+
+// A clock of colons alone is none; the first and every row are looked at before the columns are.
+TEST(InputFaults, NamesTextThatKeepsARowFromBeingNumbers) {
+  const std::string names = "Clock,Load (N),Strain (%)\n",
+                    ends = ",1,2\n10:00:01,2,3\n10:00:02,3,4\n";
+  for (const std::string cell : {":", "//", "abc"}) {
+    const std::string sentence = "test.csv:2: \"" + cell +
+                                 "\" stands among numbers (correct it, or "
+                                 "leave its column out of the export)";
+    EXPECT_EQ(complaint_of(names + cell + ends), sentence);
+    EXPECT_EQ(complaint_of(names + cell + ",1,2\n" + cell + ",2,3\n"), sentence);
+  }
+  EXPECT_EQ(complaint_of("Time,Load (N),Strain (%)\n0:0:0,1,2\n0:0:1,1,2\n:,2,3\n"),
+            "test.csv:4: column \"Time\": \":\" is not a number");
 }
 
 // Words that name no quantity are no header of a further specimen.
@@ -132,7 +149,7 @@ TEST(InputFaults, NamesAMillionColumns) {
 TEST(InputFaults, NamesAFirstLineOfMegabytes) {
   const std::string sentence =
       "test.csv: no rows of numbers were found in it (a test file has a row of column names and "
-      "rows of two numbers or more)";
+      "rows of two numbers or more, separated by commas, semicolons, tabs or |)";
   EXPECT_EQ(complaint_of(std::string(5'000'000, 'x') + "\n" + header), sentence);
   EXPECT_EQ(complaint_of(std::string(5'000'000, '1') + "\n" + header), sentence);
 }

@@ -73,5 +73,17 @@ TEST(Number, RefusesACellLongerThanAnyNumber) {
   EXPECT_FALSE(is_number(std::string(1000, '1'), ','));
 }
 
+TEST(ParseClock, ReadsHoursMinutesAndSeconds) {
+  for (const char* cell : {"10:00:01.25", "2026-05-01 10:00:01,25", "2026-05-01T10:00:01.25"})
+    EXPECT_EQ(parse_clock(cell).value, 36001.25) << cell;
+  EXPECT_EQ(parse_clock("2026-05-01T10:00:01.25Z").value, 36001.25);
+  EXPECT_EQ(parse_clock("0:0:5").value, 5.0);
+  EXPECT_EQ(parse_clock("12:01,5").value, 721.5);
+  EXPECT_EQ(parse_clock("100:00:00").value, 360000.0);
+  for (const char* cell : {"", ":", "::", "//", "10:00", "10:00:", "10:60:00", "10:00:60", "a:b:c",
+                           "10:00:00:00", "-1:00:00", "10:00:01 PM"})
+    EXPECT_EQ(parse_clock(cell).fault, NumberFault::text) << cell;
+}
+
 }  // namespace
 }  // namespace havers::io

@@ -1,0 +1,119 @@
+// What is said of a section beside its porosity, and what is refused.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/images/measure_section.hpp"
+#include "io/input_error.hpp"
+#include "tests/support/sections.hpp"
+
+namespace havers::io {
+namespace {
+
+using test::Outline;
+constexpr double two_um = 2e-6;
+
+calib::SectionPorosity doubted(const test::DrawnSection& section, const std::string& name,
+                               const SectionOptions& options = {.pixel_size = two_um}) {
+  return measure_sections(test::write(section.image, name), options).front().porosity;
+}
+
+bool warns(const calib::SectionPorosity& section, const std::string& words) {
+  return std::ranges::any_of(section.warnings, [&](const std::string& warning) {
+    return warning.find(words) != std::string::npos;
+  });
+}
+
+// Noise about one level: bone, paper, or a lens with its cap on.
+TEST(SectionDoubt, AnImageOfNothingIsRefusedUnlessBoneIsSaidToFillIt) {
+  const auto nothing =
+      test::draw({.outline = Outline::filled, .porosity = 0.0, .noise = 0.1, .cupping = 0.2});
+  try {
+    doubted(nothing, "nothing.png");
+    FAIL() << "porosity of nothing";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("neither a background nor pores"), std::string::npos)
+        << error.what();
+  }
+  const auto meant = doubted(nothing, "meant.png", {.pixel_size = two_um, .fills_image = true});
+  EXPECT_EQ(meant.porosity, 0.0);
+  EXPECT_TRUE(meant.doubtful);
+  EXPECT_TRUE(std::isnan(meant.mean_pore_diameter));
+}
+
+TEST(SectionDoubt, IsOfThePorosityAndNotOfItsScale) {
+  const auto drawn = test::draw({.noise = 0.05, .blur = 0.8});
+  EXPECT_FALSE(doubted(drawn, "sound.png").doubtful);
+  EXPECT_FALSE(doubted(drawn, "unscaled.png", {}).doubtful);
+  const auto filled = test::draw({.outline = Outline::filled, .noise = 0.05, .blur = 0.8});
+  EXPECT_TRUE(doubted(filled, "filled.png").doubtful);
+  EXPECT_FALSE(doubted(filled, "said.png", {.pixel_size = two_um, .fills_image = true}).doubtful);
+}
+
+TEST(SectionDoubt, LeavesOutSpecksAndSaysSo) {
+  auto drawn = test::draw({.largest_radius = 8.0});
+  for (int i = 0; i < 7; ++i) drawn.image(cv::Rect(250 + 40 * i, 300, 1, 1)).setTo(51);
+  const auto without = doubted(test::draw({.largest_radius = 8.0}), "no_specks.png");
+  const auto measured = doubted(drawn, "specks.png");
+  EXPECT_LE(measured.pore_count, without.pore_count);
+  EXPECT_NEAR(measured.porosity, without.porosity, 1e-4);
+  EXPECT_TRUE(warns(measured, "below 4 pixels were left out"));
+}
+
+TEST(SectionDoubt, WithoutAPixelSizeHasPorosityButNoWindows) {
+  const auto measured = doubted(test::draw({}), "unscaled.png", {});
+  EXPECT_GT(measured.porosity, 0.04);
+  EXPECT_TRUE(std::isnan(measured.window_sd));
+  EXPECT_TRUE(std::isnan(measured.bone_area));
+  EXPECT_TRUE(warns(measured, "no pixel size is known"));
+}
+
+TEST(SectionDoubt, WarnsWhereItsPixelsAreCoarserThanTheFibre) {
+  const auto measured = doubted(test::draw({}), "coarse.png", {.pixel_size = 30e-6});
+  EXPECT_TRUE(warns(measured, "larger than the fibre's height"));
+}
+
+TEST(SectionDoubt, WarnsOfAPoreThatMayBeMarrow) {
+  auto drawn = test::draw({.porosity = 0.0});
+  cv::circle(drawn.image, {350, 300}, 70, 51, cv::FILLED);
+  const auto measured = doubted(drawn, "big_pore.png");
+  EXPECT_NEAR(measured.porosity, std::numbers::pi * 4900.0 / cv::sum(drawn.bone)[0], 2e-3);
+  EXPECT_TRUE(warns(measured, "marrow cavity"));
+}
+
+// A microscope's data bar, white as the bone is.
+TEST(SectionDoubt, WarnsOfAStripAlongTheEdge) {
+  auto drawn = test::draw({.blur = 0.8});
+  EXPECT_FALSE(warns(doubted(drawn, "plain.png"), "strip along an edge"));
+  drawn.image.rowRange(drawn.image.rows - 60, drawn.image.rows).setTo(204);
+  const auto labelled = doubted(drawn, "label.png");
+  EXPECT_TRUE(warns(labelled, "strip along an edge of the image"));
+  EXPECT_TRUE(labelled.doubtful);
+}
+
+TEST(SectionDoubt, WarnsOfLinesDrawnIntoTheBoneAndOfNoStain) {
+  const auto stained = test::draw({.blur = 0.8, .colour = true});
+  EXPECT_FALSE(warns(doubted(stained, "stain.png"), "is coloured"));
+  auto drawn = test::draw({.blur = 0.8});
+  cv::cvtColor(drawn.image, drawn.image, cv::COLOR_GRAY2BGR);
+  cv::line(drawn.image, {20, 20}, {500, 20}, cv::Scalar(0, 0, 255), 3);
+  EXPECT_FALSE(warns(doubted(drawn, "outside.png"), "is coloured"));
+  cv::line(drawn.image, {150, 300}, {500, 320}, cv::Scalar(0, 0, 255), 3);
+  EXPECT_TRUE(warns(doubted(drawn, "inside.png"), "is coloured, and the rest is grey"));
+}
+
+// Bright fringes, as phase contrast leaves them, weigh against the pores in the grey levels only.
+TEST(SectionDoubt, WarnsWhereGreyLevelsAndThresholdDisagree) {
+  auto drawn = test::draw({.porosity = 0.0});
+  for (int i = 0; i < 24; ++i) {
+    const cv::Point middle(120 + 80 * (i % 6), 130 + 90 * (i / 6));
+    cv::circle(drawn.image, middle, 19, 250, cv::FILLED);
+    cv::circle(drawn.image, middle, 16, 51, cv::FILLED);
+  }
+  const auto measured = doubted(drawn, "disagree.png");
+  EXPECT_TRUE(warns(measured, "differs by more than one point"));
+}
+
+}  // namespace
+}  // namespace havers::io

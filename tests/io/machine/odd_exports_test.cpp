@@ -1,0 +1,70 @@
+// What exports have around and between their numbers.
+#include <gtest/gtest.h>
+
+#include "io/machine/read_test.hpp"
+#include "tests/support/machine_files.hpp"
+
+namespace havers::io {
+namespace {
+
+std::vector<TestFile> tests_of(const std::string& content, const ReadOptions& options = {}) {
+  const test::TemporaryFile file(content);
+  return read_tests(file.path(), options);
+}
+
+const std::string heads = "Time (s),Load (N),Strain (%)\n";
+const std::string numbers = "0,1,0.1\n1,2,0.2\n2,3,0.3\n";
+
+// Sums, results, a last word: nothing of it is a test's.
+TEST(OddExports, EndWithWhatIsNotRead) {
+  for (const std::string foot :
+       {"Maximum,3,0.3\nMean,2,0.2\n", "End of test\n", "\nMax Load (N),3\n"}) {
+    const auto tests = tests_of(heads + numbers + foot);
+    ASSERT_EQ(tests.size(), 1U) << foot;
+    EXPECT_EQ(tests[0].test.force, (std::vector{1.0, 2.0, 3.0}));
+    ASSERT_EQ(tests[0].test.warnings.size(), 1U);
+    EXPECT_TRUE(
+        tests[0].test.warnings[0].ends_with("what follows it are no rows of numbers: not read"));
+  }
+}
+
+// Names alone and a time that goes on are a page of the same test; a time that begins again, or
+// leaps, is another's.
+TEST(OddExports, RepeatTheirNamesOnEveryPage) {
+  for (const auto& [next, tests] : {std::pair("3,4,0.4\n4,5,0.5\n", 1U),
+                                    {"0,4,0.4\n1,5,0.5\n", 2U},
+                                    {"90,4,0.4\n91,5,0.5\n", 2U}}) {
+    const auto read = tests_of(heads + numbers + heads + next);
+    EXPECT_EQ(read.size(), tests) << next;
+    EXPECT_EQ(read[0].rows, tests == 1U ? 5U : 3U);
+    EXPECT_EQ(tests_of(heads + numbers + "Specimen,B\n" + heads + next).size(), 2U);
+  }
+}
+
+TEST(OddExports, HaveTheirUnitsAboveTheNames) {
+  const auto file = tests_of("s,kN,%\nTime,Load,Strain\n" + numbers)[0];
+  EXPECT_EQ(file.test.force, (std::vector{1e3, 2e3, 3e3}));
+  EXPECT_EQ(file.test.strain, (std::vector{0.001, 0.002, 0.003}));
+  EXPECT_TRUE(file.test.warnings.empty());
+}
+
+TEST(OddExports, NameTheirDelimiterForASpreadsheet) {
+  const auto file = tests_of("sep=;\nTime (s);Load (N);Strain (%)\n0;1;0,1\n1;2;0,2\n")[0];
+  EXPECT_EQ(file.test.strain, (std::vector{0.001, 0.002}));
+  EXPECT_TRUE(file.test.specimen_id.empty());
+  EXPECT_EQ(tests_of("Time (s)|Load (N)|Strain (%)\n0|1|0,1\n1|2|0,2\n")[0].delimiter, "|");
+}
+
+// The crosshead's extension is another thing, and contains the machine.
+TEST(OddExports, HaveTheElongationOfAnExtensometer) {
+  for (const char* name : {"Extensometer", "Extensomètre", "Extensómetro", "Estensimetro"}) {
+    const auto file =
+        tests_of(std::string("Load (N),Extension (mm),") + name + " (mm)\n1,5,0.05\n2,6,0.1\n",
+                 {.gauge_length = 50e-3})[0];
+    EXPECT_EQ(file.test.strain, (std::vector{1e-3, 2e-3})) << name;
+    EXPECT_EQ(file.test.extension, (std::vector{5e-3, 6e-3})) << name;
+  }
+}
+
+}  // namespace
+}  // namespace havers::io
