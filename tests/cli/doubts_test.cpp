@@ -127,12 +127,12 @@ TEST(Fit, LeavesItsNotesOnThePageAndInTheResult) {
                    replaced_once(test::small_study(), "orientation_deg = 0\n", ""));
   const std::string doubt = "specimen B0 has no orientation_deg: 0 is taken, fibres along the load";
   EXPECT_THAT(run_havers(folder, "fit made/study.toml -o out").err, HasSubstr(doubt));
-  const auto result = nlohmann::json::parse(test::read_text(folder / "out/result.json"));
+  const auto result = nlohmann::json::parse(test::contents(folder / "out/result.json"));
   EXPECT_EQ(result["notes"], nlohmann::json::array({doubt}));
-  const std::string page = test::read_text(folder / "out/report.html");
+  const std::string page = test::contents(folder / "out/report.html");
   EXPECT_THAT(page, HasSubstr("<li>" + doubt));
   run_havers(folder, "report out");
-  EXPECT_EQ(test::read_text(folder / "out/report.html"), page);
+  EXPECT_EQ(test::contents(folder / "out/report.html"), page);
 }
 
 // A thousand a second is no testing machine's rate.

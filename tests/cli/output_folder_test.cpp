@@ -38,9 +38,9 @@ TEST(OutputFolder, IsNotReplacedUnlessForceIsGiven) {
 
 // As a shell takes it again.
 TEST(OutputFolder, KeepsTheCommandWithItsQuotes) {
-  const fs::path folder = folder_with_scene();
+  const fs::path folder = test::folder_with_scene();
   ASSERT_EQ(run_havers(folder, "simulate scene.toml -o \"it's out\"").exit_code, 0);
-  EXPECT_NE(test::read_text(folder / "it's out/result.json")
+  EXPECT_NE(test::contents(folder / "it's out/result.json")
                 .find(R"("command": "havers simulate scene.toml -o 'it'\\''s out'")"),
             std::string::npos);
 }

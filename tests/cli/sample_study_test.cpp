@@ -118,7 +118,7 @@ TEST(SampleStudy, SectionsThatAreListedTwiceAreDoubted) {
 TEST(SampleStudy, SaysWhichScatterIsTakenWithoutAPixelSizeAndWhoHasTheSameSection) {
   const fs::path folder = own_folder();
   fs::copy(bars, folder / "bars");
-  std::string study = test::read_text(bars / "study.toml");
+  std::string study = test::contents(bars / "study.toml");
   const std::string pixel = "pixel_size_um = 2.0\n";
   study.erase(study.find(pixel), pixel.size());
   const std::string own = "\"A2_section.png\"";

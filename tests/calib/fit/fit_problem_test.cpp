@@ -9,12 +9,11 @@
 namespace havers::calib {
 namespace {
 
-// 8 layers of 5 fibres at 45 degrees: avalanches of such walls may stop below where a run ends
-// otherwise.
+// 14 layers of 10 fibres at 45 degrees: runs of such walls end early in their avalanche.
 Study one_oblique_bar() {
   Study study;
-  study.model.assembly.layers = 8;
-  study.model.assembly.fibres = 5;
+  study.model.assembly.layers = 14;
+  study.model.assembly.fibres = 10;
   study.model.joints.scatter = 0.8;
   study.calibrate.parameters = {"head_tail_MPa"};
   Specimen& specimen = study.specimens.emplace_back();

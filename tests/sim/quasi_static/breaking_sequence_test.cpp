@@ -226,14 +226,15 @@ TEST(BreakingSequence, BreaksASymmetricSpecimenSymmetrically) {
 // changes in the curve, up to and after the peak, is proportional to it.
 TEST(BreakingSequence, HasALimitWithoutFriction) {
   struct Wall {
-    double degrees, scatter;
+    double degrees, scatter, end;
     unsigned seed;
   };
-  for (const Wall& wall : {Wall{0.0, 0.2, 1}, Wall{30.0, 0.2, 3}, Wall{45.0, 1.5, 1}}) {
+  for (const Wall& wall :
+       {Wall{0.0, 0.2, 0.7, 1}, Wall{30.0, 0.2, 0.7, 3}, Wall{45.0, 1.5, 0.0, 1}}) {
     Scene scene = test::small_scene(wall.degrees, 8, 5);
     scene.joints.scatter = wall.scatter;
     scene.joints.seed = wall.seed;
-    scene.loading.end_fraction = 0.0;
+    scene.loading.end_fraction = wall.end;
     scene.joints.friction = least_friction;
     const Simulation none = simulate_quasi_static(scene, {});
     const auto change = [&](double friction) {
