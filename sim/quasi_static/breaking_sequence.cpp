@@ -20,7 +20,8 @@ double end_fraction_used(const Scene& scene) {
                        ratio(scene.assembly, joints) >= 0.2;
   if (!scene.solver.leave_out || !brittle) return scene.loading.end_fraction;
   const double fibres = 1.0 * scene.assembly.layers * scene.assembly.fibres;
-  const double fall = 0.005 + 25.0 / fibres;  // from which none is seen to become stronger
+  // From which none was seen to become stronger.
+  const double fall = 0.005 + 25.0 / fibres + 0.05 * joints.scatter * joints.scatter;
   return std::max(scene.loading.end_fraction, 1.0 - fall);
 }
 

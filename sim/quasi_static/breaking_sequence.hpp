@@ -7,9 +7,9 @@
 namespace havers::sim {
 
 /// Part of the strength below which a quasi-static run no longer follows an avalanche: the scene's
-/// end fraction, or 0.995 − 25/(nN) where that is more and a specimen is as good as never stronger
-/// thereafter: uniform thresholds of d ≤ 1, f₁ no less than a fifth of f₂, equal layers, no joint
-/// missing. What follows is most of the work. Section 6. [-]
+/// end fraction, or 0.995 − 25/(nN) − d²/20 where that is more and a specimen is as good as never
+/// stronger thereafter: uniform thresholds of d ≤ 1, f₁ no less than a fifth of f₂, equal layers,
+/// no joint missing. What follows is most of the work. Section 6. [-]
 double end_fraction_used(const Scene& scene);
 
 /// Runs a scene in the limit of a vanishing strain rate.
