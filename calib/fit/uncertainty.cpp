@@ -14,19 +14,20 @@ namespace {
 
 /// What the residuals' variances rest on: the part that the replicates' spread makes is as well
 /// known as the replicates of all specimens of an orientation tell it.
-struct Sources {
+struct VarianceSources {
   Eigen::VectorXd replicates;       // part of each residual's variance
   Eigen::VectorXd weight;           // 1/variance of each residual; 0 where it tells nothing
   std::vector<double> orientation;  // of each fitted specimen
   std::map<double, double> freedom;
 };
 
-Sources sources_of(const FitProblem& problem, const Weights& weights, const Evaluation& at) {
+VarianceSources sources_of(const FitProblem& problem, const Weights& weights,
+                           const Evaluation& at) {
   const Eigen::Index count = at.residuals.size();
-  Sources result{.replicates = Eigen::VectorXd(count),
-                 .weight = Eigen::VectorXd(count),
-                 .orientation = {},
-                 .freedom = {}};
+  VarianceSources result{.replicates = Eigen::VectorXd(count),
+                         .weight = Eigen::VectorXd(count),
+                         .orientation = {},
+                         .freedom = {}};
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
     const Eigen::Index row = landmark_count * static_cast<Eigen::Index>(f);
@@ -57,7 +58,7 @@ double effect_share(const Eigen::VectorXd& shares, const Eigen::VectorXd& weight
 // (F11) Satterthwaite: an unknown knows its own error only as well as the few replicates of a
 // specimen, and, where the specimen effect was estimated, the few residuals of a landmark tell it.
 double quantile(const Eigen::VectorXd& shares, const Landmarks& freedom, const Landmarks& effect,
-                const Sources& sources) {
+                const VarianceSources& sources) {
   double inverse = 0.0;
   for (Eigen::Index q = 0; q < landmark_count; ++q) {
     std::map<double, double> by_replicates;
@@ -96,7 +97,7 @@ bool at_bound(const Unknown& unknown, double position) {
 Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, const Evaluation& at,
                            const Active& active, const Eigen::MatrixXd& slopes) {
   const Eigen::MatrixXd jacobian = slopes.leftCols(static_cast<Eigen::Index>(active.size()));
-  const Sources sources = sources_of(problem, weights, at);
+  const VarianceSources sources = sources_of(problem, weights, at);
 
   Uncertainty result{.follow = jacobian.completeOrthogonalDecomposition().pseudoInverse()};
   const Eigen::MatrixXd& follow = result.follow;
