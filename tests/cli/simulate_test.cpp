@@ -73,9 +73,9 @@ TEST(Simulate, SaysDownToWhereBrokenJointsAreCounted) {
     return run_havers(folder, "simulate scene.toml -o out --force" + settings).out;
   };
   const std::string early = out("");
-  EXPECT_THAT(early, HasSubstr("bear less than 0.37 of the strength\n"));
+  EXPECT_THAT(early, HasSubstr("bear less than 0.362 of the strength\n"));
   EXPECT_THAT(early,
-              HasSubstr("; counted down to 0.37 of the strength (solver.leave_out = false follows "
+              HasSubstr("; counted down to 0.362 of the strength (solver.leave_out = false follows "
                         "on, to 0.3)\n"));
   const std::string whole = out(" --set solver.leave_out=false");
   EXPECT_THAT(whole, HasSubstr("bear less than 0.3 of the strength\n"));
