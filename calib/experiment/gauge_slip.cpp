@@ -93,17 +93,17 @@ void continue_with_crosshead(Record& record, std::span<const double> extension, 
                            std::span(record.strain).subspan(first, rows));
   if (line.slope <= 0.0) {
     repair.problem = fmt::format(
-        "the gauge {} {}, and no crosshead tells the strain after it: the failure strain is "
-        "unknown",
+        "the gauge {} {}, and no crosshead tells the strain after it: "
+        "the failure strain is unknown",
         fault, place(record, row));
     return;
   }
   for (std::size_t i = row + 1; i < record.strain.size(); ++i)
     record.strain[i] = line.intercept + line.slope * extension[i];
   repair.corrections.push_back(
-      {"gauge " + fault, fmt::format("{}; from there the strain is the crosshead's, {:.4g} per mm "
-                                     "as just before",
-                                     place(record, row), line.slope * 1e-3)});
+      {"gauge " + fault,
+       fmt::format("{}; from there the strain is the crosshead's, {:.4g} per mm as just before",
+                   place(record, row), line.slope * 1e-3)});
   repair.warnings.push_back(fmt::format(
       "the gauge {} {}: the failure strain rests on the crosshead", fault, place(record, row)));
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/experiment/measured_test.hpp"
+#include "calib/experiment/raw_test.hpp"
 
 namespace havers::calib {
 

@@ -89,8 +89,8 @@ constexpr Calibration load_cell{"load cell factor",
 void take_elongation(std::vector<double> elongation, JoinedTest& joined) {
   if (!joined.test.gauge_length) {
     joined.problems.emplace_back(
-        "the logger's gauge is an elongation, and the gauge length is unknown: give "
-        "gauge_length_mm");
+        "the logger's gauge is an elongation, and the gauge length is unknown: "
+        "give gauge_length_mm");
     return;
   }
   for (double& value : elongation) value /= *joined.test.gauge_length;

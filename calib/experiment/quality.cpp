@@ -14,10 +14,9 @@ std::vector<std::string> rejections(const MeasuredTest& test, const ReductionOpt
         100.0 * modulus_error, 100.0 * options.largest_modulus_error));
   const double noise = test.strength_standard_error / test.strength;
   if (noise > options.largest_noise)
-    reasons.push_back(
-        fmt::format("rejected: the noise of the stress is {:.3g} % of the strength, more than "
-                    "{:.3g} %",
-                    100.0 * noise, 100.0 * options.largest_noise));
+    reasons.push_back(fmt::format(
+        "rejected: the noise of the stress is {:.3g} % of the strength, more than {:.3g} %",
+        100.0 * noise, 100.0 * options.largest_noise));
   if (test.failure_strain <= 0.0)
     reasons.push_back(fmt::format("rejected: the failure strain is {:.4g} %, which is no stretch",
                                   100.0 * test.failure_strain));
@@ -39,8 +38,8 @@ std::string doubt_of_units(const RawTest& raw, const MeasuredTest& test) {
   const double lowest = raw.strain.empty() ? softest_machine * lowest_modulus : lowest_modulus;
   if (test.modulus >= lowest && test.modulus <= highest_modulus) return {};
   return fmt::format(
-      "a modulus of {:.5g} GPa with a failure strain of {:.3g} % {} ({:g} to {:g} GPa): check the "
-      "units ({})",
+      "a modulus of {:.5g} GPa with a failure strain of {:.3g} % {} ({:g} to {:g} GPa): "
+      "check the units ({})",
       test.modulus * 1e-9, 100.0 * test.failure_strain, not_of_bone, lowest * 1e-9,
       highest_modulus * 1e-9,
       raw.strain.empty() ? "extension_unit, gauge_length_mm" : "strain_unit");

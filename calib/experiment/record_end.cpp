@@ -109,10 +109,9 @@ RecordEnd parted_at(const Fall& fall, std::size_t row) {
                          fall.stress.size() - row, fall.stress.size(), fall.part)};
   const double strength = std::ranges::max(fall.stress.first(row));
   if (const std::size_t again = fall.rows_again(row, strength); again > 0)
-    end.warnings.push_back(
-        fmt::format("after the break the stress is above {:.2g} of the strength again in {} {}: "
-                    "not used",
-                    fall.part, again, again == 1 ? "row" : "rows"));
+    end.warnings.push_back(fmt::format(
+        "after the break the stress is above {:.2g} of the strength again in {} {}: not used",
+        fall.part, again, again == 1 ? "row" : "rows"));
   if (std::string offset = offset_after(fall, row, strength); !offset.empty())
     end.warnings.push_back(std::move(offset));
   return end;

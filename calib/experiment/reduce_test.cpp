@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include "calib/experiment/channel_noise.hpp"
 #include "calib/experiment/clean_channels.hpp"

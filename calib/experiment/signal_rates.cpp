@@ -1,7 +1,6 @@
 #include "calib/experiment/signal_rates.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <numeric>
 

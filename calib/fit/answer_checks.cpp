@@ -43,14 +43,12 @@ Check check_randomness(const CalibrationResult& result) {
             "way."
       : std::isfinite(r.common_gain)
           ? fmt::format(
-                " Common random numbers make differences between points {:.3g} times less "
-                "noisy.",
+                " Common random numbers make differences between points {:.3g} times less noisy.",
                 r.common_gain)
           : "";
   const std::string numbers = fmt::format(
       "{} fresh seeds per specimen move no parameter by more than {:.2g} standard errors, their "
-      "cost is {:.3g}; "
-      "the replicates' chance makes {} of the variance.{}",
+      "cost is {:.3g}; the replicates' chance makes {} of the variance.{}",
       r.replicates, r.fresh_shift, r.fresh_cost, percent_text(r.simulator_share), gain);
   if (r.fresh_shift <= 1.0 && r.simulator_share <= 0.5) return {name, Outcome::pass, numbers};
   return {name, Outcome::warn,
@@ -91,24 +89,25 @@ Check check_confirmation(const CalibrationResult& result) {
 Check check_influence(const CalibrationResult& result) {
   constexpr const char* name = "no specimen decides";
   if (result.fitted.empty()) return not_fitted(name);
-  std::string alone, strong;
+  std::vector<std::string> alone, strong;
   for (const auto& specimen : result.specimens)
     for (const auto& [parameter, shift] : specimen.influence) {
-      const bool undetermined = !std::isfinite(shift);
-      if (!undetermined && std::abs(shift) <= 2.0) continue;
-      std::string& list = undetermined ? alone : strong;
-      list += fmt::format("{}{}{}", list.empty() ? "" : ", ", specimen.id,
-                          undetermined ? "" : fmt::format(" ({} by {:.1f})", parameter, shift));
-      if (undetermined) break;
+      if (!std::isfinite(shift)) {
+        alone.push_back(specimen.id);
+        break;
+      }
+      if (std::abs(shift) > 2.0)
+        strong.push_back(fmt::format("{} ({} by {:.1f})", specimen.id, parameter, shift));
     }
   if (alone.empty() && strong.empty())
     return {name, Outcome::pass,
             "Without any one specimen every parameter stays within two standard errors."};
   std::string text;
-  if (!alone.empty()) text = fmt::format("Without {} the parameters are not determined. ", alone);
+  if (!alone.empty())
+    text = fmt::format("Without {} the parameters are not determined. ", fmt::join(alone, ", "));
   if (!strong.empty())
     text += fmt::format("Left out, these move a parameter by more than two standard errors: {}. ",
-                        strong);
+                        fmt::join(strong, ", "));
   return {name, Outcome::warn, text + "Look at these tests, and test more like them."};
 }
 
@@ -116,15 +115,15 @@ Check check_correlation(const CalibrationResult& result) {
   constexpr const char* name = "parameters told apart";
   constexpr double high = 0.9;
   if (result.fitted.empty()) return not_fitted(name);
-  std::string pairs;
+  std::vector<std::string> pairs;
   for (std::size_t i = 0; i < result.correlation.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (std::abs(result.correlation[i][j]) > high)
-        pairs += fmt::format("{}{} and {} ({:.2f})", pairs.empty() ? "" : ", ", result.fitted[j],
-                             result.fitted[i], result.correlation[i][j]);
+        pairs.push_back(fmt::format("{} and {} ({:.2f})", result.fitted[j], result.fitted[i],
+                                    result.correlation[i][j]));
   if (pairs.empty())
     return {name, Outcome::pass, "No two parameters are correlated by more than 0.9."};
-  std::string text = fmt::format("Correlated by more than 0.9: {}. {}", pairs,
+  std::string text = fmt::format("Correlated by more than 0.9: {}. {}", fmt::join(pairs, ", "),
                                  result.directions.size() > 1 ? result.directions[1] : "");
   if (result.next_tests.empty()) return {name, Outcome::warn, text};
   const auto helps = std::ranges::min_element(result.next_tests, {}, [](const NextTest& test) {
@@ -136,7 +135,7 @@ Check check_correlation(const CalibrationResult& result) {
 Check check_intervals(const CalibrationResult& result) {
   constexpr const char* name = "intervals agree";
   if (result.fitted.empty()) return not_fitted(name);
-  std::string differ;
+  std::vector<std::string> differ;
   int compared = 0;
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (const auto& parameter : result.parameters) {
@@ -147,8 +146,7 @@ Check check_intervals(const CalibrationResult& result) {
     least = std::min(least, part);
     most = std::max(most, part);
     if (part < 0.5 || part > 2.0)
-      differ += fmt::format("{}{} ({:.2g} times as wide)", differ.empty() ? "" : ", ",
-                            parameter.name, part);
+      differ.push_back(fmt::format("{} ({:.2g} times as wide)", parameter.name, part));
   }
   if (compared == 0)
     return {name, Outcome::pass, "Not checked: no profile was asked for or could be had.", false};
@@ -156,9 +154,9 @@ Check check_intervals(const CalibrationResult& result) {
     return {name, Outcome::pass,
             fmt::format("Profile likelihood gives intervals {} times as wide as the slopes do.",
                         times_text(least, most))};
-  return {
-      name, Outcome::warn,
-      fmt::format("Profile likelihood gives other intervals: {}. Believe the wider one.", differ)};
+  return {name, Outcome::warn,
+          fmt::format("Profile likelihood gives other intervals: {}. Believe the wider one.",
+                      fmt::join(differ, ", "))};
 }
 
 Check check_plain_law(const FitProblem& problem, const Answer& answer) {
@@ -180,11 +178,12 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
           : best_plain_law(specimens, parameters_spent(answer.slopes.jacobian)[strength],
                            problem.study.laws);
   if (!std::isfinite(law.criterion) || !std::isfinite(law.model_criterion))
-    return {name, Outcome::pass,
-            fmt::format("Not checked: {} strengths are too few to compare the model with a law "
-                        "without fibres.",
-                        specimens.size()),
-            false};
+    return {
+        name, Outcome::pass,
+        fmt::format(
+            "Not checked: {} strengths are too few to compare the model with a law without fibres.",
+            specimens.size()),
+        false};
   const double better = law.criterion - law.model_criterion;
   const std::string numbers = fmt::format(
       "AICc of the strengths is {:.1f} for the model and {:.1f} for the best linear "

@@ -1,7 +1,6 @@
 #include "calib/fit/calibrate.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "calib/fit/answer.hpp"
 #include "calib/fit/profile.hpp"

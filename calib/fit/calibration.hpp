@@ -22,7 +22,7 @@ enum class CalibrationStatus {
   nothing_to_fit,  ///< No parameter is informed by the specimens.
   cancelled,       ///< Stopped by the user; run again to go on from the store.
 };
-std::string to_string(CalibrationStatus status);
+/// In a sentence; the words of result.json are io's.
 std::string explain(CalibrationStatus status);
 
 /// One calibrated value. Numbers in `unit`.

@@ -1,7 +1,5 @@
 #include "calib/fit/differences.hpp"
 
-#include <cmath>
-
 namespace havers::calib {
 namespace {
 

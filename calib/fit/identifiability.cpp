@@ -65,8 +65,7 @@ std::string no_effect(const FitProblem& problem, const Unknown& unknown, const C
         change, problem.fitted.size(), most);
   return fmt::format(
       "practically unidentifiable: {} moves no modulus, strength or failure strain of the {} "
-      "fitted specimens by "
-      "more than {:.2g} of its standard deviation",
+      "fitted specimens by more than {:.2g} of its standard deviation",
       change, problem.fitted.size(), most);
 }
 

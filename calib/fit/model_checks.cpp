@@ -122,8 +122,7 @@ Check check_brittle(const FitProblem& problem, const Answer& answer) {
   if (certain && (part < bent || part > 1.0 / bent))
     return {"brittle", Outcome::fail,
             fmt::format("These curves are not brittle: {}. The model is rejected; its parameters "
-                        "describe nothing "
-                        "here.",
+                        "describe nothing here.",
                         numbers)};
   if (certain && (part < slightly_bent || part > 1.0 / slightly_bent))
     return {"brittle", Outcome::warn,
@@ -143,18 +142,17 @@ Check check_orientations(const FitProblem& problem, const Answer& answer) {
             "Not checked: it takes more orientations than parameters, and two specimens at one.",
             false};
   if (stiffness && *stiffness < significance)
+    return {name, Outcome::fail,
+            fmt::format(
+                "The modulus differs between orientations more than specimens do ({}); fibres of "
+                "one modulus, bonded, do not. Set [calibrate.level] young_GPa = \"orientation\".",
+                chance_text(*stiffness))};
+  if (breaking && *breaking < significance)
     return {
         name, Outcome::fail,
-        fmt::format("The modulus differs between orientations more than specimens do ({}); "
-                    "fibres of one "
-                    "modulus, bonded, do not. Set [calibrate.level] young_GPa = \"orientation\".",
-                    chance_text(*stiffness))};
-  if (breaking && *breaking < significance)
-    return {name, Outcome::fail,
-            fmt::format("The strength's residuals differ between orientations more than specimens "
-                        "do ({}): "
-                        "the model is rejected as it stands. See which orientation is off.",
-                        chance_text(*breaking))};
+        fmt::format("The strength's residuals differ between orientations more than specimens do "
+                    "({}): the model is rejected as it stands. See which orientation is off.",
+                    chance_text(*breaking))};
   const auto words = [](const std::optional<double>& p) {
     return p ? fmt::format("p = {:.2f}", *p) : std::string("too few to tell");
   };
@@ -189,7 +187,8 @@ std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer
 
 /// Of which landmarks the specimens' differences are told, and of which they cannot be (F9).
 struct SpreadWords {
-  std::string told, untold;
+  std::vector<std::string> told;
+  std::string untold;
 };
 
 SpreadWords spread_words(const FitProblem& problem, const Answer& answer) {
@@ -199,8 +198,7 @@ SpreadWords spread_words(const FitProblem& problem, const Answer& answer) {
     const auto counts = [&, q = q](std::size_t s) { return problem.targets[s].present[q]; };
     if (std::ranges::none_of(problem.fitted, counts)) continue;
     if (answer.slopes.failed || answer.uncertainty.freedom[q] >= least_freedom) {
-      words.told += fmt::format("{}{} in {}", words.told.empty() ? "" : " and ",
-                                percent_text(answer.weights.specimen[q]), one);
+      words.told.push_back(fmt::format("{} in {}", percent_text(answer.weights.specimen[q]), one));
       continue;
     }
     const double count = residuals_told(problem, answer.best)[q];
@@ -219,8 +217,7 @@ Check check_specimen_spread(const FitProblem& problem, const Answer& answer) {
   if (problem.fitted.size() < 3)
     return {name, Outcome::warn,
             "Fewer than three specimens: how much they differ beyond noise cannot be told, and the "
-            "intervals do not "
-            "include it. Test more."};
+            "intervals do not include it. Test more."};
   const Landmarks& part = answer.weights.specimen;
   const auto [told, untold] = spread_words(problem, answer);
   const auto rest = untold + chi_squared_sentence(problem, answer);
@@ -230,7 +227,7 @@ Check check_specimen_spread(const FitProblem& problem, const Answer& answer) {
   const auto text = fmt::format(
       "Specimens differ by {} (standard deviations) beyond noise, scatter and the model's own "
       "randomness",
-      told);
+      fmt::join(told, " and "));
   const double most = std::max(part[modulus], part[strength]);
   if (most > 0.5)
     return {name, Outcome::fail,

@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "calib/fit/specimen_slopes.hpp"
@@ -16,7 +15,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double faster_by = 10.0;  // of a test at another rate
 
 MatrixXd rows_of(const Answer& answer, std::size_t fitted) {

@@ -9,6 +9,8 @@
 #include <map>
 #include <numbers>
 
+#include "calib/study/study.hpp"
+
 namespace havers::calib {
 namespace {
 
@@ -49,7 +51,7 @@ std::vector<LawDesign> designs_of(std::span<const Broken> specimens) {
 }  // namespace
 
 double strength_by(std::span<const SweepLaw> laws, const Broken& specimen) {
-  constexpr double degree = std::numbers::pi / 180.0, same_angle = 0.5 * degree;
+  constexpr double same_angle = 0.5 * degree;
   const SweepLaw* nearest = nullptr;
   double distance = std::numeric_limits<double>::infinity();
   for (const SweepLaw& law : laws) {

@@ -1,6 +1,5 @@
 #include "calib/fit/replicate_spread.hpp"
 
-#include <cmath>
 #include <map>
 
 namespace havers::calib {

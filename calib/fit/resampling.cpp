@@ -7,7 +7,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "calib/fit/specimen_effect.hpp"

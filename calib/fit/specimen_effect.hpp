@@ -1,7 +1,7 @@
 // How much specimens differ beyond noise and the model's own randomness.
 #pragma once
 
-#include "calib/fit/differences.hpp"
+#include "calib/fit/fit_problem.hpp"
 
 namespace havers::calib {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "calib/fit/differences.hpp"
+#include "calib/fit/fit_problem.hpp"
 
 namespace havers::calib {
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace havers::calib {
 namespace {
@@ -31,7 +30,7 @@ Level level_of(const CalibrateOptions& options, const ParameterInfo& info) {
 std::string group_of(const Specimen& specimen, Level level) {
   if (level == Level::shared) return "";
   if (level == Level::specimen) return fmt::format("[{}]", specimen.id);
-  return fmt::format("[{:.4g} deg]", specimen.orientation * 180.0 / std::numbers::pi);
+  return fmt::format("[{:.4g} deg]", specimen.orientation / degree);
 }
 
 Unknown bounded(const Study& study, const ParameterInfo& info) {

@@ -26,8 +26,7 @@ Check check_convergence(const Answer& answer, double cost) {
   if (answer.uncertainty.distance > close_enough)
     return {"converged", Outcome::warn,
             fmt::format("The searches stopped, but the slope promises a cost lower by {:.2g}: more "
-                        "replicates make "
-                        "the simulated outcome smoother.",
+                        "replicates make the simulated outcome smoother.",
                         answer.uncertainty.distance)};
   return {"converged", Outcome::pass,
           fmt::format("The searches stopped at a minimum, cost {:.3g}.", cost)};
@@ -69,8 +68,7 @@ Check check_starts(const FitProblem& problem, const Answer& answer) {
   if (elsewhere > 0)
     return {"starts agree", Outcome::fail,
             fmt::format("{} of {} starts end at another point that fits as well: the answer is not "
-                        "unique. Narrow "
-                        "calibrate.bounds or add specimens.",
+                        "unique. Narrow calibrate.bounds or add specimens.",
                         elsewhere, ends.size())};
   if (same_cost < 2)
     return {"starts agree", Outcome::warn,
@@ -82,19 +80,17 @@ Check check_starts(const FitProblem& problem, const Answer& answer) {
 }
 
 Check check_bounds(const CalibrationResult& result) {
-  std::string names;
+  std::vector<std::string> names;
   for (const auto& parameter : result.parameters)
     if (parameter.at_bound)
-      names +=
-          fmt::format("{}{} = {:.4g} of [{:.4g}, {:.4g}]", names.empty() ? "" : ", ",
-                      parameter.name, parameter.value, parameter.bounds[0], parameter.bounds[1]);
+      names.push_back(fmt::format("{} = {:.4g} of [{:.4g}, {:.4g}]", parameter.name,
+                                  parameter.value, parameter.bounds[0], parameter.bounds[1]));
   if (names.empty())
     return {"inside bounds", Outcome::pass, "No fitted parameter lies at a bound."};
   return {"inside bounds", Outcome::fail,
           fmt::format("At a bound: {}. Widen calibrate.bounds if the value beyond makes sense; if "
-                      "not, the model "
-                      "does not describe these specimens.",
-                      names)};
+                      "not, the model does not describe these specimens.",
+                      fmt::join(names, ", "))};
 }
 
 // What an unknown that was left out is in the answer, by its value there.

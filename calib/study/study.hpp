@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +15,8 @@
 #include "sim/scene.hpp"
 
 namespace havers::calib {
+
+inline constexpr double degree = std::numbers::pi / 180.0;  ///< [rad]
 
 enum class Use { fit, validate };
 

@@ -1,30 +1,24 @@
 #include "calib/sweep/measure_words.hpp"
 
+#include <array>
+
 namespace havers::calib {
 
 MeasureWords words_of(Measure measure) {
   constexpr double percent = 0.01, MPa = 1e6, GPa = 1e9;
-  switch (measure) {
-    case Measure::strength:
-      return {"Strength", "MPa", MPa};
-    case Measure::failure_strain:
-      return {"Failure strain", "%", percent};
-    case Measure::modulus:
-      return {"Modulus", "GPa", GPa};
-    case Measure::linear_part:
-      return {"Linear part of the curve", "%", percent};
-    case Measure::fall_part:  // no share: a wall may take longer to part than to fail
-      return {"Strain from strength to end / failure strain", ""};
-    case Measure::head_tail_broken:
-      return {"Broken head-tail joints", ""};
-    case Measure::flank_broken:
-      return {"Broken flank joints", ""};
-    case Measure::crack_span:
-      return {"Height of the crack / H", "%", percent};
-    case Measure::crack_linked:
-      return {"Head-tail joints continued by a flank", "%", percent};
-  }
-  return {};
+  const std::array<MeasureWords, measure_count> words{{
+      {"Strength", "MPa", MPa},
+      {"Failure strain", "%", percent},
+      {"Modulus", "GPa", GPa},
+      {"Linear part of the curve", "%", percent},
+      // no share: a wall may take longer to part than to fail
+      {"Strain from strength to end / failure strain", ""},
+      {"Broken head-tail joints", ""},
+      {"Broken flank joints", ""},
+      {"Height of the crack / H", "%", percent},
+      {"Head-tail joints continued by a flank", "%", percent},
+  }};
+  return words.at(static_cast<std::size_t>(measure));
 }
 
 }  // namespace havers::calib

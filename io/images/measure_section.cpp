@@ -54,8 +54,8 @@ void warn_of_scale(const io::SectionOptions& options, Warnings& warnings) {
         "--pixel-size-um, in a study pixel_size_um");
   else if (*options.pixel_size > options.window_height)
     warnings.push_back(
-        fmt::format("a pixel ({:g} µm) is larger than the fibre's height ({:g} µm): "
-                    "the spread between windows is that of the pixels",
+        fmt::format("a pixel ({:g} µm) is larger than the fibre's height ({:g} µm): the spread "
+                    "between windows is that of the pixels",
                     *options.pixel_size * 1e6, options.window_height * 1e6));
 }
 
@@ -86,8 +86,8 @@ void warn_of_strips(const PoreMap& map, cv::Rect box, cv::Size image, Warnings& 
         at.height > image.height - blur && (at.x < blur || at.br().x > image.width - blur);
     if (parts.size() > 1 && (lies || stands))
       warnings.push_back(
-          fmt::format("{:.1f} % of the bone is a strip along an edge of the image: if it is a "
-                      "label, cut it off or give a mask",
+          fmt::format("{:.1f} % of the bone is a strip along an edge of the image: "
+                      "if it is a label, cut it off or give a mask",
                       100.0 * enclosed_area(part) / cv::countNonZero(map.bone)));
   }
 }
@@ -116,16 +116,15 @@ void warn_of_side(const PoreMap& map, bool like_background, io::Pores known, War
         side, other, other));
   if (map.other_side > 0.005)
     warnings.push_back(
-        fmt::format("{:.1f} % of the bone is as much {}er than bone as pores are "
-                    "{}er, and does not count as pores",
+        fmt::format("{:.1f} % of the bone is as much {}er than bone as pores are {}er, and does "
+                    "not count as pores",
                     100.0 * map.other_side, other, side));
 }
 
 void warn_of_objects(const PoreMap& map, Warnings& warnings) {
   if (map.specks > 0)
     warnings.push_back(
-        fmt::format("{} objects below {} pixels were left out as too small to tell "
-                    "from noise",
+        fmt::format("{} objects below {} pixels were left out as too small to tell from noise",
                     map.specks, smallest_pore));
   if (map.crack_count > 0)
     warnings.push_back(
@@ -145,8 +144,8 @@ void warn_of_size(const PoreMap& map, const calib::SectionPorosity& section, War
                     100.0 * largest / bone));
   if (std::abs(section.porosity - section.porosity_by_grey) > 0.01)
     warnings.push_back(
-        fmt::format("the porosity by grey levels, {:.2f} %, differs by more than one "
-                    "point from the one by threshold, {:.2f} %",
+        fmt::format("the porosity by grey levels, {:.2f} %, differs by more than one point from "
+                    "the one by threshold, {:.2f} %",
                     100.0 * section.porosity_by_grey, 100.0 * section.porosity));
 }
 

@@ -10,7 +10,7 @@
 #include "io/input_error.hpp"
 #include "io/machine/column_hints.hpp"
 #include "io/machine/excerpt.hpp"
-#include "io/machine/split_unit.hpp"
+#include "io/machine/quantity.hpp"
 #include "io/machine/vocabulary.hpp"
 
 namespace havers::io {
@@ -55,27 +55,6 @@ std::string place_of(const TestFile& file, const Table& table) {
   return fmt::format("{}:{}", file.file, table.first_line);
 }
 
-// What a number means where no unit is written.
-std::pair<double, const char*> unwritten_unit(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::extension:
-      return {1e-3, "mm"};
-    case Quantity::stress:
-      return {1e6, "MPa"};
-    case Quantity::time:
-      return {1.0, "s"};
-    case Quantity::force:
-      return {1.0, "N"};
-    case Quantity::volts:
-    case Quantity::load_volts:
-      return {1.0, "V"};
-    case Quantity::strain:
-    case Quantity::other:
-      break;
-  }
-  return {1.0, "mm/mm"};
-}
-
 std::string unknown_unit(const Column& column) {
   return fmt::format(R"(unit "{}" of column "{}" is not known)", excerpt(column.unit),
                      excerpt(column.name));
@@ -88,15 +67,12 @@ std::string unit_hint_of(Quantity quantity, const ReadOptions& options) {
 // Factor to SI; the warnings say what was assumed.
 double factor(const Column& column, const std::string& where, const ReadOptions& options,
               calib::RawTest& test) {
-  const std::optional<Unit> unit = find_unit(column.unit);
-  if (!unit && !column.unit.empty())
-    throw InputError(where, unknown_unit(column), unit_hint_of(column.quantity, options));
-  if (!unit) {
-    const auto [to_si, name] = unwritten_unit(column.quantity);
+  const std::string_view assumed = info_of(column.quantity).assumed_unit;
+  const std::optional<Unit> unit = find_unit(column.unit.empty() ? assumed : column.unit);
+  if (!unit) throw InputError(where, unknown_unit(column), unit_hint_of(column.quantity, options));
+  if (column.unit.empty())
     test.warnings.push_back(
-        fmt::format("column \"{}\" has no unit, taken as {}", column.name, name));
-    return to_si;
-  }
+        fmt::format("column \"{}\" has no unit, taken as {}", column.name, assumed));
   if (column.quantity == Quantity::strain && unit->dimension == Dimension::length) {
     if (!test.gauge_length)
       throw InputError(

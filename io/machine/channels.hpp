@@ -1,7 +1,6 @@
 // Which columns of a table are the channels of a test.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "io/machine/layout.hpp"

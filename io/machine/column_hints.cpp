@@ -9,6 +9,7 @@
 
 #include "io/input_error.hpp"
 #include "io/machine/excerpt.hpp"
+#include "io/machine/quantity.hpp"
 #include "io/machine/split_unit.hpp"
 #include "io/machine/vocabulary.hpp"
 
@@ -41,25 +42,9 @@ std::optional<Quantity> held_in(const std::string& unit, Quantity quantity) {
   return std::nullopt;
 }
 
-// Those that are met most; more are known.
-std::string_view usual_units(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::time:
-      return "s, ms, min or h";
-    case Quantity::force:
-      return "N, kN, lbf, kgf, V, or a factor such as 500 N/V";
-    case Quantity::extension:
-      return "mm, um, m or in";
-    case Quantity::strain:
-      return "%, mm/mm, ustrain, mm, V, or a factor such as 0.01 mm/V";
-    default:
-      return "MPa, Pa, GPa or psi";
-  }
-}
-
 InputError wrong_unit(const std::string& where, const std::string& unit, Quantity quantity) {
   return {where, fmt::format("\"{}\" is not a known unit of {}", unit, to_string(quantity)),
-          fmt::format("{}_unit may be {}", to_string(quantity), usual_units(quantity))};
+          fmt::format("{}_unit may be {}", to_string(quantity), info_of(quantity).usual_units)};
 }
 
 }  // namespace

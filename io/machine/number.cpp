@@ -116,19 +116,9 @@ Number convert(std::string_view text) {
 }  // namespace
 
 std::string to_string(NumberFault fault) {
-  switch (fault) {
-    case NumberFault::none:
-      return "is a number";
-    case NumberFault::empty:
-      return "is empty";
-    case NumberFault::text:
-      return "is not a number";
-    case NumberFault::not_finite:
-      return "is not a finite number";
-    case NumberFault::too_large:
-      return "is too large for a number";
-  }
-  return "unknown";
+  constexpr std::array words{"is a number", "is empty", "is not a number", "is not a finite number",
+                             "is too large for a number"};
+  return words.at(static_cast<std::size_t>(fault));
 }
 
 Number parse_number(std::string_view cell, char decimal) {

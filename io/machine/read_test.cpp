@@ -87,28 +87,6 @@ TestFile chosen_of(std::vector<TestFile> tests, const std::string& specimen) {
 
 }  // namespace
 
-std::string to_string(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::time:
-      return "time";
-    case Quantity::force:
-      return "force";
-    case Quantity::extension:
-      return "extension";
-    case Quantity::strain:
-      return "strain";
-    case Quantity::stress:
-      return "stress";
-    case Quantity::volts:
-      return "volts";
-    case Quantity::load_volts:
-      return "load volts";
-    case Quantity::other:
-      return "other";
-  }
-  return "unknown";
-}
-
 std::vector<TestFile> read_tests(const std::filesystem::path& file, const ReadOptions& options) {
   TextSource source(file);
   const std::string beginning(source.next());

@@ -10,7 +10,7 @@
 #include "io/machine/excerpt.hpp"
 #include "io/machine/facts.hpp"
 #include "io/machine/number.hpp"
-#include "io/machine/units.hpp"
+#include "io/machine/quantity.hpp"
 #include "io/machine/vocabulary.hpp"
 
 namespace havers::io {
@@ -19,27 +19,6 @@ namespace {
 // A file that is wrong in every row need not say so in every row.
 constexpr std::size_t enough_problems = 5;
 constexpr std::size_t longest_header = 500;
-
-std::vector<double>& channel_of(calib::RawTest& test, Quantity quantity) {
-  switch (quantity) {
-    case Quantity::time:
-      return test.time;
-    case Quantity::extension:
-      return test.extension;
-    case Quantity::strain:
-      return test.strain;
-    case Quantity::stress:
-      return test.stress;
-    case Quantity::volts:
-      return test.volts;
-    case Quantity::load_volts:
-      return test.load_volts;
-    case Quantity::force:
-    case Quantity::other:
-      break;
-  }
-  return test.force;
-}
 
 // The machine's stress must be force over the area that the file states, or one of the three is
 // wrong.
@@ -56,8 +35,7 @@ void check_stress(calib::RawTest& test) {
   if (largest_difference > tolerance * largest_stress)
     test.warnings.push_back(
         fmt::format("the stress column differs from force / (width × thickness) by up to {:.3g} "
-                    "MPa of {:.4g} MPa: "
-                    "the force is used, check width and thickness",
+                    "MPa of {:.4g} MPa: the force is used, check width and thickness",
                     largest_difference * 1e-6, largest_stress * 1e-6));
 }
 
@@ -224,7 +202,7 @@ std::vector<TestFile> SpecimenTables::take() {
   for (SpecimenColumns& specimen : specimens_) {
     TestFile& file = specimen.file;
     for (std::size_t i = 0; i < specimen.channels.size(); ++i)
-      channel_of(file.test, specimen.channels[i].quantity) = std::move(specimen.values[i]);
+      file.test.*info_of(specimen.channels[i].quantity).channel = std::move(specimen.values[i]);
     file.rows = file.test.rows();
     if (specimens_.size() > 1 && file.test.specimen_id.empty())
       file.test.specimen_id = std::to_string(files.size() + 1);

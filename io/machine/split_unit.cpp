@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "io/machine/quantity.hpp"
 #include "io/machine/vocabulary.hpp"
 
 namespace havers::io {
@@ -59,27 +60,6 @@ NameAndUnit named_unit(std::string_view name, std::string_view unit) {
 }
 
 }  // namespace
-
-bool fits(Quantity quantity, Dimension dimension) {
-  switch (quantity) {
-    case Quantity::time:
-      return dimension == Dimension::time;
-    case Quantity::force:
-      return dimension == Dimension::force;
-    case Quantity::extension:
-      return dimension == Dimension::length;
-    case Quantity::strain:
-      return dimension == Dimension::strain || dimension == Dimension::length;
-    case Quantity::stress:
-      return dimension == Dimension::stress;
-    case Quantity::volts:
-    case Quantity::load_volts:
-      return dimension == Dimension::voltage;
-    case Quantity::other:
-      return false;
-  }
-  return false;
-}
 
 NameAndUnit split_unit(std::string_view text) {
   while (text.starts_with(' ')) text.remove_prefix(1);

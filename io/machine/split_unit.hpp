@@ -4,13 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/machine/read_test.hpp"
-#include "io/machine/units.hpp"
-
 namespace havers::io {
-
-/// A unit that the quantity can have. A gauge may be recorded as an elongation.
-bool fits(Quantity quantity, Dimension dimension);
 
 /// A name and the unit at its end: "Force [ kN ]" is "Force" and "kN". Without brackets, as in
 /// "Load/kN", "Kraft in kN", "force_kN", "Load, kN", "Strain %", it must be a unit that the named

@@ -16,15 +16,11 @@ namespace {
 constexpr std::array<double, 4> tie_signs{1.0, -1.0, -1.0,
                                           1.0};  // top, bottom, next top, next bottom
 
-MatrixXd inverse_of_free_part(const BodyOperator& op, const std::vector<char>& held, Index first) {
-  std::vector<Index> free;
-  for (Index i = 0; i < op.shifted.rows(); ++i)
-    if (held[static_cast<std::size_t>(first + i)] == 0) free.push_back(i);
-  const auto n = static_cast<Index>(free.size());
+MatrixXd inverse_of_free_part(const BodyOperator& op) {
   MatrixXd inverse = MatrixXd::Zero(op.shifted.rows(), op.shifted.rows());
-  const MatrixXd A = op.shifted(free, free);
-  const MatrixXd solution = A.llt().solve(MatrixXd::Identity(n, n));
-  inverse(free, free) = solution;
+  const MatrixXd A = op.shifted(op.free, op.free);
+  const MatrixXd solution = A.llt().solve(MatrixXd::Identity(A.rows(), A.rows()));
+  inverse(op.free, op.free) = solution;
   return inverse;
 }
 
@@ -34,8 +30,7 @@ JointSweeps::JointSweeps(const Bodies& bodies)
     : bodies_(&bodies), class_of_(bodies.assembly().bodies.size()) {
   for (std::size_t c = 0; c < bodies.classes().size(); ++c) {
     const BodyClass& group = bodies.classes()[c];
-    inverses_.emplace_back(
-        inverse_of_free_part(group.op, bodies.held(), bodies.first_dof(group.bodies.front())));
+    inverses_.emplace_back(inverse_of_free_part(group.op));
     port_answers_.emplace_back(group.op.ports * inverses_.back() * group.op.ports.transpose());
     for (const int body : group.bodies) class_of_[static_cast<std::size_t>(body)] = c;
   }

@@ -71,7 +71,7 @@ struct SingleJoint {
   JointState state;
 };
 
-/// One joint alone, exactly: r = `free` + S y and the law for the gap u₀ + y.
+/// (C3) One joint alone, exactly: r = `free` + S y and the law for the gap u₀ + y.
 SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const Local& u0,
                                const JointLaw& law);
 

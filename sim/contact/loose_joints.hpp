@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "sim/structure/structure.hpp"

@@ -1,8 +1,6 @@
 #include "sim/contact/set_search.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <numeric>
 #include <utility>
 
 namespace havers::sim {
@@ -38,7 +36,7 @@ SetSearch::SetSearch(const Bodies& bodies)
 
 void SetSearch::take(const std::vector<JointState>& states) {
   std::vector<Held> held(states.size());
-  std::transform(states.begin(), states.end(), held.begin(), held_in);
+  std::ranges::transform(states, held.begin(), held_in);
   if (!structure_)
     structure_.emplace(*bodies_, std::move(held));
   else if (structure_->held() != held)
@@ -117,9 +115,9 @@ bool SetSearch::settles_nearby(const JointStep& step, std::size_t most, JointSte
     if (!structure_->ok()) return false;
     std::vector<JointState> next = lawful(step, result, rough);
     if (next == result.states) next = lawful(step, result, accuracy_of_forces);
-    const auto changes =
-        std::transform_reduce(next.begin(), next.end(), result.states.begin(), std::size_t{0},
-                              std::plus<>{}, std::not_equal_to<>{});
+    std::size_t changes = 0;
+    for (std::size_t j = 0; j < next.size(); ++j)
+      if (next[j] != result.states[j]) ++changes;
     if (changes == 0 || changes > most) return false;
     most = changes - 1;
     result.states = std::move(next);

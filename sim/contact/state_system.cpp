@@ -183,12 +183,8 @@ MatrixXd StateSystem::lacking(const MatrixXd& r, const MatrixXd& cohesion) const
 }
 
 StateSolution StateSystem::solve() {
-  return solve(problem_->r0, -problem_->u0, cohesions(*problem_));
-}
-
-StateSolution StateSystem::solve(const MatrixXd& r0, const MatrixXd& held,
-                                 const MatrixXd& cohesion) {
-  return solve_from({MatrixXd::Zero(r0.rows(), r0.cols()), r0}, r0, held, cohesion,
+  const VectorXd& r0 = problem_->r0;
+  return solve_from({VectorXd::Zero(r0.size()), r0}, r0, -problem_->u0, cohesions(*problem_),
                     accuracy_of_solve);
 }
 

@@ -39,10 +39,8 @@ class StateSystem {
 
   /// Of the problem as it is.
   [[nodiscard]] StateSolution solve();
-  /// For free reactions `r0` [N/m], gaps `held` where they are held [m] and cohesions c [N/m].
-  [[nodiscard]] StateSolution solve(const Eigen::MatrixXd& r0, const Eigen::MatrixXd& held,
-                                    const Eigen::MatrixXd& cohesion);
-  /// The same from a solution for other states, cheap where few have changed. Corrections end where
+  /// For free reactions `r0` [N/m], gaps `held` where they are held [m] and cohesions c [N/m], from
+  /// a solution for other states: cheap where few have changed. Corrections end where
   /// the reactions lack no more in the equations than `accuracy` times what they lack without gaps,
   /// or rounding is all that is left.
   [[nodiscard]] StateSolution solve_from(StateSolution known, const Eigen::MatrixXd& r0,

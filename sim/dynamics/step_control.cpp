@@ -77,9 +77,8 @@ std::string doubt_about_steps(const Scene& scene) {
     return "";
   return fmt::format(
       "a run in time ends after ten million steps, at this rate a strain of at most {:.2g} % "
-      "beyond "
-      "the first break: where the specimen bears longer it takes long and is not trusted (regime "
-      "= \"quasi-static\" takes no steps)",
+      "beyond the first break: where the specimen bears longer it takes long and is not trusted "
+      "(regime = \"quasi-static\" takes no steps)",
       100.0 * followed);
 }
 

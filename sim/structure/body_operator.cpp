@@ -58,7 +58,8 @@ PortSplit split_by_ports(const MatrixXd& ports) {
 BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
                                 const std::vector<char>& held, const Shift& shift) {
   BodyOperator body;
-  const std::vector<Index> free = dofs_of(held, false);
+  body.free = dofs_of(held, false);
+  const std::vector<Index>& free = body.free;
   const Index n = ports.cols(), p = ports.rows();
   body.shifted = shift.beta * matrices.stiffness;
   body.shifted.diagonal() += shift.alpha * matrices.mass;
@@ -81,7 +82,6 @@ BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
   body.impedance = 0.5 * (Z + Z.transpose());
   body.compatibility = split.impossible;
   body.rigid = body.inertia = MatrixXd(p, 0);
-  body.held = free.size() != held.size();
   body.inertia_part = shift.alpha * matrices.mass.maxCoeff() / A.diagonal().maxCoeff();
   const MatrixXd motions = motions_left(matrices.motions, held);
   if (body.at_rest() && motions.cols() > 0) {

@@ -19,18 +19,20 @@ struct Shift {
 /// sim/README.md. n degrees of freedom (those held by the boundary included), p ports.
 struct BodyOperator {
   BodyMatrices matrices;
-  bool held = false;           ///< Whether the boundary holds some of its degrees of freedom.
-  double inertia_part = 0.0;   ///< αM in Ā, by their largest entries. [-]
-  Eigen::MatrixXd shifted;     ///< Ā, n × n. [N/m²]
-  Eigen::MatrixXd ports;       ///< B, p × n. [-]
-  Eigen::MatrixXd compliance;  ///< G, n × n: answer to loads with the ports held. [m²/N]
-  Eigen::MatrixXd recovery;    ///< T, n × p: answer to port displacements. [-]
-  Eigen::MatrixXd impedance;   ///< Z = TᵀĀT, p × p: port forces. [N/m²]
+  std::vector<Eigen::Index> free;  ///< Degrees of freedom that the boundary leaves.
+  double inertia_part = 0.0;       ///< αM in Ā, by their largest entries. [-]
+  Eigen::MatrixXd shifted;         ///< Ā, n × n. [N/m²]
+  Eigen::MatrixXd ports;           ///< B, p × n. [-]
+  Eigen::MatrixXd compliance;      ///< G, n × n: answer to loads with the ports held. [m²/N]
+  Eigen::MatrixXd recovery;        ///< T, n × p: answer to port displacements. [-]
+  Eigen::MatrixXd impedance;       ///< Z = TᵀĀT, p × p: port forces. [N/m²]
   Eigen::MatrixXd rigid;    ///< Orthonormal columns, where inertia is a trace: motions as a whole
                             ///< that the boundary leaves to the body, at its ports. [-]
   Eigen::MatrixXd inertia;  ///< Z times these, free of rounding in K. [N/m²]
   Eigen::MatrixXd compatibility;  ///< N, orthonormal rows: N p = 0 for every p = B δ. [-]
 
+  /// Whether the boundary holds some of the degrees of freedom.
+  [[nodiscard]] bool held() const { return free.size() < static_cast<std::size_t>(shifted.rows()); }
   /// Whether inertia is but a trace of Ā, lost in its rounding where the body moves as a whole.
   [[nodiscard]] bool at_rest() const { return inertia_part < 1e-6; }
 };

@@ -221,7 +221,7 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
   for (const BodyClass& group : bodies_->classes()) {  // (S3): condense the loads
     const BodyOperator& op = group.op;
     MatrixXd& on_class = forces.emplace_back(bodies_->gather(loads.forces, group));
-    if (op.held) {
+    if (op.held()) {
       const MatrixXd moved = bodies_->gather(loads.prescribed, group);
       on_class.noalias() -= op.shifted * moved;
       bodies_->ports_in(at_ports.offsets, group).noalias() = -op.ports * moved;
@@ -251,7 +251,7 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
     const BodyClass& group = bodies_->classes()[k];
     MatrixXd moved = group.op.compliance * forces[k];
     moved.noalias() += group.op.recovery * bodies_->ports_in(state.displacements, group);
-    if (group.op.held) {  // its load is that of moving it: far larger than what the ports bear
+    if (group.op.held()) {  // its load is that of moving it: far larger than what the ports bear
       const MatrixXd lack = forces[k] - group.op.shifted * moved;
       moved.noalias() += group.op.compliance * lack;
       moved += bodies_->gather(loads.prescribed, group);

@@ -359,15 +359,12 @@ TEST(Verdict, NamesEverySpecimenThatAloneDeterminesAParameter) {
   EXPECT_TRUE(says(check, "Without A10, A1 the parameters")) << check.text;
 }
 
-TEST(CalibrationStatus, HasAWordAndASentenceEach) {
-  std::set<std::string> words, sentences;
+TEST(CalibrationStatus, HasASentenceEach) {
+  std::set<std::string> sentences;
   for (const auto status : {CalibrationStatus::converged, CalibrationStatus::budget_spent,
                             CalibrationStatus::all_failed, CalibrationStatus::nothing_to_fit,
-                            CalibrationStatus::cancelled}) {
-    words.insert(to_string(status));
+                            CalibrationStatus::cancelled})
     sentences.insert(explain(status));
-  }
-  EXPECT_EQ(words.size(), 5U);
   EXPECT_EQ(sentences.size(), 5U);
   EXPECT_EQ(to_string(Outcome::warn), "warn");
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "io/machine/split_unit.hpp"
+#include "io/machine/units.hpp"
 
 namespace havers::io {
 namespace {

@@ -1,0 +1,33 @@
+#include "io/machine/quantity.hpp"
+
+#include <array>
+
+namespace havers::io {
+
+const QuantityInfo& info_of(Quantity quantity) {
+  using calib::RawTest;
+  static constexpr std::array<QuantityInfo, 8> infos{{
+      {"time", &RawTest::time, Dimension::time, "s", "s, ms, min or h"},
+      {"force", &RawTest::force, Dimension::force, "N",
+       "N, kN, lbf, kgf, V, or a factor such as 500 N/V"},
+      {"extension", &RawTest::extension, Dimension::length, "mm", "mm, um, m or in"},
+      {"strain", &RawTest::strain, Dimension::strain, "mm/mm",
+       "%, mm/mm, ustrain, mm, V, or a factor such as 0.01 mm/V"},
+      {"stress", &RawTest::stress, Dimension::stress, "MPa", "MPa, Pa, GPa or psi"},
+      {"volts", &RawTest::volts, Dimension::voltage, "V", ""},
+      {"load volts", &RawTest::load_volts, Dimension::voltage, "V", ""},
+      {"other", nullptr, {}, "", ""},
+  }};
+  return infos.at(static_cast<std::size_t>(quantity));
+}
+
+std::string to_string(Quantity quantity) {
+  return std::string(info_of(quantity).name);
+}
+
+bool fits(Quantity quantity, Dimension dimension) {
+  return info_of(quantity).dimension == dimension ||
+         (quantity == Quantity::strain && dimension == Dimension::length);
+}
+
+}  // namespace havers::io
