@@ -51,7 +51,7 @@ TEST_P(SameRun, InTimeWhenNothingIsLeftOut) {
 // A run that leaves out the end of its avalanche has broken what the whole one had by then.
 TEST_P(SameRun, InTheQuasiStaticLimitAsFarAsItGoes) {
   for (const double scatter : {0.2, 1.0}) {
-    Scene scene = test::small_scene(GetParam(), 8, 5);
+    Scene scene = test::small_scene(GetParam(), 14, 10);
     scene.joints.scatter = scatter;
     const Simulation quick = simulate(scene);
     scene.solver.leave_out = false;
