@@ -79,12 +79,12 @@ fs::path write_page(const ReportArguments& arguments, const std::vector<Finished
 }
 
 int run_report(const ReportArguments& arguments, const CommonOptions& common) {
+  refuse_settings(common, "havers report shows fits as they were");
   if (!reports::available())
     throw io::InputError("report", "this build makes no pages",
                          "apt-get install libmstch-dev gnuplot-nox and build again");
   if (arguments.results.size() > 1 && arguments.folder.empty())
     throw io::InputError("report", "several results need a folder for their page", "add -o DIR");
-  refuse_settings(common, "havers report shows fits as they were");
   const std::vector<FinishedFit> fits = read_all(arguments.results);
   const fs::path page = write_page(arguments, fits, common.force);
   if (common.json)

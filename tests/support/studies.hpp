@@ -1,6 +1,8 @@
 // Studies whose truth is known: a simulator in closed form, and tests drawn from it.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -138,6 +140,24 @@ auto parameter_of(const Result& result, const std::string& name) {
   const auto found = std::find_if(result.parameters.begin(), result.parameters.end(),
                                   [&](const auto& p) { return p.name == name; });
   return found == result.parameters.end() ? typename std::decay_t<decltype(*found)>{} : *found;
+}
+
+/// A fitted parameter that the specimens tell, within a part of its truth.
+inline void expect_within(const calib::CalibratedParameter& parameter, double truth, double part) {
+  EXPECT_TRUE(parameter.identifiable) << parameter.name;
+  EXPECT_NEAR(parameter.value, truth, part * truth) << parameter.name;
+}
+
+/// The check of that name; an empty one, and a failure, if there is none.
+inline calib::Check check_of(const calib::CalibrationResult& result, const std::string& name) {
+  for (const auto& check : result.verdict)
+    if (check.check == name) return check;
+  ADD_FAILURE() << "no check " << name;
+  return {};
+}
+
+inline bool says(const calib::Check& check, const std::string& words) {
+  return check.text.find(words) != std::string::npos;
 }
 
 }  // namespace havers::test

@@ -13,16 +13,8 @@
 namespace havers::calib {
 namespace {
 
-Check check_of(const CalibrationResult& result, const std::string& name) {
-  for (const auto& check : result.verdict)
-    if (check.check == name) return check;
-  ADD_FAILURE() << "no check " << name;
-  return {};
-}
-
-bool says(const Check& check, const std::string& words) {
-  return check.text.find(words) != std::string::npos;
-}
+using test::check_of;
+using test::says;
 
 // A metal: strength 500 MPa, 210 GPa, breaks at 12 %.
 MeasuredTest ductile_test(double modulus) {
@@ -114,35 +106,6 @@ TEST(Verdict, ComparesOrientationsOnlyWhereItCan) {
     if (specimen.orientation > 0.1)
       specimen.test = test::straight_test(0.7 * specimen.test.modulus, specimen.test.strength);
   EXPECT_EQ(check_of(test::fit(study), "residuals unstructured").outcome, Outcome::fail);
-}
-
-TEST(Verdict, RejectsSpecimensThatDifferByMoreThanHalf) {
-  auto study = test::synthetic_study(test::three_orientations);
-  std::swap(study.specimens[0].test, study.specimens[4].test);  // one along, one across
-  const auto check = check_of(test::fit(study), "spread between specimens");
-  EXPECT_EQ(check.outcome, Outcome::fail);
-  EXPECT_TRUE(says(check, "exchanged?")) << check.text;
-}
-
-TEST(Verdict, SaysThatAsManyParametersAsStrengthsLeaveNoSpread) {
-  auto study = test::synthetic_study({0.0, 0.0}, {.specimen_effect = 0.1});
-  study.calibrate.parameters = {"young_GPa", "head_tail_MPa"};
-  study.calibrate.level["head_tail_MPa"] = Level::specimen;
-  const auto check = check_of(test::fit(study), "spread between specimens");
-  EXPECT_EQ(check.outcome, Outcome::warn);
-  EXPECT_TRUE(says(check, "% in modulus (standard deviations) beyond noise")) << check.text;
-  EXPECT_FALSE(says(check, "% in strength")) << check.text;
-  EXPECT_TRUE(says(check,
-                   "4 strengths for 4 parameters: whether specimens differ in strength cannot be "
-                   "told, and the intervals do not include it."))
-      << check.text;
-  study.calibrate.terms = {"strength"};
-  study.calibrate.parameters = {"head_tail_MPa"};
-  const auto alone = check_of(test::fit(study), "spread between specimens").text;
-  EXPECT_TRUE(alone.starts_with("4 strengths for 4 parameters")) << alone;
-  study.calibrate.terms = {"failure strain"};
-  const FitProblem problem = make_problem(study);
-  EXPECT_FALSE(check_specimen_spread(problem, {}).done);
 }
 
 // The scouts' weights know of no difference between specimens: in them these ends are far apart.
@@ -295,11 +258,6 @@ TEST(Verdict, SendsNobodyToTheBoundsWhereTheTimeStepIsTheReason) {
               testing::EndsWith("Narrow calibrate.bounds to where the model can be simulated."));
 }
 
-TEST(Verdict, SaysThatTwoSpecimensDoNotShowTheirSpread) {
-  EXPECT_EQ(check_of(test::fit(test::synthetic_study({0.0})), "spread between specimens").outcome,
-            Outcome::warn);
-}
-
 TEST(Verdict, SaysThatSimulationsDoNotBreak) {
   auto study = test::synthetic_study(test::three_orientations);
   study.model.loading.max_strain = 1e-4;
@@ -317,46 +275,6 @@ TEST(Verdict, CountsFailedSimulations) {
   };
   const auto result = calibrate_with(simulator, test::synthetic_study(test::three_orientations));
   EXPECT_EQ(check_of(result, "simulations").outcome, Outcome::fail);
-}
-
-TEST(Verdict, SaysThatAHeldOutSpecimenIsOff) {
-  auto study = test::synthetic_study(test::three_orientations);
-  study.specimens[0].use = Use::validate;
-  const auto fitted = test::fit(study);
-  EXPECT_EQ(check_of(fitted, "held-out specimens").outcome, Outcome::pass);
-  EXPECT_FALSE(says(check_of(fitted, "held-out specimens"), "Not checked"));
-  EXPECT_TRUE(says(check_of(fitted, "confirmed in time"), "Not checked: "));
-  EXPECT_TRUE(says(check_validation({}, true), "Not checked: "));
-  EXPECT_FALSE(check_validation({}, true).done);
-  EXPECT_TRUE(check_of(fitted, "held-out specimens").done);
-  study.specimens[0].test = test::straight_test(14e9, 90e6);
-  const auto check = check_of(test::fit(study), "held-out specimens");
-  EXPECT_EQ(check.outcome, Outcome::fail);
-  EXPECT_TRUE(says(check, "S1"));
-}
-
-TEST(Verdict, ComparesAHeldOutSpecimenByTheTermsThereAre) {
-  auto study = test::synthetic_study(test::three_orientations);
-  study.calibrate.parameters = {"head_tail_MPa", "ratio"};
-  study.calibrate.terms = {"strength", "failure strain"};
-  study.specimens[0].use = Use::validate;
-  const auto held_out = check_of(test::fit(study), "held-out specimens");
-  EXPECT_EQ(held_out.outcome, Outcome::pass) << held_out.text;
-  study.specimens[0].test.modulus = std::nan("");
-  const auto useless = check_of(test::fit(study), "held-out specimens");
-  EXPECT_EQ(useless.outcome, Outcome::fail);
-  EXPECT_TRUE(says(useless, "S1 (nothing to compare)")) << useless.text;
-}
-
-TEST(Verdict, NamesEverySpecimenThatAloneDeterminesAParameter) {
-  CalibrationResult result;
-  result.fitted = {"young_GPa", "ratio"};
-  for (const char* id : {"A10", "A1"})
-    result.specimens.push_back(
-        {.id = id, .influence = {{"young_GPa", std::nan("")}, {"ratio", std::nan("")}}});
-  const auto check = check_influence(result);
-  EXPECT_EQ(check.outcome, Outcome::warn);
-  EXPECT_TRUE(says(check, "Without A10, A1 the parameters")) << check.text;
 }
 
 TEST(CalibrationStatus, HasASentenceEach) {

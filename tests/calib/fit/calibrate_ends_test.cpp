@@ -1,0 +1,165 @@
+// Fits that end elsewhere than at a minimum, or meet simulations that fail on the way there.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "calib/fit/calibrate.hpp"
+#include "tests/support/memory_store.hpp"
+#include "tests/support/studies.hpp"
+
+namespace havers::calib {
+namespace {
+
+using test::expect_within;
+
+TEST(Calibrate, ToleratesSimulationsThatFail) {
+  auto simulator = test::ClosedForm{}.simulator();
+  simulator.run = [](const sim::Scene& scene) {
+    auto response = test::ClosedForm{}(scene);
+    if (scene.joints.seed % 10 == 0) throw std::runtime_error("no convergence");
+    if (scene.joints.seed % 10 == 1) response.strength = std::numeric_limits<double>::quiet_NaN();
+    return response;
+  };
+  const auto result = calibrate_with(simulator, test::synthetic_study(test::three_orientations));
+  EXPECT_EQ(result.status, CalibrationStatus::converged);
+  EXPECT_GT(result.failed_simulations, 0);
+  expect_within(test::parameter_of(result, "head_tail_MPa"), 60.0, 0.01);
+}
+
+// A whole region of the ratio cannot be simulated: the searches go round it.
+TEST(Calibrate, ToleratesARegionThatFails) {
+  auto simulator = test::ClosedForm{}.simulator();
+  simulator.run = [](const sim::Scene& scene) {
+    auto response = test::ClosedForm{}(scene);
+    response.failed = sim::ratio(scene.assembly, scene.joints) > 5.0;
+    return response;
+  };
+  const auto result = calibrate_with(simulator, test::synthetic_study(test::three_orientations));
+  EXPECT_EQ(result.status, CalibrationStatus::converged);
+  expect_within(test::parameter_of(result, "ratio"), 2.0, 0.03);
+}
+
+TEST(Calibrate, SaysThatEverySimulationFailed) {
+  auto simulator = test::ClosedForm{}.simulator();
+  simulator.run = [](const sim::Scene&) -> Response { throw std::runtime_error("broken model"); };
+  const auto result = calibrate_with(simulator, test::synthetic_study(test::three_orientations));
+  EXPECT_EQ(result.status, CalibrationStatus::all_failed);
+  EXPECT_FALSE(result.trusted());
+  EXPECT_EQ(result.failed_simulations, result.distinct_simulations);
+  EXPECT_EQ(std::ranges::count(result.verdict, Outcome::pass, &Check::outcome),
+            std::ranges::count(result.verdict, false, &Check::done))
+      << "what passes was not looked at";
+  EXPECT_EQ(test::parameter_of(result, "ratio").left_out_because,
+            "simulations at the answer or beside it failed");
+  EXPECT_THAT(result.verdict.back().text,
+              testing::HasSubstr("failed, most often so: broken model."));
+  EXPECT_FALSE(result.verdict.at(2).done) << "no start is compared: " << result.verdict[2].text;
+}
+
+TEST(Calibrate, SaysThatThereIsNothingToFit) {
+  auto study = test::synthetic_study({0.0});
+  study.calibrate.parameters = {"ratio"};
+  EXPECT_EQ(test::fit(study).status, CalibrationStatus::nothing_to_fit);
+  study.specimens.clear();
+  EXPECT_EQ(test::fit(study).status, CalibrationStatus::nothing_to_fit);
+}
+
+// How many replicates are needed is asked of the answer; specimens are simulated without one too.
+TEST(Calibrate, SimulatesEverySpecimenWhereNoReplicatesAreAskedForAndNothingIsFitted) {
+  auto study = test::synthetic_study({0.0});
+  study.calibrate.replicates = replicates_by_need;
+  study.calibrate.parameters = {"friction"};
+  const auto uninformed = test::fit(study);
+  EXPECT_EQ(uninformed.status, CalibrationStatus::nothing_to_fit);
+  EXPECT_EQ(uninformed.specimens.at(1).replicates.size(), 8U);
+  for (auto& specimen : study.specimens) specimen.use = Use::validate;
+  const auto held_out = test::fit(study);
+  EXPECT_EQ(held_out.status, CalibrationStatus::nothing_to_fit);
+  EXPECT_EQ(held_out.specimens.at(1).replicates.size(), 8U);
+}
+
+TEST(Calibrate, SaysThatEverySimulationFailedWhereNoReplicatesAreAskedFor) {
+  auto study = test::synthetic_study({0.0});
+  study.calibrate.replicates = replicates_by_need;
+  auto simulator = test::ClosedForm{}.simulator();
+  simulator.run = [](const sim::Scene&) -> Response { throw std::runtime_error("broken model"); };
+  const auto result = calibrate_with(simulator, study);
+  EXPECT_EQ(result.status, CalibrationStatus::all_failed);
+  EXPECT_EQ(result.specimens.at(1).replicates.size(), 8U);
+}
+
+TEST(Calibrate, SaysThatTheBudgetIsSpentAndKeepsTheBestPoint) {
+  auto study = test::synthetic_study(test::three_orientations);
+  study.calibrate.budget = 6;
+  const auto result = test::fit(study);
+  EXPECT_EQ(result.status, CalibrationStatus::budget_spent);
+  EXPECT_FALSE(result.trusted());
+  EXPECT_LT(result.cost, 1e4);
+}
+
+// A point that no search came to says nothing of the model, and no interval is worth its time.
+TEST(Calibrate, JudgesNothingOnceTheBudgetIsSpent) {
+  auto study = test::synthetic_study(test::three_orientations);
+  study.calibrate.budget = 1;
+  const auto result = test::fit(study);
+  ASSERT_EQ(result.status, CalibrationStatus::budget_spent);
+  for (const Check& check : result.verdict)
+    EXPECT_EQ(check.done, check.check == "converged" || check.check == "simulations")
+        << check.check << ": " << check.text;
+  EXPECT_TRUE(result.profiles.empty());
+  EXPECT_TRUE(result.next_tests.empty());
+  for (const auto& parameter : result.parameters) {
+    EXPECT_FALSE(parameter.identifiable) << parameter.name;
+    EXPECT_NE(parameter.left_out_because.find("budget"), std::string::npos) << parameter.name;
+  }
+}
+
+TEST(Calibrate, StopsWhenToldToAndGoesOnFromTheStore) {
+  test::MemoryStore store;
+  const auto study = test::synthetic_study(test::three_orientations);
+  const auto simulator = test::ClosedForm{}.simulator();
+  int calls = 0;
+  const auto stopped = calibrate_with(simulator, study, &store,
+                                      [&](const CalibrationProgress&) { return ++calls < 40; });
+  EXPECT_EQ(stopped.status, CalibrationStatus::cancelled);
+  EXPECT_EQ(calls, 40);
+  const auto resumed = calibrate_with(simulator, study, &store);
+  const auto whole = calibrate_with(simulator, study);
+  EXPECT_EQ(resumed.cost, whole.cost);
+  EXPECT_LT(resumed.simulated, whole.simulated);
+}
+
+// Ctrl-C may come inside any simulation, those of the hindsight among them.
+TEST(Calibrate, StopsInsideAnySimulationAndGoesOnFromTheStore) {
+  auto study = test::synthetic_study({0.0, 90.0});
+  study.calibrate.replicates = 4;
+  long runs = 0, last = std::numeric_limits<long>::max();
+  auto simulator = test::ClosedForm{}.simulator();
+  simulator.run = [&](const sim::Scene& scene) -> std::optional<Response> {
+    if (++runs >= last) return std::nullopt;
+    return test::ClosedForm{}(scene);
+  };
+  const auto whole = calibrate_with(simulator, study);
+  const long all = whole.simulated;
+  for (long stop = 1; stop <= all; stop += stop < all - 8 ? 7 : 1) {
+    test::MemoryStore store;
+    runs = 0;
+    last = stop;
+    const auto stopped = calibrate_with(simulator, study, &store);
+    EXPECT_EQ(stopped.status, CalibrationStatus::cancelled) << stop;
+    EXPECT_EQ(stopped.simulated, stop - 1);
+    EXPECT_EQ(stopped.failed_simulations, 0) << stop;
+    EXPECT_EQ(runs, stop);  // none began after it
+    last = std::numeric_limits<long>::max();
+    const auto resumed = calibrate_with(simulator, study, &store);
+    EXPECT_EQ(resumed.simulated, all - stop + 1);
+    EXPECT_EQ(resumed.cost, whole.cost) << stop;
+    EXPECT_EQ(resumed.parameters[0].interval_95, whole.parameters[0].interval_95) << stop;
+  }
+}
+
+}  // namespace
+}  // namespace havers::calib
