@@ -1,7 +1,10 @@
 // What the verdict says of single specimens, of their spread and of those held out.
 #include <gmock/gmock.h>
 
+#include "calib/fit/answer.hpp"
+#include "calib/fit/answer_checks.hpp"
 #include "calib/fit/calibrate.hpp"
+#include "calib/fit/model_checks.hpp"
 #include "tests/support/studies.hpp"
 
 namespace havers::calib {
