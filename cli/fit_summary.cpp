@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/command.hpp"
+
 namespace havers::cli {
 namespace {
 

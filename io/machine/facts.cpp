@@ -11,6 +11,7 @@
 #include "io/machine/excerpt.hpp"
 #include "io/machine/number.hpp"
 #include "io/machine/split_unit.hpp"
+#include "io/machine/units.hpp"
 #include "io/machine/vocabulary.hpp"
 
 namespace havers::io {

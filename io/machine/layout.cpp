@@ -5,6 +5,7 @@
 
 #include "io/machine/number.hpp"
 #include "io/machine/split_unit.hpp"
+#include "io/machine/units.hpp"
 #include "io/machine/vocabulary.hpp"
 
 namespace havers::io {

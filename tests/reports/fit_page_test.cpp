@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "reports/pages.hpp"
 #include "tests/reports/sound_page.hpp"
 
 namespace havers::reports {
