@@ -1,4 +1,5 @@
 // What a user meets first: help, version, and mistakes in the command line.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,5 @@
 // What is said of the answer after it is found: other intervals, other specimens, other seeds.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "io/input_error.hpp"
 #include "tests/support/machine_files.hpp"
 
