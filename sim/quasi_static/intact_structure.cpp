@@ -21,7 +21,7 @@ constexpr std::size_t most_remembered = std::size_t{1} << 30U;
 std::atomic<std::size_t> remembered{0};
 
 std::size_t bytes(const Jump& jump) {
-  return (jump.rows.size() + jump.half.rows.size()) * (sizeof(int) + 2 * sizeof(double));
+  return jump.half.rows.size() * (sizeof(int) + 2 * sizeof(double));
 }
 
 std::size_t bytes(const Eigen::MatrixX2d& column) {

@@ -165,12 +165,11 @@ MatrixXd SparseFactor::solve(const Eigen::Ref<const MatrixXd>& b) const {
     eliminate_panel(values_of(panel), 0, part);
     x(tree_.rows_of(panel), Eigen::all) = part;
   }
-  x = inverse_pivots_.asDiagonal() * x;
-  substitute(x);
-  return x(tree_.place, Eigen::all);
+  return complete(std::move(x));
 }
 
-void SparseFactor::substitute(MatrixXd& x) const {
+MatrixXd SparseFactor::complete(MatrixXd x) const {
+  x = inverse_pivots_.asDiagonal() * x;
   MatrixXd work(x.rows(), x.cols());
   for (auto panel = tree_.panels.rbegin(); panel != tree_.panels.rend(); ++panel) {
     auto part = work.topRows(static_cast<Index>(panel->height));
@@ -178,6 +177,7 @@ void SparseFactor::substitute(MatrixXd& x) const {
     substitute_panel(values_of(*panel), part);
     x.middleRows(panel->first, panel->columns) = part.topRows(panel->columns);
   }
+  return x(tree_.place, Eigen::all);
 }
 
 Eliminated SparseFactor::eliminate(std::vector<int> rows, const Eigen::MatrixX2d& values) const {

@@ -46,6 +46,9 @@ class SparseFactor {
   /// coupled in A, as those of one body are: then L⁻¹ reaches one path through the tree of
   /// elimination, from the first of them to its root, and nothing else is looked at.
   [[nodiscard]] Eliminated eliminate(std::vector<int> rows, const Eigen::MatrixX2d& values) const;
+  /// The other half, A⁻¹ b of L⁻¹ P b, one load a column.
+  /// @param x  in the order of elimination, as the rows of `Eliminated` are
+  [[nodiscard]] Eigen::MatrixXd complete(Eigen::MatrixXd x) const;
   /// Half a solve over the pivots, D⁻¹ L⁻¹ P b.
   [[nodiscard]] Eliminated over_pivots(Eliminated half) const;
 
@@ -60,7 +63,6 @@ class SparseFactor {
   }
   void gather(const Panel& panel, const Panel* next, const Eigen::MatrixXd& x,
               Eigen::Ref<Eigen::MatrixXd> part) const;
-  void substitute(Eigen::MatrixXd& x) const;
 
   EliminationTree tree_;
   std::vector<double> values_;  // of all panels

@@ -48,13 +48,10 @@ struct StructureLoads {
   const StructureResponse* near = nullptr;  ///< To much the same: where corrections start.
 };
 
-/// Unit jumps at a joint, normal and tangential: their loads on the unknowns, one row of `load` for
-/// each in `rows`, and solved for half way, which is all that it takes to know what joints do to
-/// each other.
+/// Unit jumps at a joint, normal and tangential: their loads on the unknowns, solved for half way,
+/// which is all that it takes to know what joints do to each other.
 struct Jump {
   int joint = 0;
-  std::vector<int> rows;
-  Eigen::MatrixX2d load;
   Eliminated half;
 };
 using SharedJump = std::shared_ptr<const Jump>;

@@ -34,8 +34,7 @@ Jump Structure::jump(int joint) const {
   }
   Eigen::MatrixX2d load(static_cast<Index>(rows.size()), 2);
   for (std::size_t i = 0; i < rows.size(); ++i) load.row(static_cast<Index>(i)) = -values[i];
-  Eliminated half = factor_->eliminate(rows, load);
-  return {joint, std::move(rows), std::move(load), std::move(half)};
+  return {joint, factor_->eliminate(std::move(rows), load)};
 }
 
 Eigen::Matrix2Xd Structure::reactions_of(const Jump& jump,
@@ -64,11 +63,11 @@ Eigen::Matrix2Xd Structure::reactions_of(const Jump& jump,
 }
 
 MatrixXd Structure::reactions_to(const std::vector<SharedJump>& jumps, const MatrixXd& y) const {
-  MatrixXd loads = MatrixXd::Zero(factor_->rows(), y.cols());
+  MatrixXd half = MatrixXd::Zero(factor_->rows(), y.cols());
   for (std::size_t i = 0; i < jumps.size(); ++i)
-    loads(jumps[i]->rows, Eigen::all) +=
-        jumps[i]->load * y.middleRows<2>(2 * static_cast<Index>(i));
-  const MatrixXd unknowns = factor_->solve(loads);
+    half(jumps[i]->half.rows, Eigen::all) +=
+        jumps[i]->half.values.transpose() * y.middleRows<2>(2 * static_cast<Index>(i));
+  const MatrixXd unknowns = factor_->complete(std::move(half));
   MatrixXd reactions(2 * joints(), y.cols());
   for (Index c = 0; c < y.cols(); ++c) {
     VectorXd displacements = unknowns_to_ports(unknowns.col(c));
