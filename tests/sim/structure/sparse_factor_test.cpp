@@ -103,6 +103,9 @@ TEST(SparseFactor, SolvesWithPanelsOfAnyWidth) {
     const Eliminated half = factor.eliminate({1, 0}, values);
     EXPECT_LT((product(factor.over_pivots(half), half) - few.transpose() * x).norm(), 1e-12)
         << side;
+    Eigen::MatrixXd path = Eigen::MatrixXd::Zero(n + multipliers, 2);
+    path(half.rows, Eigen::all) = half.values.transpose();
+    EXPECT_LT((dense * factor.complete(path) - few).norm(), 1e-12 * few.norm()) << side;
   }
 }
 
