@@ -25,11 +25,19 @@ void LooseJoints::add(int joint) {
     const Index size = std::max<Index>(16, 2 * stiffness_.cols());
     stiffness_.conservativeResize(size, size);
   }
+  stiffness_.block(first, 0, 2, first) = reactions_of(joint);
+  stiffness_.block<2, 2>(first, first) = structure_->reactions_of(*held_, {held_});
   joints_.push_back(joint);
   for (const Index row : {2 * joint, 2 * joint + 1}) rows_.push_back(row);
   is_loose_[static_cast<std::size_t>(joint)] = 1;
-  jumps_.push_back(source_(joint));
-  stiffness_.block(first, 0, 2, first + 2) = structure_->reactions_of(*jumps_.back(), jumps_);
+  jumps_.push_back(std::move(held_));
+}
+
+const Eigen::Matrix2Xd& LooseJoints::reactions_of(int joint) {
+  if (held_ && held_->joint == joint) return of_held_;
+  held_ = source_(joint);
+  of_held_ = structure_->reactions_of(*held_, jumps_);
+  return of_held_;
 }
 
 Eigen::MatrixXd LooseJoints::stiffness() const {

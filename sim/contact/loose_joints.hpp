@@ -30,6 +30,9 @@ class LooseJoints {
 
   void add(int joint);
 
+  /// Reactions of a joint that holds to unit gaps of the loose ones, a column each. [N/m²]
+  [[nodiscard]] const Eigen::Matrix2Xd& reactions_of(int joint);
+
   /// S over the loose joints. [N/m²]
   [[nodiscard]] Eigen::MatrixXd stiffness() const;
 
@@ -40,6 +43,8 @@ class LooseJoints {
   std::vector<Eigen::Index> rows_;
   std::vector<char> is_loose_;     // of all joints
   std::vector<SharedJump> jumps_;  // at each
+  SharedJump held_;                // what was last asked about; none since joints have come
+  Eigen::Matrix2Xd of_held_;       // its reactions
   Eigen::MatrixXd stiffness_;      // lower triangle of 2 × 2 blocks; grows by doubling
 };
 

@@ -31,11 +31,12 @@ void BreakingRun::take_note_of_penetration() {
 
 std::vector<JointOutcome> BreakingRun::outcomes() const {
   std::vector<JointOutcome> outcomes = joints_;
+  const VectorXd reactions = all_reactions();
   const double young = scene_.material.young;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const auto row = static_cast<Index>(2 * j);
-    outcomes[j].reaction_normal = young * strain_ * reactions_(row);
-    outcomes[j].reaction_tangent = young * strain_ * reactions_(row + 1);
+    outcomes[j].reaction_normal = young * strain_ * reactions(row);
+    outcomes[j].reaction_tangent = young * strain_ * reactions(row + 1);
   }
   for (std::size_t i = 0; i < loose_.size(); ++i)
     outcomes[static_cast<std::size_t>(loose_.joints()[i])].gap =
@@ -54,7 +55,7 @@ void BreakingRun::finish(Simulation& simulation) {
     refine();
     if (y_ != y_at_reference_) take_reference();
     force_ = force;
-    worst_residual_ = std::max(worst_residual_, law_missed(contact_, of_loose(reactions_), y_));
+    worst_residual_ = std::max(worst_residual_, law_missed(contact_, borne_, y_));
   }
   const UnitAnswer& last = reference_;
   reactions_ = last.reactions;

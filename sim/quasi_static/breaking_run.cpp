@@ -17,9 +17,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-// Joints that meet their cones at strains closer than this break together, whatever their order.
-constexpr double together = 1e-9;
-
 // Answers are refined until the loose joints' own problem lacks no more than this part of the
 // reactions.
 constexpr double refined = 1e-11;
@@ -40,6 +37,7 @@ BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructu
                          bool careful)
     : scene_(scene),
       careful_(careful),
+      glances_(!careful && scene.solver.leave_out),
       intact_(std::move(intact)),
       joints_(initial_outcomes(draw_thresholds(scene, intact_->assembly()))),
       loose_(intact_->structure(), [this](int joint) { return intact_->jump(joint); }),
@@ -49,20 +47,6 @@ BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructu
       noise_(1e-10 * intact_->answer().reactions.lpNorm<Eigen::Infinity>()) {
   const VectorXd& intact_reactions = intact_->answer().reactions;
   contact_.force_scale = intact_reactions.norm() / std::sqrt(static_cast<double>(joints_.size()));
-}
-
-// ε = f_N μ_c / (|r_T| − μ_c r_N), section 6.
-double BreakingRun::meets_cone_at(std::size_t joint) const {
-  if (joints_[joint].broken) return std::numeric_limits<double>::infinity();
-  return strain_at_cone(reactions_.segment<2>(static_cast<Index>(2 * joint)),
-                        intact_law(joints_[joint].threshold), scene_.material.young, noise_);
-}
-
-double BreakingRun::next_event() const {
-  double first = std::numeric_limits<double>::infinity();
-  if (force_ == 0.0) return first;  // what bears nothing breaks nothing: reactions are rounding
-  for (std::size_t j = 0; j < joints_.size(); ++j) first = std::min(first, meets_cone_at(j));
-  return first;
 }
 
 bool BreakingRun::take_missing() {
@@ -80,10 +64,7 @@ void BreakingRun::stretch(double strain) {
   strain_ = strain;
 }
 
-bool BreakingRun::break_joints(double event) {
-  std::vector<std::size_t> breaking;
-  for (std::size_t j = 0; j < joints_.size(); ++j)
-    if (meets_cone_at(j) <= event * (1.0 + together)) breaking.push_back(j);
+bool BreakingRun::break_joints(const std::vector<std::size_t>& breaking) {
   take_note_of_penetration();
   for (const std::size_t j : breaking) {
     joints_[j].broken = true;
@@ -110,30 +91,35 @@ void BreakingRun::take_back(const std::vector<std::size_t>& breaking, const Vect
   y_.setZero(2 * static_cast<Index>(loose_.size()));
   y_.head(gaps_before.size()) = gaps_before;
   take_reference();
-  joint_work_ = of_loose(reactions_).dot(y_);
+  joint_work_ = borne_.dot(y_);
 }
 
 void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {
   const JointLaw law = broken_law(scene_.joints.friction);
   const auto old = static_cast<Index>(loose_.size());
   const auto n = old + static_cast<Index>(breaking.size());
-  extra_ = VectorXd::Zero(n);
-  for (Index i = old; i < n; ++i) {
-    const std::size_t joint = breaking[static_cast<std::size_t>(i - old)];
-    const auto row = static_cast<Index>(2 * joint);
+  for (const std::size_t joint : breaking) {
+    const bool none_missing = columns_.size() == loose_.size();
     loose_.add(static_cast<int>(joint));
-    if (loose_.size() <= intact_->columns_of_a_solve())
-      columns_.push_back(intact_->column(loose_.jumps().back()));
-    else
-      columns_.clear();
-    contact_.laws.push_back(law);
-    extra_.segment<1>(i) = cohesion_to_stick(reactions_.segment<2>(row), {law});
+    if (!glances_ || loose_.size() > intact_->columns_of_a_glance()) continue;
+    auto column = intact_->column(loose_.jumps().back(), none_missing);
+    if (none_missing && column) columns_.push_back(std::move(column));
   }
+  contact_.laws.resize(loose_.size(), law);
   contact_.u0 = VectorXd::Zero(2 * n);
   contact_.S = loose_.stiffness();
+  y_.conservativeResizeLike(contact_.u0);
   y_at_reference_.conservativeResizeLike(contact_.u0);
-  y_at_reference_.tail(2 * (n - old)).setZero();
-  contact_.r0 = of_loose(reference_.reactions) - contact_.S * y_at_reference_;
+  y_seen_.conservativeResizeLike(contact_.u0);
+  const VectorXd at_reference = of_loose(reference_.reactions);
+  contact_.r0 = at_reference - contact_.S * y_at_reference_;
+  const auto breaking_rows = Eigen::lastN(2 * (n - old));
+  borne_.conservativeResize(2 * n);
+  borne_(breaking_rows) =
+      (at_reference + contact_.S * (y_ - y_at_reference_)).eval()(breaking_rows);
+  extra_ = VectorXd::Zero(n);
+  extra_.tail(n - old) =
+      cohesion_to_stick(borne_(breaking_rows), std::vector<JointLaw>(breaking.size(), law));
   system_.grow();
 }
 
@@ -178,8 +164,8 @@ bool BreakingRun::settle() {
       system_.set(i, JointState::open);
   // Nothing has moved yet, and nothing does before the first of those released gives way.
   StateSolution known{MatrixXd::Zero(contact_.r0.size(), 2), MatrixXd::Zero(contact_.r0.size(), 2)};
-  known.y.col(0).head(y_.size()) = y_;
-  known.r.col(0) = of_loose(reactions_);
+  known.y.col(0) = y_;
+  known.r.col(0) = borne_;
   LocalContactResult result = release(known);
   iterations_ += result.iterations;
   result = or_better(std::move(result));
@@ -195,12 +181,18 @@ bool BreakingRun::settle() {
   const double intact_force = intact_->answer().force;
   const bool hardly_bears = std::abs(force_) <= next_to_nothing * intact_force;
   const bool in_two = hardly_bears && severed();
-  // Where a piece swings freely, its gaps change so much that digits are lost.
-  if (careful_ || (hardly_bears && !in_two) ||
-      lacking(reactions_).norm() > refined * intact_->answer().reactions.norm())
-    refine();
-  joint_work_ = of_loose(reactions_).dot(y_);
-  worst_residual_ = std::max(worst_residual_, law_missed(contact_, of_loose(reactions_), y_));
+  if (may_lose_digits() || hardly_bears) {
+    see_all();
+    borne_ = of_loose(reactions_);
+    summed_ = summed();
+    lacked_ = lacking().norm();
+    // Where a piece swings freely, its gaps change so much that digits are lost.
+    if (careful_ || (hardly_bears && !in_two) ||
+        lacked_ > refined * intact_->answer().reactions.norm())
+      refine();
+  }
+  joint_work_ = borne_.dot(y_);
+  worst_residual_ = std::max(worst_residual_, law_missed(contact_, borne_, y_));
   if (in_two || (hardly_bears && bears_nothing())) force_ = joint_work_ = 0.0;
   return result.converged && std::abs(force_) <= too_much * intact_force;
 }
@@ -212,13 +204,30 @@ bool BreakingRun::bears_nothing() const {
          intact_->energy(reference_.displacements) <= hardly_stored * work;
 }
 
+// What rounding leaves in a sum grows with its terms. How much that is differs from structure to
+// structure, and is looked at whenever they have grown.
+bool BreakingRun::may_lose_digits() const {
+  constexpr double grown = 100.0, near = 0.3;
+  const double summed = this->summed();
+  return !glances_ || summed > grown * summed_ ||
+         lacked_ * summed > near * refined * intact_->answer().reactions.norm() * summed_;
+}
+
+double BreakingRun::summed() const {
+  return (contact_.S.cwiseAbs() * y_.cwiseAbs()).norm();
+}
+
 // What the gaps change is reckoned from the reference.
 void BreakingRun::follow_gaps() {
-  const VectorXd moved = y_ - y_at_reference_;
-  reactions_ = reference_.reactions + reactions_to(moved);
   // By reciprocity the force at the end changes by r⁰·y/W, r⁰ being those of the intact structure.
-  force_ = reference_.force +
-           of_loose(intact_->answer().reactions).dot(moved) / intact_->assembly().width;
+  force_ = reference_.force + of_loose(intact_->answer().reactions).dot(y_ - y_at_reference_) /
+                                  intact_->assembly().width;
+  borne_ = contact_.r0 + contact_.S * y_;
+}
+
+void BreakingRun::see_all() {
+  reactions_ = all_reactions();
+  y_seen_ = y_;
 }
 
 // The whole structure with the gaps.
@@ -226,16 +235,15 @@ void BreakingRun::take_reference() {
   reference_ = intact_->stretch(gaps());
   y_at_reference_ = y_;
   reactions_ = reference_.reactions;
+  y_seen_ = y_;
+  borne_ = of_loose(reactions_);
   force_ = reference_.force;
 }
 
-// What gaps of the loose joints change in the reactions of all.
-VectorXd BreakingRun::reactions_to(const VectorXd& y) const {
-  if (columns_.size() < loose_.size()) return intact_->structure().reactions_to(loose_.jumps(), y);
-  VectorXd reactions = VectorXd::Zero(reactions_.size());
-  for (std::size_t i = 0; i < columns_.size(); ++i)
-    reactions.noalias() += *columns_[i] * y.segment<2>(2 * static_cast<Index>(i));
-  return reactions;
+VectorXd BreakingRun::all_reactions() const {
+  if (y_seen_ == y_) return reactions_;
+  return reference_.reactions +
+         intact_->structure().reactions_to(loose_.jumps(), y_ - y_at_reference_);
 }
 
 VectorXd BreakingRun::of_loose(const VectorXd& of_all) const {
@@ -243,8 +251,8 @@ VectorXd BreakingRun::of_loose(const VectorXd& of_all) const {
 }
 
 // What the loose joints' own problem lacks of their reactions.
-VectorXd BreakingRun::lacking(const VectorXd& reactions) const {
-  return of_loose(reactions) - (contact_.r0 + contact_.S * y_);
+VectorXd BreakingRun::lacking() const {
+  return of_loose(reactions_) - (contact_.r0 + contact_.S * y_);
 }
 
 VectorXd BreakingRun::gaps() const {
@@ -258,7 +266,7 @@ VectorXd BreakingRun::gaps() const {
 void BreakingRun::refine() {
   const double scale = intact_->answer().reactions.norm();
   take_reference();
-  VectorXd lack = lacking(reactions_);
+  VectorXd lack = lacking();
   for (int i = 0; i < most_refinements && lack.norm() > refined * scale; ++i) {
     contact_.r0 += lack;
     const LocalContactResult found =
@@ -268,11 +276,14 @@ void BreakingRun::refine() {
     if (!found.converged) break;
     const VectorXd y_before = std::exchange(y_, found.y);
     const double moved = (y_ - y_at_reference_).norm() * contact_.S.diagonal().maxCoeff();
-    if (moved <= little * scale)
+    if (moved <= little * scale) {
       follow_gaps();
-    else
+      see_all();
+      borne_ = of_loose(reactions_);
+    } else {
       take_reference();
-    VectorXd still_lacking = lacking(reactions_);
+    }
+    VectorXd still_lacking = lacking();
     if (still_lacking.norm() > most_growth * lack.norm()) {
       y_ = y_before;
       contact_.r0 -= lack;

@@ -25,14 +25,17 @@ class BreakingRun {
   /// Takes away the joints that are missing from the start; false when no answer without them was
   /// found.
   bool take_missing();
-  /// Strain at which the next joints meet their cones; infinite when none ever will. It may be less
-  /// than the present one.
-  [[nodiscard]] double next_event() const;
+  /// Joints that meet their cones together, and the strain at which they do.
+  struct Event {
+    double strain;  ///< It may be less than the present one; infinite when no joint ever will.
+    std::vector<std::size_t> joints;
+  };
+  [[nodiscard]] Event next_event();
   /// Stretches on to a strain, never back; joints that slide rub while it grows.
   void stretch(double strain);
-  /// Breaks all joints that have met their cones at an event, at the strain there is, and settles
-  /// what is left; false when its contact has no solution that is found: then none has broken.
-  bool break_joints(double event);
+  /// Breaks joints, at the strain there is, and settles what is left; false when its contact has no
+  /// solution that is found: then none has broken.
+  bool break_joints(const std::vector<std::size_t>& breaking);
 
   [[nodiscard]] CurvePoint point() const;
   /// The joints, with what they bear and how far they are open by now.
@@ -45,7 +48,16 @@ class BreakingRun {
 
  private:
   void take_note_of_penetration();
-  [[nodiscard]] double meets_cone_at(std::size_t joint) const;
+  [[nodiscard]] double meets_cone_at(std::size_t joint, const Local& reaction) const;
+  struct Glance {
+    Eigen::VectorXd reactions;
+    double missed;  // as far as it is seen
+  };
+  [[nodiscard]] Glance glance() const;
+  [[nodiscard]] std::vector<std::size_t> may_be_next(const Eigen::VectorXd& reactions,
+                                                     double missed) const;
+  [[nodiscard]] Event first_of(const std::vector<std::size_t>& joints);
+  [[nodiscard]] Local borne_at(std::size_t joint);
   void loosen(const std::vector<std::size_t>& breaking);
   bool settle();
   void take_back(const std::vector<std::size_t>& breaking, const Eigen::VectorXd& gaps_before);
@@ -54,10 +66,13 @@ class BreakingRun {
   [[nodiscard]] bool severed() const;
   [[nodiscard]] bool bears_nothing() const;
   [[nodiscard]] Eigen::VectorXd gaps() const;
-  [[nodiscard]] Eigen::VectorXd reactions_to(const Eigen::VectorXd& y) const;
   [[nodiscard]] Eigen::VectorXd of_loose(const Eigen::VectorXd& of_all) const;
-  [[nodiscard]] Eigen::VectorXd lacking(const Eigen::VectorXd& reactions) const;
+  [[nodiscard]] Eigen::VectorXd lacking() const;
+  [[nodiscard]] Eigen::VectorXd all_reactions() const;
+  [[nodiscard]] bool may_lose_digits() const;
+  [[nodiscard]] double summed() const;
   void follow_gaps();
+  void see_all();
   void take_reference();
   void refine();
   LocalContactResult release(const StateSolution& known);
@@ -65,6 +80,7 @@ class BreakingRun {
 
   const Scene& scene_;
   bool careful_;
+  bool glances_;  // else all is seen after every event
   std::shared_ptr<const IntactStructure> intact_;
   std::vector<JointOutcome> joints_;
   double strain_ = 0.0;
@@ -76,15 +92,19 @@ class BreakingRun {
   long iterations_ = 0;
 
   LooseJoints loose_;
-  std::vector<IntactStructure::Column> columns_;  // of the loose joints; none where they are many
-  LocalContact contact_;                          // of the loose joints
+  std::vector<IntactStructure::SharedColumn> columns_;  // of these, or of the first of them
+  LocalContact contact_;                                // of the loose joints
   StateSystem system_{contact_};
   Eigen::VectorXd extra_;  // cohesion that lets those just broken bear what they bore [N/m]
   Eigen::VectorXd y_;      // gaps of the loose joints [m per unit strain]
   // The intact structure, or the last one solved with its gaps: what changes is reckoned from it.
   UnitAnswer reference_;
   Eigen::VectorXd y_at_reference_;
-  Eigen::VectorXd reactions_;       // for E = 1 and ε = 1 [N/m]
+  Eigen::VectorXd borne_;      // by the loose joints, for E = 1 and ε = 1 [N/m]
+  Eigen::VectorXd reactions_;  // of all joints, likewise, with these gaps
+  Eigen::VectorXd y_seen_;
+  double summed_ = 0.0;             // when rounding was last looked at,
+  double lacked_ = 0.0;             // and what it was [N/m]
   double force_;                    // likewise
   double joint_work_ = 0.0;         // r·u of the loose joints, likewise [N]
   double worst_residual_ = 0.0;     // of the law, over all answers, for E = 1 [N/m]

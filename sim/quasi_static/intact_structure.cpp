@@ -24,12 +24,12 @@ std::size_t bytes(const Jump& jump) {
   return jump.half.rows.size() * (sizeof(int) + 2 * sizeof(double));
 }
 
-std::size_t bytes(const Eigen::MatrixX2d& column) {
-  return sizeof(double) * static_cast<std::size_t>(column.size());
+std::size_t bytes(const IntactStructure::Column& column) {
+  return sizeof(float) * static_cast<std::size_t>(column.reactions.size());
 }
 
-// To add up a column of reactions takes as long as a solve spends on so many nonzeros of the factor
-// a joint.
+// To add up a column of reactions takes as long as half a solve spends on so many nonzeros of the
+// factor a joint.
 constexpr long nonzeros_of_a_column = 3;
 
 // A trace of inertia, that of h c = 3e6 specimens, holds what hangs on a single joint or floats,
@@ -66,6 +66,7 @@ IntactStructure::IntactStructure(const AssemblyOptions& options, const Loading& 
       structure_(bodies_),
       end_bodies_(sim::end_bodies(assembly_)) {
   if (!structure_.ok()) return;
+  if (structure_.joints() > 0) single_.emplace(structure_.factor());
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(2 * structure_.joints());
   lost_ = none;
   answer_ = stretch(none);
@@ -99,39 +100,47 @@ double IntactStructure::energy(const Eigen::VectorXd& q) const {
 }
 
 SharedJump IntactStructure::jump(int joint) const {
-  return remembered_in(jumps_, joint, [&] { return structure_.jump(joint); });
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto found = jumps_.find(joint);
+    if (found != jumps_.end()) return found->second;
+  }
+  auto jump = std::make_shared<const Jump>(structure_.jump(joint));
+  const std::scoped_lock lock(mutex_);
+  if (remembered + bytes(*jump) <= most_remembered && jumps_.emplace(joint, jump).second)
+    remembered += bytes(*jump);
+  return jump;
 }
 
-IntactStructure::Column IntactStructure::column(const SharedJump& jump) const {
-  return remembered_in(columns_, jump->joint, [&]() -> Eigen::MatrixX2d {
-    return structure_.reactions_to({jump}, Eigen::Matrix2d::Identity());
-  });
+IntactStructure::SharedColumn IntactStructure::column(const SharedJump& jump, bool make) const {
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto [place, is_new] = columns_.try_emplace(jump->joint);
+    if (is_new || place->second || !make) return place->second;
+  }
+  const auto [normal, normal_off] = nearly_reactions_to({jump}, Eigen::Vector2d::UnitX());
+  const auto [tangent, tangent_off] = nearly_reactions_to({jump}, Eigen::Vector2d::UnitY());
+  Column made{Eigen::MatrixX2f(normal.size(), 2), std::max(normal_off, tangent_off)};
+  made.reactions << normal.cast<float>(), tangent.cast<float>();
+  auto column = std::make_shared<const Column>(std::move(made));
+  const std::scoped_lock lock(mutex_);
+  SharedColumn& known = columns_[jump->joint];
+  if (!known && remembered + bytes(*column) <= most_remembered) {
+    remembered += bytes(*column);
+    known = column;
+  }
+  return column;
 }
 
-std::size_t IntactStructure::columns_of_a_solve() const {
+std::size_t IntactStructure::columns_of_a_glance() const {
   const Eigen::Index joints = std::max<Eigen::Index>(1, structure_.joints());
   return static_cast<std::size_t>(structure_.factor().nonzeros() / (nonzeros_of_a_column * joints));
 }
 
-// What was found for a joint before, or is now; kept while there is room.
-template <class Value, class Find>
-std::shared_ptr<const Value> IntactStructure::remembered_in(Memory<Value>& memory, int joint,
-                                                            const Find& find) const {
-  {
-    const std::scoped_lock lock(mutex_);
-    const auto found = memory.find(joint);
-    if (found != memory.end()) return found->second;
-  }
-  auto value = std::make_shared<const Value>(find());
-  const std::scoped_lock lock(mutex_);
-  if (remembered + bytes(*value) <= most_remembered && memory.emplace(joint, value).second)
-    remembered += bytes(*value);
-  return value;
-}
-
 IntactStructure::~IntactStructure() {
   for (const auto& [joint, jump] : jumps_) remembered -= bytes(*jump);
-  for (const auto& [joint, column] : columns_) remembered -= bytes(*column);
+  for (const auto& [joint, column] : columns_)
+    if (column) remembered -= bytes(*column);
 }
 
 std::shared_ptr<const IntactStructure> intact_structure(const Scene& scene) {

@@ -6,6 +6,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <vector>
 
 #include "sim/structure/structure.hpp"
 
@@ -46,34 +48,39 @@ class IntactStructure {
   /// Bodies with a node at the left and at the right end.
   [[nodiscard]] const std::array<std::vector<int>, 2>& end_bodies() const { return end_bodies_; }
 
-  // What these find is remembered for later runs while there is room. Both may be called by several
-  // threads.
+  // What these two find is remembered for later runs while there is room. Both may be called by
+  // several threads.
   /// Structure::jump.
   [[nodiscard]] SharedJump jump(int joint) const;
-  /// Reactions of all joints to unit jumps at one, normal and tangential. [N/m²]
-  using Column = std::shared_ptr<const Eigen::MatrixX2d>;
-  [[nodiscard]] Column column(const SharedJump& jump) const;
-
-  /// So many columns are added up in the time of Structure::reactions_to.
-  [[nodiscard]] std::size_t columns_of_a_solve() const;
+  /// Structure::nearly_reactions_to of a unit jump at one joint, normal and tangential. [N/m²]
+  struct Column {
+    Eigen::MatrixX2f reactions;
+    double off_balance;
+  };
+  using SharedColumn = std::shared_ptr<const Column>;
+  /// What runs have asked for before; nothing else is worth it.
+  /// @param make  if it was only asked for
+  [[nodiscard]] SharedColumn column(const SharedJump& jump, bool make) const;
+  /// So many columns are added up in the time of nearly_reactions_to.
+  [[nodiscard]] std::size_t columns_of_a_glance() const;
+  /// Structure::nearly_reactions_to.
+  [[nodiscard]] NearReactions nearly_reactions_to(const std::vector<SharedJump>& jumps,
+                                                  const Eigen::VectorXd& y) const {
+    return structure_.nearly_reactions_to(jumps, y, *single_);
+  }
 
  private:
-  template <class Value>
-  using Memory = std::map<int, std::shared_ptr<const Value>>;
-  template <class Value, class Find>
-  std::shared_ptr<const Value> remembered_in(Memory<Value>& memory, int joint,
-                                             const Find& find) const;
-
   Assembly assembly_;
   Bodies bodies_;
   Structure structure_;
+  std::optional<SinglePrecisionFactor> single_;  // of the structure, where it needs a factor
   UnitAnswer answer_;
   bool stress_is_known_ = false;
   Eigen::VectorXd lost_;  // forces of the uniform stress that a solve does not find [N/m]
   std::array<std::vector<int>, 2> end_bodies_;
   mutable std::mutex mutex_;
-  mutable Memory<Jump> jumps_;                // at each joint
-  mutable Memory<Eigen::MatrixX2d> columns_;  // reactions to these
+  mutable std::map<int, SharedJump> jumps_;      // at each joint
+  mutable std::map<int, SharedColumn> columns_;  // of each that was asked for; none: not made
 };
 
 /// The one for a scene, made once and shared between runs and threads; the last few are kept.

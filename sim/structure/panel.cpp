@@ -6,6 +6,7 @@ namespace havers::sim {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::MatrixXf;
 using Eigen::Ref;
 
 namespace {
@@ -26,35 +27,46 @@ void eliminate(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd>& x) 
   }
 }
 
-// The sums of all columns and loads side by side, two terms of each at a time.
-template <Index columns, Index loads>
-void substitute(const Ref<const MatrixXd>& panel, Index first, Index load, Ref<MatrixXd>& x) {
-  using Two = Eigen::Map<const Eigen::Vector2d>;
-  const auto of = panel.middleCols<columns>(first);
-  auto known = x.middleCols<loads>(load);
-  Eigen::Matrix<double, 2, columns * loads> sums;
+// The sums of all columns and loads side by side, as many terms of each at a time as a register of
+// 16 bytes holds.
+template <Index columns, Index loads, class Panel, class Loads>
+void substitute(const Panel& panel, Index first, Index load, Loads& x) {
+  using Scalar = typename Panel::Scalar;
+  constexpr Index terms = 16 / sizeof(Scalar);
+  using Terms = Eigen::Map<const Eigen::Vector<Scalar, terms>>;
+  const auto of = panel.template middleCols<columns>(first);
+  auto known = x.template middleCols<loads>(load);
+  Eigen::Matrix<Scalar, terms, columns * loads> sums;
   sums.setZero();
   Index i = first + columns;
-  for (; i + 2 <= panel.rows(); i += 2)
+  for (; i + terms <= panel.rows(); i += terms)
     for (Index j = 0; j < columns; ++j)
       for (Index c = 0; c < loads; ++c)
         sums.col(j + columns * c) +=
-            Two(&of.coeffRef(i, j)).cwiseProduct(Two(&known.coeffRef(i, c)));
+            Terms(&of.coeffRef(i, j)).cwiseProduct(Terms(&known.coeffRef(i, c)));
   for (Index c = 0; c < loads; ++c) {
-    Eigen::Matrix<double, columns, 1> own = known.col(c).template segment<columns>(first);
+    Eigen::Vector<Scalar, columns> own = known.col(c).template segment<columns>(first);
     own -= sums.template middleCols<columns>(columns * c).colwise().sum().transpose();
-    if (i < panel.rows()) own -= of.row(i).transpose() * known(i, c);
+    for (Index rest = i; rest < panel.rows(); ++rest)
+      own -= of.row(rest).transpose() * known(rest, c);
     for (Index j = columns - 1; j >= 0; --j)
       for (Index k = j + 1; k < columns; ++k) own(j) -= of(first + k, j) * own(k);
     known.col(c).template segment<columns>(first) = own;
   }
 }
 
-template <Index columns>
-void substitute_all(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd>& x) {
+template <Index columns, class Panel, class Loads>
+void substitute_all(const Panel& panel, Index first, Loads& x) {
   Index c = 0;
   for (; c + 2 <= x.cols(); c += 2) substitute<columns, 2>(panel, first, c, x);
   if (c < x.cols()) substitute<columns, 1>(panel, first, c, x);
+}
+
+template <class Panel, class Loads>
+void substitute_columns(const Panel& panel, Loads& x) {
+  Index first = panel.cols();
+  for (; first % 4 != 0; --first) substitute_all<1>(panel, first - 1, x);
+  for (; first > 0; first -= 4) substitute_all<4>(panel, first - 4, x);
 }
 
 }  // namespace
@@ -89,9 +101,11 @@ void eliminate_panel(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd
 }
 
 void substitute_panel(const Ref<const MatrixXd>& panel, Ref<MatrixXd> x) {
-  Index first = panel.cols();
-  for (; first % 4 != 0; --first) substitute_all<1>(panel, first - 1, x);
-  for (; first > 0; first -= 4) substitute_all<4>(panel, first - 4, x);
+  substitute_columns(panel, x);
+}
+
+void substitute_panel(const Ref<const MatrixXf>& panel, Ref<MatrixXf> x) {
+  substitute_columns(panel, x);
 }
 
 }  // namespace havers::sim

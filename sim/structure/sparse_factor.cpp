@@ -12,6 +12,7 @@ namespace havers::sim {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::MatrixXf;
 using Eigen::VectorXd;
 
 namespace {
@@ -84,6 +85,44 @@ void add(const Fronts::Matrix& taken, const std::vector<Index>& where, Eigen::Re
   }
 }
 
+template <class Scalar>
+using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+template <class Scalar>
+Eigen::Map<const Matrix<Scalar>> values_of(const Panel& panel, const std::vector<Scalar>& values) {
+  return {values.data() + panel.values, static_cast<Index>(panel.height), panel.columns};
+}
+
+// Rows of a panel. The values of the next one are asked for while this one is worked on, where a
+// factor is too large to stay in the caches near a core.
+template <class Scalar>
+void gather(const EliminationTree& tree, const std::vector<Scalar>& values, const Panel& panel,
+            const Panel* next, const Matrix<Scalar>& x, Eigen::Ref<Matrix<Scalar>> part) {
+  constexpr std::size_t in_cache = std::size_t{1} << 22U, at_most = 65536;  // bytes
+  constexpr std::size_t in_a_line = 64 / sizeof(Scalar);
+  if (next != nullptr && values.size() > in_cache / sizeof(Scalar)) {
+    const auto of_next = values_of(*next, values);
+    const std::size_t count =
+        std::min(at_most / sizeof(Scalar), static_cast<std::size_t>(of_next.size()));
+    for (std::size_t i = 0; i < count; i += in_a_line) __builtin_prefetch(of_next.data() + i);
+  }
+  part = x(tree.rows_of(panel), Eigen::all);
+}
+
+// x ← L⁻ᵀ x.
+template <class Scalar>
+void substitute_panels(const EliminationTree& tree, const std::vector<Scalar>& values,
+                       Matrix<Scalar>& x) {
+  Matrix<Scalar> work(x.rows(), x.cols());
+  for (auto panel = tree.panels.rbegin(); panel != tree.panels.rend(); ++panel) {
+    const Panel* const next = &*panel == &tree.panels.front() ? nullptr : &*panel - 1;
+    auto part = work.topRows(static_cast<Index>(panel->height));
+    gather<Scalar>(tree, values, *panel, next, x, part);
+    substitute_panel(values_of(*panel, values), part);
+    x.middleRows(panel->first, panel->columns) = part.topRows(panel->columns);
+  }
+}
+
 }  // namespace
 
 SparseFactor::SparseFactor(const Eigen::SparseMatrix<double>& lower, Index multipliers,
@@ -141,19 +180,6 @@ bool SparseFactor::factorise(const Eigen::SparseMatrix<double>& lower, Index mul
   return true;
 }
 
-// The values of the next panel are asked for while this one is worked on, where a factor is too
-// large to stay in the caches near a core.
-void SparseFactor::gather(const Panel& panel, const Panel* next, const MatrixXd& x,
-                          Eigen::Ref<MatrixXd> part) const {
-  constexpr std::size_t in_cache = std::size_t{1} << 19U, in_a_line = 8, at_most = 8192;  // values
-  if (next != nullptr && values_.size() > in_cache) {
-    const auto values = values_of(*next);
-    const std::size_t count = std::min(at_most, static_cast<std::size_t>(values.size()));
-    for (std::size_t i = 0; i < count; i += in_a_line) __builtin_prefetch(values.data() + i);
-  }
-  part = x(tree_.rows_of(panel), Eigen::all);
-}
-
 MatrixXd SparseFactor::solve(const Eigen::Ref<const MatrixXd>& b) const {
   assert(ok());
   MatrixXd x(b.rows(), b.cols()), work(b.rows(), b.cols());
@@ -161,8 +187,9 @@ MatrixXd SparseFactor::solve(const Eigen::Ref<const MatrixXd>& b) const {
   for (const Panel& panel : tree_.panels) {
     if (x.middleRows(panel.first, panel.columns).isZero(0.0)) continue;
     auto part = work.topRows(static_cast<Index>(panel.height));
-    gather(panel, &panel == &tree_.panels.back() ? nullptr : &panel + 1, x, part);
-    eliminate_panel(values_of(panel), 0, part);
+    const Panel* const next = &panel == &tree_.panels.back() ? nullptr : &panel + 1;
+    gather<double>(tree_, values_, panel, next, x, part);
+    eliminate_panel(values_of(panel, values_), 0, part);
     x(tree_.rows_of(panel), Eigen::all) = part;
   }
   return complete(std::move(x));
@@ -170,13 +197,7 @@ MatrixXd SparseFactor::solve(const Eigen::Ref<const MatrixXd>& b) const {
 
 MatrixXd SparseFactor::complete(MatrixXd x) const {
   x = inverse_pivots_.asDiagonal() * x;
-  MatrixXd work(x.rows(), x.cols());
-  for (auto panel = tree_.panels.rbegin(); panel != tree_.panels.rend(); ++panel) {
-    auto part = work.topRows(static_cast<Index>(panel->height));
-    gather(*panel, &*panel == &tree_.panels.front() ? nullptr : &*panel - 1, x, part);
-    substitute_panel(values_of(*panel), part);
-    x.middleRows(panel->first, panel->columns) = part.topRows(panel->columns);
-  }
+  substitute_panels(tree_, values_, x);
   return x(tree_.place, Eigen::all);
 }
 
@@ -194,9 +215,9 @@ Eliminated SparseFactor::eliminate(std::vector<int> rows, const Eigen::MatrixX2d
   for (const Panel* panel = &tree_.panel_of(first); panel != nullptr; panel = next) {
     next = tree_.parent_of(*panel);
     auto part = work.topRows(static_cast<Index>(panel->height));
-    gather(*panel, next, x, part);
+    gather<double>(tree_, values_, *panel, next, x, part);
     const int begin = std::max(panel->first, first);
-    eliminate_panel(values_of(*panel), begin - panel->first, part);
+    eliminate_panel(values_of(*panel, values_), begin - panel->first, part);
     x(tree_.rows_of(*panel), Eigen::all) = part;
     for (int row = begin; row < panel->first + panel->columns; ++row) half.rows.push_back(row);
   }
@@ -230,6 +251,18 @@ long SparseFactor::nonzeros() const {
     sum +=
         panel.columns * static_cast<long>(panel.height) - panel.columns * (panel.columns - 1L) / 2;
   return sum;
+}
+
+SinglePrecisionFactor::SinglePrecisionFactor(const SparseFactor& factor) : factor_(&factor) {
+  values_.reserve(factor.values_.size());
+  ask_for_large_pages(values_.data(), factor.values_.size() * sizeof(float));
+  values_.assign(factor.values_.begin(), factor.values_.end());
+}
+
+VectorXd SinglePrecisionFactor::complete(const VectorXd& x) const {
+  MatrixXf all = factor_->inverse_pivots_.cwiseProduct(x).cast<float>();
+  substitute_panels(factor_->tree_, values_, all);
+  return all(factor_->tree_.place, 0).cast<double>();
 }
 
 }  // namespace havers::sim

@@ -56,18 +56,28 @@ class SparseFactor {
   [[nodiscard]] long nonzeros() const;  ///< Of L.
 
  private:
+  friend class SinglePrecisionFactor;
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& lower, Eigen::Index multipliers,
                                double least_pivot);
-  [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> values_of(const Panel& panel) const {
-    return {values_.data() + panel.values, static_cast<Eigen::Index>(panel.height), panel.columns};
-  }
-  void gather(const Panel& panel, const Panel* next, const Eigen::MatrixXd& x,
-              Eigen::Ref<Eigen::MatrixXd> part) const;
 
   EliminationTree tree_;
   std::vector<double> values_;  // of all panels
   Eigen::VectorXd inverse_pivots_;
   bool ok_ = false;
+};
+
+/// A copy in single precision, for second halves of solves: what takes the time of these in a large
+/// factor is to read it.
+class SinglePrecisionFactor {
+ public:
+  /// @param factor  outlives this
+  explicit SinglePrecisionFactor(const SparseFactor& factor);
+  /// As SparseFactor::complete does, to six digits or so of the largest entries.
+  [[nodiscard]] Eigen::VectorXd complete(const Eigen::VectorXd& x) const;
+
+ private:
+  const SparseFactor* factor_;
+  std::vector<float> values_;  // of all panels
 };
 
 }  // namespace havers::sim

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "sim/structure/structure.hpp"
 
@@ -62,22 +63,35 @@ Eigen::Matrix2Xd Structure::reactions_of(const Jump& jump,
   return reactions;
 }
 
-MatrixXd Structure::reactions_to(const std::vector<SharedJump>& jumps, const MatrixXd& y) const {
-  MatrixXd half = MatrixXd::Zero(factor_->rows(), y.cols());
+template <class Factor>
+VectorXd Structure::port_forces_to(const std::vector<SharedJump>& jumps, const VectorXd& y,
+                                   const Factor& factor) const {
+  VectorXd half = VectorXd::Zero(factor_->rows());
   for (std::size_t i = 0; i < jumps.size(); ++i)
-    half(jumps[i]->half.rows, Eigen::all) +=
-        jumps[i]->half.values.transpose() * y.middleRows<2>(2 * static_cast<Index>(i));
-  const MatrixXd unknowns = factor_->complete(std::move(half));
-  MatrixXd reactions(2 * joints(), y.cols());
-  for (Index c = 0; c < y.cols(); ++c) {
-    VectorXd displacements = unknowns_to_ports(unknowns.col(c));
-    for (std::size_t i = 0; i < jumps.size(); ++i)
-      for (const std::size_t k : {0U, 1U})
-        displacements(port_b(jumps[i]->joint, k)) += y(static_cast<Index>(2 * i + k), c);
-    const VectorXd multipliers = unknowns.col(c).tail(bodies_->compatibilities());
-    reactions.col(c) = reactions_of(bodies_->port_forces(displacements, multipliers));
+    half(jumps[i]->half.rows) +=
+        jumps[i]->half.values.transpose() * y.segment<2>(2 * static_cast<Index>(i));
+  const VectorXd unknowns = factor.complete(half);
+  VectorXd displacements = unknowns_to_ports(unknowns);
+  for (std::size_t i = 0; i < jumps.size(); ++i)
+    for (const std::size_t k : {0U, 1U})
+      displacements(port_b(jumps[i]->joint, k)) += y(static_cast<Index>(2 * i + k));
+  return bodies_->port_forces(displacements, unknowns.tail(bodies_->compatibilities()));
+}
+
+VectorXd Structure::reactions_to(const std::vector<SharedJump>& jumps, const VectorXd& y) const {
+  return reactions_of(port_forces_to(jumps, y, *factor_));
+}
+
+NearReactions Structure::nearly_reactions_to(const std::vector<SharedJump>& jumps,
+                                             const VectorXd& y,
+                                             const SinglePrecisionFactor& factor) const {
+  const VectorXd forces = port_forces_to(jumps, y, factor);
+  double off_balance = 0.0;
+  for (int unknown = 0; unknown < 2 * static_cast<int>(joints()); ++unknown) {
+    const auto& [a, b] = bodies_->ends()[static_cast<std::size_t>(unknown)];
+    if (holds(unknown)) off_balance = std::max(off_balance, std::abs(forces(a) + forces(b)));
   }
-  return reactions;
+  return {reactions_of(forces), off_balance};
 }
 
 }  // namespace havers::sim
