@@ -118,11 +118,8 @@ IntactStructure::SharedColumn IntactStructure::column(const SharedJump& jump, bo
     const auto [place, is_new] = columns_.try_emplace(jump->joint);
     if (is_new || place->second || !make) return place->second;
   }
-  const auto [normal, normal_off] = nearly_reactions_to({jump}, Eigen::Vector2d::UnitX());
-  const auto [tangent, tangent_off] = nearly_reactions_to({jump}, Eigen::Vector2d::UnitY());
-  Column made{Eigen::MatrixX2f(normal.size(), 2), std::max(normal_off, tangent_off)};
-  made.reactions << normal.cast<float>(), tangent.cast<float>();
-  auto column = std::make_shared<const Column>(std::move(made));
+  const auto [reactions, off_balance] = nearly_reactions_to({jump}, Eigen::Matrix2d::Identity());
+  auto column = std::make_shared<const Column>(reactions.cast<float>(), off_balance);
   const std::scoped_lock lock(mutex_);
   SharedColumn& known = columns_[jump->joint];
   if (!known && remembered + bytes(*column) <= most_remembered) {

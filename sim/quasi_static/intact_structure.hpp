@@ -65,7 +65,7 @@ class IntactStructure {
   [[nodiscard]] std::size_t columns_of_a_glance() const;
   /// Structure::nearly_reactions_to.
   [[nodiscard]] NearReactions nearly_reactions_to(const std::vector<SharedJump>& jumps,
-                                                  const Eigen::VectorXd& y) const {
+                                                  const Eigen::MatrixXd& y) const {
     return structure_.nearly_reactions_to(jumps, y, *single_);
   }
 

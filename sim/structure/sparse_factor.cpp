@@ -259,10 +259,10 @@ SinglePrecisionFactor::SinglePrecisionFactor(const SparseFactor& factor) : facto
   values_.assign(factor.values_.begin(), factor.values_.end());
 }
 
-VectorXd SinglePrecisionFactor::complete(const VectorXd& x) const {
-  MatrixXf all = factor_->inverse_pivots_.cwiseProduct(x).cast<float>();
+MatrixXd SinglePrecisionFactor::complete(const MatrixXd& x) const {
+  MatrixXf all = (factor_->inverse_pivots_.asDiagonal() * x).cast<float>();
   substitute_panels(factor_->tree_, values_, all);
-  return all(factor_->tree_.place, 0).cast<double>();
+  return all(factor_->tree_.place, Eigen::all).cast<double>();
 }
 
 }  // namespace havers::sim

@@ -73,7 +73,7 @@ class SinglePrecisionFactor {
   /// @param factor  outlives this
   explicit SinglePrecisionFactor(const SparseFactor& factor);
   /// As SparseFactor::complete does, to six digits or so of the largest entries.
-  [[nodiscard]] Eigen::VectorXd complete(const Eigen::VectorXd& x) const;
+  [[nodiscard]] Eigen::MatrixXd complete(const Eigen::MatrixXd& x) const;
 
  private:
   const SparseFactor* factor_;

@@ -57,7 +57,7 @@ struct Jump {
 using SharedJump = std::shared_ptr<const Jump>;
 
 struct NearReactions {
-  Eigen::VectorXd reactions;  ///< Of all joints, R_N, R_T. [N/m]
+  Eigen::MatrixXd reactions;  ///< Of all joints, R_N, R_T; one answer a column. [N/m]
   /// Largest difference between what the two sides of a joint bear. Reactions erred by up to 1.4
   /// times this, or what those of the loose joints did, in 2500 events of random walls. [N/m]
   double off_balance = 0.0;
@@ -86,13 +86,14 @@ class Structure {
   /// Reactions of one such joint to unit jumps at others, a column for each. [N/m²]
   [[nodiscard]] Eigen::Matrix2Xd reactions_of(const Jump& jump,
                                               const std::vector<SharedJump>& to) const;
-  /// Reactions of all joints to jumps y [m] at some, normal and tangential of each. [N/m]
-  [[nodiscard]] Eigen::VectorXd reactions_to(const std::vector<SharedJump>& jumps,
-                                             const Eigen::VectorXd& y) const;
+  /// Reactions of all joints to jumps y [m] at some, normal and tangential of each; one answer a
+  /// column. [N/m]
+  [[nodiscard]] Eigen::MatrixXd reactions_to(const std::vector<SharedJump>& jumps,
+                                             const Eigen::MatrixXd& y) const;
   /// The same in less time and to fewer digits.
   /// @param factor  a copy of factor()
   [[nodiscard]] NearReactions nearly_reactions_to(const std::vector<SharedJump>& jumps,
-                                                  const Eigen::VectorXd& y,
+                                                  const Eigen::MatrixXd& y,
                                                   const SinglePrecisionFactor& factor) const;
 
  private:
@@ -101,8 +102,8 @@ class Structure {
   struct Correction;
   struct Branch;
   template <class Factor>
-  [[nodiscard]] Eigen::VectorXd port_forces_to(const std::vector<SharedJump>& jumps,
-                                               const Eigen::VectorXd& y,
+  [[nodiscard]] Eigen::MatrixXd port_forces_to(const std::vector<SharedJump>& jumps,
+                                               const Eigen::MatrixXd& y,
                                                const Factor& factor) const;
   [[nodiscard]] PortState solve_ports(const PortLoads& loads, PortState state) const;
   [[nodiscard]] Correction correct(const Eigen::VectorXd& forces, const Eigen::VectorXd& gap,

@@ -64,34 +64,45 @@ Eigen::Matrix2Xd Structure::reactions_of(const Jump& jump,
 }
 
 template <class Factor>
-VectorXd Structure::port_forces_to(const std::vector<SharedJump>& jumps, const VectorXd& y,
+MatrixXd Structure::port_forces_to(const std::vector<SharedJump>& jumps, const MatrixXd& y,
                                    const Factor& factor) const {
-  VectorXd half = VectorXd::Zero(factor_->rows());
+  MatrixXd half = MatrixXd::Zero(factor_->rows(), y.cols());
   for (std::size_t i = 0; i < jumps.size(); ++i)
-    half(jumps[i]->half.rows) +=
-        jumps[i]->half.values.transpose() * y.segment<2>(2 * static_cast<Index>(i));
-  const VectorXd unknowns = factor.complete(half);
-  VectorXd displacements = unknowns_to_ports(unknowns);
-  for (std::size_t i = 0; i < jumps.size(); ++i)
-    for (const std::size_t k : {0U, 1U})
-      displacements(port_b(jumps[i]->joint, k)) += y(static_cast<Index>(2 * i + k));
-  return bodies_->port_forces(displacements, unknowns.tail(bodies_->compatibilities()));
+    half(jumps[i]->half.rows, Eigen::all) +=
+        jumps[i]->half.values.transpose() * y.middleRows<2>(2 * static_cast<Index>(i));
+  const MatrixXd unknowns = factor.complete(std::move(half));
+  MatrixXd forces(ports(), y.cols());
+  for (Index c = 0; c < y.cols(); ++c) {
+    VectorXd displacements = unknowns_to_ports(unknowns.col(c));
+    for (std::size_t i = 0; i < jumps.size(); ++i)
+      for (const std::size_t k : {0U, 1U})
+        displacements(port_b(jumps[i]->joint, k)) += y(static_cast<Index>(2 * i + k), c);
+    forces.col(c) =
+        bodies_->port_forces(displacements, unknowns.col(c).tail(bodies_->compatibilities()));
+  }
+  return forces;
 }
 
-VectorXd Structure::reactions_to(const std::vector<SharedJump>& jumps, const VectorXd& y) const {
-  return reactions_of(port_forces_to(jumps, y, *factor_));
+MatrixXd Structure::reactions_to(const std::vector<SharedJump>& jumps, const MatrixXd& y) const {
+  const MatrixXd forces = port_forces_to(jumps, y, *factor_);
+  MatrixXd reactions(2 * joints(), y.cols());
+  for (Index c = 0; c < y.cols(); ++c) reactions.col(c) = reactions_of(forces.col(c));
+  return reactions;
 }
 
 NearReactions Structure::nearly_reactions_to(const std::vector<SharedJump>& jumps,
-                                             const VectorXd& y,
+                                             const MatrixXd& y,
                                              const SinglePrecisionFactor& factor) const {
-  const VectorXd forces = port_forces_to(jumps, y, factor);
-  double off_balance = 0.0;
+  const MatrixXd forces = port_forces_to(jumps, y, factor);
+  NearReactions found{MatrixXd::Zero(2 * joints(), y.cols())};
   for (int unknown = 0; unknown < 2 * static_cast<int>(joints()); ++unknown) {
+    if (!holds(unknown)) continue;
     const auto& [a, b] = bodies_->ends()[static_cast<std::size_t>(unknown)];
-    if (holds(unknown)) off_balance = std::max(off_balance, std::abs(forces(a) + forces(b)));
+    found.reactions.row(unknown) = forces.row(b);
+    found.off_balance =
+        std::max(found.off_balance, (forces.row(a) + forces.row(b)).lpNorm<Eigen::Infinity>());
   }
-  return {reactions_of(forces), off_balance};
+  return found;
 }
 
 }  // namespace havers::sim

@@ -151,16 +151,18 @@ void QuasiStaticNewSeed(benchmark::State& state) {
 }
 BENCHMARK(QuasiStaticNewSeed)->Apply(walls_and_angles)->Iterations(20);
 
-// The replicates of a fit, again at another threshold.
+// The replicates of a fit, again at another threshold: what the second time makes is there.
 void QuasiStaticSeedAgain(benchmark::State& state) {
   constexpr std::uint64_t replicates = 8;
   Scene scene = quasi_static_wall(state);
   Simulation run;
-  for (scene.joints.seed = 1; scene.joints.seed <= replicates; ++scene.joints.seed)
+  for (std::uint64_t i = 0; i < 2 * replicates; ++i) {
+    scene.joints.seed = 1 + i % replicates;
     run = simulate(scene);
+  }
   long events = 0;
   for (auto _ : state) {
-    scene.joints.seed = scene.joints.seed % replicates + 1;
+    scene.joints.seed = 1 + scene.joints.seed % replicates;
     scene.joints.head_tail *= 1.0 + 1e-6;
     run = simulate(scene);
     events += run.steps;
