@@ -17,9 +17,8 @@ namespace {
 constexpr double together = 1e-9;
 constexpr double never = std::numeric_limits<double>::infinity();
 
-// What a glance may miss at some joint, times what it is seen to: 1.4 times in 2500 events.
-constexpr double most_missed = 10.0;
-constexpr std::size_t most_looked_at = 4;  // as all joints together cost no more than some
+constexpr double most_missed = 10.0;       // by a glance at some joint, times what it is seen to
+constexpr std::size_t most_looked_at = 4;  // one by one: of more, all joints at once cost less
 
 Local of_joint(const VectorXd& of_all, std::size_t joint) {
   return of_all.segment<2>(static_cast<Index>(2 * joint));
@@ -39,7 +38,7 @@ BreakingRun::Event BreakingRun::next_event() {
   if (y_seen_ != y_) {
     const auto [reactions, missed] = glance();
     const std::vector<std::size_t> joints = may_be_next(reactions, most_missed * missed);
-    if (joints.size() <= most_looked_at) return first_of(joints);
+    if (missed < never && joints.size() <= most_looked_at) return first_of(joints);
     see_all();
   }
   return first_of(may_be_next(reactions_, 0.0));
@@ -63,7 +62,7 @@ BreakingRun::Glance BreakingRun::glance() const {
   Glance found{reactions_ + change.reactions, change.off_balance};
   found.missed =
       std::max(found.missed, (of_loose(found.reactions) - borne_).lpNorm<Eigen::Infinity>());
-  if (!found.reactions.allFinite()) found.missed = std::numeric_limits<double>::infinity();
+  if (!found.reactions.allFinite()) found.missed = never;
   return found;
 }
 
@@ -85,7 +84,7 @@ std::vector<std::size_t> BreakingRun::may_be_next(const VectorXd& reactions, dou
   return joints;
 }
 
-// By what each bears, its influence on the loose joints alone being looked at.
+// By what each bears to all digits.
 BreakingRun::Event BreakingRun::first_of(const std::vector<std::size_t>& joints) {
   std::vector<double> strains;
   for (const std::size_t joint : joints) strains.push_back(meets_cone_at(joint, borne_at(joint)));
@@ -95,6 +94,7 @@ BreakingRun::Event BreakingRun::first_of(const std::vector<std::size_t>& joints)
   return event;
 }
 
+// By the influence of the loose joints, one by one.
 Local BreakingRun::borne_at(std::size_t joint) {
   const Local at_reference = of_joint(reference_.reactions, joint);
   if (y_ == y_at_reference_) return at_reference;

@@ -85,9 +85,10 @@ std::vector<LeftOut> left_out_in_the_limit(const Scene& scene, const IntactStruc
                                 simulation.events_without_contact, simulation.steps),
                     "no set of sticking, sliding and open joints was found that obeys friction"});
   if (scene.solver.leave_out)
-    list.push_back({"digits beyond single precision of joints that are not the next to break",
-                    "those that may be, by ten times what is seen to be missed, are computed to "
-                    "all digits"});
+    list.push_back(
+        {"digits beyond single precision in the forces of joints that are not next to break",
+         "those that may be, by ten times what is seen to be missed, are computed to "
+         "all digits"});
   if (intact.stress_is_known())
     list.push_back({"rounding in the joint forces of the intact specimen",
                     "its stress is uniform, and a solve finds that to 1e-6 or better"});

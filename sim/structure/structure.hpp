@@ -58,8 +58,8 @@ using SharedJump = std::shared_ptr<const Jump>;
 
 struct NearReactions {
   Eigen::MatrixXd reactions;  ///< Of all joints, R_N, R_T; one answer a column. [N/m]
-  /// Largest difference between what the two sides of a joint bear. Reactions erred by up to 1.4
-  /// times this, or what those of the loose joints did, in 2500 events of random walls. [N/m]
+  /// Largest difference between what the two sides of a joint bear. Reactions err by not much
+  /// more (S8). [N/m]
   double off_balance = 0.0;
 };
 

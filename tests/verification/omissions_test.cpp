@@ -6,17 +6,11 @@
 #include <vector>
 
 #include "sim/simulation.hpp"
+#include "tests/support/broken_joints.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace havers::sim {
 namespace {
-
-std::vector<std::size_t> broken_list(const Simulation& run) {
-  std::vector<std::size_t> list;
-  for (std::size_t j = 0; j < run.joints.size(); ++j)
-    if (run.joints[j].broken) list.push_back(j);
-  return list;
-}
 
 // Curves as far as both go.
 void expect_same_curve(const Simulation& one, const Simulation& other) {
@@ -43,7 +37,7 @@ TEST_P(SameRun, InTimeWhenNothingIsLeftOut) {
     EXPECT_GT(quick.broken_joints, 0);
     EXPECT_GT(quick.left_out.size(), all.left_out.size());
     EXPECT_EQ(quick.curve.size(), all.curve.size());
-    EXPECT_EQ(broken_list(quick), broken_list(all));
+    EXPECT_EQ(test::broken_joints(quick.joints), test::broken_joints(all.joints));
     expect_same_curve(quick, all);
   }
 }
@@ -58,13 +52,11 @@ TEST_P(SameRun, InTheQuasiStaticLimitAsFarAsItGoes) {
     std::vector<std::size_t> by_then;
     const Simulation all = simulate(scene, [&](const Progress& progress) {
       if (progress.row + 1 > quick.curve.size()) return true;
-      Simulation now;
-      now.joints = progress.joints();
-      by_then = broken_list(now);
+      by_then = test::broken_joints(progress.joints());
       return true;
     });
     EXPECT_LT(quick.curve.size(), all.curve.size());
-    EXPECT_EQ(broken_list(quick), by_then);
+    EXPECT_EQ(test::broken_joints(quick.joints), by_then);
     expect_same_curve(quick, all);
   }
 }
@@ -113,7 +105,7 @@ TEST_P(SameRun, HoweverTightTheTolerance) {
       scene.solver.tolerance = std::max(1e-11, part * way.loosest);
       const Simulation tight = simulate(scene);
       EXPECT_TRUE(tight.trusted()) << tight.why_not_trusted();
-      EXPECT_EQ(broken_list(loose), broken_list(tight));
+      EXPECT_EQ(test::broken_joints(loose.joints), test::broken_joints(tight.joints));
       EXPECT_NEAR(loose.strength / tight.strength, 1.0, 1e-5);
       EXPECT_EQ(loose.failure_strain, tight.failure_strain);
     }

@@ -3,28 +3,21 @@
 
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 #include "sim/joint/thresholds.hpp"
 #include "sim/quasi_static/breaking_sequence.hpp"
+#include "tests/support/broken_joints.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace havers::sim {
 namespace {
-
-std::vector<std::size_t> broken_joints(const Simulation& simulation) {
-  std::vector<std::size_t> joints;
-  for (std::size_t j = 0; j < simulation.joints.size(); ++j)
-    if (simulation.joints[j].broken) joints.push_back(j);
-  return joints;
-}
 
 // The fourth joint to break, and the strain at which it does.
 std::pair<std::size_t, double> fourth_break(const Scene& scene) {
   const Simulation simulation =
       simulate_quasi_static(scene, [](const Progress& now) { return now.point.broken_joints < 4; });
   std::pair<std::size_t, double> last{0, 0.0};
-  for (const std::size_t j : broken_joints(simulation))
+  for (const std::size_t j : test::broken_joints(simulation.joints))
     if (const double at = simulation.joints[j].broken_at_strain; at > last.second) last = {j, at};
   return last;
 }
@@ -65,7 +58,7 @@ TEST(BreakingSearch, SaysTheSameWhateverHasRunBefore) {
     if (seed != 1) continue;
     EXPECT_EQ(again.strength, first.strength);
     EXPECT_EQ(again.worst_residual, first.worst_residual);
-    EXPECT_EQ(broken_joints(again), broken_joints(first));
+    EXPECT_EQ(test::broken_joints(again.joints), test::broken_joints(first.joints));
     ASSERT_EQ(again.curve.size(), first.curve.size());
     for (std::size_t i = 0; i < first.curve.size(); ++i) {
       EXPECT_EQ(again.curve[i].strain, first.curve[i].strain);
