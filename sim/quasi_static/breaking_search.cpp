@@ -96,9 +96,10 @@ BreakingRun::Event BreakingRun::first_of(const std::vector<std::size_t>& joints)
 
 // By the influence of the loose joints, one by one.
 Local BreakingRun::borne_at(std::size_t joint) {
-  const Local at_reference = of_joint(reference_.reactions, joint);
-  if (y_ == y_at_reference_) return at_reference;
-  return at_reference + loose_.reactions_of(static_cast<int>(joint)) * (y_ - y_at_reference_);
+  Local borne = of_joint(reference_.reactions, joint);
+  if (y_ != y_at_reference_)
+    borne += loose_.reactions_of(static_cast<int>(joint)) * (y_ - y_at_reference_);
+  return borne;
 }
 
 }  // namespace havers::sim

@@ -119,7 +119,7 @@ IntactStructure::SharedColumn IntactStructure::column(const SharedJump& jump, bo
     if (is_new || place->second || !make) return place->second;
   }
   const auto [reactions, off_balance] = nearly_reactions_to({jump}, Eigen::Matrix2d::Identity());
-  auto column = std::make_shared<const Column>(reactions.cast<float>(), off_balance);
+  auto column = std::make_shared<const Column>(Column{reactions.cast<float>(), off_balance});
   const std::scoped_lock lock(mutex_);
   SharedColumn& known = columns_[jump->joint];
   if (!known && remembered + bytes(*column) <= most_remembered) {
