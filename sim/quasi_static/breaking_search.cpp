@@ -87,6 +87,7 @@ std::vector<std::size_t> BreakingRun::may_be_next(const VectorXd& reactions, dou
 // By what each bears to all digits.
 BreakingRun::Event BreakingRun::first_of(const std::vector<std::size_t>& joints) {
   std::vector<double> strains;
+  strains.reserve(joints.size());
   for (const std::size_t joint : joints) strains.push_back(meets_cone_at(joint, borne_at(joint)));
   Event event{joints.empty() ? never : std::ranges::min(strains), {}};
   for (std::size_t i = 0; i < joints.size(); ++i)

@@ -121,10 +121,10 @@ IntactStructure::SharedColumn IntactStructure::column(const SharedJump& jump, bo
   const auto [reactions, off_balance] = nearly_reactions_to({jump}, Eigen::Matrix2d::Identity());
   auto column = std::make_shared<const Column>(Column{reactions.cast<float>(), off_balance});
   const std::scoped_lock lock(mutex_);
-  SharedColumn& known = columns_[jump->joint];
-  if (!known && remembered + bytes(*column) <= most_remembered) {
+  SharedColumn& place = columns_[jump->joint];
+  if (!place && remembered + bytes(*column) <= most_remembered) {
     remembered += bytes(*column);
-    known = column;
+    place = column;
   }
   return column;
 }

@@ -93,20 +93,17 @@ Eigen::Map<const Matrix<Scalar>> values_of(const Panel& panel, const std::vector
   return {values.data() + panel.values, static_cast<Index>(panel.height), panel.columns};
 }
 
-// Rows of a panel. The values of the next one are asked for while this one is worked on, where a
-// factor is too large to stay in the caches near a core.
+// Asks for a panel's values while another one is worked on, where a factor is too large to stay in
+// the caches near a core.
 template <class Scalar>
-void gather(const EliminationTree& tree, const std::vector<Scalar>& values, const Panel& panel,
-            const Panel* next, const Matrix<Scalar>& x, Eigen::Ref<Matrix<Scalar>> part) {
+void prefetch(const Panel* panel, const std::vector<Scalar>& values) {
   constexpr std::size_t in_cache = std::size_t{1} << 22U, at_most = 65536;  // bytes
   constexpr std::size_t in_a_line = 64 / sizeof(Scalar);
-  if (next != nullptr && values.size() > in_cache / sizeof(Scalar)) {
-    const auto of_next = values_of(*next, values);
-    const std::size_t count =
-        std::min(at_most / sizeof(Scalar), static_cast<std::size_t>(of_next.size()));
-    for (std::size_t i = 0; i < count; i += in_a_line) __builtin_prefetch(of_next.data() + i);
-  }
-  part = x(tree.rows_of(panel), Eigen::all);
+  if (panel == nullptr || values.size() <= in_cache / sizeof(Scalar)) return;
+  const auto of_panel = values_of(*panel, values);
+  const std::size_t count =
+      std::min(at_most / sizeof(Scalar), static_cast<std::size_t>(of_panel.size()));
+  for (std::size_t i = 0; i < count; i += in_a_line) __builtin_prefetch(of_panel.data() + i);
 }
 
 // x ← L⁻ᵀ x.
@@ -117,7 +114,8 @@ void substitute_panels(const EliminationTree& tree, const std::vector<Scalar>& v
   for (auto panel = tree.panels.rbegin(); panel != tree.panels.rend(); ++panel) {
     const Panel* const next = &*panel == &tree.panels.front() ? nullptr : &*panel - 1;
     auto part = work.topRows(static_cast<Index>(panel->height));
-    gather<Scalar>(tree, values, *panel, next, x, part);
+    prefetch(next, values);
+    part = x(tree.rows_of(*panel), Eigen::all);
     substitute_panel(values_of(*panel, values), part);
     x.middleRows(panel->first, panel->columns) = part.topRows(panel->columns);
   }
@@ -188,7 +186,8 @@ MatrixXd SparseFactor::solve(const Eigen::Ref<const MatrixXd>& b) const {
     if (x.middleRows(panel.first, panel.columns).isZero(0.0)) continue;
     auto part = work.topRows(static_cast<Index>(panel.height));
     const Panel* const next = &panel == &tree_.panels.back() ? nullptr : &panel + 1;
-    gather<double>(tree_, values_, panel, next, x, part);
+    prefetch(next, values_);
+    part = x(tree_.rows_of(panel), Eigen::all);
     eliminate_panel(values_of(panel, values_), 0, part);
     x(tree_.rows_of(panel), Eigen::all) = part;
   }
@@ -215,7 +214,8 @@ Eliminated SparseFactor::eliminate(std::vector<int> rows, const Eigen::MatrixX2d
   for (const Panel* panel = &tree_.panel_of(first); panel != nullptr; panel = next) {
     next = tree_.parent_of(*panel);
     auto part = work.topRows(static_cast<Index>(panel->height));
-    gather<double>(tree_, values_, *panel, next, x, part);
+    prefetch(next, values_);
+    part = x(tree_.rows_of(*panel), Eigen::all);
     const int begin = std::max(panel->first, first);
     eliminate_panel(values_of(*panel, values_), begin - panel->first, part);
     x(tree_.rows_of(*panel), Eigen::all) = part;
