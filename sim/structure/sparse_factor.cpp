@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "sim/memory.hpp"
@@ -93,17 +94,23 @@ Eigen::Map<const Matrix<Scalar>> values_of(const Panel& panel, const std::vector
   return {values.data() + panel.values, static_cast<Index>(panel.height), panel.columns};
 }
 
-// Asks for a panel's values while another one is worked on, where a factor is too large to stay in
-// the caches near a core.
+// Values that should be on their way while the panel before is worked on: none where the factor
+// stays in the caches near a core.
 template <class Scalar>
-void prefetch(const Panel* panel, const std::vector<Scalar>& values) {
+std::span<const Scalar> soon_needed(const Panel* panel, const std::vector<Scalar>& values) {
   constexpr std::size_t in_cache = std::size_t{1} << 22U, at_most = 65536;  // bytes
+  if (panel == nullptr || values.size() <= in_cache / sizeof(Scalar)) return {};
+  const std::size_t count = panel->height * static_cast<std::size_t>(panel->columns);
+  return std::span(values).subspan(panel->values, std::min(count, at_most / sizeof(Scalar)));
+}
+
+// Rows of a panel, while the values of the next one are asked for.
+template <class Scalar>
+void gather(std::span<const int> rows, std::span<const Scalar> next, const Matrix<Scalar>& x,
+            Eigen::Ref<Matrix<Scalar>> part) {
   constexpr std::size_t in_a_line = 64 / sizeof(Scalar);
-  if (panel == nullptr || values.size() <= in_cache / sizeof(Scalar)) return;
-  const auto of_panel = values_of(*panel, values);
-  const std::size_t count =
-      std::min(at_most / sizeof(Scalar), static_cast<std::size_t>(of_panel.size()));
-  for (std::size_t i = 0; i < count; i += in_a_line) __builtin_prefetch(of_panel.data() + i);
+  for (std::size_t i = 0; i < next.size(); i += in_a_line) __builtin_prefetch(&next[i]);
+  part = x(rows, Eigen::all);
 }
 
 // x ← L⁻ᵀ x.
@@ -114,8 +121,7 @@ void substitute_panels(const EliminationTree& tree, const std::vector<Scalar>& v
   for (auto panel = tree.panels.rbegin(); panel != tree.panels.rend(); ++panel) {
     const Panel* const next = &*panel == &tree.panels.front() ? nullptr : &*panel - 1;
     auto part = work.topRows(static_cast<Index>(panel->height));
-    prefetch(next, values);
-    part = x(tree.rows_of(*panel), Eigen::all);
+    gather<Scalar>(tree.rows_of(*panel), soon_needed(next, values), x, part);
     substitute_panel(values_of(*panel, values), part);
     x.middleRows(panel->first, panel->columns) = part.topRows(panel->columns);
   }
@@ -186,8 +192,7 @@ MatrixXd SparseFactor::solve(const Eigen::Ref<const MatrixXd>& b) const {
     if (x.middleRows(panel.first, panel.columns).isZero(0.0)) continue;
     auto part = work.topRows(static_cast<Index>(panel.height));
     const Panel* const next = &panel == &tree_.panels.back() ? nullptr : &panel + 1;
-    prefetch(next, values_);
-    part = x(tree_.rows_of(panel), Eigen::all);
+    gather<double>(tree_.rows_of(panel), soon_needed(next, values_), x, part);
     eliminate_panel(values_of(panel, values_), 0, part);
     x(tree_.rows_of(panel), Eigen::all) = part;
   }
@@ -214,8 +219,7 @@ Eliminated SparseFactor::eliminate(std::vector<int> rows, const Eigen::MatrixX2d
   for (const Panel* panel = &tree_.panel_of(first); panel != nullptr; panel = next) {
     next = tree_.parent_of(*panel);
     auto part = work.topRows(static_cast<Index>(panel->height));
-    prefetch(next, values_);
-    part = x(tree_.rows_of(*panel), Eigen::all);
+    gather<double>(tree_.rows_of(*panel), soon_needed(next, values_), x, part);
     const int begin = std::max(panel->first, first);
     eliminate_panel(values_of(*panel, values_), begin - panel->first, part);
     x(tree_.rows_of(*panel), Eigen::all) = part;
