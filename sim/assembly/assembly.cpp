@@ -85,7 +85,8 @@ void add_bodies(HalfFibres& halves, int refinement, Assembly& assembly) {
     }
     if (first == nullptr)
       assembly.bodies.push_back({static_cast<int>(assembly.nodes.size()), 0,
-                                 static_cast<int>(assembly.triangles.size()), 0, layer});
+                                 static_cast<int>(assembly.triangles.size()), 0, layer,
+                                 is_first_half(layer, column) ? column : column - 1});
     half.body = static_cast<int>(assembly.bodies.size()) - 1;
     add_outline(first, refinement, half, assembly);
     add_triangles(half, refinement, assembly);

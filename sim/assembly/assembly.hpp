@@ -15,7 +15,8 @@ enum class JointKind { head_tail, flank };
 struct Body {
   int first_node = 0, nodes = 0;
   int first_triangle = 0, triangles = 0;
-  int layer = 0;  ///< Of the running bond; 0 lies on the lower left corner.
+  int layer = 0;   ///< Of the running bond; 0 lies on the lower left corner.
+  int column = 0;  ///< Of its first half fibre, be it left or not: alike in bodies of a layer.
 };
 
 /// An edge between two bodies, bonded at its midpoint. Side a lies where −n points, side b where n

@@ -98,6 +98,7 @@ Signature signature(const Assembly& assembly, const Body& body, const MatrixXd& 
 
 Bodies::Bodies(const Assembly& assembly, const Material& material, const Shift& shift, bool share)
     : assembly_(&assembly),
+      shared_(share),
       shift_(shift),
       held_(held_dofs(assembly)),
       mass_(2 * assembly.nodes.size()) {

@@ -33,6 +33,7 @@ class Bodies {
   Bodies(const Assembly& assembly, const Material& material, const Shift& shift, bool share = true);
 
   [[nodiscard]] const Assembly& assembly() const { return *assembly_; }
+  [[nodiscard]] bool shared() const { return shared_; }
   [[nodiscard]] const std::vector<BodyClass>& classes() const { return classes_; }
   [[nodiscard]] const std::vector<Port>& ports() const { return ports_; }
   /// The ports of each unknown, side a and side b.
@@ -94,6 +95,7 @@ class Bodies {
   }
 
   const Assembly* assembly_;
+  bool shared_;
   Shift shift_;
   std::vector<BodyClass> classes_;
   std::vector<Port> ports_;

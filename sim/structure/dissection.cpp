@@ -1,30 +1,47 @@
 #include "sim/structure/dissection.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <numeric>
+#include <ranges>
 #include <span>
 #include <utility>
 
 namespace havers::sim {
 namespace {
 
-using Eigen::Vector2d;
+// Bodies are cut apart along the sides of cells of so many layers and half fibres, so that pieces
+// are congruent: both even, as layers are laid in running bond.
+constexpr std::array<int, 2> cell_size{8, 16};
+constexpr std::size_t few = 64;  // bodies, which minimum degree orders as well
+constexpr int least_part = 3;    // of its cells is the smaller half of a piece
 
-constexpr std::size_t few = 60;  // bodies, which minimum degree orders as well
+using Cell = std::array<int, 2>;  // across and along the fibres
+
+// The first cells of a row that are cut off: so many that their number has few binary digits, and
+// that neither half is small.
+int cells_cut_off(int count) {
+  int unit = 1;
+  while (2 * unit < count) unit *= 2;
+  for (;; unit /= 2) {
+    const int first = unit * std::max(1, (count + unit) / (2 * unit));
+    if (unit == 1 || least_part * std::min(first, count - first) >= count) return first;
+  }
+}
 
 class Halves {
  public:
   Halves(const Assembly& assembly, const std::vector<std::array<int, 2>>& bodies_of)
       : bodies_of_(bodies_of), second_(assembly.bodies.size(), 0), part_(bodies_of.size(), 0) {
-    centres_.reserve(assembly.bodies.size());
-    for (const Body& body : assembly.bodies) {
-      Vector2d sum = Vector2d::Zero();
-      for (int node = body.first_node; node < body.first_node + body.nodes; ++node)
-        sum += assembly.nodes[static_cast<std::size_t>(node)];
-      centres_.emplace_back(sum / body.nodes);
-    }
-    if (!assembly.joints.empty())
-      axes_ = {assembly.joints.front().normal, assembly.joints.front().tangent()};
+    if (assembly.bodies.empty()) return;
+    const int layer = std::ranges::min(assembly.bodies, {}, &Body::layer).layer;
+    const int column = std::ranges::min(assembly.bodies, {}, &Body::column).column;
+    const Cell first{layer, column - ((layer + column) & 1)};
+    cells_.reserve(assembly.bodies.size());
+    for (const Body& body : assembly.bodies)
+      cells_.push_back({(body.layer - first[0]) / cell_size[0],
+                        (body.column - first[1]) / cell_size[1]});
   }
 
   // The last to come is cut first.
@@ -33,7 +50,7 @@ class Halves {
       std::span<int> bodies;
       std::vector<int> unknowns;
     };
-    std::vector<int> bodies(centres_.size()), unknowns(bodies_of_.size());
+    std::vector<int> bodies(cells_.size()), unknowns(bodies_of_.size());
     std::iota(bodies.begin(), bodies.end(), 0);
     std::iota(unknowns.begin(), unknowns.end(), 0);
     std::vector<Piece> pieces{{bodies, std::move(unknowns)}};
@@ -42,14 +59,12 @@ class Halves {
       const Piece piece = std::move(pieces.back());
       pieces.pop_back();
       std::array<std::vector<int>, 3> sets;  // of the halves, and cut
-      if (piece.bodies.size() <= few) {
-        sets[2] = piece.unknowns;
-      } else {
-        cut(piece.bodies, piece.unknowns);
+      if (const std::size_t first = cut(piece.bodies, piece.unknowns); first > 0) {
         for (const int unknown : piece.unknowns) sets[side_of(unknown)].push_back(unknown);
-        const std::size_t half = piece.bodies.size() / 2;
-        pieces.push_back({piece.bodies.first(half), std::move(sets[0])});
-        pieces.push_back({piece.bodies.subspan(half), std::move(sets[1])});
+        pieces.push_back({piece.bodies.first(first), std::move(sets[0])});
+        pieces.push_back({piece.bodies.subspan(first), std::move(sets[1])});
+      } else {
+        sets[2] = piece.unknowns;
       }
       for (const int unknown : sets[2]) part_[static_cast<std::size_t>(unknown)] = -earlier;
     }
@@ -58,20 +73,38 @@ class Halves {
   }
 
  private:
-  // The way that fewer of the unknowns cross.
-  void cut(std::span<int> bodies, const std::vector<int>& unknowns) {
-    halve(bodies, axes_[0]);
-    const auto across = crossing(unknowns);
-    halve(bodies, axes_[1]);
-    if (across < crossing(unknowns)) halve(bodies, axes_[0]);
+  // The way that fewer of the unknowns cross. How many bodies are in the first half; none if they
+  // are few or of one cell.
+  std::size_t cut(std::span<int> bodies, const std::vector<int>& unknowns) {
+    if (bodies.size() <= few) return 0;
+    std::ptrdiff_t least = std::ssize(unknowns) + 1;
+    std::size_t across = 0;
+    int at = 0;
+    for (const std::size_t axis : {1U, 0U}) {
+      const auto of = [&](int body) { return cells_[static_cast<std::size_t>(body)][axis]; };
+      const auto [low, high] = std::ranges::minmax(bodies | std::views::transform(of));
+      if (low == high) continue;
+      const int beyond = low + cells_cut_off(high - low + 1);
+      halve(bodies, axis, beyond);
+      const std::ptrdiff_t crossed =
+          std::ranges::count(unknowns, 2U, [&](int unknown) { return side_of(unknown); });
+      if (crossed >= least) continue;
+      least = crossed;
+      across = axis;
+      at = beyond;
+    }
+    if (least > std::ssize(unknowns)) return 0;
+    halve(bodies, across, at);
+    const auto second = std::ranges::stable_partition(bodies, [&](int body) {
+      return second_[static_cast<std::size_t>(body)] == 0;
+    });
+    return bodies.size() - second.size();
   }
 
-  void halve(std::span<int> bodies, const Vector2d& axis) {
-    const auto place = [&](int body) { return centres_[static_cast<std::size_t>(body)].dot(axis); };
-    const auto half = bodies.size() / 2;
-    std::ranges::nth_element(bodies, bodies.begin() + static_cast<std::ptrdiff_t>(half), {}, place);
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      second_[static_cast<std::size_t>(bodies[i])] = i < half ? 0 : 1;
+  void halve(std::span<const int> bodies, std::size_t axis, int at) {
+    for (const int body : bodies)
+      second_[static_cast<std::size_t>(body)] =
+          cells_[static_cast<std::size_t>(body)][axis] < at ? 0 : 1;
   }
 
   // 0 or 1, or 2 if it is cut.
@@ -80,13 +113,9 @@ class Halves {
     const std::size_t side = second_[static_cast<std::size_t>(a)];
     return side == second_[static_cast<std::size_t>(b)] ? side : 2;
   }
-  [[nodiscard]] std::ptrdiff_t crossing(const std::vector<int>& unknowns) const {
-    return std::ranges::count(unknowns, 2U, [&](int unknown) { return side_of(unknown); });
-  }
 
   const std::vector<std::array<int, 2>>& bodies_of_;
-  std::vector<Vector2d> centres_;  // of bodies
-  std::array<Vector2d, 2> axes_{Vector2d::UnitX(), Vector2d::UnitY()};
+  std::vector<Cell> cells_;            // of bodies
   std::vector<unsigned char> second_;  // whether a body is in the second half
   std::vector<int> part_;              // of each unknown
 };

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <map>
 #include <new>
+#include <string>
 
 namespace havers::sim {
 namespace {
@@ -96,12 +98,67 @@ EliminationTree elimination_tree(const Eigen::SparseMatrix<double>& lower, std::
     tree.values += panel.height * static_cast<std::size_t>(panel.columns);
     tree.panels.push_back(panel);
   }
+  const auto row_at = span_of(L.Perm, L.n);
   for (Panel& panel : tree.panels) {
-    const auto below = tree.rows_of(panel).subspan(static_cast<std::size_t>(panel.columns));
-    if (!below.empty())
-      panel.parent = static_cast<int>(&tree.panel_of(below.front()) - tree.panels.data());
+    panel.like = static_cast<int>(&panel - tree.panels.data());
+    const auto below = std::span(tree.rows).subspan(
+        panel.at + static_cast<std::size_t>(panel.columns),
+        panel.height - static_cast<std::size_t>(panel.columns));
+    if (below.empty()) continue;
+    panel.parent = static_cast<int>(&tree.panel_of(below.front()) - tree.panels.data());
+    std::ranges::sort(below, {}, [&](int place) { return row_at[static_cast<std::size_t>(place)]; });
   }
   return tree;
+}
+
+std::vector<std::vector<int>> EliminationTree::children() const {
+  std::vector<std::vector<int>> children(panels.size());
+  for (std::size_t p = 0; p < panels.size(); ++p)
+    if (panels[p].parent >= 0)
+      children[static_cast<std::size_t>(panels[p].parent)].push_back(static_cast<int>(p));
+  return children;
+}
+
+// What a panel's values follow from, as bytes: its size, its entries, which panels its children are
+// like and where their rows are in it.
+void share_values(EliminationTree& tree, const Eigen::SparseMatrix<double>& matrix) {
+  const std::vector<std::vector<int>> children = tree.children();
+  std::map<std::string, int> known;
+  std::vector<int> where(tree.place.size());
+  std::string key;
+  const auto add = [&key](const auto& value) {
+    key.append(reinterpret_cast<const char*>(&value), sizeof value);  // NOLINT(*-reinterpret-cast)
+  };
+  tree.values = 0;
+  for (std::size_t p = 0; p < tree.panels.size(); ++p) {
+    Panel& panel = tree.panels[p];
+    int height = 0;
+    for (const int row : tree.rows_of(panel)) where[static_cast<std::size_t>(row)] = height++;
+    key.clear();
+    add(panel.columns);
+    add(panel.height);
+    for (int j = 0; j < panel.columns; ++j)
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, panel.first + j); entry;
+           ++entry) {
+        add(j);
+        add(where[static_cast<std::size_t>(entry.row())]);
+        add(entry.value());
+      }
+    for (const int c : children[p]) {
+      const Panel& child = tree.panels[static_cast<std::size_t>(c)];
+      add(child.like);
+      for (const int row : tree.rows_of(child).subspan(static_cast<std::size_t>(child.columns)))
+        add(where[static_cast<std::size_t>(row)]);
+    }
+    panel.like = known.try_emplace(key, static_cast<int>(p)).first->second;
+    const Panel& first = tree.panels[static_cast<std::size_t>(panel.like)];
+    if (&first != &panel) {
+      panel.values = first.values;
+      continue;
+    }
+    panel.values = tree.values;
+    tree.values += panel.height * static_cast<std::size_t>(panel.columns);
+  }
 }
 
 const Panel& EliminationTree::panel_of(int column) const {

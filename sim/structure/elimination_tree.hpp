@@ -25,15 +25,16 @@ Order least_degree_order(const Eigen::SparseMatrix<double>& lower,
 struct Panel {
   int first, columns;      ///< In the order of elimination.
   std::size_t at, height;  ///< Among the rows of all panels: their own, then those below.
-  std::size_t values;      ///< Before it, in all panels.
+  std::size_t values;      ///< Before its own, in all panels.
   int parent = -1;         ///< The panel of the first row below.
+  int like = -1;           ///< The first panel of those that share their values.
 };
 
 /// The panels of a factor, children before their parents.
 struct EliminationTree {
   std::vector<int> place;  ///< Of each row, in the order of elimination.
   std::vector<Panel> panels;
-  std::vector<int> rows;   ///< Of all panels, by their places.
+  std::vector<int> rows;   ///< Of all panels, by their places; those below in the matrix's order.
   std::size_t values = 0;  ///< Of all panels.
 
   [[nodiscard]] std::span<const int> rows_of(const Panel& panel) const {
@@ -43,10 +44,17 @@ struct EliminationTree {
     return panel.parent < 0 ? nullptr : &panels[static_cast<std::size_t>(panel.parent)];
   }
   [[nodiscard]] const Panel& panel_of(int column) const;
+  /// Of each panel, in their order.
+  [[nodiscard]] std::vector<std::vector<int>> children() const;
 };
 
 /// @param lower  as above
 /// @param order  of elimination; rows that do not feel each other may change places
 EliminationTree elimination_tree(const Eigen::SparseMatrix<double>& lower, std::vector<int> order);
+
+/// Lets panels share their values where these come out the same bit for bit: they have the same
+/// entries, and so have all that are eliminated before them and feel them.
+/// @param matrix  lower triangle, its rows in the order of elimination
+void share_values(EliminationTree& tree, const Eigen::SparseMatrix<double>& matrix);
 
 }  // namespace havers::sim

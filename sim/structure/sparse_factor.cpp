@@ -18,72 +18,17 @@ using Eigen::VectorXd;
 
 namespace {
 
-// What panels take from rows below them, for their parents to add: the last ones' come first. One
-// block of memory, as fresh pages cost more than what is done in them.
-class Fronts {
- public:
-  using Matrix = Eigen::Map<MatrixXd>;
-
-  explicit Fronts(const EliminationTree& tree) {
-    std::size_t size = 0, most = 0;
-    std::vector<std::size_t> of_children(tree.panels.size(), 0);
-    for (std::size_t p = 0; p < tree.panels.size(); ++p) {
-      const Panel& panel = tree.panels[p];
-      const std::size_t own = size_of(panel);
-      most = std::max(most, size + own);
-      size += own - of_children[p];
-      if (panel.parent >= 0) of_children[static_cast<std::size_t>(panel.parent)] += own;
-    }
-    values_ = std::make_unique_for_overwrite<double[]>(most);  // NOLINT(*-avoid-c-arrays)
-    ask_for_large_pages(values_.get(), most * sizeof(double));
-  }
-
-  [[nodiscard]] bool empty() const { return panels_.empty(); }
-  [[nodiscard]] const Panel& last() const { return *panels_.back(); }
-  /// Of a panel above the last one: lower triangle, zero.
-  Matrix begin(const Panel& panel) {
-    Matrix front = at(end_, panel);
-    for (Index j = 0; j < front.cols(); ++j) front.col(j).tail(front.rows() - j).setZero();
-    return front;
-  }
-  [[nodiscard]] Matrix of_last() { return at(end_ - size_of(last()), last()); }
-  void pop() {
-    end_ -= size_of(last());
-    panels_.pop_back();
-  }
-  /// What was begun, in the place of those that have been popped since.
-  void push(const Panel& panel, const Matrix& front) {
-    double* const to = values_.get() + end_;
-    if (to != front.data()) std::copy(front.data(), front.data() + front.size(), to);
-    end_ += size_of(panel);
-    panels_.push_back(&panel);
-  }
-
- private:
-  static std::size_t size_of(const Panel& panel) {
-    const std::size_t below = panel.height - static_cast<std::size_t>(panel.columns);
-    return below * below;
-  }
-  Matrix at(std::size_t begin, const Panel& panel) {
-    const auto below = static_cast<Index>(panel.height) - panel.columns;
-    return {values_.get() + begin, below, below};
-  }
-
-  std::unique_ptr<double[]> values_;  // NOLINT(*-avoid-c-arrays)
-  std::size_t end_ = 0;
-  std::vector<const Panel*> panels_;
-};
-
-// What a child takes from rows of its parent, and from rows below that.
+// What a child takes from the rows of its parent, and from those below that.
 // @param where  each of these rows is
-void add(const Fronts::Matrix& taken, const std::vector<Index>& where, Eigen::Ref<MatrixXd> own,
-         Fronts::Matrix& below) {
-  for (Index j = 0; j < taken.cols(); ++j) {
-    const Index column = where[static_cast<std::size_t>(j)];
-    double* const to =
-        column < own.cols() ? &own(0, column) : &below(0, column - own.cols()) - own.cols();
-    for (Index i = j; i < taken.rows(); ++i) to[where[static_cast<std::size_t>(i)]] += taken(i, j);
-  }
+void add(const MatrixXd& taken, const std::vector<Index>& where, Eigen::Ref<MatrixXd> own,
+         MatrixXd& below) {
+  for (Index j = 0; j < taken.cols(); ++j)
+    for (Index i = j; i < taken.rows(); ++i) {
+      const auto [column, row] =
+          std::minmax(where[static_cast<std::size_t>(i)], where[static_cast<std::size_t>(j)]);
+      (column < own.cols() ? own(row, column) : below(row - own.cols(), column - own.cols())) +=
+          taken(i, j);
+    }
 }
 
 template <class Scalar>
@@ -130,57 +75,68 @@ void substitute_panels(const EliminationTree& tree, const std::vector<Scalar>& v
 }  // namespace
 
 SparseFactor::SparseFactor(const Eigen::SparseMatrix<double>& lower, Index multipliers,
-                           std::vector<int> order, double least_pivot, std::vector<double> memory)
-    : tree_(elimination_tree(lower, std::move(order))),
+                           Elimination how, std::vector<double> memory)
+    : tree_(elimination_tree(lower, std::move(how.order))),
       values_(std::move(memory)),
       inverse_pivots_(lower.rows()) {
-  values_.clear();
-  values_.reserve(tree_.values);
-  ask_for_large_pages(values_.data(), tree_.values * sizeof(double));
-  values_.assign(tree_.values, 0.0);
-  ok_ = factorise(lower, multipliers, least_pivot);
-}
-
-// Multifrontal: a panel is complete when its children have handed on what they take from it.
-bool SparseFactor::factorise(const Eigen::SparseMatrix<double>& lower, Index multipliers,
-                             double least_pivot) {
   const Index n = lower.rows();
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(
       Eigen::Map<const Eigen::VectorXi>(tree_.place.data(), n).asPermutation());
+  if (how.share) share_values(tree_, matrix);
+  values_.clear();
+  values_.reserve(tree_.values);
+  ask_for_large_pages(values_.data(), tree_.values * sizeof(double));
+  values_.assign(tree_.values, 0.0);
   VectorXd sign = VectorXd::Ones(n);
   sign(std::span(tree_.place).last(static_cast<std::size_t>(multipliers))).setConstant(-1.0);
+  ok_ = factorise(matrix, sign, how.least_pivot);
+}
 
-  Fronts fronts(tree_);
+// Multifrontal: a panel is complete when its children have handed on what they take from it.
+bool SparseFactor::factorise(const Eigen::SparseMatrix<double>& matrix, const VectorXd& sign,
+                             double least_pivot) {
+  const std::vector<std::vector<int>> children = tree_.children();
+  std::vector<MatrixXd> fronts(tree_.panels.size());  // what panels take from rows below them
+  std::vector<int> awaited(tree_.panels.size(), 0);   // the parents that still need it
+  for (std::size_t p = 0; p < children.size(); ++p)
+    if (tree_.panels[p].like == static_cast<int>(p))
+      for (const int child : children[p])
+        ++awaited[static_cast<std::size_t>(tree_.panels[static_cast<std::size_t>(child)].like)];
+
   std::vector<Index> where(tree_.place.size()), on;
-  for (const Panel& panel : tree_.panels) {
-    Index height = 0;
-    for (const int row : tree_.rows_of(panel)) where[static_cast<std::size_t>(row)] = height++;
-    Eigen::Map<MatrixXd> own(values_.data() + panel.values, height, panel.columns);
-    for (Index j = 0; j < own.cols(); ++j)
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, panel.first + j); entry;
-           ++entry)
-        own(where[static_cast<std::size_t>(entry.row())], j) = entry.value();
-    Fronts::Matrix below = fronts.begin(panel);
-    for (; !fronts.empty() && tree_.parent_of(fronts.last()) == &panel; fronts.pop()) {
-      const Fronts::Matrix taken = fronts.of_last();
-      on.clear();
-      for (const int row :
-           tree_.rows_of(fronts.last()).last(static_cast<std::size_t>(taken.rows())))
-        on.push_back(where[static_cast<std::size_t>(row)]);
-      add(taken, on, own, below);
+  for (std::size_t p = 0; p < children.size(); ++p) {
+    const Panel& panel = tree_.panels[p];
+    const auto height = static_cast<Index>(panel.height), columns = static_cast<Index>(panel.columns);
+    Eigen::Map<MatrixXd> own(values_.data() + panel.values, height, columns);
+    if (panel.like == static_cast<int>(p)) {
+      Index next = 0;
+      for (const int row : tree_.rows_of(panel)) where[static_cast<std::size_t>(row)] = next++;
+      for (Index j = 0; j < columns; ++j)
+        for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, panel.first + j); entry;
+             ++entry)
+          own(where[static_cast<std::size_t>(entry.row())], j) = entry.value();
+      MatrixXd below = MatrixXd::Zero(height - columns, height - columns);
+      for (const int c : children[p]) {
+        const Panel& child = tree_.panels[static_cast<std::size_t>(c)];
+        const auto kind = static_cast<std::size_t>(child.like);
+        on.clear();
+        for (const int row : tree_.rows_of(child).subspan(static_cast<std::size_t>(child.columns)))
+          on.push_back(where[static_cast<std::size_t>(row)]);
+        add(fronts[kind], on, own, below);
+        if (--awaited[kind] == 0) fronts[kind].resize(0, 0);
+      }
+      factorise_panel(own);
+      if (awaited[p] > 0) {
+        take_panel_from(below, own);
+        fronts[p] = std::move(below);
+      }
     }
-
-    factorise_panel(own);
     const auto pivots = own.diagonal().array();
     const auto signs = sign.segment(panel.first, panel.columns).array();
     if (!(pivots * signs > (signs < 0.0).cast<double>() * least_pivot).all()) return false;
     inverse_pivots_.segment(panel.first, panel.columns) = pivots.inverse();
-    if (below.size() == 0) continue;
-    take_panel_from(below, own);
-    fronts.push(panel, below);
   }
-  assert(fronts.empty());
   return true;
 }
 

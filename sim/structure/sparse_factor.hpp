@@ -19,6 +19,13 @@ struct Eliminated {
 /// aᵀ A⁻¹ b of half solves, one of them over its pivots.
 Eigen::Matrix2d product(const Eliminated& a, const Eliminated& b);
 
+/// In which way a matrix (K Nᵀ; N 0) is eliminated.
+struct Elimination {
+  std::vector<int> order;    ///< Each row of N behind some of those it has entries with.
+  double least_pivot = 0.0;  ///< Of a row of N; a smaller one is rounding, N is not independent.
+  bool share = true;         ///< Panels with the same values are found and kept once.
+};
+
 /// L D Lᵀ = P A Pᵀ of A = (K Nᵀ; N 0), K positive definite, the rows of N independent. There is no
 /// pivoting: the order has to make sure that no pivot of N is small, unless its row is a sum of
 /// others.
@@ -26,12 +33,10 @@ class SparseFactor {
  public:
   /// @param lower  lower triangle of A
   /// @param multipliers  rows of N; they come last in A
-  /// @param order  of elimination: each row of N behind some of those it has entries with
-  /// @param least_pivot  of a row of N; a smaller one is rounding, N is not independent
   /// @param memory  that of a factor which is no longer needed: fresh memory takes as long as the
   /// factor
-  SparseFactor(const Eigen::SparseMatrix<double>& lower, Eigen::Index multipliers,
-               std::vector<int> order, double least_pivot = 0.0, std::vector<double> memory = {});
+  SparseFactor(const Eigen::SparseMatrix<double>& lower, Eigen::Index multipliers, Elimination how,
+               std::vector<double> memory = {});
   /// For another factor; this one can do nothing more.
   [[nodiscard]] std::vector<double> memory() && { return std::move(values_); }
 
@@ -57,8 +62,8 @@ class SparseFactor {
 
  private:
   friend class SinglePrecisionFactor;
-  [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& lower, Eigen::Index multipliers,
-                               double least_pivot);
+  [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& matrix,
+                               const Eigen::VectorXd& sign, double least_pivot);
 
   EliminationTree tree_;
   std::vector<double> values_;  // of all panels

@@ -198,7 +198,8 @@ void Structure::factorise() {
   const auto try_to = [&] {
     std::vector<double> memory;
     if (factor_) memory = std::move(*factor_).memory();
-    factor_.emplace(matrix, bodies_->compatibilities(), order, least_pivot / stiffness_,
+    factor_.emplace(matrix, bodies_->compatibilities(),
+                    Elimination{order, least_pivot / stiffness_, bodies_->shared()},
                     std::move(memory));
     return factor_->ok();
   };

@@ -36,7 +36,7 @@ std::vector<int> end_first() {
 }
 
 TEST(SparseFactor, StretchesAChain) {
-  const SparseFactor factor(chain(), 1, end_first());
+  const SparseFactor factor(chain(), 1, {end_first()});
   ASSERT_TRUE(factor.ok());
   const Eigen::VectorXd x = factor.solve(-3.0 * Eigen::VectorXd::Unit(links + 1, links));
   for (int i = 0; i < links; ++i) EXPECT_NEAR(x(i), -3.0 * (i + 1.0) / links, 1e-13);
@@ -45,7 +45,7 @@ TEST(SparseFactor, StretchesAChain) {
 }
 
 TEST(SparseFactor, SolvesForFewEntriesAsForMany) {
-  const SparseFactor factor(chain(), 1, end_first());
+  const SparseFactor factor(chain(), 1, {end_first()});
   Eigen::MatrixX2d values(2, 2);
   values << 1.0, 0.5, -2.0, 3.0;
   const Eliminated half = factor.eliminate({7, 8}, values);
@@ -87,7 +87,7 @@ TEST(SparseFactor, SolvesWithPanelsOfAnyWidth) {
     lower.setFromTriplets(entries.begin(), entries.end());
     std::vector<int> order = least_degree_order(lower.topLeftCorner(n, n)).rows;
     for (int m = 0; m < multipliers; ++m) order.push_back(n + m);
-    const SparseFactor factor(lower, multipliers, order);
+    const SparseFactor factor(lower, multipliers, {order});
     ASSERT_TRUE(factor.ok()) << side;
 
     const Eigen::MatrixXd dense = Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
@@ -114,11 +114,11 @@ TEST(SparseFactor, SolvesWithPanelsOfAnyWidth) {
 // Of a smaller one, and of one that has left more behind than is needed.
 TEST(SparseFactor, UsesTheMemoryOfAnotherAgain) {
   const Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(links + 1, -1.0, 2.0);
-  const Eigen::VectorXd alone = SparseFactor(chain(), 1, end_first()).solve(load);
+  const Eigen::VectorXd alone = SparseFactor(chain(), 1, {end_first()}).solve(load);
   for (const std::size_t values : {1U, 1000U}) {
-    SparseFactor factor(chain(), 1, end_first(), 0.0, std::vector<double>(values, 7.0));
+    SparseFactor factor(chain(), 1, {end_first()}, std::vector<double>(values, 7.0));
     EXPECT_EQ(factor.solve(load), alone);
-    SparseFactor next(chain(), 1, end_first(), 0.0, std::move(factor).memory());
+    SparseFactor next(chain(), 1, {end_first()}, std::move(factor).memory());
     EXPECT_EQ(next.solve(load), alone);
   }
 }
@@ -126,14 +126,14 @@ TEST(SparseFactor, UsesTheMemoryOfAnotherAgain) {
 TEST(SparseFactor, SaysWhenItHasNoPivots) {
   Eigen::SparseMatrix<double> indefinite = chain();
   indefinite.coeffRef(3, 3) = -1.0;
-  EXPECT_FALSE(SparseFactor(indefinite, 1, end_first()).ok());
+  EXPECT_FALSE(SparseFactor(indefinite, 1, {end_first()}).ok());
   std::vector<int> too_early = end_first();
   std::swap(too_early[0], too_early[1]);
-  EXPECT_FALSE(SparseFactor(chain(), 1, too_early).ok());
+  EXPECT_FALSE(SparseFactor(chain(), 1, {too_early}).ok());
 }
 
 TEST(SparseFactor, ServesSeveralThreadsAtOnce) {
-  const SparseFactor factor(chain(), 1, end_first());
+  const SparseFactor factor(chain(), 1, {end_first()});
   const Eigen::VectorXd stretch = Eigen::VectorXd::Unit(links + 1, links);
   const Eigen::VectorXd alone = factor.solve(stretch);
   std::vector<Eigen::VectorXd> found(4);
@@ -149,7 +149,7 @@ TEST(SparseFactor, ServesSeveralThreadsAtOnce) {
 
 TEST(SparseFactor, OutlivesTheThreadThatMadeIt) {
   std::optional<SparseFactor> factor;
-  std::thread([&] { factor.emplace(chain(), 1, end_first()); }).join();
+  std::thread([&] { factor.emplace(chain(), 1, Elimination{end_first()}); }).join();
   EXPECT_NEAR(factor->solve(Eigen::VectorXd::Unit(links + 1, links))(links - 1), 1.0, 1e-14);
 }
 
