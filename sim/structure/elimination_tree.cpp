@@ -7,6 +7,7 @@
 #include <map>
 #include <new>
 #include <string>
+#include <utility>
 
 namespace havers::sim {
 namespace {
@@ -98,33 +99,25 @@ EliminationTree elimination_tree(const Eigen::SparseMatrix<double>& lower, std::
     tree.values += panel.height * static_cast<std::size_t>(panel.columns);
     tree.panels.push_back(panel);
   }
-  const auto row_at = span_of(L.Perm, L.n);
-  for (Panel& panel : tree.panels) {
-    panel.like = static_cast<int>(&panel - tree.panels.data());
-    const auto below = std::span(tree.rows).subspan(
-        panel.at + static_cast<std::size_t>(panel.columns),
-        panel.height - static_cast<std::size_t>(panel.columns));
+  for (int p = static_cast<int>(L.nsuper) - 1; p >= 0; --p) {
+    Panel& panel = tree.panels[static_cast<std::size_t>(p)];
+    panel.like = p;
+    const auto below = tree.below(panel);
     if (below.empty()) continue;
     panel.parent = static_cast<int>(&tree.panel_of(below.front()) - tree.panels.data());
-    std::ranges::sort(below, {}, [&](int place) { return row_at[static_cast<std::size_t>(place)]; });
+    panel.sibling =
+        std::exchange(tree.panels[static_cast<std::size_t>(panel.parent)].child, p);
   }
   return tree;
-}
-
-std::vector<std::vector<int>> EliminationTree::children() const {
-  std::vector<std::vector<int>> children(panels.size());
-  for (std::size_t p = 0; p < panels.size(); ++p)
-    if (panels[p].parent >= 0)
-      children[static_cast<std::size_t>(panels[p].parent)].push_back(static_cast<int>(p));
-  return children;
 }
 
 // What a panel's values follow from, as bytes: its size, its entries, which panels its children are
 // like and where their rows are in it.
 void share_values(EliminationTree& tree, const Eigen::SparseMatrix<double>& matrix) {
-  const std::vector<std::vector<int>> children = tree.children();
+  std::vector<int> row_at(tree.place.size()), where(tree.place.size());
+  for (std::size_t row = 0; row < row_at.size(); ++row)
+    row_at[static_cast<std::size_t>(tree.place[row])] = static_cast<int>(row);
   std::map<std::string, int> known;
-  std::vector<int> where(tree.place.size());
   std::string key;
   const auto add = [&key](const auto& value) {
     key.append(reinterpret_cast<const char*>(&value), sizeof value);  // NOLINT(*-reinterpret-cast)
@@ -132,6 +125,11 @@ void share_values(EliminationTree& tree, const Eigen::SparseMatrix<double>& matr
   tree.values = 0;
   for (std::size_t p = 0; p < tree.panels.size(); ++p) {
     Panel& panel = tree.panels[p];
+    std::ranges::sort(
+        std::span(tree.rows)
+            .subspan(panel.at, panel.height)
+            .subspan(static_cast<std::size_t>(panel.columns)),
+        {}, [&](int place) { return row_at[static_cast<std::size_t>(place)]; });
     int height = 0;
     for (const int row : tree.rows_of(panel)) where[static_cast<std::size_t>(row)] = height++;
     key.clear();
@@ -144,20 +142,14 @@ void share_values(EliminationTree& tree, const Eigen::SparseMatrix<double>& matr
         add(where[static_cast<std::size_t>(entry.row())]);
         add(entry.value());
       }
-    for (const int c : children[p]) {
-      const Panel& child = tree.panels[static_cast<std::size_t>(c)];
-      add(child.like);
-      for (const int row : tree.rows_of(child).subspan(static_cast<std::size_t>(child.columns)))
-        add(where[static_cast<std::size_t>(row)]);
+    for (const Panel* child = tree.at(panel.child); child; child = tree.at(child->sibling)) {
+      add(child->like);
+      for (const int row : tree.below(*child)) add(where[static_cast<std::size_t>(row)]);
     }
     panel.like = known.try_emplace(key, static_cast<int>(p)).first->second;
     const Panel& first = tree.panels[static_cast<std::size_t>(panel.like)];
-    if (&first != &panel) {
-      panel.values = first.values;
-      continue;
-    }
-    panel.values = tree.values;
-    tree.values += panel.height * static_cast<std::size_t>(panel.columns);
+    panel.values = &first == &panel ? tree.values : first.values;
+    if (&first == &panel) tree.values += panel.height * static_cast<std::size_t>(panel.columns);
   }
 }
 

@@ -27,6 +27,8 @@ struct Panel {
   std::size_t at, height;  ///< Among the rows of all panels: their own, then those below.
   std::size_t values;      ///< Before its own, in all panels.
   int parent = -1;         ///< The panel of the first row below.
+  int child = -1;          ///< The first panel of those it is the parent of,
+  int sibling = -1;        ///< and the next one after itself.
   int like = -1;           ///< The first panel of those that share their values.
 };
 
@@ -34,18 +36,23 @@ struct Panel {
 struct EliminationTree {
   std::vector<int> place;  ///< Of each row, in the order of elimination.
   std::vector<Panel> panels;
-  std::vector<int> rows;   ///< Of all panels, by their places; those below in the matrix's order.
+  std::vector<int> rows;   ///< Of all panels, by their places.
   std::size_t values = 0;  ///< Of all panels.
 
   [[nodiscard]] std::span<const int> rows_of(const Panel& panel) const {
     return std::span(rows).subspan(panel.at, panel.height);
   }
-  [[nodiscard]] const Panel* parent_of(const Panel& panel) const {
-    return panel.parent < 0 ? nullptr : &panels[static_cast<std::size_t>(panel.parent)];
+  [[nodiscard]] std::span<const int> below(const Panel& panel) const {
+    return rows_of(panel).subspan(static_cast<std::size_t>(panel.columns));
+  }
+  [[nodiscard]] const Panel* parent_of(const Panel& panel) const { return at(panel.parent); }
+  /// Of those that share their values.
+  [[nodiscard]] bool is_first(const Panel& panel) const { return at(panel.like) == &panel; }
+  /// None where there is no such panel.
+  [[nodiscard]] const Panel* at(int panel) const {
+    return panel < 0 ? nullptr : &panels[static_cast<std::size_t>(panel)];
   }
   [[nodiscard]] const Panel& panel_of(int column) const;
-  /// Of each panel, in their order.
-  [[nodiscard]] std::vector<std::vector<int>> children() const;
 };
 
 /// @param lower  as above
@@ -53,7 +60,8 @@ struct EliminationTree {
 EliminationTree elimination_tree(const Eigen::SparseMatrix<double>& lower, std::vector<int> order);
 
 /// Lets panels share their values where these come out the same bit for bit: they have the same
-/// entries, and so have all that are eliminated before them and feel them.
+/// entries, and so have all that are eliminated before them and feel them. For that, rows below a
+/// panel's own take the order of the matrix.
 /// @param matrix  lower triangle, its rows in the order of elimination
 void share_values(EliminationTree& tree, const Eigen::SparseMatrix<double>& matrix);
 

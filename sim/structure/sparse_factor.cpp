@@ -1,7 +1,9 @@
 #include "sim/structure/sparse_factor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <utility>
@@ -18,18 +20,73 @@ using Eigen::VectorXd;
 
 namespace {
 
-// What a child takes from the rows of its parent, and from those below that.
-// @param where  each of these rows is
-void add(const MatrixXd& taken, const std::vector<Index>& where, Eigen::Ref<MatrixXd> own,
-         MatrixXd& below) {
-  for (Index j = 0; j < taken.cols(); ++j)
-    for (Index i = j; i < taken.rows(); ++i) {
-      const auto [column, row] =
-          std::minmax(where[static_cast<std::size_t>(i)], where[static_cast<std::size_t>(j)]);
-      (column < own.cols() ? own(row, column) : below(row - own.cols(), column - own.cols())) +=
-          taken(i, j);
+// What panels take from rows below them, one for those that share their values, until the last
+// parent has added it.
+class Fronts {
+ public:
+  explicit Fronts(const EliminationTree& tree)
+      : tree_(tree),
+        where_(tree.place.size()),
+        fronts_(tree.panels.size()),
+        awaited_(tree.panels.size(), 0) {
+    for (const Panel& panel : tree.panels)
+      if (const Panel* parent = tree.parent_of(panel); parent != nullptr && tree.is_first(*parent))
+        ++awaited_[static_cast<std::size_t>(panel.like)];
+  }
+
+  /// The entries of a panel and what its children take from its rows.
+  /// @return what they take from those below, lower triangle
+  MatrixXd assemble(const Panel& panel, const Eigen::SparseMatrix<double>& matrix,
+                    Eigen::Ref<MatrixXd> own) {
+    Index height = 0;
+    for (const int row : tree_.rows_of(panel)) where_[static_cast<std::size_t>(row)] = height++;
+    for (Index j = 0; j < own.cols(); ++j)
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, panel.first + j); entry;
+           ++entry)
+        own(where_[static_cast<std::size_t>(entry.row())], j) = entry.value();
+    MatrixXd below = MatrixXd::Zero(height - own.cols(), height - own.cols());
+    for (const Panel* child = tree_.at(panel.child); child; child = tree_.at(child->sibling)) {
+      const auto first = static_cast<std::size_t>(child->like);
+      add(fronts_[first], places_of(*child), own, below);
+      if (--awaited_[first] == 0) fronts_[first].resize(0, 0);
     }
-}
+    return below;
+  }
+  void keep(const Panel& panel, MatrixXd front) {
+    const auto first = static_cast<std::size_t>(panel.like);
+    if (awaited_[first] > 0) fronts_[first] = std::move(front);
+  }
+
+ private:
+  using Places = std::vector<std::array<Index, 2>>;  // in a parent and in its child, in order
+
+  // Of the rows below a child's own.
+  const Places& places_of(const Panel& child) {
+    places_.clear();
+    for (const int row : tree_.below(child))
+      places_.push_back({where_[static_cast<std::size_t>(row)], std::ssize(places_)});
+    std::ranges::sort(places_);
+    return places_;
+  }
+  static void add(const MatrixXd& taken, const Places& places, Eigen::Ref<MatrixXd> own,
+                  MatrixXd& below) {
+    for (auto place = places.begin(); place != places.end(); ++place) {
+      const auto [column, j] = *place;
+      double* const to =
+          column < own.cols() ? &own(0, column) : &below(0, column - own.cols()) - own.cols();
+      for (auto lower = place; lower != places.end(); ++lower) {
+        const auto [row, i] = *lower;
+        to[row] += taken(std::max(i, j), std::min(i, j));
+      }
+    }
+  }
+
+  const EliminationTree& tree_;
+  std::vector<Index> where_;  // rows are in the panel that was assembled last
+  Places places_;
+  std::vector<MatrixXd> fronts_;
+  std::vector<int> awaited_;  // parents
+};
 
 template <class Scalar>
 using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
@@ -96,41 +153,15 @@ SparseFactor::SparseFactor(const Eigen::SparseMatrix<double>& lower, Index multi
 // Multifrontal: a panel is complete when its children have handed on what they take from it.
 bool SparseFactor::factorise(const Eigen::SparseMatrix<double>& matrix, const VectorXd& sign,
                              double least_pivot) {
-  const std::vector<std::vector<int>> children = tree_.children();
-  std::vector<MatrixXd> fronts(tree_.panels.size());  // what panels take from rows below them
-  std::vector<int> awaited(tree_.panels.size(), 0);   // the parents that still need it
-  for (std::size_t p = 0; p < children.size(); ++p)
-    if (tree_.panels[p].like == static_cast<int>(p))
-      for (const int child : children[p])
-        ++awaited[static_cast<std::size_t>(tree_.panels[static_cast<std::size_t>(child)].like)];
-
-  std::vector<Index> where(tree_.place.size()), on;
-  for (std::size_t p = 0; p < children.size(); ++p) {
-    const Panel& panel = tree_.panels[p];
-    const auto height = static_cast<Index>(panel.height), columns = static_cast<Index>(panel.columns);
-    Eigen::Map<MatrixXd> own(values_.data() + panel.values, height, columns);
-    if (panel.like == static_cast<int>(p)) {
-      Index next = 0;
-      for (const int row : tree_.rows_of(panel)) where[static_cast<std::size_t>(row)] = next++;
-      for (Index j = 0; j < columns; ++j)
-        for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, panel.first + j); entry;
-             ++entry)
-          own(where[static_cast<std::size_t>(entry.row())], j) = entry.value();
-      MatrixXd below = MatrixXd::Zero(height - columns, height - columns);
-      for (const int c : children[p]) {
-        const Panel& child = tree_.panels[static_cast<std::size_t>(c)];
-        const auto kind = static_cast<std::size_t>(child.like);
-        on.clear();
-        for (const int row : tree_.rows_of(child).subspan(static_cast<std::size_t>(child.columns)))
-          on.push_back(where[static_cast<std::size_t>(row)]);
-        add(fronts[kind], on, own, below);
-        if (--awaited[kind] == 0) fronts[kind].resize(0, 0);
-      }
+  Fronts fronts(tree_);
+  for (const Panel& panel : tree_.panels) {
+    Eigen::Map<MatrixXd> own(values_.data() + panel.values, static_cast<Index>(panel.height),
+                             panel.columns);
+    if (tree_.is_first(panel)) {
+      MatrixXd below = fronts.assemble(panel, matrix, own);
       factorise_panel(own);
-      if (awaited[p] > 0) {
-        take_panel_from(below, own);
-        fronts[p] = std::move(below);
-      }
+      take_panel_from(below, own);
+      fronts.keep(panel, std::move(below));
     }
     const auto pivots = own.diagonal().array();
     const auto signs = sign.segment(panel.first, panel.columns).array();

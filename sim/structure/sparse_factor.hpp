@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -59,6 +60,8 @@ class SparseFactor {
 
   [[nodiscard]] Eigen::Index rows() const { return static_cast<Eigen::Index>(tree_.place.size()); }
   [[nodiscard]] long nonzeros() const;  ///< Of L.
+  /// That are kept, zeros of panels included.
+  [[nodiscard]] std::size_t values() const { return values_.size(); }
 
  private:
   friend class SinglePrecisionFactor;

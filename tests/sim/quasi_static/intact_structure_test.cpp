@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "tests/support/scenes.hpp"
 
 namespace havers::sim {
@@ -56,6 +58,20 @@ TEST(IntactStructure, OfALargeWallFillsLessWhereBodiesAreHalved) {
   EXPECT_LT(intact->structure().factor().nonzeros(), 78 * intact->structure().factor().rows());
   EXPECT_LT(intact->answer().residual, 1e-12);
   EXPECT_NEAR(intact->answer().force / intact->assembly().height, 1.0, 1e-9);
+}
+
+TEST(IntactStructure, OfALargeWallKeepsWhatRepeatsItselfOnce) {
+  for (const auto& [degrees, part] : {std::pair{0.0, 0.5}, {30.0, 0.8}, {90.0, 0.8}}) {
+    SCOPED_TRACE(degrees);
+    Scene scene = test::small_scene(degrees, 70, 50);
+    const auto intact = intact_structure(scene);
+    scene.solver.leave_out = false;
+    const auto all = intact_structure(scene);
+    EXPECT_LT(static_cast<double>(intact->structure().factor().values()),
+              part * static_cast<double>(all->structure().factor().values()));
+    EXPECT_LT((intact->answer().reactions - all->answer().reactions).norm(),
+              1e-9 * all->answer().reactions.norm());
+  }
 }
 
 TEST(IntactStructure, RemembersWhatItWasAsked) {
