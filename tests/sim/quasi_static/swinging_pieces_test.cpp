@@ -1,6 +1,7 @@
 // Quasi-static runs at whose end pieces swing by much more than the specimen stretches.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -103,11 +104,12 @@ Scene nearly_severed(double missing) {
   return scene;
 }
 
-// No way solves an event of some of these walls, one in thousands.
+// No way solves an event of some of these walls, two in a thousand.
 TEST(SwingingPieces, EndInTheLastRowWhereAnEventIsNotSolved) {
-  Scene scene = nearly_severed(0.5);
+  Scene scene = nearly_severed(0.3);
+  scene.joints.friction = 0.3;
   int unsolved = 0;
-  for (scene.joints.seed = 3601; scene.joints.seed <= 9000 && unsolved == 0; ++scene.joints.seed) {
+  for (scene.joints.seed = 301; scene.joints.seed <= 6000 && unsolved == 0; ++scene.joints.seed) {
     std::vector<JointOutcome> last;
     double strain = 0.0;
     const Simulation simulation = simulate(scene, [&](const Progress& progress) {
@@ -123,7 +125,9 @@ TEST(SwingingPieces, EndInTheLastRowWhereAnEventIsNotSolved) {
     int broken = 0;
     for (std::size_t j = 0; j < last.size(); ++j) {
       const JointOutcome& joint = simulation.joints[j];
-      const double nothing = 1e-6 * joint.threshold.normal;
+      const double nothing =
+          1e-6 * joint.threshold.normal +
+          1e-12 * std::hypot(joint.reaction_normal, joint.reaction_tangent);  // missing ones rub
       broken += joint.broken && !is_missing(joint.threshold) ? 1 : 0;
       EXPECT_EQ(joint.broken, last[j].broken);
       EXPECT_NEAR(joint.reaction_normal, stretched * last[j].reaction_normal, nothing);
