@@ -205,12 +205,16 @@ bool BreakingRun::bears_nothing() const {
 }
 
 // What rounding leaves in a sum grows with its terms. How much that is differs from structure to
-// structure, and is looked at whenever they have grown.
+// structure, and is looked at whenever they have grown. Before that it is less than this part of
+// them over what a joint feels of itself: more, up to 1e-11, in 2 of 800 runs, less than 1e-14 in
+// most.
 bool BreakingRun::may_lose_digits() const {
-  constexpr double grown = 100.0, near = 0.3;
+  constexpr double grown = 100.0, near = 0.3, before = 1e-13;
+  if (!glances_) return true;
   const double summed = this->summed();
-  return !glances_ || summed > grown * summed_ ||
-         lacked_ * summed > near * refined * intact_->answer().reactions.norm() * summed_;
+  const double may_lack = near * refined * intact_->answer().reactions.norm();
+  if (summed_ == 0.0) return !(before * summed <= may_lack * contact_.S.diagonal().minCoeff());
+  return summed > grown * summed_ || lacked_ * summed > may_lack * summed_;
 }
 
 double BreakingRun::summed() const {
