@@ -143,7 +143,7 @@ void share_values(EliminationTree& tree, const Eigen::SparseMatrix<double>& matr
         add(entry.value());
       }
     for (const Panel* child = tree.at(panel.child); child; child = tree.at(child->sibling)) {
-      add(child->like);
+      add(~child->like);  // less than zero, as no entry's column is
       for (const int row : tree.below(*child)) add(where[static_cast<std::size_t>(row)]);
     }
     panel.like = known.try_emplace(key, static_cast<int>(p)).first->second;
