@@ -40,8 +40,8 @@ class Halves {
     const Cell first{layer, column - ((layer + column) & 1)};
     cells_.reserve(assembly.bodies.size());
     for (const Body& body : assembly.bodies)
-      cells_.push_back({(body.layer - first[0]) / cell_size[0],
-                        (body.column - first[1]) / cell_size[1]});
+      cells_.push_back(
+          {(body.layer - first[0]) / cell_size[0], (body.column - first[1]) / cell_size[1]});
   }
 
   // The last to come is cut first.
@@ -95,9 +95,8 @@ class Halves {
     }
     if (least > std::ssize(unknowns)) return 0;
     halve(bodies, across, at);
-    const auto second = std::ranges::stable_partition(bodies, [&](int body) {
-      return second_[static_cast<std::size_t>(body)] == 0;
-    });
+    const auto second = std::ranges::stable_partition(
+        bodies, [&](int body) { return second_[static_cast<std::size_t>(body)] == 0; });
     return bodies.size() - second.size();
   }
 

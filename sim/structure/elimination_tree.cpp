@@ -105,8 +105,7 @@ EliminationTree elimination_tree(const Eigen::SparseMatrix<double>& lower, std::
     const auto below = tree.below(panel);
     if (below.empty()) continue;
     panel.parent = static_cast<int>(&tree.panel_of(below.front()) - tree.panels.data());
-    panel.sibling =
-        std::exchange(tree.panels[static_cast<std::size_t>(panel.parent)].child, p);
+    panel.sibling = std::exchange(tree.panels[static_cast<std::size_t>(panel.parent)].child, p);
   }
   return tree;
 }
@@ -125,11 +124,10 @@ void share_values(EliminationTree& tree, const Eigen::SparseMatrix<double>& matr
   tree.values = 0;
   for (std::size_t p = 0; p < tree.panels.size(); ++p) {
     Panel& panel = tree.panels[p];
-    std::ranges::sort(
-        std::span(tree.rows)
-            .subspan(panel.at, panel.height)
-            .subspan(static_cast<std::size_t>(panel.columns)),
-        {}, [&](int place) { return row_at[static_cast<std::size_t>(place)]; });
+    std::ranges::sort(std::span(tree.rows)
+                          .subspan(panel.at, panel.height)
+                          .subspan(static_cast<std::size_t>(panel.columns)),
+                      {}, [&](int place) { return row_at[static_cast<std::size_t>(place)]; });
     int height = 0;
     for (const int row : tree.rows_of(panel)) where[static_cast<std::size_t>(row)] = height++;
     key.clear();

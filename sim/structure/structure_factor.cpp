@@ -197,13 +197,13 @@ void Structure::factorise() {
   Eigen::SparseMatrix<double> matrix = mixed_form();
   const std::vector<int> order = elimination_order(matrix);
   // Where many joints are loose, hardly anything is like anything else.
-  const bool share = bodies_->shared() && std::ranges::count(held_, Held::fully) == std::ssize(held_);
+  const bool share =
+      bodies_->shared() && std::ranges::count(held_, Held::fully) == std::ssize(held_);
   const auto try_to = [&] {
     std::vector<double> memory;
     if (factor_) memory = std::move(*factor_).memory();
     factor_.emplace(matrix, bodies_->compatibilities(),
-                    Elimination{order, least_pivot / stiffness_, share},
-                    std::move(memory));
+                    Elimination{order, least_pivot / stiffness_, share}, std::move(memory));
     return factor_->ok();
   };
   // A mechanism has nothing but its trace of inertia. The factor may hold it, for the corrections
