@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <iterator>
 #include <numeric>
-#include <ranges>
 #include <span>
 #include <utility>
 
@@ -82,9 +81,10 @@ class Halves {
     int at = 0;
     for (const std::size_t axis : {1U, 0U}) {
       const auto of = [&](int body) { return cells_[static_cast<std::size_t>(body)][axis]; };
-      const auto [low, high] = std::ranges::minmax(bodies | std::views::transform(of));
-      if (low == high) continue;
-      const int beyond = low + cells_cut_off(high - low + 1);
+      const auto [lowest, highest] = std::ranges::minmax(bodies, {}, of);
+      const int low = of(lowest), cells = of(highest) - low + 1;
+      if (cells == 1) continue;
+      const int beyond = low + cells_cut_off(cells);
       halve(bodies, axis, beyond);
       const std::ptrdiff_t crossed =
           std::ranges::count(unknowns, 2U, [&](int unknown) { return side_of(unknown); });
@@ -95,9 +95,10 @@ class Halves {
     }
     if (least > std::ssize(unknowns)) return 0;
     halve(bodies, across, at);
-    const auto second = std::ranges::stable_partition(
-        bodies, [&](int body) { return second_[static_cast<std::size_t>(body)] == 0; });
-    return bodies.size() - second.size();
+    const auto second = std::stable_partition(bodies.begin(), bodies.end(), [&](int body) {
+      return second_[static_cast<std::size_t>(body)] == 0;
+    });
+    return static_cast<std::size_t>(second - bodies.begin());
   }
 
   void halve(std::span<const int> bodies, std::size_t axis, int at) {
