@@ -228,14 +228,7 @@ VectorXd Bodies::port_forces(const VectorXd& p, const VectorXd& a) const {
   for (const BodyClass& group : classes_) {
     const BodyOperator& op = group.op;
     auto forces = ports_in(y, group);
-    const auto moved = ports_in(p, group);
-    if (op.rigid.cols() > 0) {
-      const MatrixXd rigidly = op.rigid.transpose() * moved;
-      forces.noalias() = op.impedance * (moved - op.rigid * rigidly);
-      forces.noalias() += op.inertia * rigidly;
-    } else {
-      forces.noalias() = op.impedance * moved;
-    }
+    forces.noalias() = op.port_forces * ports_in(p, group);
     forces.noalias() += op.compatibility.transpose() * compatibilities_in(a, group);
   }
   return y;

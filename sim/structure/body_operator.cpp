@@ -81,16 +81,17 @@ BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
   body.recovery(free, Eigen::all) = T;
   body.impedance = 0.5 * (Z + Z.transpose());
   body.compatibility = split.impossible;
-  body.rigid = body.inertia = MatrixXd(p, 0);
+  body.port_forces = body.impedance;
   body.inertia_part = shift.alpha * matrices.mass.maxCoeff() / A.diagonal().maxCoeff();
   const MatrixXd motions = motions_left(matrices.motions, held);
   if (body.at_rest() && motions.cols() > 0) {
     const Eigen::ColPivHouseholderQR<MatrixXd> at_ports(ports * motions);
-    body.rigid = MatrixXd(at_ports.householderQ()).leftCols(at_ports.rank());
-    const MatrixXd moved = motions * at_ports.solve(body.rigid);
+    const MatrixXd rigid = MatrixXd(at_ports.householderQ()).leftCols(at_ports.rank());
+    const MatrixXd moved = motions * at_ports.solve(rigid);
     // T moves the ports like that, but the interior lags behind its own inertia.
     const MatrixXd inertia = (shift.alpha * (matrices.mass.asDiagonal() * moved))(free, Eigen::all);
-    body.inertia = T.transpose() * (inertia - A * (G * inertia));
+    body.port_forces += (T.transpose() * (inertia - A * (G * inertia)) - body.impedance * rigid) *
+                        rigid.transpose();
   }
   body.matrices = std::move(matrices);
   body.ports = std::move(ports);
