@@ -228,8 +228,25 @@ VectorXd Bodies::port_forces(const VectorXd& p, const VectorXd& a) const {
   for (const BodyClass& group : classes_) {
     const BodyOperator& op = group.op;
     auto forces = ports_in(y, group);
-    forces.noalias() = op.port_forces * ports_in(p, group);
+    const auto moved = ports_in(p, group);
+    if (op.rigid.cols() > 0) {
+      const MatrixXd rigidly = op.rigid.transpose() * moved;
+      forces.noalias() = op.impedance * (moved - op.rigid * rigidly);
+      forces.noalias() += op.inertia * rigidly;
+    } else {
+      forces.noalias() = op.impedance * moved;
+    }
     forces.noalias() += op.compatibility.transpose() * compatibilities_in(a, group);
+  }
+  return y;
+}
+
+VectorXd Bodies::near_port_forces(const VectorXd& p, const VectorXd& a) const {
+  VectorXd y(p.size());
+  for (const BodyClass& group : classes_) {
+    auto forces = ports_in(y, group);
+    forces.noalias() = group.op.at_once * ports_in(p, group);
+    forces.noalias() += group.op.compatibility.transpose() * compatibilities_in(a, group);
   }
   return y;
 }

@@ -55,6 +55,9 @@ class Bodies {
   /// Z p + Nᵀ a at the ports (S4). [N/m]
   [[nodiscard]] Eigen::VectorXd port_forces(const Eigen::VectorXd& p,
                                             const Eigen::VectorXd& a) const;
+  /// The same in less time and to fewer digits.
+  [[nodiscard]] Eigen::VectorXd near_port_forces(const Eigen::VectorXd& p,
+                                                 const Eigen::VectorXd& a) const;
   [[nodiscard]] Eigen::VectorXd incompatibility(const Eigen::VectorXd& p) const;  ///< N p. [m]
   [[nodiscard]] Eigen::VectorXd compatibility_forces(
       const Eigen::VectorXd& a) const;  ///< Nᵀ a. [N/m]

@@ -81,18 +81,19 @@ BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
   body.recovery(free, Eigen::all) = T;
   body.impedance = 0.5 * (Z + Z.transpose());
   body.compatibility = split.impossible;
-  body.port_forces = body.impedance;
+  body.rigid = body.inertia = MatrixXd(p, 0);
   body.inertia_part = shift.alpha * matrices.mass.maxCoeff() / A.diagonal().maxCoeff();
   const MatrixXd motions = motions_left(matrices.motions, held);
   if (body.at_rest() && motions.cols() > 0) {
     const Eigen::ColPivHouseholderQR<MatrixXd> at_ports(ports * motions);
-    const MatrixXd rigid = MatrixXd(at_ports.householderQ()).leftCols(at_ports.rank());
-    const MatrixXd moved = motions * at_ports.solve(rigid);
+    body.rigid = MatrixXd(at_ports.householderQ()).leftCols(at_ports.rank());
+    const MatrixXd moved = motions * at_ports.solve(body.rigid);
     // T moves the ports like that, but the interior lags behind its own inertia.
     const MatrixXd inertia = (shift.alpha * (matrices.mass.asDiagonal() * moved))(free, Eigen::all);
-    body.port_forces += (T.transpose() * (inertia - A * (G * inertia)) - body.impedance * rigid) *
-                        rigid.transpose();
+    body.inertia = T.transpose() * (inertia - A * (G * inertia));
   }
+  body.at_once =
+      body.impedance + (body.inertia - body.impedance * body.rigid) * body.rigid.transpose();
   body.matrices = std::move(matrices);
   body.ports = std::move(ports);
   return body;

@@ -26,8 +26,11 @@ struct BodyOperator {
   Eigen::MatrixXd compliance;      ///< G, n × n: answer to loads with the ports held. [m²/N]
   Eigen::MatrixXd recovery;        ///< T, n × p: answer to port displacements. [-]
   Eigen::MatrixXd impedance;       ///< Z = TᵀĀT, p × p: port forces. [N/m²]
-  Eigen::MatrixXd port_forces;  ///< Z again, free of rounding in K where inertia is a trace and the
-                                ///< body moves as a whole. [N/m²]
+  Eigen::MatrixXd rigid;    ///< Orthonormal columns, where inertia is a trace: motions as a whole
+                            ///< that the boundary leaves to the body, at its ports. [-]
+  Eigen::MatrixXd inertia;  ///< Z times these, free of rounding in K. [N/m²]
+  Eigen::MatrixXd at_once;  ///< Z with that put in: one product, whose rounding is alike in all
+                            ///< bodies that move alike, and adds up. [N/m²]
   Eigen::MatrixXd compatibility;  ///< N, orthonormal rows: N p = 0 for every p = B δ. [-]
 
   /// Whether the boundary holds some of the degrees of freedom.

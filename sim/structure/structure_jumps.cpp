@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <type_traits>
 
 #include "sim/structure/structure.hpp"
 
@@ -76,8 +77,10 @@ MatrixXd Structure::port_forces_to(const std::vector<SharedJump>& jumps, const M
     for (std::size_t i = 0; i < jumps.size(); ++i)
       for (const std::size_t k : {0U, 1U})
         displacements(port_b(jumps[i]->joint, k)) += y(static_cast<Index>(2 * i + k), c);
-    forces.col(c) =
-        bodies_->port_forces(displacements, unknowns.col(c).tail(bodies_->compatibilities()));
+    const VectorXd multipliers = unknowns.col(c).tail(bodies_->compatibilities());
+    forces.col(c) = std::is_same_v<Factor, SparseFactor>
+                        ? bodies_->port_forces(displacements, multipliers)
+                        : bodies_->near_port_forces(displacements, multipliers);
   }
   return forces;
 }
