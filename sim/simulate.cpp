@@ -79,16 +79,17 @@ std::vector<LeftOut> left_out_by_choice(const Scene& scene, const Simulation& si
       list.push_back({"step_s and contact", "the quasi-static limit has no steps"});
     list.push_back({"inertia and time steps", simulation.regime_ground});
   }
-  if (simulation.regime == Regime::quasi_static ||
-      scene.solver.contact != ContactMethod::gauss_seidel)
+  const bool factorised = simulation.regime == Regime::quasi_static ||
+                          scene.solver.contact != ContactMethod::gauss_seidel;
+  if (factorised)
     list.push_back(
         {"the friction problem of joints inside their cone",
          "they hold, which is a linear condition; contact = \"gauss-seidel\" asks each"});
-  if (scene.solver.leave_out) {
+  if (scene.solver.leave_out)
     list.push_back({"one operator for each body", "equal bodies share theirs"});
+  if (scene.solver.leave_out && factorised)
     list.push_back({"parts of the intact specimen's factor that repeat others",
                     "congruent parts have the same values bit for bit and share them"});
-  }
   return list;
 }
 

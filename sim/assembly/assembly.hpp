@@ -16,7 +16,7 @@ struct Body {
   int first_node = 0, nodes = 0;
   int first_triangle = 0, triangles = 0;
   int layer = 0;   ///< Of the running bond; 0 lies on the lower left corner.
-  int column = 0;  ///< Of its first half fibre, be it left or not: alike in bodies of a layer.
+  int column = 0;  ///< Of its first half fibre, also where the clipping left none of that.
 };
 
 /// An edge between two bodies, bonded at its midpoint. Side a lies where −n points, side b where n

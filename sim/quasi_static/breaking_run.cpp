@@ -45,8 +45,7 @@ BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructu
       reactions_(reference_.reactions),
       force_(reference_.force),
       noise_(1e-10 * intact_->answer().reactions.lpNorm<Eigen::Infinity>()) {
-  const VectorXd& intact_reactions = intact_->answer().reactions;
-  contact_.force_scale = intact_reactions.norm() / std::sqrt(static_cast<double>(joints_.size()));
+  contact_.force_scale = reactions_.norm() / std::sqrt(static_cast<double>(joints_.size()));
 }
 
 bool BreakingRun::take_missing() {

@@ -37,7 +37,7 @@ struct EliminationTree {
   std::vector<int> place;  ///< Of each row, in the order of elimination.
   std::vector<Panel> panels;
   std::vector<int> rows;   ///< Of all panels, by their places.
-  std::size_t values = 0;  ///< Of all panels.
+  std::size_t values = 0;  ///< Of all panels, once of those that share them.
 
   [[nodiscard]] std::span<const int> rows_of(const Panel& panel) const {
     return std::span(rows).subspan(panel.at, panel.height);

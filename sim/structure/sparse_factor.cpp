@@ -4,7 +4,6 @@
 #include <array>
 #include <cassert>
 #include <iterator>
-#include <memory>
 #include <span>
 #include <utility>
 

@@ -69,7 +69,7 @@ class SparseFactor {
                                const Eigen::VectorXd& sign, double least_pivot);
 
   EliminationTree tree_;
-  std::vector<double> values_;  // of all panels
+  std::vector<double> values_;  // of all panels, once of those that share them
   Eigen::VectorXd inverse_pivots_;
   bool ok_ = false;
 };

@@ -20,7 +20,7 @@ class DissectionAt : public testing::TestWithParam<double> {};
 
 // The last cut leaves two parts, one of them at most twice the other, and is about as short as the
 // wall is wide.
-TEST_P(DissectionAt, HalvesAWall) {
+TEST_P(DissectionAt, PartsAWall) {
   const Scene scene = test::small_scene(GetParam(), 20, 30);
   const Assembly assembly = build_assembly(scene.assembly, Lateral::free);
   const std::vector<int> part = dissection(assembly, bodies_of_joints(assembly));

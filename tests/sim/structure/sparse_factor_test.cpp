@@ -113,8 +113,7 @@ TEST(SparseFactor, SolvesWithPanelsOfAnyWidth) {
   }
 }
 
-// Grids that meet in their last rows and a multiplier, the rows of each other one in another place
-// among all rows.
+// Grids whose last rows meet in a stem, which a multiplier holds.
 Eigen::SparseMatrix<double> bunch_of_grids(int grids, int side, double first_entry) {
   std::vector<Eigen::Triplet<double>> entries;
   const int rows = side * side, stem = grids * rows;
@@ -139,8 +138,9 @@ Eigen::SparseMatrix<double> bunch_of_grids(int grids, int side, double first_ent
   return matrix;
 }
 
-// The same bit for bit as if each had been computed. An entry that differs in its last digit is not
-// the same, and neither is what it is handed on to.
+// The same but for rounding as if each had been computed. An entry that differs in its last digit
+// is not the same, and neither is what it is handed on to. The stem is eliminated against the order
+// of its rows, in which those below the grids' panels are kept.
 TEST(SparseFactor, KeepsOnceWhatRepeatsItself) {
   constexpr int grids = 5, side = 6;
   std::size_t kept = 0;
@@ -163,6 +163,22 @@ TEST(SparseFactor, KeepsOnceWhatRepeatsItself) {
     const Eigen::MatrixXd dense = Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
     EXPECT_LT((dense * shared.solve(b) - b).norm(), 1e-12 * b.norm());
   }
+}
+
+// The stem is eliminated against the order of its rows, in which panels have those below their own.
+TEST(SparseFactor, FindsWhatRepeatsItselfInAnyOrder) {
+  constexpr int side = 6;
+  const Eigen::SparseMatrix<double> lower = bunch_of_grids(5, side, 4.5);
+  std::vector<int> order(static_cast<std::size_t>(lower.rows()));
+  std::iota(order.begin(), order.end(), 0);
+  const std::size_t in_order = SparseFactor(lower, 1, {order}).values();
+  std::reverse(order.end() - 1 - side, order.end() - 1);
+  const SparseFactor factor(lower, 1, {order});
+  ASSERT_TRUE(factor.ok());
+  EXPECT_EQ(factor.values(), in_order);
+  const Eigen::MatrixXd dense = Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(lower.rows(), 3);
+  EXPECT_LT((dense * factor.solve(b) - b).norm(), 1e-12 * b.norm());
 }
 
 // Of a smaller one, and of one that has left more behind than is needed.
