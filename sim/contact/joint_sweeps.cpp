@@ -112,7 +112,7 @@ double JointSweeps::opening(const TieEquation& tie) const {
   return difference;
 }
 
-bool JointSweeps::sweep(const JointStep& step) {
+bool JointSweeps::sweep(const JointStep& step, double relaxation) {
   bool changed = false;
   for (std::size_t j = 0; j < contacts_.size(); ++j) {
     const Contact& contact = contacts_[j];
@@ -124,7 +124,7 @@ bool JointSweeps::sweep(const JointStep& step) {
     const Local free = old - contact.stiffness * gap;
     const SingleJoint found =
         solve_single_joint(contact.stiffness, free, Local::Zero(), step.laws[j]);
-    const Local now = free + contact.stiffness * found.y;
+    const Local now = old + relaxation * (free + contact.stiffness * found.y - old);
     for (const Index c : {0, 1}) {
       push(contact.body_a, contact.ports[static_cast<std::size_t>(c)], old(c) - now(c));
       push(contact.body_b, contact.ports[static_cast<std::size_t>(2 + c)], now(c) - old(c));

@@ -14,6 +14,10 @@ constexpr int sets_from_answers = 12;  // each answer being where the next sweep
 constexpr int sets_from_sweeps = 8;    // then sweeps go on from where they were, ever longer
 constexpr int most_sweeps = 200;       // between two sets
 constexpr int quiet_sweeps = 10;       // sweeps without a change of state
+// The first sets are of over-relaxed sweeps, which see farther, but not where the nearest answer is
+// looked for: they may pass it by.
+constexpr double over_relaxed = 1.6;
+constexpr int over_relaxed_sets = 6;
 // Where the nearest answer is looked for, the first sweeps are so many times as long, and go on to
 // the second set: what the answer of a set leads to may be another.
 constexpr int patience_for_nearest = 5;
@@ -86,11 +90,11 @@ std::vector<JointState> SetSearch::lawful(const JointStep& step, const JointStep
 }
 
 // Returns the sweeps spent.
-int SetSearch::look_for_states(const JointStep& step, int patience,
+int SetSearch::look_for_states(const JointStep& step, int patience, double relaxation,
                                std::vector<JointState>& states) {
   int quiet = 0, sweep = 0;
   for (; sweep < patience * most_sweeps && quiet < patience * quiet_sweeps; ++sweep)
-    quiet = sweeps_.sweep(step) ? 0 : quiet + 1;
+    quiet = sweeps_.sweep(step, relaxation) ? 0 : quiet + 1;
   states = sweeps_.states();
   return sweep;
 }
@@ -136,7 +140,8 @@ JointStepResult SetSearch::solve(const JointStep& step, bool nearest) {
   int patience = nearest ? patience_for_nearest : 1;
   const int most_sets = sets_from_answers + (nearest ? 0 : sets_from_sweeps);
   for (int set = 0; set < most_sets; ++set) {
-    result.iterations += look_for_states(step, patience, result.states);
+    const double relaxation = nearest || set >= over_relaxed_sets ? 1.0 : over_relaxed;
+    result.iterations += look_for_states(step, patience, relaxation, result.states);
     if (settles_nearby(step, set < sets_by_sweeps_alone ? 0 : most_changes, result) ||
         !structure_->ok())
       break;

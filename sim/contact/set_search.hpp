@@ -27,7 +27,8 @@ class SetSearch {
   bool settles_nearby(const JointStep& step, std::size_t most, JointStepResult& result);
   [[nodiscard]] std::vector<JointState> lawful(const JointStep& step, const JointStepResult& result,
                                                double accuracy) const;
-  int look_for_states(const JointStep& step, int patience, std::vector<JointState>& states);
+  int look_for_states(const JointStep& step, int patience, double relaxation,
+                      std::vector<JointState>& states);
 
   const Bodies* bodies_;
   JointSweeps sweeps_;
