@@ -52,12 +52,13 @@ BreakingRun::Glance BreakingRun::glance() const {
     change = intact_->nearly_reactions_to(loose_.jumps(), moved);
   } else {
     Eigen::VectorXf sum = Eigen::VectorXf::Zero(reactions_.size());
+    VectorXd off_balance(static_cast<Index>(columns_.size()));  // by rounding, of each
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const Local by = moved.segment<2>(static_cast<Index>(2 * i));
       sum.noalias() += columns_[i]->reactions * by.cast<float>();
-      change.off_balance += columns_[i]->off_balance * by.lpNorm<1>();
+      off_balance(static_cast<Index>(i)) = columns_[i]->off_balance * by.lpNorm<1>();
     }
-    change.reactions = sum.cast<double>();
+    change = {sum.cast<double>(), off_balance.norm()};
   }
   Glance found{reactions_ + change.reactions, change.off_balance};
   found.missed =

@@ -223,7 +223,7 @@ VectorXd Bodies::compatibility_forces(const VectorXd& a) const {
   return y;
 }
 
-VectorXd Bodies::port_forces(const VectorXd& p, const VectorXd& a) const {
+VectorXd Bodies::port_forces(const VectorXd& p, const Eigen::Ref<const VectorXd>& a) const {
   VectorXd y(p.size());
   for (const BodyClass& group : classes_) {
     const BodyOperator& op = group.op;
@@ -241,7 +241,7 @@ VectorXd Bodies::port_forces(const VectorXd& p, const VectorXd& a) const {
   return y;
 }
 
-VectorXd Bodies::near_port_forces(const VectorXd& p, const VectorXd& a) const {
+VectorXd Bodies::near_port_forces(const VectorXd& p, const Eigen::Ref<const VectorXd>& a) const {
   VectorXd y(p.size());
   for (const BodyClass& group : classes_) {
     auto forces = ports_in(y, group);

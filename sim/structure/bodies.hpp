@@ -54,10 +54,10 @@ class Bodies {
   [[nodiscard]] Eigen::VectorXd shifted_times(const Eigen::VectorXd& q) const;    ///< Ā q. [N/m]
   /// Z p + Nᵀ a at the ports (S4). [N/m]
   [[nodiscard]] Eigen::VectorXd port_forces(const Eigen::VectorXd& p,
-                                            const Eigen::VectorXd& a) const;
+                                            const Eigen::Ref<const Eigen::VectorXd>& a) const;
   /// The same in less time and to fewer digits.
   [[nodiscard]] Eigen::VectorXd near_port_forces(const Eigen::VectorXd& p,
-                                                 const Eigen::VectorXd& a) const;
+                                                 const Eigen::Ref<const Eigen::VectorXd>& a) const;
   [[nodiscard]] Eigen::VectorXd incompatibility(const Eigen::VectorXd& p) const;  ///< N p. [m]
   [[nodiscard]] Eigen::VectorXd compatibility_forces(
       const Eigen::VectorXd& a) const;  ///< Nᵀ a. [N/m]

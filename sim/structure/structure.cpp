@@ -77,7 +77,7 @@ MatrixXd Structure::stiffened(const BodyOperator& op) const {
   return op.impedance + stiffness_ * op.compatibility.transpose() * op.compatibility;
 }
 
-VectorXd Structure::unknowns_to_ports(const VectorXd& unknowns) const {
+VectorXd Structure::unknowns_to_ports(const Eigen::Ref<const VectorXd>& unknowns) const {
   VectorXd p(ports());
   for (Index i = 0; i < p.size(); ++i)
     p(i) = unknowns(unknowns_of_port_[static_cast<std::size_t>(i)][0]);

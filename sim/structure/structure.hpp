@@ -123,7 +123,8 @@ class Structure {
     return bodies_->ends()[2 * static_cast<std::size_t>(joint) + component][1];
   }
   [[nodiscard]] Eigen::MatrixXd stiffened(const BodyOperator& op) const;
-  [[nodiscard]] Eigen::VectorXd unknowns_to_ports(const Eigen::VectorXd& unknowns) const;
+  [[nodiscard]] Eigen::VectorXd unknowns_to_ports(
+      const Eigen::Ref<const Eigen::VectorXd>& unknowns) const;
   [[nodiscard]] Eigen::VectorXd as_held(const Eigen::VectorXd& displacements) const;
   [[nodiscard]] Eigen::VectorXd ports_to_unknowns(const Eigen::VectorXd& forces) const;
   [[nodiscard]] Eigen::VectorXd reactions_of(const Eigen::VectorXd& port_forces) const;

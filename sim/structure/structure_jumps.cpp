@@ -77,7 +77,7 @@ MatrixXd Structure::port_forces_to(const std::vector<SharedJump>& jumps, const M
     for (std::size_t i = 0; i < jumps.size(); ++i)
       for (const std::size_t k : {0U, 1U})
         displacements(port_b(jumps[i]->joint, k)) += y(static_cast<Index>(2 * i + k), c);
-    const VectorXd multipliers = unknowns.col(c).tail(bodies_->compatibilities());
+    const auto multipliers = unknowns.col(c).tail(bodies_->compatibilities());
     forces.col(c) = std::is_same_v<Factor, SparseFactor>
                         ? bodies_->port_forces(displacements, multipliers)
                         : bodies_->near_port_forces(displacements, multipliers);
