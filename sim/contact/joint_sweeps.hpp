@@ -18,8 +18,7 @@ class JointSweeps {
   /// Starts from given reactions of the joints and forces of the ties, if any. [N/m]
   void start(const JointStep& step, Eigen::VectorXd reactions, const Eigen::VectorXd& tie_forces);
   /// One sweep; returns whether a joint's state changed.
-  /// @param relaxation  part of a joint's change that is made, below 2; more than 1: over-relaxed
-  /// [-]
+  /// @param relaxation  of a joint's change what is made, below 2; above 1: over-relaxed [-]
   bool sweep(const JointStep& step, double relaxation = 1.0);
 
   [[nodiscard]] const Eigen::VectorXd& reactions() const { return reactions_; }  ///< [N/m]

@@ -14,16 +14,15 @@ constexpr int sets_from_answers = 12;  // each answer being where the next sweep
 constexpr int sets_from_sweeps = 8;    // then sweeps go on from where they were, ever longer
 constexpr int most_sweeps = 200;       // between two sets
 constexpr int quiet_sweeps = 10;       // sweeps without a change of state
-// The first sets are of over-relaxed sweeps, which see farther, but not where the nearest answer is
-// looked for: they may pass it by.
-constexpr double over_relaxed = 1.6;
-constexpr int over_relaxed_sets = 6;
 // Where the nearest answer is looked for, the first sweeps are so many times as long, and go on to
 // the second set: what the answer of a set leads to may be another.
 constexpr int patience_for_nearest = 5;
 // From the seventh set on answers say themselves what is next, if that is so little.
 constexpr int sets_by_sweeps_alone = 6;
 constexpr std::size_t most_changes = 50;
+// Before it sweeps are over-relaxed and see farther, but not where the nearest answer is looked
+// for: they may pass it by.
+constexpr double over_relaxed = 1.6;
 // Part of the reactions that an answer may err by, where it breaks a law by more.
 constexpr double rough = 1e-4;
 constexpr double useful = 0.1;  // to start from, likewise
@@ -140,10 +139,10 @@ JointStepResult SetSearch::solve(const JointStep& step, bool nearest) {
   int patience = nearest ? patience_for_nearest : 1;
   const int most_sets = sets_from_answers + (nearest ? 0 : sets_from_sweeps);
   for (int set = 0; set < most_sets; ++set) {
-    const double relaxation = nearest || set >= over_relaxed_sets ? 1.0 : over_relaxed;
+    const bool by_sweeps_alone = set < sets_by_sweeps_alone;
+    const double relaxation = by_sweeps_alone && !nearest ? over_relaxed : 1.0;
     result.iterations += look_for_states(step, patience, relaxation, result.states);
-    if (settles_nearby(step, set < sets_by_sweeps_alone ? 0 : most_changes, result) ||
-        !structure_->ok())
+    if (settles_nearby(step, by_sweeps_alone ? 0 : most_changes, result) || !structure_->ok())
       break;
     const bool go_on = (nearest && set == 0) || set >= sets_from_answers;
     if (!go_on) sweeps_.start(step, last_.reactions, last_.tie_forces);
