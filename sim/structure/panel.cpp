@@ -6,7 +6,6 @@ namespace havers::sim {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::MatrixXf;
 using Eigen::Ref;
 
 namespace {
@@ -29,14 +28,13 @@ void eliminate(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd>& x) 
 
 // The sums of all columns and loads side by side, as many terms of each at a time as a register of
 // 16 bytes holds.
-template <Index columns, Index loads, class Panel, class Loads>
-void substitute(const Panel& panel, Index first, Index load, Loads& x) {
-  using Scalar = typename Panel::Scalar;
-  constexpr Index terms = 16 / sizeof(Scalar);
-  using Terms = Eigen::Map<const Eigen::Vector<Scalar, terms>>;
-  const auto of = panel.template middleCols<columns>(first);
-  auto known = x.template middleCols<loads>(load);
-  Eigen::Matrix<Scalar, terms, columns * loads> sums;
+template <Index columns, Index loads>
+void substitute(const Ref<const MatrixXd>& panel, Index first, Index load, Ref<MatrixXd>& x) {
+  constexpr Index terms = 2;
+  using Terms = Eigen::Map<const Eigen::Vector2d>;
+  const auto of = panel.middleCols<columns>(first);
+  auto known = x.middleCols<loads>(load);
+  Eigen::Matrix<double, terms, columns * loads> sums;
   sums.setZero();
   Index i = first + columns;
   for (; i + terms <= panel.rows(); i += terms)
@@ -45,7 +43,7 @@ void substitute(const Panel& panel, Index first, Index load, Loads& x) {
         sums.col(j + columns * c) +=
             Terms(&of.coeffRef(i, j)).cwiseProduct(Terms(&known.coeffRef(i, c)));
   for (Index c = 0; c < loads; ++c) {
-    Eigen::Vector<Scalar, columns> own = known.col(c).template segment<columns>(first);
+    Eigen::Vector<double, columns> own = known.col(c).template segment<columns>(first);
     own -= sums.template middleCols<columns>(columns * c).colwise().sum().transpose();
     for (Index rest = i; rest < panel.rows(); ++rest)
       own -= of.row(rest).transpose() * known(rest, c);
@@ -55,18 +53,11 @@ void substitute(const Panel& panel, Index first, Index load, Loads& x) {
   }
 }
 
-template <Index columns, class Panel, class Loads>
-void substitute_all(const Panel& panel, Index first, Loads& x) {
+template <Index columns>
+void substitute_all(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd>& x) {
   Index c = 0;
   for (; c + 2 <= x.cols(); c += 2) substitute<columns, 2>(panel, first, c, x);
   if (c < x.cols()) substitute<columns, 1>(panel, first, c, x);
-}
-
-template <class Panel, class Loads>
-void substitute_columns(const Panel& panel, Loads& x) {
-  Index first = panel.cols();
-  for (; first % 4 != 0; --first) substitute_all<1>(panel, first - 1, x);
-  for (; first > 0; first -= 4) substitute_all<4>(panel, first - 4, x);
 }
 
 }  // namespace
@@ -101,11 +92,9 @@ void eliminate_panel(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd
 }
 
 void substitute_panel(const Ref<const MatrixXd>& panel, Ref<MatrixXd> x) {
-  substitute_columns(panel, x);
-}
-
-void substitute_panel(const Ref<const MatrixXf>& panel, Ref<MatrixXf> x) {
-  substitute_columns(panel, x);
+  Index first = panel.cols();
+  for (; first % 4 != 0; --first) substitute_all<1>(panel, first - 1, x);
+  for (; first > 0; first -= 4) substitute_all<4>(panel, first - 4, x);
 }
 
 }  // namespace havers::sim

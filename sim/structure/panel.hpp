@@ -23,7 +23,5 @@ void eliminate_panel(const Eigen::Ref<const Eigen::MatrixXd>& panel, Eigen::Inde
 /// x ← L⁻ᵀ x on the rows of a panel; those below its own are known.
 void substitute_panel(const Eigen::Ref<const Eigen::MatrixXd>& panel,
                       Eigen::Ref<Eigen::MatrixXd> x);
-void substitute_panel(const Eigen::Ref<const Eigen::MatrixXf>& panel,
-                      Eigen::Ref<Eigen::MatrixXf> x);
 
 }  // namespace havers::sim

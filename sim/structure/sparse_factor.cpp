@@ -14,7 +14,6 @@ namespace havers::sim {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::MatrixXf;
 using Eigen::VectorXd;
 
 namespace {
@@ -87,42 +86,35 @@ class Fronts {
   std::vector<int> awaited_;  // parents
 };
 
-template <class Scalar>
-using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-
-template <class Scalar>
-Eigen::Map<const Matrix<Scalar>> values_of(const Panel& panel, const std::vector<Scalar>& values) {
+Eigen::Map<const MatrixXd> values_of(const Panel& panel, const std::vector<double>& values) {
   return {values.data() + panel.values, static_cast<Index>(panel.height), panel.columns};
 }
 
 // Values that should be on their way while the panel before is worked on: none where the factor
 // stays in the caches near a core.
-template <class Scalar>
-std::span<const Scalar> soon_needed(const Panel* panel, const std::vector<Scalar>& values) {
+std::span<const double> soon_needed(const Panel* panel, const std::vector<double>& values) {
   constexpr std::size_t in_cache = std::size_t{1} << 22U, at_most = 65536;  // bytes
-  if (panel == nullptr || values.size() <= in_cache / sizeof(Scalar)) return {};
+  if (panel == nullptr || values.size() <= in_cache / sizeof(double)) return {};
   const std::size_t count = panel->height * static_cast<std::size_t>(panel->columns);
-  return std::span(values).subspan(panel->values, std::min(count, at_most / sizeof(Scalar)));
+  return std::span(values).subspan(panel->values, std::min(count, at_most / sizeof(double)));
 }
 
 // Rows of a panel, while the values of the next one are asked for.
-template <class Scalar>
-void gather(std::span<const int> rows, std::span<const Scalar> next, const Matrix<Scalar>& x,
-            Eigen::Ref<Matrix<Scalar>> part) {
-  constexpr std::size_t in_a_line = 64 / sizeof(Scalar);
+void gather(std::span<const int> rows, std::span<const double> next, const MatrixXd& x,
+            Eigen::Ref<MatrixXd> part) {
+  constexpr std::size_t in_a_line = 64 / sizeof(double);
   for (std::size_t i = 0; i < next.size(); i += in_a_line) __builtin_prefetch(&next[i]);
   part = x(rows, Eigen::all);
 }
 
 // x ← L⁻ᵀ x.
-template <class Scalar>
-void substitute_panels(const EliminationTree& tree, const std::vector<Scalar>& values,
-                       Matrix<Scalar>& x) {
-  Matrix<Scalar> work(x.rows(), x.cols());
+void substitute_panels(const EliminationTree& tree, const std::vector<double>& values,
+                       MatrixXd& x) {
+  MatrixXd work(x.rows(), x.cols());
   for (auto panel = tree.panels.rbegin(); panel != tree.panels.rend(); ++panel) {
     const Panel* const next = &*panel == &tree.panels.front() ? nullptr : &*panel - 1;
     auto part = work.topRows(static_cast<Index>(panel->height));
-    gather<Scalar>(tree.rows_of(*panel), soon_needed(next, values), x, part);
+    gather(tree.rows_of(*panel), soon_needed(next, values), x, part);
     substitute_panel(values_of(*panel, values), part);
     x.middleRows(panel->first, panel->columns) = part.topRows(panel->columns);
   }
@@ -178,7 +170,7 @@ MatrixXd SparseFactor::solve(const Eigen::Ref<const MatrixXd>& b) const {
     if (x.middleRows(panel.first, panel.columns).isZero(0.0)) continue;
     auto part = work.topRows(static_cast<Index>(panel.height));
     const Panel* const next = &panel == &tree_.panels.back() ? nullptr : &panel + 1;
-    gather<double>(tree_.rows_of(panel), soon_needed(next, values_), x, part);
+    gather(tree_.rows_of(panel), soon_needed(next, values_), x, part);
     eliminate_panel(values_of(panel, values_), 0, part);
     x(tree_.rows_of(panel), Eigen::all) = part;
   }
@@ -205,7 +197,7 @@ Eliminated SparseFactor::eliminate(std::vector<int> rows, const Eigen::MatrixX2d
   for (const Panel* panel = &tree_.panel_of(first); panel != nullptr; panel = next) {
     next = tree_.parent_of(*panel);
     auto part = work.topRows(static_cast<Index>(panel->height));
-    gather<double>(tree_.rows_of(*panel), soon_needed(next, values_), x, part);
+    gather(tree_.rows_of(*panel), soon_needed(next, values_), x, part);
     const int begin = std::max(panel->first, first);
     eliminate_panel(values_of(*panel, values_), begin - panel->first, part);
     x(tree_.rows_of(*panel), Eigen::all) = part;
@@ -241,18 +233,6 @@ long SparseFactor::nonzeros() const {
     sum +=
         panel.columns * static_cast<long>(panel.height) - panel.columns * (panel.columns - 1L) / 2;
   return sum;
-}
-
-SinglePrecisionFactor::SinglePrecisionFactor(const SparseFactor& factor) : factor_(&factor) {
-  values_.reserve(factor.values_.size());
-  ask_for_large_pages(values_.data(), factor.values_.size() * sizeof(float));
-  values_.assign(factor.values_.begin(), factor.values_.end());
-}
-
-MatrixXd SinglePrecisionFactor::complete(const MatrixXd& x) const {
-  MatrixXf all = (factor_->inverse_pivots_.asDiagonal() * x).cast<float>();
-  substitute_panels(factor_->tree_, values_, all);
-  return all(factor_->tree_.place, Eigen::all).cast<double>();
 }
 
 }  // namespace havers::sim

@@ -74,18 +74,4 @@ class SparseFactor {
   bool ok_ = false;
 };
 
-/// A copy in single precision, for second halves of solves: what takes the time of these in a large
-/// factor is to read it.
-class SinglePrecisionFactor {
- public:
-  /// @param factor  outlives this
-  explicit SinglePrecisionFactor(const SparseFactor& factor);
-  /// As SparseFactor::complete does, to six digits or so of the largest entries.
-  [[nodiscard]] Eigen::MatrixXd complete(const Eigen::MatrixXd& x) const;
-
- private:
-  const SparseFactor* factor_;
-  std::vector<float> values_;  // of all panels
-};
-
 }  // namespace havers::sim

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/structure/bodies.hpp"
+#include "sim/structure/single_precision_factor.hpp"
 #include "sim/structure/sparse_factor.hpp"
 
 namespace havers::sim {

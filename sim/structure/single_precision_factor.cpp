@@ -1,0 +1,159 @@
+#include "sim/structure/single_precision_factor.hpp"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "sim/memory.hpp"
+
+namespace havers::sim {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Eigen::VectorXf;
+
+namespace {
+
+constexpr int widest = 16;
+
+constexpr int width_of(int columns) {
+  return columns > 8 ? widest : columns > 4 ? 8 : 4;
+}
+
+// The width of a strip as a constant.
+template <class Call>
+void with_width(int columns, Call call) {
+  if (columns > 8)
+    call(std::integral_constant<int, widest>());
+  else if (columns > 4)
+    call(std::integral_constant<int, 8>());
+  else
+    call(std::integral_constant<int, 4>());
+}
+
+template <int width>
+using Row = Eigen::Array<float, width, 1>;
+
+template <int width>
+Eigen::Map<const Row<width>, Eigen::Aligned16> row(const float* values, int i) {
+  return Eigen::Map<const Row<width>, Eigen::Aligned16>(values + i * width);
+}
+
+// Of all rows, weighted. In two parts, as an addition waits for the one before it.
+template <int width, class Weight>
+Row<width> sum_of_rows(const float* values, int rows, const Weight& weight) {
+  Row<width> even = Row<width>::Zero(), odd = Row<width>::Zero();
+  int i = 0;
+  for (; i + 2 <= rows; i += 2) {
+    even += weight(i) * row<width>(values, i);
+    odd += weight(i + 1) * row<width>(values, i + 1);
+  }
+  if (i < rows) even += weight(i) * row<width>(values, i);
+  return even + odd;
+}
+
+}  // namespace
+
+SinglePrecisionFactor::SinglePrecisionFactor(const SparseFactor& factor) : factor_(&factor) {
+  const EliminationTree& tree = factor.tree_;
+  std::size_t size = 0;
+  std::vector<std::size_t> first_strip, values(tree.panels.size());  // of each panel
+  for (const Panel& panel : tree.panels) {
+    first_strip.push_back(strips_.size());
+    const bool is_first = tree.is_first(panel);
+    const auto like = static_cast<std::size_t>(panel.like);
+    if (is_first) values[like] = size;
+    std::size_t at = values[like];
+    for (int first = 0, columns = 0; first < panel.columns; first += columns) {
+      const int left = panel.columns - first;
+      columns = left > 12 ? std::min(left, widest) : std::min(left, 8);
+      const auto before = static_cast<std::size_t>(first);
+      const auto height = panel.height - before;
+      strips_.push_back({panel.at + before, static_cast<int>(height), columns, at});
+      at += height * static_cast<std::size_t>(width_of(columns));
+    }
+    if (is_first) size = at;
+  }
+  values_.reserve(size);
+  ask_for_large_pages(values_.data(), size * sizeof(float));
+  values_.assign(size, 0.0F);
+  for (std::size_t p = 0; p < tree.panels.size(); ++p)
+    if (tree.is_first(tree.panels[p])) copy(tree.panels[p], first_strip[p]);
+}
+
+void SinglePrecisionFactor::copy(const Panel& panel, std::size_t first_strip) {
+  const auto height = static_cast<Index>(panel.height);
+  const Eigen::Map<const MatrixXd> from(factor_->values_.data() + panel.values, height,
+                                        panel.columns);
+  for (Index first = 0; first < panel.columns; ++first_strip) {
+    const Strip& strip = strips_[first_strip];
+    const Index columns = strip.columns;
+    Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to(
+        values_.data() + strip.values, strip.height, width_of(strip.columns));
+    to.topLeftCorner(columns, columns) = from.block(first, first, columns, columns)
+                                             .triangularView<Eigen::UnitLower>()
+                                             .solve(MatrixXd::Identity(columns, columns))
+                                             .cast<float>();
+    first += columns;
+    to.bottomRows(strip.height - columns).leftCols(columns) =
+        from.bottomRows(height - first).middleCols(first - columns, columns).cast<float>();
+  }
+}
+
+// x ← L⁻¹ x.
+void SinglePrecisionFactor::eliminate(VectorXf& x) const {
+  for (const Strip& strip : strips_)
+    with_width(strip.columns, [&](auto width) {
+      const float* const values = values_.data() + strip.values;
+      const int* const rows = factor_->tree_.rows.data() + strip.rows;
+      auto own = x.segment(*rows, strip.columns).array();
+      Row<width> known = Row<width>::Zero();
+      known.head(strip.columns) = own;
+      for (int i = 0; i < strip.columns; ++i) own(i) = (row<width>(values, i) * known).sum();
+      known.head(strip.columns) = own;
+      for (int i = strip.columns; i < strip.height; ++i)
+        x(rows[i]) -= (row<width>(values, i) * known).sum();
+    });
+}
+
+// x ← L⁻ᵀ x.
+void SinglePrecisionFactor::substitute(VectorXf& x) const {
+  for (auto at = strips_.rbegin(); at != strips_.rend(); ++at) {
+    const Strip& strip = *at;
+    with_width(strip.columns, [&](auto width) {
+      const float* const values = values_.data() + strip.values;
+      const int* const rows = factor_->tree_.rows.data() + strip.rows;
+      const int* const below = rows + strip.columns;
+      auto own = x.segment(*rows, strip.columns).array();
+      Row<width> left = Row<width>::Zero();
+      left.head(strip.columns) = own;
+      left -= sum_of_rows<width>(values + strip.columns * width, strip.height - strip.columns,
+                                 [&](int i) { return x(below[i]); });
+      own = sum_of_rows<width>(values, strip.columns, [&](int i) {
+              return left(i);
+            }).head(strip.columns);
+    });
+  }
+}
+
+VectorXd SinglePrecisionFactor::solve(const VectorXd& b) const {
+  const std::vector<int>& place = factor_->tree_.place;
+  VectorXf x(b.size());
+  x(place) = b.cast<float>();
+  eliminate(x);
+  x.array() *= factor_->inverse_pivots_.cast<float>().array();
+  substitute(x);
+  return x(place).cast<double>();
+}
+
+MatrixXd SinglePrecisionFactor::complete(const MatrixXd& x) const {
+  MatrixXd found(x.rows(), x.cols());
+  for (Index c = 0; c < x.cols(); ++c) {
+    VectorXf column = factor_->inverse_pivots_.cwiseProduct(x.col(c)).cast<float>();
+    substitute(column);
+    found.col(c) = column(factor_->tree_.place).cast<double>();
+  }
+  return found;
+}
+
+}  // namespace havers::sim
