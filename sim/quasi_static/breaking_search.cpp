@@ -24,6 +24,19 @@ Local of_joint(const VectorXd& of_all, std::size_t joint) {
   return of_all.segment<2>(static_cast<Index>(2 * joint));
 }
 
+NearReactions sum_of(const std::vector<IntactStructure::SharedColumn>& columns,
+                     const Eigen::VectorXf& gaps) {
+  NearReactions sum{Eigen::VectorXf::Zero(columns.front()->reactions.rows())};
+  Eigen::VectorXf off_balance(static_cast<Index>(columns.size()));  // by rounding, of each
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Eigen::Vector2f by = gaps.segment<2>(static_cast<Index>(2 * i));
+    sum.reactions.noalias() += columns[i]->reactions * by;
+    off_balance(static_cast<Index>(i)) = columns[i]->off_balance * by.lpNorm<1>();
+  }
+  sum.off_balance = off_balance.norm();
+  return sum;
+}
+
 }  // namespace
 
 // ε = f_N μ_c / (|r_T| − μ_c r_N), section 6.
@@ -47,20 +60,10 @@ BreakingRun::Event BreakingRun::next_event() {
 // In single precision, from what was last seen of all.
 BreakingRun::Glance BreakingRun::glance() const {
   const VectorXd moved = y_ - y_seen_;
-  NearReactions change;
-  if (columns_.size() < loose_.size()) {
-    change = intact_->nearly_reactions_to(loose_.jumps(), moved);
-  } else {
-    Eigen::VectorXf sum = Eigen::VectorXf::Zero(reactions_.size());
-    VectorXd off_balance(static_cast<Index>(columns_.size()));  // by rounding, of each
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      const Local by = moved.segment<2>(static_cast<Index>(2 * i));
-      sum.noalias() += columns_[i]->reactions * by.cast<float>();
-      off_balance(static_cast<Index>(i)) = columns_[i]->off_balance * by.lpNorm<1>();
-    }
-    change = {sum.cast<double>(), off_balance.norm()};
-  }
-  Glance found{reactions_ + change.reactions, change.off_balance};
+  const NearReactions change = columns_.size() < loose_.size()
+                                   ? intact_->nearly_reactions_to(loose_.jumps(), moved)
+                                   : sum_of(columns_, moved.cast<float>());
+  Glance found{reactions_ + change.reactions.cast<double>(), change.off_balance};
   found.missed =
       std::max(found.missed, (of_loose(found.reactions) - borne_).lpNorm<Eigen::Infinity>());
   if (!found.reactions.allFinite()) found.missed = never;

@@ -55,7 +55,7 @@ class IntactStructure {
   /// Structure::nearly_reactions_to of a unit jump at one joint, normal and tangential. [N/m²]
   struct Column {
     Eigen::MatrixX2f reactions;
-    double off_balance;
+    float off_balance;
   };
   using SharedColumn = std::shared_ptr<const Column>;
   /// What runs have asked for before; nothing else is worth it.

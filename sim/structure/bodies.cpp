@@ -12,6 +12,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Eigen::VectorXf;
 
 // A port with the row of B that it reads.
 struct PortRow {
@@ -241,12 +242,14 @@ VectorXd Bodies::port_forces(const VectorXd& p, const Eigen::Ref<const VectorXd>
   return y;
 }
 
-VectorXd Bodies::near_port_forces(const VectorXd& p, const Eigen::Ref<const VectorXd>& a) const {
-  VectorXd y(p.size());
+VectorXf Bodies::near_port_forces(const VectorXf& p, const Eigen::Ref<const VectorXf>& a) const {
+  VectorXf y(p.size());
   for (const BodyClass& group : classes_) {
+    const Eigen::MatrixXf& nearly = group.op.nearly;
     auto forces = ports_in(y, group);
-    forces.noalias() = group.op.at_once * ports_in(p, group);
-    forces.noalias() += group.op.compatibility.transpose() * compatibilities_in(a, group);
+    forces.noalias() = nearly.leftCols(forces.rows()) * ports_in(p, group);
+    forces.noalias() +=
+        nearly.rightCols(nearly.cols() - forces.rows()) * compatibilities_in(a, group);
   }
   return y;
 }

@@ -55,9 +55,9 @@ class Bodies {
   /// Z p + Nᵀ a at the ports (S4). [N/m]
   [[nodiscard]] Eigen::VectorXd port_forces(const Eigen::VectorXd& p,
                                             const Eigen::Ref<const Eigen::VectorXd>& a) const;
-  /// The same in less time and to fewer digits.
-  [[nodiscard]] Eigen::VectorXd near_port_forces(const Eigen::VectorXd& p,
-                                                 const Eigen::Ref<const Eigen::VectorXd>& a) const;
+  /// The same in single precision.
+  [[nodiscard]] Eigen::VectorXf near_port_forces(const Eigen::VectorXf& p,
+                                                 const Eigen::Ref<const Eigen::VectorXf>& a) const;
   [[nodiscard]] Eigen::VectorXd incompatibility(const Eigen::VectorXd& p) const;  ///< N p. [m]
   [[nodiscard]] Eigen::VectorXd compatibility_forces(
       const Eigen::VectorXd& a) const;  ///< Nᵀ a. [N/m]
@@ -91,8 +91,8 @@ class Bodies {
   template <class Values>
   [[nodiscard]] static auto part(Values& values, const BodyClass& group,
                                  const std::vector<Eigen::Index>& first, Eigen::Index rows) {
-    using Part =
-        std::conditional_t<std::is_const_v<Values>, const Eigen::MatrixXd, Eigen::MatrixXd>;
+    using Matrix = Eigen::Matrix<typename Values::Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+    using Part = std::conditional_t<std::is_const_v<Values>, const Matrix, Matrix>;
     return Eigen::Map<Part>(values.data() + first[static_cast<std::size_t>(group.bodies.front())],
                             rows, static_cast<Eigen::Index>(group.bodies.size()));
   }

@@ -94,6 +94,8 @@ BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
   }
   body.at_once =
       body.impedance + (body.inertia - body.impedance * body.rigid) * body.rigid.transpose();
+  body.nearly.resize(p, p + body.compatibility.rows());
+  body.nearly << body.at_once.cast<float>(), body.compatibility.transpose().cast<float>();
   body.matrices = std::move(matrices);
   body.ports = std::move(ports);
   return body;

@@ -32,6 +32,7 @@ struct BodyOperator {
   Eigen::MatrixXd at_once;  ///< Z with that put in: one product, whose rounding is alike in all
                             ///< bodies that move alike, and adds up. [N/m²]
   Eigen::MatrixXd compatibility;  ///< N, orthonormal rows: N p = 0 for every p = B δ. [-]
+  Eigen::MatrixXf nearly;         ///< at_once and Nᵀ, side by side.
 
   /// Whether the boundary holds some of the degrees of freedom.
   [[nodiscard]] bool held() const { return free.size() < static_cast<std::size_t>(shifted.rows()); }

@@ -136,24 +136,20 @@ void SinglePrecisionFactor::substitute(VectorXf& x) const {
   }
 }
 
-VectorXd SinglePrecisionFactor::solve(const VectorXd& b) const {
+VectorXf SinglePrecisionFactor::solve(const VectorXd& b) const {
   const std::vector<int>& place = factor_->tree_.place;
   VectorXf x(b.size());
   x(place) = b.cast<float>();
   eliminate(x);
   x.array() *= factor_->inverse_pivots_.cast<float>().array();
   substitute(x);
-  return x(place).cast<double>();
+  return x(place);
 }
 
-MatrixXd SinglePrecisionFactor::complete(const MatrixXd& x) const {
-  MatrixXd found(x.rows(), x.cols());
-  for (Index c = 0; c < x.cols(); ++c) {
-    VectorXf column = factor_->inverse_pivots_.cwiseProduct(x.col(c)).cast<float>();
-    substitute(column);
-    found.col(c) = column(factor_->tree_.place).cast<double>();
-  }
-  return found;
+VectorXf SinglePrecisionFactor::complete(const Eigen::Ref<const VectorXd>& half) const {
+  VectorXf x = factor_->inverse_pivots_.cwiseProduct(half).cast<float>();
+  substitute(x);
+  return x(factor_->tree_.place);
 }
 
 }  // namespace havers::sim

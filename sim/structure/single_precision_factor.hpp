@@ -17,10 +17,10 @@ class SinglePrecisionFactor {
   /// @param factor  outlives this
   explicit SinglePrecisionFactor(const SparseFactor& factor);
 
-  // Both as SparseFactor does, to six digits or so of the largest entries. They may be called by
-  // several threads at once.
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
-  [[nodiscard]] Eigen::MatrixXd complete(const Eigen::MatrixXd& x) const;
+  // Both as SparseFactor does, of one load, to six digits or so of the largest entries. They may be
+  // called by several threads at once.
+  [[nodiscard]] Eigen::VectorXf solve(const Eigen::VectorXd& b) const;
+  [[nodiscard]] Eigen::VectorXf complete(const Eigen::Ref<const Eigen::VectorXd>& x) const;
 
  private:
   struct Strip {

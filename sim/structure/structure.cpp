@@ -77,15 +77,7 @@ MatrixXd Structure::stiffened(const BodyOperator& op) const {
   return op.impedance + stiffness_ * op.compatibility.transpose() * op.compatibility;
 }
 
-VectorXd Structure::unknowns_to_ports(const Eigen::Ref<const VectorXd>& unknowns) const {
-  VectorXd p(ports());
-  for (Index i = 0; i < p.size(); ++i)
-    p(i) = unknowns(unknowns_of_port_[static_cast<std::size_t>(i)][0]);
-  for (const Index top : tops_of_ties_) p(top) += unknowns(unknowns_ - 1);
-  return p;
-}
-
-// The same but where ports are held together: there as one of them.
+// Displacements of all ports, but where they are held together: there as one of them.
 VectorXd Structure::as_held(const VectorXd& displacements) const {
   VectorXd unknowns = VectorXd::Zero(unknowns_);
   for (Index i = 0; i < ports(); ++i)

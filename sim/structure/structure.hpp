@@ -58,10 +58,10 @@ struct Jump {
 using SharedJump = std::shared_ptr<const Jump>;
 
 struct NearReactions {
-  Eigen::MatrixXd reactions;  ///< Of all joints, R_N, R_T; one answer a column. [N/m]
+  Eigen::MatrixXf reactions;  ///< Of all joints, R_N, R_T; one answer a column. [N/m]
   /// Largest difference between what the two sides of a joint bear. Reactions err by not much
   /// more (S8). [N/m]
-  double off_balance = 0.0;
+  float off_balance = 0.0F;
 };
 
 /// Factor of the structure in which the joints hold as given (S5)-(S8),
@@ -91,7 +91,7 @@ class Structure {
   /// column. [N/m]
   [[nodiscard]] Eigen::MatrixXd reactions_to(const std::vector<SharedJump>& jumps,
                                              const Eigen::MatrixXd& y) const;
-  /// The same in less time and to fewer digits.
+  /// The same in single precision.
   /// @param factor  a copy of factor()
   [[nodiscard]] NearReactions nearly_reactions_to(const std::vector<SharedJump>& jumps,
                                                   const Eigen::MatrixXd& y,
@@ -102,10 +102,12 @@ class Structure {
   struct PortState;
   struct Correction;
   struct Branch;
-  template <class Factor>
-  [[nodiscard]] Eigen::MatrixXd port_forces_to(const std::vector<SharedJump>& jumps,
-                                               const Eigen::MatrixXd& y,
-                                               const Factor& factor) const;
+  [[nodiscard]] Eigen::MatrixXd half_solved(const std::vector<SharedJump>& jumps,
+                                            const Eigen::MatrixXd& y) const;
+  template <class Values>
+  [[nodiscard]] Values port_displacements(const Values& unknowns,
+                                          const std::vector<SharedJump>& jumps,
+                                          const Values& y) const;
   [[nodiscard]] PortState solve_ports(const PortLoads& loads, PortState state) const;
   [[nodiscard]] Correction correct(const Eigen::VectorXd& forces, const Eigen::VectorXd& gap,
                                    const Eigen::VectorXd& friction) const;
@@ -124,8 +126,15 @@ class Structure {
     return bodies_->ends()[2 * static_cast<std::size_t>(joint) + component][1];
   }
   [[nodiscard]] Eigen::MatrixXd stiffened(const BodyOperator& op) const;
-  [[nodiscard]] Eigen::VectorXd unknowns_to_ports(
-      const Eigen::Ref<const Eigen::VectorXd>& unknowns) const;
+  /// @tparam Values  a vector
+  template <class Values>
+  [[nodiscard]] Values unknowns_to_ports(const Values& unknowns) const {
+    Values p(ports());
+    for (Eigen::Index i = 0; i < p.size(); ++i)
+      p(i) = unknowns(unknowns_of_port_[static_cast<std::size_t>(i)][0]);
+    for (const Eigen::Index top : tops_of_ties_) p(top) += unknowns(unknowns_ - 1);
+    return p;
+  }
   [[nodiscard]] Eigen::VectorXd as_held(const Eigen::VectorXd& displacements) const;
   [[nodiscard]] Eigen::VectorXd ports_to_unknowns(const Eigen::VectorXd& forces) const;
   [[nodiscard]] Eigen::VectorXd reactions_of(const Eigen::VectorXd& port_forces) const;

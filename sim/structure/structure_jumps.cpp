@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <type_traits>
+#include <cmath>
 
 #include "sim/structure/structure.hpp"
 
@@ -8,6 +8,7 @@ namespace havers::sim {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Eigen::VectorXf;
 
 // The load of unit jumps: forces at the ports of body b, and what they ask of its ring.
 Jump Structure::jump(int joint) const {
@@ -63,46 +64,54 @@ Eigen::Matrix2Xd Structure::reactions_of(const Jump& jump,
   return reactions;
 }
 
-template <class Factor>
-MatrixXd Structure::port_forces_to(const std::vector<SharedJump>& jumps, const MatrixXd& y,
-                                   const Factor& factor) const {
+// L⁻¹ P of the load of jumps.
+MatrixXd Structure::half_solved(const std::vector<SharedJump>& jumps, const MatrixXd& y) const {
   MatrixXd half = MatrixXd::Zero(factor_->rows(), y.cols());
   for (std::size_t i = 0; i < jumps.size(); ++i)
     half(jumps[i]->half.rows, Eigen::all) +=
-        jumps[i]->half.values.transpose() * y.middleRows<2>(2 * static_cast<Index>(i));
-  const MatrixXd unknowns = factor.complete(std::move(half));
-  MatrixXd forces(ports(), y.cols());
-  for (Index c = 0; c < y.cols(); ++c) {
-    VectorXd displacements = unknowns_to_ports(unknowns.col(c));
-    for (std::size_t i = 0; i < jumps.size(); ++i)
-      for (const std::size_t k : {0U, 1U})
-        displacements(port_b(jumps[i]->joint, k)) += y(static_cast<Index>(2 * i + k), c);
-    const auto multipliers = unknowns.col(c).tail(bodies_->compatibilities());
-    forces.col(c) = std::is_same_v<Factor, SparseFactor>
-                        ? bodies_->port_forces(displacements, multipliers)
-                        : bodies_->near_port_forces(displacements, multipliers);
-  }
-  return forces;
+        jumps[i]->half.values.transpose().lazyProduct(y.middleRows<2>(2 * static_cast<Index>(i)));
+  return half;
+}
+
+// Of all ports, those of both sides of a joint.
+template <class Values>
+Values Structure::port_displacements(const Values& unknowns, const std::vector<SharedJump>& jumps,
+                                     const Values& y) const {
+  Values displacements = unknowns_to_ports(unknowns);
+  for (std::size_t i = 0; i < jumps.size(); ++i)
+    for (const std::size_t k : {0U, 1U})
+      displacements(port_b(jumps[i]->joint, k)) += y(static_cast<Index>(2 * i + k));
+  return displacements;
 }
 
 MatrixXd Structure::reactions_to(const std::vector<SharedJump>& jumps, const MatrixXd& y) const {
-  const MatrixXd forces = port_forces_to(jumps, y, *factor_);
+  const MatrixXd unknowns = factor_->complete(half_solved(jumps, y));
   MatrixXd reactions(2 * joints(), y.cols());
-  for (Index c = 0; c < y.cols(); ++c) reactions.col(c) = reactions_of(forces.col(c));
+  for (Index c = 0; c < y.cols(); ++c) {
+    const VectorXd of_one = unknowns.col(c);
+    reactions.col(c) =
+        reactions_of(bodies_->port_forces(port_displacements<VectorXd>(of_one, jumps, y.col(c)),
+                                          of_one.tail(bodies_->compatibilities())));
+  }
   return reactions;
 }
 
 NearReactions Structure::nearly_reactions_to(const std::vector<SharedJump>& jumps,
                                              const MatrixXd& y,
                                              const SinglePrecisionFactor& factor) const {
-  const MatrixXd forces = port_forces_to(jumps, y, factor);
-  NearReactions found{MatrixXd::Zero(2 * joints(), y.cols())};
-  for (int unknown = 0; unknown < 2 * static_cast<int>(joints()); ++unknown) {
-    if (!holds(unknown)) continue;
-    const auto& [a, b] = bodies_->ends()[static_cast<std::size_t>(unknown)];
-    found.reactions.row(unknown) = forces.row(b);
-    found.off_balance =
-        std::max(found.off_balance, (forces.row(a) + forces.row(b)).lpNorm<Eigen::Infinity>());
+  const MatrixXd half = half_solved(jumps, y);
+  NearReactions found{Eigen::MatrixXf::Zero(2 * joints(), y.cols())};
+  for (Index c = 0; c < y.cols(); ++c) {
+    const VectorXf unknowns = factor.complete(half.col(c));
+    const VectorXf forces = bodies_->near_port_forces(
+        port_displacements<VectorXf>(unknowns, jumps, y.col(c).cast<float>()),
+        unknowns.tail(bodies_->compatibilities()));
+    for (int unknown = 0; unknown < 2 * static_cast<int>(joints()); ++unknown) {
+      if (!holds(unknown)) continue;
+      const auto& [a, b] = bodies_->ends()[static_cast<std::size_t>(unknown)];
+      found.reactions(unknown, c) = forces(b);
+      found.off_balance = std::max(found.off_balance, std::abs(forces(a) + forces(b)));
+    }
   }
   return found;
 }

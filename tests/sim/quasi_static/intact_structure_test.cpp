@@ -92,7 +92,7 @@ TEST(IntactStructure, SeesHowFarSinglePrecisionMisses) {
     const auto [nearly, off_balance] = intact->nearly_reactions_to(jumps, y);
     EXPECT_GT(off_balance, 0.0);
     EXPECT_LT(off_balance, 1e-3 * exact.lpNorm<Eigen::Infinity>());
-    EXPECT_LT((nearly - exact).lpNorm<Eigen::Infinity>(), 3.0 * off_balance);
+    EXPECT_LT((nearly.cast<double>() - exact).lpNorm<Eigen::Infinity>(), 3.0 * off_balance);
   }
 }
 

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "sim/structure/single_precision_factor.hpp"
+
 namespace havers::sim {
 namespace {
 
@@ -108,8 +110,10 @@ TEST(SparseFactor, SolvesWithPanelsOfAnyWidth) {
     Eigen::MatrixXd path = Eigen::MatrixXd::Zero(n + multipliers, 2);
     path(half.rows, Eigen::all) = half.values.transpose();
     EXPECT_LT((dense * factor.complete(path) - few).norm(), 1e-12 * few.norm()) << side;
-    const Eigen::VectorXd nearly = SinglePrecisionFactor(factor).complete(path.col(0));
-    EXPECT_LT((dense * nearly - few.col(0)).norm(), 1e-5 * few.norm()) << side;
+    const SinglePrecisionFactor single(factor);
+    const Eigen::VectorXd b = few.col(0);
+    for (const Eigen::VectorXf& nearly : {single.complete(path.col(0)), single.solve(b)})
+      EXPECT_LT((dense * nearly.cast<double>() - b).norm(), 1e-5 * b.norm()) << side;
   }
 }
 
