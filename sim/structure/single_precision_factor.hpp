@@ -19,7 +19,7 @@ class SinglePrecisionFactor {
 
   // Both as SparseFactor does, of one load, to six digits or so of the largest entries. They may be
   // called by several threads at once.
-  [[nodiscard]] Eigen::VectorXf solve(const Eigen::VectorXd& b) const;
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   [[nodiscard]] Eigen::VectorXf complete(const Eigen::Ref<const Eigen::VectorXd>& x) const;
 
  private:

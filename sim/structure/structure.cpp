@@ -136,7 +136,11 @@ Structure::Correction Structure::correct(const VectorXd& forces, const VectorXd&
                 ? ports_to_unknowns(forces)
                 : ports_to_unknowns(forces + stiffness_ * bodies_->compatibility_forces(gap))),
       -gap;
-  const VectorXd answer = factor_->solve(load);
+  VectorXd answer;
+  if (friction.size() > 0 && single_)
+    answer = single_->solve(load);
+  else
+    answer = factor_->solve(load);
   Correction change;
   change.displacements = unknowns_to_ports(answer);
   change.gap = bodies_->incompatibility(change.displacements);

@@ -71,6 +71,9 @@ class Structure {
  public:
   /// @param held  One per joint; empty: all hold fully.
   explicit Structure(const Bodies& bodies, std::vector<Held> held = {});
+  Structure(const Structure&) = delete;
+  Structure& operator=(const Structure&) = delete;
+  ~Structure() = default;
   /// The same bodies held in another way; memory is used again.
   void hold(std::vector<Held> held);
 
@@ -157,6 +160,7 @@ class Structure {
   double stiffness_ = 0.0;  // the largest of Z [N/m²]
   std::vector<const BodyOperator*> op_of_body_;
   std::optional<SparseFactor> factor_;
+  std::optional<SinglePrecisionFactor> single_;  // of it, for the many corrections of friction
 };
 
 }  // namespace havers::sim

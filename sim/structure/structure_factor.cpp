@@ -20,6 +20,8 @@ constexpr double most_hold = 1e-9;  // of a mechanism, part of the largest stiff
 // down to 1e-14 where slivers at angles of 1e-6 degrees nearly leave it no say, and below 2e-15
 // where what it says follows from the others.
 constexpr double least_pivot = 5e-15;
+// Part of the stiffness that inertia is, below which single precision holds no loose body.
+constexpr double least_inertia = 1e-5;
 constexpr double determined = 0.01;  // least share of a joint in multipliers to give them a pivot
 
 // Least share of a direction in a set of orthonormal rows, where only some columns are looked at.
@@ -192,6 +194,7 @@ void Structure::factorise() {
   }
   if (unknowns_ == 0) {
     factor_.reset();
+    single_.reset();
     return;
   }
   Eigen::SparseMatrix<double> matrix = mixed_form();
@@ -210,6 +213,14 @@ void Structure::factorise() {
   // take what it adds away from everything that bears a load.
   for (double hold = 1e-13; !try_to() && hold < most_hold; hold *= 10.0)
     matrix.diagonal().head(unknowns_).array() += hold * stiffness_;
+  const bool slides = std::ranges::count(held_, Held::normal) > 0;
+  const bool has_inertia = std::ranges::all_of(bodies_->classes(), [](const BodyClass& group) {
+    return group.op.inertia_part > least_inertia;
+  });
+  if (factor_->ok() && slides && has_inertia)
+    single_.emplace(*factor_);
+  else
+    single_.reset();
 }
 
 }  // namespace havers::sim

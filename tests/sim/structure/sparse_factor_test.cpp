@@ -112,8 +112,10 @@ TEST(SparseFactor, SolvesWithPanelsOfAnyWidth) {
     EXPECT_LT((dense * factor.complete(path) - few).norm(), 1e-12 * few.norm()) << side;
     const SinglePrecisionFactor single(factor);
     const Eigen::VectorXd b = few.col(0);
-    for (const Eigen::VectorXf& nearly : {single.complete(path.col(0)), single.solve(b)})
-      EXPECT_LT((dense * nearly.cast<double>() - b).norm(), 1e-5 * b.norm()) << side;
+    const Eigen::VectorXd completed = single.complete(path.col(0)).cast<double>();
+    EXPECT_LT((dense * completed - b).norm(), 1e-5 * b.norm()) << side;
+    for (const double size : {1.0, 1e-50, 0.0})
+      EXPECT_LE((dense * single.solve(size * b) - size * b).norm(), 1e-5 * size * b.norm()) << side;
   }
 }
 
