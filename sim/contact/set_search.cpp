@@ -25,7 +25,8 @@ constexpr std::size_t most_changes = 50;
 constexpr double over_relaxed = 1.6;
 // Part of the reactions that an answer may err by, where it breaks a law by more.
 constexpr double rough = 1e-4;
-constexpr double useful = 0.1;  // to start from, likewise
+constexpr double useful = 0.1;   // to start from, likewise
+constexpr double enough = 1e-9;  // to be an answer, likewise
 
 Held held_in(JointState state) {
   if (state == JointState::stick) return Held::fully;
@@ -42,7 +43,7 @@ void SetSearch::take(const std::vector<JointState>& states) {
   std::ranges::transform(states, held.begin(), held_in);
   if (!structure_)
     structure_.emplace(*bodies_, std::move(held));
-  else if (structure_->held() != held)
+  else if (structure_->held() != held && !structure_->hold_nearby(held))
     structure_->hold(std::move(held));
 }
 
@@ -65,6 +66,10 @@ void SetSearch::answer(const JointStep& step, double accuracy, JointStepResult& 
     loads.given(2 * j + 1) = loads.friction(j) * law.cohesion;
   }
   last_ = structure_->solve(loads);
+  if (!(last_.residual <= std::max(accuracy, enough)) && structure_->is_corrected()) {
+    structure_->hold(structure_->held());
+    last_ = structure_->solve(loads);
+  }
   ++result.iterations;
   result.gaps = step.predicted + last_.gaps;
   result.reactions = last_.reactions;
@@ -104,7 +109,7 @@ bool SetSearch::settles(const JointStep& step, JointStepResult& result) {
   if (!structure_->ok()) return false;
   answer(step, rough, result);
   if (result.converged) answer(step, accuracy_of_forces, result);
-  result.converged = result.converged && last_.residual < 1e-9;
+  result.converged = result.converged && last_.residual < enough;
   if (result.converged) {
     result.residual = std::max(joint_residual(step, result, stiffness_), last_.residual);
     result.tie_forces = last_.tie_forces;

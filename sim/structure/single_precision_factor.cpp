@@ -136,17 +136,11 @@ void SinglePrecisionFactor::substitute(VectorXf& x) const {
   }
 }
 
-// Of a load of about 1, for single precision has but so many powers of ten.
-VectorXd SinglePrecisionFactor::solve(const VectorXd& b) const {
-  const double size = b.lpNorm<Eigen::Infinity>();
-  if (size == 0.0) return b;
-  const std::vector<int>& place = factor_->tree_.place;
+VectorXf SinglePrecisionFactor::halve(const VectorXd& b) const {
   VectorXf x(b.size());
-  x(place) = (b / size).cast<float>();
+  x(factor_->tree_.place) = b.cast<float>();
   eliminate(x);
-  x.array() *= factor_->inverse_pivots_.cast<float>().array();
-  substitute(x);
-  return size * x(place).cast<double>();
+  return x;
 }
 
 VectorXf SinglePrecisionFactor::complete(const Eigen::Ref<const VectorXd>& half) const {

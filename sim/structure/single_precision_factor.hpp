@@ -17,10 +17,11 @@ class SinglePrecisionFactor {
   /// @param factor  outlives this
   explicit SinglePrecisionFactor(const SparseFactor& factor);
 
-  // Both as SparseFactor does, of one load, to six digits or so of the largest entries. They may be
-  // called by several threads at once.
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
-  [[nodiscard]] Eigen::VectorXf complete(const Eigen::Ref<const Eigen::VectorXd>& x) const;
+  // Both to six digits or so of the largest entries. They may be called by several threads at once.
+  /// L⁻¹ P b, in the order of elimination.
+  [[nodiscard]] Eigen::VectorXf halve(const Eigen::VectorXd& b) const;
+  /// As SparseFactor does, of one load.
+  [[nodiscard]] Eigen::VectorXf complete(const Eigen::Ref<const Eigen::VectorXd>& half) const;
 
  private:
   struct Strip {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace havers::sim {
@@ -46,30 +47,38 @@ Structure::Structure(const Bodies& bodies, std::vector<Held> held) : bodies_(&bo
 }
 
 void Structure::hold(std::vector<Held> held) {
-  const Assembly& assembly = bodies_->assembly();
-  assert(held.size() == assembly.joints.size());
-  held_ = std::move(held);
-  const int joint_unknowns = 2 * static_cast<int>(assembly.joints.size());
-  int next = joint_unknowns + static_cast<int>(assembly.ties.size());
-
-  unknowns_of_port_.clear();
-  for (const Port& port : bodies_->ports()) {
-    const bool joint = port.unknown < joint_unknowns, b = port.side == PortSide::b;
-    // Where a joint does not hold, its side b has an unknown of its own.
-    unknowns_of_port_.push_back({joint && b && !holds(port.unknown) ? next++ : port.unknown, -1});
-  }
-  unknowns_ = next + (assembly.ties.empty() ? 0 : 1);
+  layout_ = laid_out(std::move(held));
+  factorised_ = layout_;
+  changes_.clear();
   tops_of_ties_.clear();
-  for (std::size_t tie = 0; tie < assembly.ties.size(); ++tie) {
-    const auto& [bottom, top] = bodies_->ends()[static_cast<std::size_t>(joint_unknowns) + tie];
-    unknowns_of_port_[static_cast<std::size_t>(top)][1] = static_cast<int>(unknowns_) - 1;
-    tops_of_ties_.push_back(top);
-  }
+  const std::size_t first_tie = 2 * bodies_->assembly().joints.size();
+  for (std::size_t tie = 0; tie < bodies_->assembly().ties.size(); ++tie)
+    tops_of_ties_.push_back(bodies_->ends()[first_tie + tie][1]);
   factorise();
 }
 
-bool Structure::holds(int unknown) const {
-  const Held held = held_[static_cast<std::size_t>(unknown / 2)];
+Structure::Layout Structure::laid_out(std::vector<Held> held) const {
+  const Assembly& assembly = bodies_->assembly();
+  assert(held.size() == assembly.joints.size());
+  const int joint_unknowns = 2 * static_cast<int>(assembly.joints.size());
+  int next = joint_unknowns + static_cast<int>(assembly.ties.size());
+  Layout layout{std::move(held), {}, 0};
+  for (const Port& port : bodies_->ports()) {
+    const bool b = port.side == PortSide::b;
+    // Where a joint does not hold, its side b has an unknown of its own.
+    const bool own = b && port.unknown < joint_unknowns && !holds(port.unknown, layout);
+    layout.of_port.push_back({own ? next++ : port.unknown, -1});
+  }
+  layout.unknowns = next + (assembly.ties.empty() ? 0 : 1);
+  for (std::size_t tie = 0; tie < assembly.ties.size(); ++tie) {
+    const Index top = bodies_->ends()[static_cast<std::size_t>(joint_unknowns) + tie][1];
+    layout.of_port[static_cast<std::size_t>(top)][1] = static_cast<int>(layout.unknowns) - 1;
+  }
+  return layout;
+}
+
+bool Structure::holds(int unknown, const Layout& layout) {
+  const Held held = layout.held[static_cast<std::size_t>(unknown / 2)];
   return held == Held::fully || (held == Held::normal && unknown % 2 == 0);
 }
 
@@ -79,29 +88,29 @@ MatrixXd Structure::stiffened(const BodyOperator& op) const {
 
 // Displacements of all ports, but where they are held together: there as one of them.
 VectorXd Structure::as_held(const VectorXd& displacements) const {
-  VectorXd unknowns = VectorXd::Zero(unknowns_);
+  VectorXd unknowns = VectorXd::Zero(layout_.unknowns);
   for (Index i = 0; i < ports(); ++i)
-    if (const auto& [own, common] = unknowns_of_port_[static_cast<std::size_t>(i)]; common < 0)
+    if (const auto& [own, common] = layout_.of_port[static_cast<std::size_t>(i)]; common < 0)
       unknowns(own) = displacements(i);
   for (const Index top : tops_of_ties_)
-    unknowns(unknowns_ - 1) =
-        displacements(top) - unknowns(unknowns_of_port_[static_cast<std::size_t>(top)][0]);
-  return unknowns_to_ports(unknowns);
+    unknowns(layout_.unknowns - 1) =
+        displacements(top) - unknowns(layout_.of_port[static_cast<std::size_t>(top)][0]);
+  return unknowns_to_ports(unknowns, layout_);
 }
 
-VectorXd Structure::ports_to_unknowns(const VectorXd& forces) const {
-  VectorXd f = VectorXd::Zero(unknowns_);
+VectorXd Structure::ports_to_unknowns(const VectorXd& forces, const Layout& layout) const {
+  VectorXd f = VectorXd::Zero(layout.unknowns);
   for (Index i = 0; i < forces.size(); ++i)
-    f(unknowns_of_port_[static_cast<std::size_t>(i)][0]) += forces(i);
-  for (const Index top : tops_of_ties_) f(unknowns_ - 1) += forces(top);
+    f(layout.of_port[static_cast<std::size_t>(i)][0]) += forces(i);
+  for (const Index top : tops_of_ties_) f(layout.unknowns - 1) += forces(top);
   return f;
 }
 
 // Takes the friction of sliding joints from the forces that the bodies still have to bear.
 void Structure::rub(const VectorXd& friction, VectorXd& port_forces) const {
-  for (std::size_t j = 0; j < held_.size(); ++j) {
+  for (std::size_t j = 0; j < layout_.held.size(); ++j) {
     const double slope = friction(static_cast<Index>(j));
-    if (held_[j] != Held::normal || slope == 0.0) continue;
+    if (layout_.held[j] != Held::normal || slope == 0.0) continue;
     const auto& [a, b] = bodies_->ends()[2 * j + 1];
     const double force = slope * port_forces(bodies_->ends()[2 * j][1]);
     port_forces(b) -= force;
@@ -123,26 +132,27 @@ struct Structure::Correction {
 };
 
 VectorXd Structure::in_forces(const VectorXd& forces, const VectorXd& gap) const {
-  VectorXd all(unknowns_ + gap.size());
-  all << ports_to_unknowns(forces), stiffness_ * gap;
+  VectorXd all(layout_.unknowns + gap.size());
+  all << ports_to_unknowns(forces, layout_), stiffness_ * gap;
   return all;
 }
 
 // One solve with the factor (S7), which knows no friction.
 Structure::Correction Structure::correct(const VectorXd& forces, const VectorXd& gap,
                                          const VectorXd& friction) const {
-  VectorXd load(unknowns_ + gap.size());
-  load << -(gap.isZero(0.0)
-                ? ports_to_unknowns(forces)
-                : ports_to_unknowns(forces + stiffness_ * bodies_->compatibility_forces(gap))),
-      -gap;
-  VectorXd answer;
-  if (friction.size() > 0 && single_)
-    answer = single_->solve(load);
-  else
-    answer = factor_->solve(load);
+  const bool nearby = !changes_.empty() || (single_ && friction.size() > 0);
+  VectorXd stiffened =
+      gap.isZero(0.0) ? forces : forces + stiffness_ * bodies_->compatibility_forces(gap);
   Correction change;
-  change.displacements = unknowns_to_ports(answer);
+  VectorXd answer;
+  if (nearby) {
+    answer = solve_nearby(std::move(stiffened), gap, change.displacements);
+  } else {
+    VectorXd load(layout_.unknowns + gap.size());
+    load << -ports_to_unknowns(stiffened, layout_), -gap;
+    answer = factor_->solve(load);
+    change.displacements = unknowns_to_ports(answer, layout_);
+  }
   change.gap = bodies_->incompatibility(change.displacements);
   change.multipliers = answer.tail(gap.size());
   change.forces = bodies_->port_forces(change.displacements, change.multipliers);
@@ -175,7 +185,10 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads, PortState st
       for (const Correction& old : past)
         change.subtract(change.effect.dot(old.effect) / old.effect.squaredNorm(), old);
       length = -in_forces(state.forces, gap).dot(change.effect) / change.effect.squaredNorm();
-      if (!std::isfinite(length)) break;
+      if (!std::isfinite(length)) {
+        state.error = std::numeric_limits<double>::infinity();
+        break;
+      }
     }
     state.displacements += length * change.displacements;
     state.multipliers += length * change.multipliers;
@@ -191,7 +204,8 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads, PortState st
       state.error = std::min(
           state.error,
           forces_by_imbalance *
-              std::hypot(ports_to_unknowns(state.forces).norm(), stiffness_ * gap.norm()) / scale);
+              std::hypot(ports_to_unknowns(state.forces, layout_).norm(), stiffness_ * gap.norm()) /
+              scale);
     if (!(state.error > loads.accuracy)) break;
     if (state.solves > 3 && shrinkage > 0.5 && !rubs) break;
     before = correction;
@@ -258,7 +272,7 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
   for (int unknown = 0; unknown < reactions.size() && loads.given.size() > 0; ++unknown)
     if (!holds(unknown)) reactions(unknown) = loads.given(unknown);
   for (Index j = 0; j < joints() && loads.friction.size() > 0; ++j)
-    if (held_[static_cast<std::size_t>(j)] == Held::normal)
+    if (layout_.held[static_cast<std::size_t>(j)] == Held::normal)
       reactions(2 * j + 1) += loads.friction(j) * reactions(2 * j);
   state.displacements -= prescribed;
   return {std::move(displacements),

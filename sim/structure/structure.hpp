@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <array>
 #include <memory>
 #include <optional>
@@ -76,11 +77,18 @@ class Structure {
   ~Structure() = default;
   /// The same bodies held in another way; memory is used again.
   void hold(std::vector<Held> held);
+  /// The same where few joints hold in another way than in the factor: this stays, and is corrected
+  /// by them (C6). Jumps are none of its business. False, and nothing done, where that does not
+  /// pay.
+  [[nodiscard]] bool hold_nearby(const std::vector<Held>& held);
+  [[nodiscard]] bool is_corrected() const { return !changes_.empty(); }
 
   /// Whether it can be solved; bodies without ports need no factor.
-  [[nodiscard]] bool ok() const { return factor_ ? factor_->ok() : unknowns_ == 0; }
-  [[nodiscard]] const std::vector<Held>& held() const { return held_; }
-  [[nodiscard]] Eigen::Index joints() const { return static_cast<Eigen::Index>(held_.size()); }
+  [[nodiscard]] bool ok() const { return factor_ ? factor_->ok() : layout_.unknowns == 0; }
+  [[nodiscard]] const std::vector<Held>& held() const { return layout_.held; }
+  [[nodiscard]] Eigen::Index joints() const {
+    return static_cast<Eigen::Index>(layout_.held.size());
+  }
   [[nodiscard]] const SparseFactor& factor() const { return *factor_; }
 
   [[nodiscard]] StructureResponse solve(const StructureLoads& loads) const;
@@ -105,6 +113,27 @@ class Structure {
   struct PortState;
   struct Correction;
   struct Branch;
+  /// Which unknowns each port has. A tie's top also moves with the distance common to all ties; for
+  /// the others that is -1.
+  struct Layout {
+    std::vector<Held> held;
+    std::vector<std::array<int, 2>> of_port;
+    Eigen::Index unknowns = 0;
+  };
+  /// A joint that holds in another way than in the factor, and what couples the components that do
+  /// to the unknowns, half solved: its jump where it has let go, else what moves its sides.
+  struct Change {
+    int joint;
+    bool holds_more;
+    std::vector<std::size_t> components;
+    std::vector<Eliminated> halves, over_pivots;
+  };
+  [[nodiscard]] Layout laid_out(std::vector<Held> held) const;
+  [[nodiscard]] Change change_of(int joint, Held now) const;
+  [[nodiscard]] Eigen::MatrixXd coupling(const Change& of, const Change& to) const;
+  [[nodiscard]] Eigen::Matrix2d stiffness_between(int joint, int other) const;
+  [[nodiscard]] Eigen::VectorXd solve_nearby(Eigen::VectorXd forces, const Eigen::VectorXd& gap,
+                                             Eigen::VectorXd& displacements) const;
   [[nodiscard]] Eigen::MatrixXd half_solved(const std::vector<SharedJump>& jumps,
                                             const Eigen::MatrixXd& y) const;
   template <class Values>
@@ -117,12 +146,14 @@ class Structure {
   [[nodiscard]] Eigen::VectorXd in_forces(const Eigen::VectorXd& forces,
                                           const Eigen::VectorXd& gap) const;
   void rub(const Eigen::VectorXd& friction, Eigen::VectorXd& port_forces) const;
-  [[nodiscard]] bool holds(int unknown) const;
+  [[nodiscard]] static bool holds(int unknown, const Layout& layout);
+  [[nodiscard]] bool holds(int unknown) const { return holds(unknown, layout_); }
   [[nodiscard]] Eigen::Index ports() const {
-    return static_cast<Eigen::Index>(unknowns_of_port_.size());
+    return static_cast<Eigen::Index>(bodies_->ports().size());
   }
+  /// In the factor.
   [[nodiscard]] std::span<const int> unknowns_of_port(Eigen::Index port) const {
-    const auto& both = unknowns_of_port_[static_cast<std::size_t>(port)];
+    const auto& both = factorised_.of_port[static_cast<std::size_t>(port)];
     return {both.data(), both[1] < 0 ? 1U : 2U};
   }
   [[nodiscard]] Eigen::Index port_b(int joint, std::size_t component) const {
@@ -131,36 +162,36 @@ class Structure {
   [[nodiscard]] Eigen::MatrixXd stiffened(const BodyOperator& op) const;
   /// @tparam Values  a vector
   template <class Values>
-  [[nodiscard]] Values unknowns_to_ports(const Values& unknowns) const {
+  [[nodiscard]] Values unknowns_to_ports(const Values& unknowns, const Layout& layout) const {
     Values p(ports());
     for (Eigen::Index i = 0; i < p.size(); ++i)
-      p(i) = unknowns(unknowns_of_port_[static_cast<std::size_t>(i)][0]);
-    for (const Eigen::Index top : tops_of_ties_) p(top) += unknowns(unknowns_ - 1);
+      p(i) = unknowns(layout.of_port[static_cast<std::size_t>(i)][0]);
+    for (const Eigen::Index top : tops_of_ties_) p(top) += unknowns(layout.unknowns - 1);
     return p;
   }
   [[nodiscard]] Eigen::VectorXd as_held(const Eigen::VectorXd& displacements) const;
-  [[nodiscard]] Eigen::VectorXd ports_to_unknowns(const Eigen::VectorXd& forces) const;
+  [[nodiscard]] Eigen::VectorXd ports_to_unknowns(const Eigen::VectorXd& forces,
+                                                  const Layout& layout) const;
   [[nodiscard]] Eigen::VectorXd reactions_of(const Eigen::VectorXd& port_forces) const;
   [[nodiscard]] Eigen::SparseMatrix<double> mixed_form() const;
   void factorise();
   [[nodiscard]] std::vector<char> conducting() const;
   [[nodiscard]] std::vector<Branch> network(const std::vector<int>& place) const;
   [[nodiscard]] Eigen::Index first_multiplier(std::size_t body) const {
-    return unknowns_ + bodies_->first_compatibility(static_cast<int>(body));
+    return factorised_.unknowns + bodies_->first_compatibility(static_cast<int>(body));
   }
   [[nodiscard]] std::vector<int> order_of_unknowns(const Eigen::SparseMatrix<double>& matrix) const;
   [[nodiscard]] std::vector<int> elimination_order(const Eigen::SparseMatrix<double>& matrix) const;
 
   const Bodies* bodies_;
-  std::vector<Held> held_;
-  // A tie's top also moves with the distance common to all ties; for the others that is -1.
-  std::vector<std::array<int, 2>> unknowns_of_port_;
+  Layout layout_, factorised_;              // as the joints hold, and of the factor
   std::vector<Eigen::Index> tops_of_ties_;  // their ports
-  Eigen::Index unknowns_ = 0;
-  double stiffness_ = 0.0;  // the largest of Z [N/m²]
+  double stiffness_ = 0.0;                  // the largest of Z [N/m²]
   std::vector<const BodyOperator*> op_of_body_;
   std::optional<SparseFactor> factor_;
   std::optional<SinglePrecisionFactor> single_;  // of it, for the many corrections of friction
+  std::vector<Change> changes_;                  // since
+  Eigen::PartialPivLU<Eigen::MatrixXd> between_changes_;
 };
 
 }  // namespace havers::sim

@@ -45,7 +45,7 @@ std::vector<char> Structure::conducting() const {
   std::vector<char> conducts(op_of_body_.size(), 1), is_first(op_of_body_.size(), 0);
   for (const BodyClass& group : bodies_->classes())
     is_first[static_cast<std::size_t>(group.bodies.front())] = 1;
-  for (std::size_t joint = 0; joint < held_.size(); ++joint) {
+  for (std::size_t joint = 0; joint < layout_.held.size(); ++joint) {
     const Joint& between = bodies_->assembly().joints[joint];
     for (const std::size_t side : {0U, 1U}) {
       const int body = side == 0 ? between.body_a : between.body_b;
@@ -71,21 +71,21 @@ std::vector<Structure::Branch> Structure::network(const std::vector<int>& place)
   const std::vector<char> conducts = conducting();
   const std::size_t ground = op_of_body_.size();
   std::vector<Branch> branches;
-  branches.reserve(held_.size());
+  branches.reserve(layout_.held.size());
   const auto last = [&](std::size_t joint, std::size_t side) {
     const auto of = [&](std::size_t component) {
       const auto port = static_cast<std::size_t>(bodies_->ends()[2 * joint + component][side]);
-      return place[static_cast<std::size_t>(unknowns_of_port_[port][0])];
+      return place[static_cast<std::size_t>(layout_.of_port[port][0])];
     };
     return std::max(of(0), of(1));
   };
-  for (std::size_t j = 0; j < held_.size(); ++j) {
+  for (std::size_t j = 0; j < layout_.held.size(); ++j) {
     const Joint& joint = bodies_->assembly().joints[j];
     const auto a = static_cast<std::size_t>(joint.body_a),
                b = static_cast<std::size_t>(joint.body_b);
-    if (held_[j] == Held::fully && conducts[a] != 0 && conducts[b] != 0)
+    if (layout_.held[j] == Held::fully && conducts[a] != 0 && conducts[b] != 0)
       branches.push_back({last(j, 0), a, b});
-    if (held_[j] != Held::not_at_all) continue;
+    if (layout_.held[j] != Held::not_at_all) continue;
     if (conducts[a] != 0) branches.push_back({last(j, 0), ground, a});
     if (conducts[b] != 0) branches.push_back({last(j, 1), ground, b});
   }
@@ -99,7 +99,7 @@ std::vector<int> Structure::order_of_unknowns(const Eigen::SparseMatrix<double>&
   constexpr double much = 150.0;  // operations
   Order order = least_degree_order(matrix);
   if (order.operations <= much * order.nonzeros) return order.rows;
-  std::vector<std::array<int, 2>> bodies_of(static_cast<std::size_t>(unknowns_), {-1, -1});
+  std::vector<std::array<int, 2>> bodies_of(static_cast<std::size_t>(layout_.unknowns), {-1, -1});
   for (int body = 0; body < static_cast<int>(op_of_body_.size()); ++body) {
     const Index ports = op_of_body_[static_cast<std::size_t>(body)]->impedance.rows();
     for (Index port = bodies_->first_port(body); port < bodies_->first_port(body) + ports; ++port) {
@@ -110,7 +110,7 @@ std::vector<int> Structure::order_of_unknowns(const Eigen::SparseMatrix<double>&
   }
   if (!tops_of_ties_.empty()) bodies_of.pop_back();  // all feel it: it comes last
   std::vector<int> parts = dissection(bodies_->assembly(), bodies_of);
-  parts.resize(static_cast<std::size_t>(unknowns_), static_cast<int>(parts.size()));
+  parts.resize(static_cast<std::size_t>(layout_.unknowns), static_cast<int>(parts.size()));
   Order other = least_degree_order(matrix, parts);
   return other.operations < order.operations ? other.rows : order.rows;
 }
@@ -121,8 +121,10 @@ std::vector<int> Structure::order_of_unknowns(const Eigen::SparseMatrix<double>&
 // no branch leads out of yet. So a body's multipliers follow the joint by which its part meets
 // another one, or a body without any; those of clipped bodies that are no such nodes come last.
 std::vector<int> Structure::elimination_order(const Eigen::SparseMatrix<double>& matrix) const {
-  std::vector<int> order = order_of_unknowns(matrix.topLeftCorner(unknowns_, unknowns_));
-  std::vector<int> place(static_cast<std::size_t>(matrix.rows()), 2 * static_cast<int>(unknowns_));
+  std::vector<int> order =
+      order_of_unknowns(matrix.topLeftCorner(layout_.unknowns, layout_.unknowns));
+  std::vector<int> place(static_cast<std::size_t>(matrix.rows()),
+                         2 * static_cast<int>(layout_.unknowns));
   for (std::size_t i = 0; i < order.size(); ++i)
     place[static_cast<std::size_t>(order[i])] = 2 * static_cast<int>(i);
 
@@ -145,7 +147,8 @@ std::vector<int> Structure::elimination_order(const Eigen::SparseMatrix<double>&
     for (Index i = 0; i < rows(goes); ++i)
       place[static_cast<std::size_t>(first_multiplier(goes) + i)] = branch.place + 1;
   }
-  for (Index row = unknowns_; row < matrix.rows(); ++row) order.push_back(static_cast<int>(row));
+  for (Index row = layout_.unknowns; row < matrix.rows(); ++row)
+    order.push_back(static_cast<int>(row));
   std::ranges::stable_sort(order, {},
                            [&](int row) { return place[static_cast<std::size_t>(row)]; });
   return order;
@@ -178,7 +181,7 @@ Eigen::SparseMatrix<double> Structure::mixed_form() const {
         }
     }
   }
-  const Index n = unknowns_ + bodies_->compatibilities();
+  const Index n = layout_.unknowns + bodies_->compatibilities();
   Eigen::SparseMatrix<double> lower(n, n);
   lower.setFromTriplets(entries.begin(), entries.end());
   return lower;
@@ -192,7 +195,7 @@ void Structure::factorise() {
       stiffness_ = std::max(stiffness_, bodies.op.impedance.diagonal().maxCoeff());
     for (const int body : bodies.bodies) op_of_body_[static_cast<std::size_t>(body)] = &bodies.op;
   }
-  if (unknowns_ == 0) {
+  if (layout_.unknowns == 0) {
     factor_.reset();
     single_.reset();
     return;
@@ -200,8 +203,8 @@ void Structure::factorise() {
   Eigen::SparseMatrix<double> matrix = mixed_form();
   const std::vector<int> order = elimination_order(matrix);
   // Where many joints are loose, hardly anything is like anything else.
-  const bool share =
-      bodies_->shared() && std::ranges::count(held_, Held::fully) == std::ssize(held_);
+  const bool share = bodies_->shared() &&
+                     std::ranges::count(layout_.held, Held::fully) == std::ssize(layout_.held);
   const auto try_to = [&] {
     std::vector<double> memory;
     if (factor_) memory = std::move(*factor_).memory();
@@ -212,8 +215,8 @@ void Structure::factorise() {
   // A mechanism has nothing but its trace of inertia. The factor may hold it, for the corrections
   // take what it adds away from everything that bears a load.
   for (double hold = 1e-13; !try_to() && hold < most_hold; hold *= 10.0)
-    matrix.diagonal().head(unknowns_).array() += hold * stiffness_;
-  const bool slides = std::ranges::count(held_, Held::normal) > 0;
+    matrix.diagonal().head(layout_.unknowns).array() += hold * stiffness_;
+  const bool slides = std::ranges::count(layout_.held, Held::normal) > 0;
   const bool has_inertia = std::ranges::all_of(bodies_->classes(), [](const BodyClass& group) {
     return group.op.inertia_part > least_inertia;
   });

@@ -41,27 +41,32 @@ Jump Structure::jump(int joint) const {
 
 Eigen::Matrix2Xd Structure::reactions_of(const Jump& jump,
                                          const std::vector<SharedJump>& to) const {
-  const auto body_b = [&](int joint) {
-    return bodies_->assembly().joints[static_cast<std::size_t>(joint)].body_b;
-  };
-  const int body = body_b(jump.joint);
-  const BodyOperator& op = *op_of_body_[static_cast<std::size_t>(body)];
-  const Index first = bodies_->first_port(body);
   const Eliminated half = factor_->over_pivots(jump.half);
   Eigen::Matrix2Xd reactions(2, 2 * static_cast<Index>(to.size()));
-  for (std::size_t k = 0; k < to.size(); ++k) {
-    auto of_one = reactions.middleCols<2>(2 * static_cast<Index>(k));
-    of_one = -product(half, to[k]->half);
-    if (body != body_b(to[k]->joint)) continue;
-    for (const std::size_t i : {0U, 1U})
-      for (const std::size_t j : {0U, 1U}) {
-        const Index row = port_b(jump.joint, i) - first, column = port_b(to[k]->joint, j) - first;
-        of_one(static_cast<Index>(i), static_cast<Index>(j)) +=
-            op.impedance(row, column) +
-            stiffness_ * op.compatibility.col(row).dot(op.compatibility.col(column));
-      }
-  }
+  for (std::size_t k = 0; k < to.size(); ++k)
+    reactions.middleCols<2>(2 * static_cast<Index>(k)) =
+        stiffness_between(jump.joint, to[k]->joint) - product(half, to[k]->half);
   return reactions;
+}
+
+// Of a body whose ports jump at both joints.
+Eigen::Matrix2d Structure::stiffness_between(int joint, int other) const {
+  const auto body_b = [&](int of) {
+    return bodies_->assembly().joints[static_cast<std::size_t>(of)].body_b;
+  };
+  Eigen::Matrix2d between = Eigen::Matrix2d::Zero();
+  const int body = body_b(joint);
+  if (body != body_b(other)) return between;
+  const BodyOperator& op = *op_of_body_[static_cast<std::size_t>(body)];
+  const Index first = bodies_->first_port(body);
+  for (const std::size_t i : {0U, 1U})
+    for (const std::size_t j : {0U, 1U}) {
+      const Index row = port_b(joint, i) - first, column = port_b(other, j) - first;
+      between(static_cast<Index>(i), static_cast<Index>(j)) =
+          op.impedance(row, column) +
+          stiffness_ * op.compatibility.col(row).dot(op.compatibility.col(column));
+    }
+  return between;
 }
 
 // L⁻¹ P of the load of jumps.
@@ -77,7 +82,7 @@ MatrixXd Structure::half_solved(const std::vector<SharedJump>& jumps, const Matr
 template <class Values>
 Values Structure::port_displacements(const Values& unknowns, const std::vector<SharedJump>& jumps,
                                      const Values& y) const {
-  Values displacements = unknowns_to_ports(unknowns);
+  Values displacements = unknowns_to_ports(unknowns, factorised_);
   for (std::size_t i = 0; i < jumps.size(); ++i)
     for (const std::size_t k : {0U, 1U})
       displacements(port_b(jumps[i]->joint, k)) += y(static_cast<Index>(2 * i + k));

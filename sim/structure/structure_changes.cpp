@@ -1,0 +1,128 @@
+// Joints that hold in another way than in the factor (C6).
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/structure/structure.hpp"
+
+namespace havers::sim {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr std::size_t worth_a_factor = 50;  // changes, each of a path through it and a row with all
+
+bool is_in(std::size_t component, Held held) {
+  return held == Held::fully || (held == Held::normal && component == 0);
+}
+
+}  // namespace
+
+bool Structure::hold_nearby(const std::vector<Held>& held) {
+  if (!single_) return false;
+  std::vector<int> changed;
+  for (int joint = 0; joint < static_cast<int>(held.size()); ++joint)
+    if (held[static_cast<std::size_t>(joint)] != factorised_.held[static_cast<std::size_t>(joint)])
+      changed.push_back(joint);
+  if (changed.size() > worth_a_factor) return false;
+
+  changes_.clear();
+  std::vector<Index> first;  // of each, among the components of all
+  Index size = 0;
+  for (const int joint : changed) {
+    changes_.push_back(change_of(joint, held[static_cast<std::size_t>(joint)]));
+    first.push_back(size);
+    size += std::ssize(changes_.back().components);
+  }
+  MatrixXd between(size, size);
+  for (std::size_t i = 0; i < changes_.size(); ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      const MatrixXd block = coupling(changes_[i], changes_[j]);
+      between.block(first[i], first[j], block.rows(), block.cols()) = block;
+      between.block(first[j], first[i], block.cols(), block.rows()) = block.transpose();
+    }
+  if (size > 0) between_changes_.compute(between);
+  layout_ = laid_out(held);
+  return true;
+}
+
+Structure::Change Structure::change_of(int joint, Held now) const {
+  const Held before = factorised_.held[static_cast<std::size_t>(joint)];
+  Change change{joint, now < before, {}, {}, {}};
+  for (const std::size_t component : {0U, 1U})
+    if (is_in(component, before) != is_in(component, now)) change.components.push_back(component);
+  if (change.holds_more) {
+    for (const std::size_t side : {0U, 1U}) {
+      const auto row = [&](std::size_t component) {
+        const auto& ends = bodies_->ends()[2 * static_cast<std::size_t>(joint) + component];
+        return unknowns_of_port(ends[side])[0];
+      };
+      const double sign = side == 0 ? -1.0 : 1.0;
+      change.halves.push_back(
+          factor_->eliminate({row(0), row(1)}, sign * Eigen::Matrix2d::Identity()));
+    }
+  } else {
+    change.halves.push_back(jump(joint).half);
+    change.halves.back().values *= -1.0;  // it is the load that a jump is, on the other side
+  }
+  for (const Eliminated& half : change.halves)
+    change.over_pivots.push_back(factor_->over_pivots(half));
+  return change;
+}
+
+// Of the equations between changes that are left when all unknowns are eliminated.
+MatrixXd Structure::coupling(const Change& of, const Change& to) const {
+  Eigen::Matrix2d all = Eigen::Matrix2d::Zero();
+  if (!of.holds_more && !to.holds_more) all = stiffness_between(of.joint, to.joint);
+  for (const Eliminated& a : of.over_pivots)
+    for (const Eliminated& b : to.halves) all -= product(a, b);
+  return all(of.components, to.components);
+}
+
+// What has let go bears no force, what holds has no jump; the reactions of that are not missing.
+VectorXd Structure::solve_nearby(VectorXd forces, const VectorXd& gap,
+                                 VectorXd& displacements) const {
+  for (const Change& change : changes_)
+    for (const std::size_t component : change.components) {
+      if (!change.holds_more) continue;
+      const auto& [a, b] = bodies_->ends()[2 * static_cast<std::size_t>(change.joint) + component];
+      forces(a) += std::exchange(forces(b), 0.0);
+    }
+  VectorXd load(factorised_.unknowns + gap.size());
+  load << -ports_to_unknowns(forces, factorised_), -gap;
+  // Single precision has but so many powers of ten.
+  const double largest = load.lpNorm<Eigen::Infinity>(), size = largest > 0.0 ? largest : 1.0;
+  VectorXd half = single_->halve(load / size).cast<double>();
+  VectorXd by(between_changes_.rows());
+  Index row = 0;
+  for (const Change& change : changes_)
+    for (const std::size_t component : change.components) {
+      by(row) = change.holds_more ? 0.0 : -forces(port_b(change.joint, component)) / size;
+      for (const auto& [rows, values] : change.over_pivots)
+        by(row) -= values.row(static_cast<Index>(component)).dot(half(rows));
+      ++row;
+    }
+  if (row > 0) by = between_changes_.solve(by).eval();
+  row = 0;
+  for (const Change& change : changes_)
+    for (const std::size_t component : change.components) {
+      for (const auto& [rows, values] : change.halves)
+        half(rows) -= by(row) * values.row(static_cast<Index>(component)).transpose();
+      ++row;
+    }
+  const VectorXd answer = size * single_->complete(half).cast<double>();
+  displacements = unknowns_to_ports(answer, factorised_);
+  row = 0;
+  for (const Change& change : changes_)
+    for (const std::size_t component : change.components) {
+      if (!change.holds_more) displacements(port_b(change.joint, component)) += size * by(row);
+      ++row;
+    }
+  if (row > 0) displacements = as_held(displacements);
+  return answer;
+}
+
+}  // namespace havers::sim
