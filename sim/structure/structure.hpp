@@ -65,7 +65,7 @@ struct NearReactions {
   float off_balance = 0.0F;
 };
 
-/// Factor of the structure in which the joints hold as given (S5)-(S8),
+/// Factor of the structure in which the joints hold as given (S5)-(S9),
 /// sim/README.md. Unknowns are the joints' own displacements; what an even ring of ports
 /// cannot do is imposed by multipliers, so that no digits are lost at large steps (M10).
 class Structure {
@@ -78,7 +78,7 @@ class Structure {
   /// The same bodies held in another way; memory is used again.
   void hold(std::vector<Held> held);
   /// The same where few joints hold in another way than in the factor: this stays, and is corrected
-  /// by them (C6). Jumps are none of its business. False, and nothing done, where that does not
+  /// by them (S9). Jumps are none of its business. False, and nothing done, where that does not
   /// pay.
   [[nodiscard]] bool hold_nearby(const std::vector<Held>& held);
   [[nodiscard]] bool is_corrected() const { return !changes_.empty(); }

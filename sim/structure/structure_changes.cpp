@@ -1,4 +1,4 @@
-// Joints that hold in another way than in the factor (C6).
+// Joints that hold in another way than in the factor (S9).
 #include <algorithm>
 #include <cmath>
 #include <utility>
