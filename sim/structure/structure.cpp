@@ -175,6 +175,7 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads, PortState st
     gap = bodies_->incompatibility(state.displacements);
   }
   if (rubs) rub(friction, state.forces);
+  VectorXd missing = in_forces(state.forces, gap);
   std::vector<Correction> past;
   double before = loads.near ? 0.0 : 1.0;  // how they shrink is then seen from the second on
   while (factor_ && state.solves < (rubs ? max_solves_with_friction : max_solves)) {
@@ -184,9 +185,9 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads, PortState st
     if (rubs) {
       for (const Correction& old : past)
         change.subtract(change.effect.dot(old.effect) / old.effect.squaredNorm(), old);
-      length = -in_forces(state.forces, gap).dot(change.effect) / change.effect.squaredNorm();
+      length = -missing.dot(change.effect) / change.effect.squaredNorm();
       if (!std::isfinite(length)) {
-        state.error = std::numeric_limits<double>::infinity();
+        if (!missing.isZero(0.0)) state.error = std::numeric_limits<double>::infinity();
         break;
       }
     }
@@ -200,12 +201,10 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads, PortState st
     // double's digits.
     const double shrinkage = correction > 1e-6 * before ? correction / before : 1e-6;
     state.error = correction * std::min(shrinkage, 1.0);
-    if (!rubs && scale > 0.0)
-      state.error = std::min(
-          state.error,
-          forces_by_imbalance *
-              std::hypot(ports_to_unknowns(state.forces, layout_).norm(), stiffness_ * gap.norm()) /
-              scale);
+    missing = in_forces(state.forces, gap);
+    const double imbalance = scale > 0.0 ? missing.norm() / scale : 0.0;
+    state.error = rubs ? std::max(state.error, imbalance)
+                       : std::min(state.error, forces_by_imbalance * imbalance);
     if (!(state.error > loads.accuracy)) break;
     if (state.solves > 3 && shrinkage > 0.5 && !rubs) break;
     before = correction;

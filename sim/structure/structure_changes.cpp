@@ -1,6 +1,6 @@
 // Joints that hold in another way than in the factor (S9).
-#include <algorithm>
-#include <cmath>
+#include <array>
+#include <iterator>
 #include <utility>
 
 #include "sim/structure/structure.hpp"
@@ -85,43 +85,43 @@ MatrixXd Structure::coupling(const Change& of, const Change& to) const {
 // What has let go bears no force, what holds has no jump; the reactions of that are not missing.
 VectorXd Structure::solve_nearby(VectorXd forces, const VectorXd& gap,
                                  VectorXd& displacements) const {
-  for (const Change& change : changes_)
-    for (const std::size_t component : change.components) {
-      if (!change.holds_more) continue;
-      const auto& [a, b] = bodies_->ends()[2 * static_cast<std::size_t>(change.joint) + component];
-      forces(a) += std::exchange(forces(b), 0.0);
-    }
+  const auto for_each_component = [&](const auto& visit) {
+    Index row = 0;
+    for (const Change& change : changes_)
+      for (const std::size_t component : change.components) {
+        const auto& ends = bodies_->ends()[2 * static_cast<std::size_t>(change.joint) + component];
+        visit(change, static_cast<Index>(component), ends, row++);
+      }
+  };
+  using Ends = std::array<Index, 2>;
+  for_each_component([&](const Change& change, Index, const Ends& ends, Index) {
+    if (change.holds_more) forces(ends[0]) += std::exchange(forces(ends[1]), 0.0);
+  });
   VectorXd load(factorised_.unknowns + gap.size());
   load << -ports_to_unknowns(forces, factorised_), -gap;
   // Single precision has but so many powers of ten.
   const double largest = load.lpNorm<Eigen::Infinity>(), size = largest > 0.0 ? largest : 1.0;
   VectorXd half = single_->halve(load / size).cast<double>();
-  VectorXd by(between_changes_.rows());
-  Index row = 0;
-  for (const Change& change : changes_)
-    for (const std::size_t component : change.components) {
-      by(row) = change.holds_more ? 0.0 : -forces(port_b(change.joint, component)) / size;
+  VectorXd by;
+  if (is_corrected()) {
+    by.resize(between_changes_.rows());
+    for_each_component([&](const Change& change, Index component, const Ends& ends, Index row) {
+      by(row) = change.holds_more ? 0.0 : -forces(ends[1]) / size;
       for (const auto& [rows, values] : change.over_pivots)
-        by(row) -= values.row(static_cast<Index>(component)).dot(half(rows));
-      ++row;
-    }
-  if (row > 0) by = between_changes_.solve(by).eval();
-  row = 0;
-  for (const Change& change : changes_)
-    for (const std::size_t component : change.components) {
+        by(row) -= values.row(component).dot(half(rows));
+    });
+    by = between_changes_.solve(by).eval();
+    for_each_component([&](const Change& change, Index component, const Ends&, Index row) {
       for (const auto& [rows, values] : change.halves)
-        half(rows) -= by(row) * values.row(static_cast<Index>(component)).transpose();
-      ++row;
-    }
+        half(rows) -= by(row) * values.row(component).transpose();
+    });
+  }
   const VectorXd answer = size * single_->complete(half).cast<double>();
   displacements = unknowns_to_ports(answer, factorised_);
-  row = 0;
-  for (const Change& change : changes_)
-    for (const std::size_t component : change.components) {
-      if (!change.holds_more) displacements(port_b(change.joint, component)) += size * by(row);
-      ++row;
-    }
-  if (row > 0) displacements = as_held(displacements);
+  for_each_component([&](const Change& change, Index, const Ends& ends, Index row) {
+    if (!change.holds_more) displacements(ends[1]) += size * by(row);
+  });
+  if (is_corrected()) displacements = as_held(displacements);
   return answer;
 }
 
