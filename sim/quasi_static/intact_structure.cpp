@@ -118,8 +118,8 @@ IntactStructure::SharedColumn IntactStructure::column(const SharedJump& jump, bo
     const auto [place, is_new] = columns_.try_emplace(jump->joint);
     if (is_new || place->second || !make) return place->second;
   }
-  auto [reactions, off_balance] = nearly_reactions_to({jump}, Eigen::Matrix2d::Identity());
-  auto column = std::make_shared<const Column>(Column{std::move(reactions), off_balance});
+  const auto [reactions, off_balance] = nearly_reactions_to({jump}, Eigen::Matrix2d::Identity());
+  auto column = std::make_shared<const Column>(Column{reactions, off_balance});
   const std::scoped_lock lock(mutex_);
   SharedColumn& place = columns_[jump->joint];
   if (!place && remembered + bytes(*column) <= most_remembered) {

@@ -118,8 +118,8 @@ void SinglePrecisionFactor::eliminate(VectorXf& x) const {
 
 // x ← L⁻ᵀ x.
 void SinglePrecisionFactor::substitute(VectorXf& x) const {
-  for (auto at = strips_.rbegin(); at != strips_.rend(); ++at) {
-    const Strip& strip = *at;
+  for (std::size_t i = strips_.size(); i-- > 0;) {
+    const Strip& strip = strips_[i];
     with_width(strip.columns, [&](auto width) {
       const float* const values = values_.data() + strip.values;
       const int* const rows = factor_->tree_.rows.data() + strip.rows;
@@ -128,10 +128,9 @@ void SinglePrecisionFactor::substitute(VectorXf& x) const {
       Row<width> left = Row<width>::Zero();
       left.head(strip.columns) = own;
       left -= sum_of_rows<width>(values + strip.columns * width, strip.height - strip.columns,
-                                 [&](int i) { return x(below[i]); });
-      own = sum_of_rows<width>(values, strip.columns, [&](int i) {
-              return left(i);
-            }).head(strip.columns);
+                                 [&](int k) { return x(below[k]); });
+      const auto weight = [&](int column) { return left(column); };
+      own = sum_of_rows<width>(values, strip.columns, weight).head(strip.columns);
     });
   }
 }
