@@ -95,7 +95,7 @@ VectorXd Structure::as_held(const VectorXd& displacements) const {
   for (const Index top : tops_of_ties_)
     unknowns(layout_.unknowns - 1) =
         displacements(top) - unknowns(layout_.of_port[static_cast<std::size_t>(top)][0]);
-  return unknowns_to_ports(unknowns, layout_);
+  return unknowns_to_ports<VectorXd>(unknowns, layout_);
 }
 
 VectorXd Structure::ports_to_unknowns(const VectorXd& forces, const Layout& layout) const {
@@ -151,7 +151,7 @@ Structure::Correction Structure::correct(const VectorXd& forces, const VectorXd&
     VectorXd load(layout_.unknowns + gap.size());
     load << -ports_to_unknowns(stiffened, layout_), -gap;
     answer = factor_->solve(load);
-    change.displacements = unknowns_to_ports(answer, layout_);
+    change.displacements = unknowns_to_ports<VectorXd>(answer, layout_);
   }
   change.gap = bodies_->incompatibility(change.displacements);
   change.multipliers = answer.tail(gap.size());

@@ -136,10 +136,10 @@ class Structure {
                                              Eigen::VectorXd& displacements) const;
   [[nodiscard]] Eigen::MatrixXd half_solved(const std::vector<SharedJump>& jumps,
                                             const Eigen::MatrixXd& y) const;
-  template <class Values>
-  [[nodiscard]] Values port_displacements(const Values& unknowns,
+  template <class Vector>
+  [[nodiscard]] Vector port_displacements(const Eigen::Ref<const Vector>& unknowns,
                                           const std::vector<SharedJump>& jumps,
-                                          const Values& y) const;
+                                          const Eigen::Ref<const Vector>& y) const;
   [[nodiscard]] PortState solve_ports(const PortLoads& loads, PortState state) const;
   [[nodiscard]] Correction correct(const Eigen::VectorXd& forces, const Eigen::VectorXd& gap,
                                    const Eigen::VectorXd& friction) const;
@@ -160,10 +160,10 @@ class Structure {
     return bodies_->ends()[2 * static_cast<std::size_t>(joint) + component][1];
   }
   [[nodiscard]] Eigen::MatrixXd stiffened(const BodyOperator& op) const;
-  /// @tparam Values  a vector
-  template <class Values>
-  [[nodiscard]] Values unknowns_to_ports(const Values& unknowns, const Layout& layout) const {
-    Values p(ports());
+  template <class Vector>
+  [[nodiscard]] Vector unknowns_to_ports(const Eigen::Ref<const Vector>& unknowns,
+                                         const Layout& layout) const {
+    Vector p(ports());
     for (Eigen::Index i = 0; i < p.size(); ++i)
       p(i) = unknowns(layout.of_port[static_cast<std::size_t>(i)][0]);
     for (const Eigen::Index top : tops_of_ties_) p(top) += unknowns(layout.unknowns - 1);

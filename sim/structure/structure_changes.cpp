@@ -117,7 +117,7 @@ VectorXd Structure::solve_nearby(VectorXd forces, const VectorXd& gap,
     });
   }
   VectorXd answer = size * single_->complete(half).cast<double>();
-  displacements = unknowns_to_ports(answer, factorised_);
+  displacements = unknowns_to_ports<VectorXd>(answer, factorised_);
   for_each_component([&](const Change& change, Index, const Ends& ends, Index row) {
     if (!change.holds_more) displacements(ends[1]) += size * by(row);
   });

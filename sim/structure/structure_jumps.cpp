@@ -79,10 +79,11 @@ MatrixXd Structure::half_solved(const std::vector<SharedJump>& jumps, const Matr
 }
 
 // Of all ports, those of both sides of a joint.
-template <class Values>
-Values Structure::port_displacements(const Values& unknowns, const std::vector<SharedJump>& jumps,
-                                     const Values& y) const {
-  Values displacements = unknowns_to_ports(unknowns, factorised_);
+template <class Vector>
+Vector Structure::port_displacements(const Eigen::Ref<const Vector>& unknowns,
+                                     const std::vector<SharedJump>& jumps,
+                                     const Eigen::Ref<const Vector>& y) const {
+  Vector displacements = unknowns_to_ports<Vector>(unknowns, factorised_);
   for (std::size_t i = 0; i < jumps.size(); ++i)
     for (const std::size_t k : {0U, 1U})
       displacements(port_b(jumps[i]->joint, k)) += y(static_cast<Index>(2 * i + k));
@@ -93,7 +94,7 @@ MatrixXd Structure::reactions_to(const std::vector<SharedJump>& jumps, const Mat
   const MatrixXd unknowns = factor_->complete(half_solved(jumps, y));
   MatrixXd reactions(2 * joints(), y.cols());
   for (Index c = 0; c < y.cols(); ++c) {
-    const VectorXd of_one = unknowns.col(c);
+    const auto of_one = unknowns.col(c);
     reactions.col(c) =
         reactions_of(bodies_->port_forces(port_displacements<VectorXd>(of_one, jumps, y.col(c)),
                                           of_one.tail(bodies_->compatibilities())));
