@@ -83,7 +83,7 @@ template <class Vector>
 Vector Structure::port_displacements(const Eigen::Ref<const Vector>& unknowns,
                                      const std::vector<SharedJump>& jumps,
                                      const Eigen::Ref<const Vector>& y) const {
-  Vector displacements = unknowns_to_ports<Vector>(unknowns, factorised_);
+  auto displacements = unknowns_to_ports<Vector>(unknowns, factorised_);
   for (std::size_t i = 0; i < jumps.size(); ++i)
     for (const std::size_t k : {0U, 1U})
       displacements(port_b(jumps[i]->joint, k)) += y(static_cast<Index>(2 * i + k));

@@ -199,6 +199,28 @@ TEST_P(TinyStructure, IsCorrectedWhereFewJointsHoldInAnotherWay) {
       }
 }
 
+TEST(Structure, KeepsItsFactorForFewJointsOnly) {
+  const Scene scene = test::small_scene(0.0, 14, 10);
+  const Assembly assembly = build_assembly(scene.assembly, Lateral::periodic);
+  const Bodies bodies(assembly, scene.material, shift_of(0.3, scene.material));
+  std::vector<Held> held(assembly.joints.size(), Held::fully), more = held;
+  Structure structure(bodies, held);
+  EXPECT_FALSE(structure.hold_nearby(held)) << "nothing slides";
+  held[0] = Held::normal;
+  structure.hold(held);
+  EXPECT_TRUE(structure.hold_nearby(held));
+  EXPECT_FALSE(structure.is_corrected());
+  std::fill_n(more.begin(), 50, Held::not_at_all);
+  EXPECT_TRUE(structure.hold_nearby(more));
+  EXPECT_EQ(structure.held(), more);
+  const StructureLoads loads = random_loads(bodies, 5);
+  const Eigen::VectorXd expected = Structure(bodies, more).solve(loads).reactions;
+  EXPECT_LT((structure.solve(loads).reactions - expected).norm(), 1e-9 * expected.norm());
+  more[50] = Held::not_at_all;
+  EXPECT_FALSE(structure.hold_nearby(more));
+  EXPECT_NE(structure.held(), more);
+}
+
 TEST_P(TinyStructure, HeldInAnotherWayIsAsOneMadeForThat) {
   std::vector<Held> held(assembly.joints.size(), Held::fully);
   for (std::size_t j = 0; j < held.size(); j += 3) held[j] = Held::not_at_all;
