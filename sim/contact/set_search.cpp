@@ -66,6 +66,7 @@ void SetSearch::answer(const JointStep& step, double accuracy, JointStepResult& 
     loads.given(2 * j + 1) = loads.friction(j) * law.cohesion;
   }
   last_ = structure_->solve(loads);
+  // Where corrections of another set's factor do not end, this one gets its own.
   if (!(last_.residual <= std::max(accuracy, enough)) && structure_->is_corrected()) {
     structure_->hold(structure_->held());
     last_ = structure_->solve(loads);

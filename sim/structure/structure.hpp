@@ -78,8 +78,8 @@ class Structure {
   /// The same bodies held in another way; memory is used again.
   void hold(std::vector<Held> held);
   /// The same where few joints hold in another way than in the factor: this stays, and is corrected
-  /// by them (S9). Jumps are none of its business. False, and nothing done, where that does not
-  /// pay.
+  /// by them (S9). Jumps are still those of the factor. False, and nothing done, where joints are
+  /// many, none slides in the factor or inertia is next to nothing.
   [[nodiscard]] bool hold_nearby(const std::vector<Held>& held);
   [[nodiscard]] bool is_corrected() const { return !changes_.empty(); }
 
@@ -129,7 +129,7 @@ class Structure {
     std::vector<Eliminated> halves, over_pivots;
   };
   [[nodiscard]] Layout laid_out(std::vector<Held> held) const;
-  [[nodiscard]] Change change_of(int joint, Held now) const;
+  [[nodiscard]] Change change_of(int joint) const;
   [[nodiscard]] Eigen::MatrixXd coupling(const Change& of, const Change& to) const;
   [[nodiscard]] Eigen::Matrix2d stiffness_between(int joint, int other) const;
   [[nodiscard]] Eigen::VectorXd solve_nearby(Eigen::VectorXd forces, const Eigen::VectorXd& gap,

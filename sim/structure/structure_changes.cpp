@@ -15,10 +15,6 @@ namespace {
 
 constexpr std::size_t worth_a_factor = 50;  // changes, each of a path through it and a row with all
 
-bool is_in(std::size_t component, Held held) {
-  return held == Held::fully || (held == Held::normal && component == 0);
-}
-
 }  // namespace
 
 bool Structure::hold_nearby(const std::vector<Held>& held) {
@@ -29,11 +25,12 @@ bool Structure::hold_nearby(const std::vector<Held>& held) {
       changed.push_back(joint);
   if (changed.size() > worth_a_factor) return false;
 
+  layout_ = laid_out(held);
   changes_.clear();
   std::vector<Index> first;  // of each, among the components of all
   Index size = 0;
   for (const int joint : changed) {
-    changes_.push_back(change_of(joint, held[static_cast<std::size_t>(joint)]));
+    changes_.push_back(change_of(joint));
     first.push_back(size);
     size += std::ssize(changes_.back().components);
   }
@@ -45,20 +42,19 @@ bool Structure::hold_nearby(const std::vector<Held>& held) {
       between.block(first[j], first[i], block.cols(), block.rows()) = block.transpose();
     }
   if (size > 0) between_changes_.compute(between);
-  layout_ = laid_out(held);
   return true;
 }
 
-Structure::Change Structure::change_of(int joint, Held now) const {
-  const Held before = factorised_.held[static_cast<std::size_t>(joint)];
-  Change change{joint, now < before, {}, {}, {}};
-  for (const std::size_t component : {0U, 1U})
-    if (is_in(component, before) != is_in(component, now)) change.components.push_back(component);
+Structure::Change Structure::change_of(int joint) const {
+  const auto j = static_cast<std::size_t>(joint);
+  Change change{joint, layout_.held[j] < factorised_.held[j], {}, {}, {}};
+  for (const int component : {0, 1})
+    if (const int unknown = 2 * joint + component; holds(unknown, factorised_) != holds(unknown))
+      change.components.push_back(static_cast<std::size_t>(component));
   if (change.holds_more) {
     for (const std::size_t side : {0U, 1U}) {
       const auto row = [&](std::size_t component) {
-        const auto& ends = bodies_->ends()[2 * static_cast<std::size_t>(joint) + component];
-        return unknowns_of_port(ends[side])[0];
+        return unknowns_of_port(bodies_->ends()[2 * j + component][side])[0];
       };
       const double sign = side == 0 ? -1.0 : 1.0;
       change.halves.push_back(
