@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <utility>
 
 namespace havers::sim {
@@ -49,16 +51,16 @@ void JointSweeps::find_contacts() {
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const auto &normal = bodies_->ends()[2 * j], &tangential = bodies_->ends()[2 * j + 1];
     Contact& contact = contacts_[j];
-    contact.ports = {normal[0], tangential[0], normal[1], tangential[1]};
+    contact.ports_a = {normal[0], tangential[0]};
+    contact.ports_b = {normal[1], tangential[1]};
     contact.body_a = joints[j].body_a;
     contact.body_b = joints[j].body_b;
     Eigen::Matrix2d W;
-    for (const Index r : {0, 1})
-      for (const Index c : {0, 1})
-        W(r, c) = answer(contact.body_a, contact.ports[static_cast<std::size_t>(r)],
-                         contact.ports[static_cast<std::size_t>(c)]) +
-                  answer(contact.body_b, contact.ports[static_cast<std::size_t>(2 + r)],
-                         contact.ports[static_cast<std::size_t>(2 + c)]);
+    for (const std::size_t r : {0U, 1U})
+      for (const std::size_t c : {0U, 1U})
+        W(static_cast<Index>(r), static_cast<Index>(c)) =
+            answer(contact.body_a, contact.ports_a[r], contact.ports_a[c]) +
+            answer(contact.body_b, contact.ports_b[r], contact.ports_b[c]);
     contact.stiffness = W.inverse();
   }
 }
@@ -84,6 +86,9 @@ void JointSweeps::pair_ties() {
 void JointSweeps::start(const JointStep& step, VectorXd reactions, const VectorXd& tie_forces) {
   reactions_ = std::move(reactions);
   states_ = step.states;
+  // All is to be solved at least once.
+  unrest_.setConstant(std::ssize(class_of_), std::numeric_limits<double>::infinity());
+  moves_.resize(class_of_.size());
   between_ties_ = VectorXd::Zero(static_cast<Index>(ties_.size()));
   double sum = 0.0;  // an equation's force acts on its own tie and, the other way, on the next
   for (Index i = 0; i < between_ties_.size() && tie_forces.size() > 0; ++i)
@@ -104,6 +109,15 @@ void JointSweeps::push(int body, Index port, double force) {
   const MatrixXd& answers = port_answers_[class_of_[static_cast<std::size_t>(body)]];
   const Index first = bodies_->first_port(body);
   p_.segment(first, answers.rows()) += force * answers.col(port - first);
+  unrest_(body) += std::abs(force);
+}
+
+void JointSweeps::push(int body, std::array<Index, 2> ports, const Local& force) {
+  const MatrixXd& answers = port_answers_[class_of_[static_cast<std::size_t>(body)]];
+  const Index first = bodies_->first_port(body);
+  p_.segment(first, answers.rows()) +=
+      force.x() * answers.col(ports[0] - first) + force.y() * answers.col(ports[1] - first);
+  unrest_(body) += force.lpNorm<1>();
 }
 
 double JointSweeps::opening(const TieEquation& tie) const {
@@ -112,23 +126,27 @@ double JointSweeps::opening(const TieEquation& tie) const {
   return difference;
 }
 
-bool JointSweeps::sweep(const JointStep& step, double relaxation) {
+bool JointSweeps::sweep(const JointStep& step, double relaxation, double negligible) {
+  for (std::size_t body = 0; body < moves_.size(); ++body) {
+    double& unrest = unrest_(static_cast<Index>(body));
+    moves_[body] = unrest > negligible ? 1 : 0;
+    if (moves_[body] != 0) unrest = 0.0;
+  }
+  const auto moves = [&](int body) { return moves_[static_cast<std::size_t>(body)] != 0; };
   bool changed = false;
   for (std::size_t j = 0; j < contacts_.size(); ++j) {
     const Contact& contact = contacts_[j];
+    if (negligible > 0.0 && !moves(contact.body_a) && !moves(contact.body_b)) continue;
     const auto row = static_cast<Index>(2 * j);
     const Local gap = step.predicted.segment<2>(row) - step.held_at.segment<2>(row) +
-                      Local(p_(contact.ports[2]) - p_(contact.ports[0]),
-                            p_(contact.ports[3]) - p_(contact.ports[1]));
+                      p_(contact.ports_b) - p_(contact.ports_a);
     const Local old = reactions_.segment<2>(row);
     const Local free = old - contact.stiffness * gap;
     const SingleJoint found =
         solve_single_joint(contact.stiffness, free, Local::Zero(), step.laws[j]);
     const Local now = old + relaxation * (free + contact.stiffness * found.y - old);
-    for (const Index c : {0, 1}) {
-      push(contact.body_a, contact.ports[static_cast<std::size_t>(c)], old(c) - now(c));
-      push(contact.body_b, contact.ports[static_cast<std::size_t>(2 + c)], now(c) - old(c));
-    }
+    push(contact.body_a, contact.ports_a, old - now);
+    push(contact.body_b, contact.ports_b, now - old);
     reactions_.segment<2>(row) = now;
     changed = changed || found.state != states_[j];
     states_[j] = found.state;

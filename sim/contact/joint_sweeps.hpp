@@ -19,7 +19,9 @@ class JointSweeps {
   void start(const JointStep& step, Eigen::VectorXd reactions, const Eigen::VectorXd& tie_forces);
   /// One sweep; returns whether a joint's state changed.
   /// @param relaxation  of a joint's change what is made, below 2; above 1: over-relaxed [-]
-  bool sweep(const JointStep& step, double relaxation = 1.0);
+  /// @param negligible  changes of the forces on both its bodies, since it was solved, for which a
+  /// joint is left as it is [N/m]
+  bool sweep(const JointStep& step, double relaxation = 1.0, double negligible = 0.0);
 
   [[nodiscard]] const Eigen::VectorXd& reactions() const { return reactions_; }  ///< [N/m]
   [[nodiscard]] const std::vector<JointState>& states() const { return states_; }
@@ -30,9 +32,9 @@ class JointSweeps {
   [[nodiscard]] Eigen::VectorXd displacements(const JointStep& step) const;  ///< δ. [m]
 
  private:
-  /// What one joint needs: its ports (side a: normal, tangential; side b likewise) and 1/W.
+  /// What one joint needs: its ports (normal, tangential) on either side, and 1/W.
   struct Contact {
-    std::array<Eigen::Index, 4> ports{};
+    std::array<Eigen::Index, 2> ports_a{}, ports_b{};
     int body_a = 0, body_b = 0;
     Eigen::Matrix2d stiffness;  ///< (W_aa + W_bb)⁻¹. [N/m²]
   };
@@ -47,6 +49,7 @@ class JointSweeps {
   void pair_ties();
   [[nodiscard]] double answer(int body, Eigen::Index row, Eigen::Index column) const;
   void push(int body, Eigen::Index port, double force);
+  void push(int body, std::array<Eigen::Index, 2> ports, const Local& force);
   [[nodiscard]] double opening(const TieEquation& tie) const;
   [[nodiscard]] Eigen::VectorXd port_forces() const;
 
@@ -59,6 +62,8 @@ class JointSweeps {
   Eigen::VectorXd reactions_, between_ties_;  // forces of joints and of tie equations
   Eigen::VectorXd p_;                         // port displacements
   std::vector<JointState> states_;
+  Eigen::VectorXd unrest_;   // of each body: changes of its forces that its joints have not felt
+  std::vector<char> moves_;  // the bodies whose joints are solved
 };
 
 }  // namespace havers::sim

@@ -23,6 +23,8 @@ constexpr std::size_t most_changes = 50;
 // Before it sweeps are over-relaxed and see farther, but not where the nearest answer is looked
 // for: they may pass it by.
 constexpr double over_relaxed = 1.6;
+// Then joints are left as they are while their bodies' forces change by that part of the largest.
+constexpr double negligible = 1e-4;
 // Part of the reactions that an answer may err by, where it breaks a law by more.
 constexpr double rough = 1e-4;
 constexpr double useful = 0.1;   // to start from, likewise
@@ -95,11 +97,13 @@ std::vector<JointState> SetSearch::lawful(const JointStep& step, const JointStep
 }
 
 // Returns the sweeps spent.
-int SetSearch::look_for_states(const JointStep& step, int patience, double relaxation,
+int SetSearch::look_for_states(const JointStep& step, int patience, bool far,
                                std::vector<JointState>& states) {
+  const double relaxation = far ? over_relaxed : 1.0;
+  const double least = far ? negligible * sweeps_.reactions().lpNorm<Eigen::Infinity>() : 0.0;
   int quiet = 0, sweep = 0;
   for (; sweep < patience * most_sweeps && quiet < patience * quiet_sweeps; ++sweep)
-    quiet = sweeps_.sweep(step, relaxation) ? 0 : quiet + 1;
+    quiet = sweeps_.sweep(step, relaxation, least) ? 0 : quiet + 1;
   states = sweeps_.states();
   return sweep;
 }
@@ -146,8 +150,8 @@ JointStepResult SetSearch::solve(const JointStep& step, bool nearest) {
   const int most_sets = sets_from_answers + (nearest ? 0 : sets_from_sweeps);
   for (int set = 0; set < most_sets; ++set) {
     const bool by_sweeps_alone = set < sets_by_sweeps_alone;
-    const double relaxation = by_sweeps_alone && !nearest ? over_relaxed : 1.0;
-    result.iterations += look_for_states(step, patience, relaxation, result.states);
+    const bool far = by_sweeps_alone && !nearest;
+    result.iterations += look_for_states(step, patience, far, result.states);
     if (settles_nearby(step, by_sweeps_alone ? 0 : most_changes, result) || !structure_->ok())
       break;
     const bool go_on = (nearest && set == 0) || set >= sets_from_answers;

@@ -27,7 +27,7 @@ class SetSearch {
   bool settles_nearby(const JointStep& step, std::size_t most, JointStepResult& result);
   [[nodiscard]] std::vector<JointState> lawful(const JointStep& step, const JointStepResult& result,
                                                double accuracy) const;
-  int look_for_states(const JointStep& step, int patience, double relaxation,
+  int look_for_states(const JointStep& step, int patience, bool far,
                       std::vector<JointState>& states);
 
   const Bodies* bodies_;
