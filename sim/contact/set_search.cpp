@@ -25,8 +25,9 @@ constexpr std::size_t most_changes = 50;
 constexpr double over_relaxed = 1.6;
 // Then joints are left as they are while their bodies' forces change by that part of the largest.
 constexpr double negligible = 1e-4;
-// Part of the reactions that an answer may err by, where it breaks a law by more.
-constexpr double rough = 1e-4;
+// Part of the reactions that an answer may err by, where it breaks a law by more; most that keep
+// the law to the first and break it after all show that by the second.
+constexpr double rough = 1e-4, closer = 1e-8;
 constexpr double useful = 0.1;   // to start from, likewise
 constexpr double enough = 1e-9;  // to be an answer, likewise
 
@@ -77,7 +78,8 @@ void SetSearch::answer(const JointStep& step, double accuracy, JointStepResult& 
   result.gaps = step.predicted + last_.gaps;
   result.reactions = last_.reactions;
   result.displacements = last_.displacements;
-  result.converged = lawful(step, result, accuracy) == result.states;
+  lawful_ = lawful(step, result, accuracy);
+  result.converged = lawful_ == result.states;
 }
 
 // The states that the law gives joints with such an answer, where reactions err by part of the
@@ -112,8 +114,10 @@ int SetSearch::look_for_states(const JointStep& step, int patience, bool far,
 bool SetSearch::settles(const JointStep& step, JointStepResult& result) {
   take(result.states);
   if (!structure_->ok()) return false;
-  answer(step, rough, result);
-  if (result.converged) answer(step, accuracy_of_forces, result);
+  for (const double accuracy : {rough, closer, accuracy_of_forces}) {
+    answer(step, accuracy, result);
+    if (!result.converged) break;
+  }
   result.converged = result.converged && last_.residual < enough;
   if (result.converged) {
     result.residual = std::max(joint_residual(step, result, stiffness_), last_.residual);
@@ -126,14 +130,12 @@ bool SetSearch::settles(const JointStep& step, JointStepResult& result) {
 bool SetSearch::settles_nearby(const JointStep& step, std::size_t most, JointStepResult& result) {
   while (!settles(step, result)) {
     if (!structure_->ok()) return false;
-    std::vector<JointState> next = lawful(step, result, rough);
-    if (next == result.states) next = lawful(step, result, accuracy_of_forces);
     std::size_t changes = 0;
-    for (std::size_t j = 0; j < next.size(); ++j)
-      if (next[j] != result.states[j]) ++changes;
+    for (std::size_t j = 0; j < lawful_.size(); ++j)
+      if (lawful_[j] != result.states[j]) ++changes;
     if (changes == 0 || changes > most) return false;
     most = changes - 1;
-    result.states = std::move(next);
+    result.states = lawful_;
   }
   return true;
 }

@@ -34,6 +34,7 @@ class SetSearch {
   JointSweeps sweeps_;
   std::optional<Structure> structure_;       // of the last set
   StructureResponse last_{.residual = 1.0};  // answer, where the next one starts
+  std::vector<JointState> lawful_;           // by the last answer
   Eigen::VectorXd stiffness_;
   std::ptrdiff_t broken_ = 0;  // joints, when its set was last tried
 };

@@ -36,16 +36,16 @@ void substitute(const Ref<const MatrixXd>& panel, Index first, Index load, Ref<M
   auto known = x.middleCols<loads>(load);
   Eigen::Matrix<double, terms, columns * loads> sums;
   sums.setZero();
-  Index i = first + columns;
-  for (; i + terms <= panel.rows(); i += terms)
+  Index i = panel.rows();
+  for (; i - terms >= first + columns; i -= terms)
     for (Index j = 0; j < columns; ++j)
       for (Index c = 0; c < loads; ++c)
         sums.col(j + columns * c) +=
-            Terms(&of.coeffRef(i, j)).cwiseProduct(Terms(&known.coeffRef(i, c)));
+            Terms(&of.coeffRef(i - terms, j)).cwiseProduct(Terms(&known.coeffRef(i - terms, c)));
   for (Index c = 0; c < loads; ++c) {
     Eigen::Vector<double, columns> own = known.col(c).template segment<columns>(first);
     own -= sums.template middleCols<columns>(columns * c).colwise().sum().transpose();
-    for (Index rest = i; rest < panel.rows(); ++rest)
+    for (Index rest = first + columns; rest < i; ++rest)
       own -= of.row(rest).transpose() * known(rest, c);
     for (Index j = columns - 1; j >= 0; --j)
       for (Index k = j + 1; k < columns; ++k) own(j) -= of(first + k, j) * own(k);

@@ -39,16 +39,17 @@ Eigen::Map<const Row<width>, Eigen::Aligned16> row(const float* values, int i) {
   return Eigen::Map<const Row<width>, Eigen::Aligned16>(values + i * width);
 }
 
-// Of all rows, weighted. In two parts, as an addition waits for the one before it.
+// Of all rows, weighted. In two parts, as an addition waits for the one before it; from the last
+// on, as strips are: memory is read in one direction.
 template <int width, class Weight>
 Row<width> sum_of_rows(const float* values, int rows, const Weight& weight) {
   Row<width> even = Row<width>::Zero(), odd = Row<width>::Zero();
-  int i = 0;
-  for (; i + 2 <= rows; i += 2) {
-    even += weight(i) * row<width>(values, i);
-    odd += weight(i + 1) * row<width>(values, i + 1);
+  int i = rows;
+  for (; i >= 2; i -= 2) {
+    even += weight(i - 1) * row<width>(values, i - 1);
+    odd += weight(i - 2) * row<width>(values, i - 2);
   }
-  if (i < rows) even += weight(i) * row<width>(values, i);
+  if (i > 0) even += weight(0) * row<width>(values, 0);
   return even + odd;
 }
 

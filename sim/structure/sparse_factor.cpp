@@ -107,14 +107,13 @@ void gather(std::span<const int> rows, std::span<const double> next, const Matri
   part = x(rows, Eigen::all);
 }
 
-// x ← L⁻ᵀ x.
+// x ← L⁻ᵀ x. Values are read from the last to the first.
 void substitute_panels(const EliminationTree& tree, const std::vector<double>& values,
                        MatrixXd& x) {
   MatrixXd work(x.rows(), x.cols());
   for (auto panel = tree.panels.rbegin(); panel != tree.panels.rend(); ++panel) {
-    const Panel* const next = &*panel == &tree.panels.front() ? nullptr : &*panel - 1;
     auto part = work.topRows(static_cast<Index>(panel->height));
-    gather(tree.rows_of(*panel), soon_needed(next, values), x, part);
+    part = x(tree.rows_of(*panel), Eigen::all);
     substitute_panel(values_of(*panel, values), part);
     x.middleRows(panel->first, panel->columns) = part.topRows(panel->columns);
   }

@@ -25,7 +25,6 @@ constexpr int max_solves_with_friction = 40;
 // What acts at the ports of all bodies.
 struct Structure::PortLoads {
   VectorXd forces;    // on the bodies
-  VectorXd offsets;   // displacements that the ports have beyond those of their unknowns
   VectorXd friction;  // of each joint; empty: none
   double force_scale = 0.0;
   double accuracy = accuracy_of_forces;
@@ -98,12 +97,10 @@ VectorXd Structure::as_held(const VectorXd& displacements) const {
   return unknowns_to_ports<VectorXd>(unknowns, layout_);
 }
 
-VectorXd Structure::ports_to_unknowns(const VectorXd& forces, const Layout& layout) const {
-  VectorXd f = VectorXd::Zero(layout.unknowns);
-  for (Index i = 0; i < forces.size(); ++i)
-    f(layout.of_port[static_cast<std::size_t>(i)][0]) += forces(i);
-  for (const Index top : tops_of_ties_) f(layout.unknowns - 1) += forces(top);
-  return f;
+void Structure::add_to_unknowns(const VectorXd& port_forces, VectorXd& all) const {
+  for (Index i = 0; i < port_forces.size(); ++i)
+    all(layout_.of_port[static_cast<std::size_t>(i)][0]) += port_forces(i);
+  for (const Index top : tops_of_ties_) all(layout_.unknowns - 1) += port_forces(top);
 }
 
 // Takes the friction of sliding joints from the forces that the bodies still have to bear.
@@ -118,97 +115,109 @@ void Structure::rub(const VectorXd& friction, VectorXd& port_forces) const {
   }
 }
 
-// A correction, what it does to the equations, and that as one vector, all in units of a force.
+// A correction, of unknowns and multipliers and of ports, and what it does to the forces on ports
+// and in the equations.
 struct Structure::Correction {
-  VectorXd displacements, multipliers, forces, gap, effect;
-
-  void subtract(double part, const Correction& other) {
-    displacements -= part * other.displacements;
-    multipliers -= part * other.multipliers;
-    forces -= part * other.forces;
-    gap -= part * other.gap;
-    effect -= part * other.effect;
-  }
+  VectorXd answer, displacements, forces, effect;
 };
 
 VectorXd Structure::in_forces(const VectorXd& forces, const VectorXd& gap) const {
   VectorXd all(layout_.unknowns + gap.size());
-  all << ports_to_unknowns(forces, layout_), stiffness_ * gap;
+  all.head(layout_.unknowns).setZero();
+  all.tail(gap.size()) = stiffness_ * gap;
+  add_to_unknowns(forces, all);
   return all;
 }
 
 // One solve with the factor (S7), which knows no friction.
-Structure::Correction Structure::correct(const VectorXd& forces, const VectorXd& gap,
-                                         const VectorXd& friction) const {
-  const bool nearby = !changes_.empty() || (single_ && friction.size() > 0);
-  VectorXd stiffened =
-      gap.isZero(0.0) ? forces : forces + stiffness_ * bodies_->compatibility_forces(gap);
-  Correction change;
-  VectorXd answer;
-  if (nearby) {
-    answer = solve_nearby(std::move(stiffened), gap, change.displacements);
-  } else {
-    VectorXd load(layout_.unknowns + gap.size());
-    load << -ports_to_unknowns(stiffened, layout_), -gap;
-    answer = factor_->solve(load);
-    change.displacements = unknowns_to_ports<VectorXd>(answer, layout_);
-  }
-  change.gap = bodies_->incompatibility(change.displacements);
-  change.multipliers = answer.tail(gap.size());
-  change.forces = bodies_->port_forces(change.displacements, change.multipliers);
-  if (friction.size() > 0) {
-    rub(friction, change.forces);
-    change.effect = in_forces(change.forces, change.gap);
-  }
+Structure::Correction Structure::correct(const VectorXd& missing, const VectorXd& friction) const {
+  VectorXd load = -missing;
+  auto gap = load.tail(bodies_->compatibilities());
+  if (gap.lpNorm<1>() != 0.0) add_to_unknowns(bodies_->compatibility_forces(gap), load);
+  gap /= stiffness_;
+  const bool nearby = is_corrected() || (single_ && friction.size() > 0);
+  Correction change{nearby ? solve_nearby(load) : VectorXd(factor_->solve(load)), {}, {}, {}};
+  change.displacements = unknowns_to_ports<VectorXd>(change.answer, layout_);
+  change.forces = bodies_->port_forces(change.displacements, change.answer.tail(gap.size()));
+  if (friction.size() > 0) rub(friction, change.forces);
+  change.effect = in_forces(change.forces, bodies_->incompatibility(change.displacements));
   return change;
 }
 
-// Corrections of the mixed system (S6) until its own residuals are rounding. Friction makes them
-// generalised conjugate residuals [EES83].
-Structure::PortState Structure::solve_ports(const PortLoads& loads, PortState state) const {
-  const bool rubs = loads.friction.size() > 0 && !loads.friction.isZero(0.0);
-  const VectorXd friction = rubs ? loads.friction : VectorXd();
-  state.forces = -loads.forces;
-  VectorXd gap = VectorXd::Zero(state.multipliers.size());
-  if (!state.displacements.isZero(0.0)) {
-    state.forces += bodies_->port_forces(state.displacements, state.multipliers);
-    gap = bodies_->incompatibility(state.displacements);
-  }
-  if (rubs) rub(friction, state.forces);
-  VectorXd missing = in_forces(state.forces, gap);
-  std::vector<Correction> past;
+// Corrections of the mixed system (S6) until its own residuals are rounding.
+void Structure::refine(const PortLoads& loads, VectorXd missing, PortState& state) const {
   double before = loads.near ? 0.0 : 1.0;  // how they shrink is then seen from the second on
-  while (factor_ && state.solves < (rubs ? max_solves_with_friction : max_solves)) {
-    Correction change = correct(state.forces, gap, friction);
+  while (state.solves < max_solves) {
+    const Correction change = correct(missing, {});
     ++state.solves;
-    double length = 1.0;
-    if (rubs) {
-      for (const Correction& old : past)
-        change.subtract(change.effect.dot(old.effect) / old.effect.squaredNorm(), old);
-      length = -missing.dot(change.effect) / change.effect.squaredNorm();
-      if (!std::isfinite(length)) {
-        if (!missing.isZero(0.0)) state.error = std::numeric_limits<double>::infinity();
-        break;
-      }
-    }
-    state.displacements += length * change.displacements;
-    state.multipliers += length * change.multipliers;
-    state.forces += length * change.forces;
-    gap += length * change.gap;
+    state.displacements += change.displacements;
+    state.multipliers += change.answer.tail(state.multipliers.size());
+    state.forces += change.forces;
+    missing += change.effect;
     const double scale = std::max(loads.force_scale, state.forces.norm());
-    const double correction = scale > 0.0 ? std::abs(length) * change.forces.norm() / scale : 0.0;
+    const double correction = scale > 0.0 ? change.forces.norm() / scale : 0.0;
     // The next correction is expected to shrink as this one did, but not by more than part of a
     // double's digits.
     const double shrinkage = correction > 1e-6 * before ? correction / before : 1e-6;
-    state.error = correction * std::min(shrinkage, 1.0);
-    missing = in_forces(state.forces, gap);
     const double imbalance = scale > 0.0 ? missing.norm() / scale : 0.0;
-    state.error = rubs ? std::max(state.error, imbalance)
-                       : std::min(state.error, forces_by_imbalance * imbalance);
+    state.error = std::min(correction * std::min(shrinkage, 1.0), forces_by_imbalance * imbalance);
     if (!(state.error > loads.accuracy)) break;
-    if (state.solves > 3 && shrinkage > 0.5 && !rubs) break;
+    if (state.solves > 3 && shrinkage > 0.5) break;
     before = correction;
-    if (rubs) past.push_back(std::move(change));
+  }
+}
+
+// The same where joints rub: generalised conjugate residuals [EES83].
+void Structure::refine_with_friction(const PortLoads& loads, VectorXd missing,
+                                     PortState& state) const {
+  VectorXd answer = VectorXd::Zero(missing.size());
+  double scale = 0.0;
+  std::vector<Correction> past;
+  while (state.solves < max_solves_with_friction) {
+    Correction change = correct(missing, loads.friction);
+    ++state.solves;
+    const double lacked = missing.norm(), correction = change.forces.norm();
+    for (const Correction& old : past) {
+      const double part = change.effect.dot(old.effect) / old.effect.squaredNorm();
+      change.answer -= part * old.answer;
+      change.effect -= part * old.effect;
+    }
+    const double length = -missing.dot(change.effect) / change.effect.squaredNorm();
+    if (!std::isfinite(length)) {
+      if (lacked > 0.0) state.error = std::numeric_limits<double>::infinity();
+      break;
+    }
+    if (past.empty())
+      scale = std::max(loads.force_scale, (state.forces + length * change.forces).norm());
+    answer += length * change.answer;
+    missing += length * change.effect;
+    // What is lacking is to forces as it was.
+    const double lacks = missing.norm();
+    state.error = scale > 0.0 ? std::max(correction / lacked, 1.0) * lacks / scale : 0.0;
+    if (!(state.error > loads.accuracy)) break;
+    past.push_back({std::move(change.answer), {}, {}, std::move(change.effect)});
+  }
+  state.displacements += unknowns_to_ports<VectorXd>(answer, layout_);
+  state.multipliers += answer.tail(state.multipliers.size());
+}
+
+Structure::PortState Structure::solve_ports(const PortLoads& loads, PortState state) const {
+  const bool rubs = loads.friction.size() > 0 && !loads.friction.isZero(0.0);
+  const auto forces = [&] {
+    VectorXd all = -loads.forces;
+    if (state.displacements.lpNorm<1>() != 0.0 || state.multipliers.lpNorm<1>() != 0.0)
+      all += bodies_->port_forces(state.displacements, state.multipliers);
+    if (rubs) rub(loads.friction, all);
+    return all;
+  };
+  state.forces = forces();
+  if (!factor_) return state;
+  VectorXd missing = in_forces(state.forces, bodies_->incompatibility(state.displacements));
+  if (!rubs) {
+    refine(loads, std::move(missing), state);
+  } else {
+    refine_with_friction(loads, std::move(missing), state);
+    state.forces = forces();
   }
   return state;
 }
@@ -223,9 +232,10 @@ VectorXd Structure::reactions_of(const VectorXd& port_forces) const {
 }
 
 StructureResponse Structure::solve(const StructureLoads& loads) const {
-  PortLoads at_ports{VectorXd(ports()), VectorXd::Zero(ports()), loads.friction,
-                     loads.force_scale, loads.accuracy,          loads.near != nullptr};
-  std::vector<MatrixXd> forces;  // on the free degrees of freedom of each class
+  PortLoads at_ports{VectorXd(ports()), loads.friction, loads.force_scale, loads.accuracy,
+                     loads.near != nullptr};
+  VectorXd offsets = VectorXd::Zero(ports());  // what ports move beyond their unknowns
+  std::vector<MatrixXd> forces;                // on the free degrees of freedom of each class
   forces.reserve(bodies_->classes().size());
   for (const BodyClass& group : bodies_->classes()) {  // (S3): condense the loads
     const BodyOperator& op = group.op;
@@ -233,25 +243,25 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
     if (op.held()) {
       const MatrixXd moved = bodies_->gather(loads.prescribed, group);
       on_class.noalias() -= op.shifted * moved;
-      bodies_->ports_in(at_ports.offsets, group).noalias() = -op.ports * moved;
+      bodies_->ports_in(offsets, group).noalias() = -op.ports * moved;
     }
     bodies_->ports_in(at_ports.forces, group).noalias() = op.recovery.transpose() * on_class;
   }
-  const VectorXd prescribed = at_ports.offsets;
+  const VectorXd prescribed = offsets;
   for (int unknown = 0; unknown < 2 * static_cast<int>(joints()); ++unknown) {
     const auto& [a, b] = bodies_->ends()[static_cast<std::size_t>(unknown)];
     if (holds(unknown)) {
-      at_ports.offsets(b) += loads.jumps(unknown);
+      offsets(b) += loads.jumps(unknown);
     } else if (loads.given.size() > 0) {
       at_ports.forces(b) += loads.given(unknown);
       at_ports.forces(a) -= loads.given(unknown);
     }
   }
 
-  PortState start{at_ports.offsets, {}, VectorXd::Zero(bodies_->compatibilities()), 0, 0.0};
+  PortState start{std::move(offsets), {}, VectorXd::Zero(bodies_->compatibilities()), 0, 0.0};
   if (loads.near != nullptr) {
     start.displacements += as_held(bodies_->port_displacements(loads.near->displacements) -
-                                   (at_ports.offsets - prescribed));
+                                   (start.displacements - prescribed));
     start.multipliers = loads.near->multipliers;
   }
   PortState state = solve_ports(at_ports, std::move(start));

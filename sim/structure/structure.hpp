@@ -132,8 +132,8 @@ class Structure {
   [[nodiscard]] Change change_of(int joint) const;
   [[nodiscard]] Eigen::MatrixXd coupling(const Change& of, const Change& to) const;
   [[nodiscard]] Eigen::Matrix2d stiffness_between(int joint, int other) const;
-  [[nodiscard]] Eigen::VectorXd solve_nearby(Eigen::VectorXd forces, const Eigen::VectorXd& gap,
-                                             Eigen::VectorXd& displacements) const;
+  void for_each_loose_component(const auto& visit) const;
+  [[nodiscard]] Eigen::VectorXd solve_nearby(const Eigen::VectorXd& load) const;
   [[nodiscard]] Eigen::MatrixXd half_solved(const std::vector<SharedJump>& jumps,
                                             const Eigen::MatrixXd& y) const;
   template <class Vector>
@@ -141,8 +141,11 @@ class Structure {
                                           const std::vector<SharedJump>& jumps,
                                           const Eigen::Ref<const Vector>& y) const;
   [[nodiscard]] PortState solve_ports(const PortLoads& loads, PortState state) const;
-  [[nodiscard]] Correction correct(const Eigen::VectorXd& forces, const Eigen::VectorXd& gap,
+  [[nodiscard]] Correction correct(const Eigen::VectorXd& missing,
                                    const Eigen::VectorXd& friction) const;
+  void refine(const PortLoads& loads, Eigen::VectorXd missing, PortState& state) const;
+  void refine_with_friction(const PortLoads& loads, Eigen::VectorXd missing,
+                            PortState& state) const;
   [[nodiscard]] Eigen::VectorXd in_forces(const Eigen::VectorXd& forces,
                                           const Eigen::VectorXd& gap) const;
   void rub(const Eigen::VectorXd& friction, Eigen::VectorXd& port_forces) const;
@@ -170,8 +173,7 @@ class Structure {
     return p;
   }
   [[nodiscard]] Eigen::VectorXd as_held(const Eigen::VectorXd& displacements) const;
-  [[nodiscard]] Eigen::VectorXd ports_to_unknowns(const Eigen::VectorXd& forces,
-                                                  const Layout& layout) const;
+  void add_to_unknowns(const Eigen::VectorXd& port_forces, Eigen::VectorXd& all) const;
   [[nodiscard]] Eigen::VectorXd reactions_of(const Eigen::VectorXd& port_forces) const;
   [[nodiscard]] Eigen::SparseMatrix<double> mixed_form() const;
   void factorise();

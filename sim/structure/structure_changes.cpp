@@ -1,7 +1,5 @@
 // Joints that hold in another way than in the factor (S9).
-#include <array>
 #include <iterator>
-#include <utility>
 
 #include "sim/structure/structure.hpp"
 
@@ -78,46 +76,66 @@ MatrixXd Structure::coupling(const Change& of, const Change& to) const {
   return all(of.components, to.components);
 }
 
-// What has let go bears no force, what holds has no jump; the reactions of that are not missing.
-VectorXd Structure::solve_nearby(VectorXd forces, const VectorXd& gap,
-                                 VectorXd& displacements) const {
-  const auto for_each_component = [&](const auto& visit) {
+// Visits the components whose side b has unknowns of its own, in this layout or in the factor;
+// where it has none, that is the joint's.
+void Structure::for_each_loose_component(const auto& visit) const {
+  for (int joint_unknown = 0; joint_unknown < 2 * static_cast<int>(joints()); ++joint_unknown) {
+    if (holds(joint_unknown) && holds(joint_unknown, factorised_)) continue;
+    const auto port =
+        static_cast<std::size_t>(bodies_->ends()[static_cast<std::size_t>(joint_unknown)][1]);
+    visit(joint_unknown, layout_.of_port[port][0], factorised_.of_port[port][0]);
+  }
+}
+
+// What has let go bears no force, what holds has no jump.
+VectorXd Structure::solve_nearby(const VectorXd& load) const {
+  const Index shared = 2 * joints() + std::ssize(tops_of_ties_);
+  const Index last = load.size() - layout_.unknowns + (tops_of_ties_.empty() ? 0 : 1);
+  VectorXd in_factor(factorised_.unknowns + load.size() - layout_.unknowns);
+  in_factor.head(shared) = load.head(shared);
+  in_factor.tail(last) = load.tail(last);
+  for_each_loose_component([&](int joint_unknown, int own, int in_the_factor) {
+    if (in_the_factor != joint_unknown)
+      in_factor(in_the_factor) = own == joint_unknown ? 0.0 : load(own);
+    else
+      in_factor(joint_unknown) += load(own);
+  });
+  // Single precision has but so many powers of ten.
+  const double largest = in_factor.lpNorm<Eigen::Infinity>(), size = largest > 0.0 ? largest : 1.0;
+  VectorXd half = single_->halve(in_factor / size).cast<double>();
+  VectorXd by(between_changes_.rows());
+  const auto for_each_change = [&](const auto& visit) {
     Index row = 0;
     for (const Change& change : changes_)
-      for (const std::size_t component : change.components) {
-        const auto& ends = bodies_->ends()[2 * static_cast<std::size_t>(change.joint) + component];
-        visit(change, static_cast<Index>(component), ends, row++);
-      }
+      for (const std::size_t component : change.components)
+        visit(change, static_cast<Index>(component), row++);
   };
-  using Ends = std::array<Index, 2>;
-  for_each_component([&](const Change& change, Index, const Ends& ends, Index) {
-    if (change.holds_more) forces(ends[0]) += std::exchange(forces(ends[1]), 0.0);
-  });
-  VectorXd load(factorised_.unknowns + gap.size());
-  load << -ports_to_unknowns(forces, factorised_), -gap;
-  // Single precision has but so many powers of ten.
-  const double largest = load.lpNorm<Eigen::Infinity>(), size = largest > 0.0 ? largest : 1.0;
-  VectorXd half = single_->halve(load / size).cast<double>();
-  VectorXd by;
   if (is_corrected()) {
-    by.resize(between_changes_.rows());
-    for_each_component([&](const Change& change, Index component, const Ends& ends, Index row) {
-      by(row) = change.holds_more ? 0.0 : -forces(ends[1]) / size;
+    for_each_change([&](const Change& change, Index component, Index row) {
+      const Index own = layout_.of_port[static_cast<std::size_t>(
+          port_b(change.joint, static_cast<std::size_t>(component)))][0];
+      by(row) = change.holds_more ? 0.0 : load(own) / size;
       for (const auto& [rows, values] : change.over_pivots)
         by(row) -= values.row(component).dot(half(rows));
     });
     by = between_changes_.solve(by).eval();
-    for_each_component([&](const Change& change, Index component, const Ends&, Index row) {
+    for_each_change([&](const Change& change, Index component, Index row) {
       for (const auto& [rows, values] : change.halves)
         half(rows) -= by(row) * values.row(component).transpose();
     });
   }
-  VectorXd answer = size * single_->complete(half).cast<double>();
-  displacements = unknowns_to_ports<VectorXd>(answer, factorised_);
-  for_each_component([&](const Change& change, Index, const Ends& ends, Index row) {
-    if (!change.holds_more) displacements(ends[1]) += size * by(row);
+  const VectorXd found = size * single_->complete(half).cast<double>();
+  VectorXd answer(load.size());
+  answer.head(shared) = found.head(shared);
+  answer.tail(last) = found.tail(last);
+  for_each_loose_component([&](int joint_unknown, int own, int in_the_factor) {
+    if (own != joint_unknown) answer(own) = found(in_the_factor);
   });
-  if (is_corrected()) displacements = as_held(displacements);
+  for_each_change([&](const Change& change, Index component, Index row) {
+    if (change.holds_more) return;
+    answer(layout_.of_port[static_cast<std::size_t>(
+        port_b(change.joint, static_cast<std::size_t>(component)))][0]) += size * by(row);
+  });
   return answer;
 }
 

@@ -107,9 +107,9 @@ Scene nearly_severed(double missing) {
 // No way solves an event of some of these walls, two in a thousand.
 TEST(SwingingPieces, EndInTheLastRowWhereAnEventIsNotSolved) {
   Scene scene = nearly_severed(0.3);
-  scene.joints.friction = 0.3;
+  scene.joints.friction = 0.05;
   int unsolved = 0;
-  for (scene.joints.seed = 301; scene.joints.seed <= 6000 && unsolved == 0; ++scene.joints.seed) {
+  for (scene.joints.seed = 1; scene.joints.seed <= 6000 && unsolved == 0; ++scene.joints.seed) {
     std::vector<JointOutcome> last;
     double strain = 0.0;
     const Simulation simulation = simulate(scene, [&](const Progress& progress) {
