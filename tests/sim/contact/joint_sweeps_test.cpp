@@ -36,6 +36,29 @@ TEST_P(JointSweepsAt, FindTheSameInFewerSweepsWhenTheyAreOverRelaxed) {
   EXPECT_LT(relaxed, plain);
 }
 
+// What some joints bear too much spreads among its neighbours, not to those far away.
+TEST(JointSweeps, LeaveJointsWhoseBodiesHardlyFeelAChange) {
+  constexpr double part = 1e-4;
+  const Scene scene = test::wall(20, 12, Lateral::free);
+  const test::WallStep wall(scene, strain, test::step_of(scene, 0.1));
+  const Eigen::VectorXd exact = bonded_forces_at(scene, strain);
+  const double largest = exact.lpNorm<Eigen::Infinity>();
+  Eigen::VectorXd wrong = exact;
+  wrong.head(40).array() += 0.01 * largest;
+  JointSweeps sweeps(wall.bodies);
+  sweeps.start(wall.step, wrong, {});
+  sweeps.sweep(wall.step);  // each joint is solved at least once
+  const Eigen::VectorXd after_one = sweeps.reactions();
+  constexpr int many = 300;
+  for (int sweep = 0; sweep < many; ++sweep) sweeps.sweep(wall.step, 1.0, part * largest);
+  const Eigen::VectorXd left = sweeps.reactions();
+  EXPECT_EQ(left.tail(exact.size() / 2), after_one.tail(exact.size() / 2));
+  EXPECT_NE(left.head(2), after_one.head(2));
+  EXPECT_LT((left - exact).lpNorm<Eigen::Infinity>(), 0.1 * (wrong - exact).norm());
+  for (int sweep = 0; sweep < many; ++sweep) sweeps.sweep(wall.step);
+  EXPECT_LT((sweeps.reactions() - exact).norm(), 0.1 * (left - exact).norm());
+}
+
 INSTANTIATE_TEST_SUITE_P(Degrees, JointSweepsAt, testing::Values(0.0, 30.0));
 
 }  // namespace
