@@ -26,6 +26,7 @@ Check check_intervals(const CalibrationResult& result);
 Check check_plain_law(const FitProblem& problem, const Answer& answer);
 
 /// What spread the strengths show, beside that of the replicates, as Weibull's moduli.
-std::string weibull_sentence(const CalibrationResult& result);
+/// @param one_sided  orientations that say nothing of it, from `one_sided_orientations`
+std::string weibull_sentence(const CalibrationResult& result, const std::set<double>& one_sided);
 
 }  // namespace havers::calib

@@ -72,7 +72,7 @@ struct TermResult {
   double specimens = 0.0;   ///< Between specimens, beyond all that.
   double parameters = 0.0;  ///< By the errors of the fit, which did not see this specimen.
   double sd = 0.0;          ///< Of all together.
-  double residual = 0.0;    ///< (simulated − measured)/sd; 0 where a bound is not contradicted.
+  double residual = 0.0;    ///< (simulated − measured)/sd; that of a bound is (F25).
   double share = 0.0;       ///< Of the cost ½ Σ residual² of all fitted specimens. [-]
 };
 

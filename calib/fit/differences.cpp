@@ -31,14 +31,16 @@ void set_column(const FitProblem& problem, const Weights& weights, const Move& m
   const double span = (high.point - low.point).norm();
   result.jacobian.col(column) = (high.residuals - low.residuals) / span;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
-    const Landmarks scale = span * weights.sd[problem.fitted[f]];
+    const Landmarks& sd = weights.sd[problem.fitted[f]];
     const auto &one = low.predictions[f], &other = high.predictions[f];
     const Target& target = problem.targets[problem.fitted[f]];
-    const Eigen::Array<bool, landmark_count, 1> moves = tells(one, target) || tells(other, target);
-    const Landmarks paired =
-        moves.select(Landmarks(variance_of_difference(other, one) / scale.square()), 0.0);
-    const Landmarks independent = moves.select(
-        Landmarks((one.sd.square() + other.sd.square()) / one.usable / scale.square()), 0.0);
+    // Where a bound is nearer at one of them, noise counts as it does there.
+    const Landmarks squared =
+        (slopes_of_residuals(one, target, sd).max(slopes_of_residuals(other, target, sd)) /
+         (span * sd))
+            .square();
+    const Landmarks paired = variance_of_difference(other, one) * squared;
+    const Landmarks independent = (one.sd.square() + other.sd.square()) / one.usable * squared;
     result.variance.col(column).segment<landmark_count>(landmark_count *
                                                         static_cast<Eigen::Index>(f)) = paired;
     // Moves that need no new simulation cancel to rounding, and say nothing of the gain.

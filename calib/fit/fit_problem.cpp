@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "calib/fit/bound.hpp"
 #include "calib/fit/replicate_spread.hpp"
 #include "sim/quasi_static/breaking_sequence.hpp"
 #include "sim/simulate.hpp"
@@ -125,22 +126,42 @@ std::vector<Evaluation> predict(const FitProblem& problem, SimulationBatch& batc
   return evaluations;
 }
 
+bool has_bound(const Prediction& prediction, const Target& target) {
+  return target.censored && target.present[strength] && !prediction.censored;
+}
+
 Landmarks difference(const Prediction& prediction, const Target& target) {
   Landmarks result = prediction.mean - target.value;
   // What did not break gives a bound on the strength, and no landmark of a break.
   if (prediction.censored) {
-    result[strength] = std::max(result[strength], 0.0);
+    result[strength] = target.censored ? 0.0 : std::max(result[strength], 0.0);
     result.tail<4>() = 0.0;
   }
-  if (target.censored) result[strength] = std::min(result[strength], 0.0);
   return target.present.select(result, 0.0);
 }
 
+Landmarks residuals_of(const Prediction& prediction, const Target& target, const Landmarks& sd) {
+  Landmarks residuals = difference(prediction, target) / sd;
+  if (has_bound(prediction, target)) residuals[strength] = residual_of_bound(residuals[strength]);
+  return residuals;
+}
+
+Landmarks slopes_of_residuals(const Prediction& prediction, const Target& target,
+                              const Landmarks& sd) {
+  Landmarks slopes = tells(prediction, target).cast<double>();
+  if (has_bound(prediction, target))
+    slopes[strength] = slope_of_bound(difference(prediction, target)[strength] / sd[strength]);
+  return slopes;
+}
+
 Eigen::Array<bool, landmark_count, 1> tells(const Prediction& prediction, const Target& target) {
-  if (!prediction.censored && !target.censored) return target.present;
-  Landmarks away = difference(prediction, target);
-  away[modulus] = 1.0;  // no bound
-  return target.present && away != 0.0;
+  Eigen::Array<bool, landmark_count, 1> told = target.present;
+  if (prediction.censored) {
+    told[strength] = told[strength] && difference(prediction, target)[strength] > 0.0;
+    told.tail<4>() = false;
+  }
+  told[strength] = told[strength] && !target.censored;
+  return told;
 }
 
 Landmarks residuals_told(const FitProblem& problem, const Evaluation& at) {
@@ -157,11 +178,24 @@ void score(const FitProblem& problem, const Weights& weights, Evaluation& evalua
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
     evaluation.residuals.segment<landmark_count>(landmark_count * static_cast<Eigen::Index>(f)) =
-        difference(evaluation.predictions[f], problem.targets[s]) / weights.sd[s];
+        residuals_of(evaluation.predictions[f], problem.targets[s], weights.sd[s]);
   }
   const double cost = 0.5 * evaluation.residuals.squaredNorm();
   evaluation.failed = !std::isfinite(cost);
   if (!evaluation.failed) evaluation.cost = cost;
+}
+
+std::set<double> one_sided_orientations(const FitProblem& problem, const Evaluation& at) {
+  constexpr double least_told = 0.2;  // residual of a bound that one in fifty breaks below
+  std::set<double> orientations;
+  if (at.residuals.size() == 0) return orientations;
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+    const std::size_t s = problem.fitted[f];
+    const Eigen::Index row = landmark_count * static_cast<Eigen::Index>(f) + strength;
+    if (has_bound(at.predictions[f], problem.targets[s]) && at.residuals[row] < -least_told)
+      orientations.insert(problem.study.specimens[s].orientation);
+  }
+  return orientations;
 }
 
 std::vector<Landmarks> scatter_errors(const FitProblem& problem, SimulationBatch& batch,

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "calib/fit/prediction.hpp"
@@ -55,16 +56,30 @@ std::vector<Evaluation> predict(const FitProblem& problem, SimulationBatch& batc
 /// Residuals and cost of an evaluation (F7).
 void score(const FitProblem& problem, const Weights& weights, Evaluation& evaluation);
 
-/// simulated − measured; 0 where the test does not have the landmark, and where a censored strength
-/// contradicts nothing.
+/// simulated − measured, or − the bound of a test that was stopped; 0 where the test does not have
+/// the landmark, and where a strength that simulations did not reach contradicts nothing.
 Landmarks difference(const Prediction& prediction, const Target& target);
 
-/// The landmarks of a specimen whose difference tells something: present, and no bound that nothing
-/// contradicts.
+/// Standardised by given standard deviations (F7); that of a bound is (F25). [-]
+Landmarks residuals_of(const Prediction& prediction, const Target& target, const Landmarks& sd);
+
+/// What these change by for each standard deviation of the difference: 1, less for bounds, 0 where
+/// nothing is told. [-]
+Landmarks slopes_of_residuals(const Prediction& prediction, const Target& target,
+                              const Landmarks& sd);
+
+/// Whether the test was stopped, so that its strength is a bound, and simulations reach theirs.
+bool has_bound(const Prediction& prediction, const Target& target);
+
+/// The landmarks of a specimen that tell how much specimens differ: present, and no bounds.
 Eigen::Array<bool, landmark_count, 1> tells(const Prediction& prediction, const Target& target);
 
-/// How many fitted specimens tell of each landmark.
+/// How many fitted specimens tell so of each landmark.
 Landmarks residuals_told(const FitProblem& problem, const Evaluation& at);
+
+/// Orientations at which stopped tests tell of the strength: those that broke there are the weaker
+/// ones, which no check may take for all. [rad]
+std::set<double> one_sided_orientations(const FitProblem& problem, const Evaluation& at);
 
 /// How much the standard error of its scatter moves each specimen (F6), by simulation at another
 /// scatter. One per specimen of the study; zero where the scatter is searched or known exactly.

@@ -47,6 +47,9 @@ std::map<double, Group> groups_of(const FitProblem& problem, const Answer& answe
     group.variance.push_back(std::pow(answer.weights.sd[s][q], 2) -
                              std::pow(answer.weights.specimen[q], 2));
   }
+  if (q == strength)
+    for (const double orientation : one_sided_orientations(problem, answer.best))
+      groups.erase(orientation);
   return groups;
 }
 
@@ -85,7 +88,7 @@ std::optional<double> chance(const FitProblem& problem, const Answer& answer, Ei
     }
   if (jacobian.cols() > 0)
     residuals -= jacobian * jacobian.completeOrthogonalDecomposition().solve(residuals).eval();
-  between -= parameters_spent(jacobian)[q];
+  between -= parameters_spent(problem, answer.best, jacobian)[q];
   if (between < least_freedom) return std::nullopt;
   double squares = 0.0;
   for (const auto& [orientation, group] : groups)
@@ -172,8 +175,9 @@ std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer
     const Landmarks alike =
         (answer.weights.sd[s].square() - answer.weights.specimen.square()).sqrt();
     const auto& prediction = answer.best.predictions[f];
-    sum += (difference(prediction, problem.targets[s]) / alike).square().sum();
-    terms += static_cast<double>(tells(prediction, problem.targets[s]).count());
+    const auto told = tells(prediction, problem.targets[s]);
+    sum += told.select(difference(prediction, problem.targets[s]) / alike, 0.0).square().sum();
+    terms += static_cast<double>(told.count());
   }
   const double freedom = terms - static_cast<double>(answer.active.size());
   if (freedom < 1.0) return "";

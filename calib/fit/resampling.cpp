@@ -36,7 +36,8 @@ struct Normal {
 // Residuals are widened by what the fit took from them, landmark by landmark.
 std::vector<Normal> normals_of(const FitProblem& problem, const Answer& answer) {
   const Landmarks told = residuals_told(problem, answer.best);
-  const Landmarks freedom = (told - parameters_spent(answer.slopes.jacobian)).max(1.0);
+  const Landmarks freedom =
+      (told - parameters_spent(problem, answer.best, answer.slopes.jacobian)).max(1.0);
   const Landmarks widen = (told / freedom).max(1.0).sqrt();
   std::vector<Normal> normals;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {

@@ -3,6 +3,8 @@
 #include <Eigen/SVD>
 #include <cmath>
 
+#include "calib/fit/bound.hpp"
+
 namespace havers::calib {
 namespace {
 
@@ -10,16 +12,20 @@ double chi_squared(const Sample& sample, double between) {
   double sum = 0.0;
   for (std::size_t i = 0; i < sample.difference.size(); ++i)
     sum += sample.difference[i] * sample.difference[i] / (sample.variance[i] + between);
+  for (std::size_t i = 0; i < sample.above.size(); ++i)
+    sum -= square_of_bound(sample.above[i] / std::sqrt(sample.variance_above[i] + between));
   return sum;
 }
 
 }  // namespace
 
-// chi_squared falls with `between`: bisection in the variance.
+// chi_squared falls to nothing in the end: bisection in the variance.
 double variance_between(const Sample& sample, double freedom) {
   if (freedom < least_freedom || chi_squared(sample, 0.0) <= freedom) return 0.0;
   double low = 0.0, high = 0.0;
   for (const double difference : sample.difference) high += difference * difference / freedom;
+  for (const double above : sample.above) high += above * above / freedom;
+  while (chi_squared(sample, high) > freedom) high *= 2.0;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
     (chi_squared(sample, middle) > freedom ? low : high) = middle;
@@ -27,26 +33,37 @@ double variance_between(const Sample& sample, double freedom) {
   return high;
 }
 
-Landmarks parameters_spent(const Eigen::MatrixXd& jacobian) {
+Landmarks parameters_spent(const FitProblem& problem, const Evaluation& at,
+                           const Eigen::MatrixXd& jacobian) {
   Landmarks spent = Landmarks::Zero();
   if (jacobian.cols() == 0) return spent;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeThinU);
-  for (Eigen::Index row = 0; row < jacobian.rows(); ++row)
-    spent[row % landmark_count] += svd.matrixU().row(row).head(svd.rank()).squaredNorm();
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+    const auto rows =
+        svd.matrixU()
+            .leftCols(svd.rank())
+            .middleRows<landmark_count>(landmark_count * static_cast<Eigen::Index>(f));
+    spent += tells(at.predictions[f], problem.targets[problem.fitted[f]])
+                 .select(Landmarks(rows.rowwise().squaredNorm()), 0.0);
+  }
   return spent;
 }
 
 Landmarks specimen_effect(const FitProblem& problem, const Weights& weights, const Evaluation& at,
                           const Eigen::MatrixXd& jacobian) {
-  const Landmarks spent = parameters_spent(jacobian);
+  const Landmarks spent = parameters_spent(problem, at, jacobian);
   Landmarks effect = Landmarks::Zero();
   for (Eigen::Index q = 0; q < landmark_count; ++q) {
     Sample sample;
     for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
       const std::size_t s = problem.fitted[f];
-      if (!tells(at.predictions[f], problem.targets[s])[q]) continue;
-      sample.difference.push_back(difference(at.predictions[f], problem.targets[s])[q]);
-      sample.variance.push_back(std::pow(weights.sd[s][q], 2) - std::pow(weights.specimen[q], 2));
+      const auto& prediction = at.predictions[f];
+      const auto& target = problem.targets[s];
+      const bool bound = q == strength && has_bound(prediction, target);
+      if (!bound && !tells(prediction, target)[q]) continue;
+      (bound ? sample.above : sample.difference).push_back(difference(prediction, target)[q]);
+      (bound ? sample.variance_above : sample.variance)
+          .push_back(std::pow(weights.sd[s][q], 2) - std::pow(weights.specimen[q], 2));
     }
     const double freedom = static_cast<double>(sample.difference.size()) - spent[q];
     effect[q] = std::sqrt(variance_between(sample, freedom));

@@ -6,21 +6,24 @@
 namespace havers::calib {
 
 /// Residuals of one landmark: difference of logarithms and its variance without the specimen
-/// effect.
+/// effect; of bounds how far above them the simulation is.
 struct Sample {
   std::vector<double> difference, variance;
+  std::vector<double> above{}, variance_above{};
 };
 
-/// (F9) The smallest variance between specimens with Σ difference²/(variance + it) = `freedom`; 0
-/// where there is less than `least_freedom`.
+/// (F9) A variance between specimens with Σ difference²/(variance + it) = `freedom`, bounds by
+/// (F25); 0 where the sum is less without one, or the freedom less than `least_freedom`.
 double variance_between(const Sample& sample, double freedom);
 
 /// With less freedom (residuals of a landmark less the parameters spent on it) nothing is told of
 /// how much specimens differ. [-]
 inline constexpr double least_freedom = 0.5;
 
-/// Parameters spent on each landmark, by the leverage of its residuals (F9).
-Landmarks parameters_spent(const Eigen::MatrixXd& jacobian);
+/// Parameters spent on each landmark, by the leverage of those of its residuals that tell how much
+/// specimens differ (F9).
+Landmarks parameters_spent(const FitProblem& problem, const Evaluation& at,
+                           const Eigen::MatrixXd& jacobian);
 
 /// Standard deviation between specimens of each log landmark (F9), by Paule and Mandel: the
 /// smallest with which the residuals of that landmark are no larger than they should be. Zero where

@@ -62,21 +62,23 @@ std::vector<TermResult> terms_of(const Prediction& prediction, const Target& tar
                                  const Sources& sources) {
   std::vector<TermResult> terms;
   if (!target.usable || prediction.usable == 0) return terms;
-  const Landmarks distance = difference(prediction, target);
+  const Landmarks replicates = sources.replicates * std::sqrt(1.0 + 1.0 / prediction.usable);
+  const Landmarks sd = (target.noise.square() + replicates.square() + sources.scatter.square() +
+                        sources.specimens.square() + sources.parameters.square())
+                           .sqrt();
+  const Landmarks residuals = residuals_of(prediction, target, sd);
   for (Eigen::Index q = 0; q < landmark_count; ++q) {
     if (!target.present[q]) continue;
     TermResult term{.term = std::string(name_of(static_cast<Landmark>(q)))};
     term.measured = target.value[q];
     term.simulated = prediction.mean[q];
     term.machine = target.noise[q];
-    term.replicates = sources.replicates[q] * std::sqrt(1.0 + 1.0 / prediction.usable);
+    term.replicates = replicates[q];
     term.scatter = sources.scatter[q];
     term.specimens = sources.specimens[q];
     term.parameters = sources.parameters[q];
-    term.sd = std::sqrt(std::pow(term.machine, 2) + std::pow(term.replicates, 2) +
-                        std::pow(term.scatter, 2) + std::pow(term.specimens, 2) +
-                        std::pow(term.parameters, 2));
-    term.residual = distance[q] / term.sd;
+    term.sd = sd[q];
+    term.residual = residuals[q];
     terms.push_back(std::move(term));
   }
   return terms;

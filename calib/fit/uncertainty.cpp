@@ -101,7 +101,7 @@ Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, co
 
   Uncertainty result{.follow = jacobian.completeOrthogonalDecomposition().pseudoInverse()};
   const Eigen::MatrixXd& follow = result.follow;
-  result.freedom = residuals_told(problem, at) - parameters_spent(slopes);
+  result.freedom = residuals_told(problem, at) - parameters_spent(problem, at, slopes);
   result.standard_error = follow.rowwise().norm();
   result.half_width = result.standard_error;
   for (Eigen::Index k = 0; k < follow.rows(); ++k) {

@@ -163,7 +163,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_identifiable(problem, answer));
   checks.push_back(check_orientations(problem, answer));
   checks.push_back(check_specimen_spread(problem, answer));
-  checks.back().text += weibull_sentence(result);
+  checks.back().text += weibull_sentence(result, one_sided_orientations(problem, answer.best));
   checks.push_back(check_plain_law(problem, answer));
   checks.push_back(check_correlation(result));
   checks.push_back(check_intervals(result));

@@ -50,7 +50,7 @@ TEST(FitProblem, FollowsAFallToHalfWhereThePostPeakDropCounts) {
 }
 
 // The first test broke, the second was stopped.
-TEST(FitProblem, CountsABoundOnlyWhereItIsContradicted) {
+TEST(FitProblem, CountsNoBoundAmongTheResiduals) {
   Study study = test::synthetic_study({0.0});
   study.specimens[1].broke = false;
   const FitProblem problem = make_problem(study);
@@ -64,12 +64,12 @@ TEST(FitProblem, CountsABoundOnlyWhereItIsContradicted) {
     return residuals_told(problem, at);
   };
   EXPECT_EQ(told(0.1)[strength], 1.0);
-  EXPECT_EQ(told(-0.1)[strength], 2.0);
+  EXPECT_EQ(told(-0.1)[strength], 1.0);
   EXPECT_EQ(told(0.0)[modulus], 2.0);
   EXPECT_EQ(told(0.0)[linearity], 1.0);
   at.predictions[0].censored = true;  // its simulations do not break
   EXPECT_EQ(told(0.1)[strength], 1.0);
-  EXPECT_EQ(told(-0.1)[strength], 1.0);
+  EXPECT_EQ(told(-0.1)[strength], 0.0);
   EXPECT_EQ(told(0.0)[modulus], 2.0);
   EXPECT_EQ(told(0.0)[linearity], 0.0);
 }

@@ -1,0 +1,89 @@
+#include "calib/fit/bound.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "calib/fit/specimen_effect.hpp"
+#include "tests/support/studies.hpp"
+
+namespace havers::calib {
+namespace {
+
+TEST(Bound, IsHalfTheTimeBrokenAtItsOwnStrength) {
+  EXPECT_NEAR(residual_of_bound(0.0), -std::sqrt(2.0 * std::numbers::ln2), 1e-15);
+  EXPECT_EQ(square_of_bound(0.0), 0.0);
+}
+
+TEST(Bound, TellsNothingFarAboveAndAllThatABreakDoesFarBelow) {
+  for (const double z : {50.0, 1e4}) {
+    EXPECT_EQ(residual_of_bound(z), 0.0);
+    EXPECT_EQ(slope_of_bound(z), 0.0);
+    EXPECT_EQ(square_of_bound(z), 0.0);
+    // log Φ(−z) = −z²/2 − log(z √2π) and less than 1/z².
+    const double far = std::sqrt(z * z + 2.0 * std::log(z * std::sqrt(2.0 * std::numbers::pi)));
+    EXPECT_NEAR(residual_of_bound(-z), -far, 1e-3 / z);
+    EXPECT_NEAR(slope_of_bound(-z), 1.0, 1e-2);
+    EXPECT_NEAR(square_of_bound(-z) / (z * z), -1.0, 1e-3);
+  }
+}
+
+TEST(Bound, ChangesByItsSlope) {
+  constexpr double step = 1e-4;
+  for (double z = -30.0; z < 5.0; z += 0.37) {
+    const double slope = (residual_of_bound(z + step) - residual_of_bound(z - step)) / (2.0 * step);
+    EXPECT_NEAR(slope_of_bound(z), slope, 1e-6) << z;
+  }
+}
+
+// Strengths of a known spread of which those above their mean are only known to be so.
+TEST(Bound, LeavesTheSpreadOfStrengthsThatWereStoppedAtTheirMean) {
+  constexpr double spread = 0.1, machine = 0.02;
+  constexpr int count = 20000;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal(0.0, std::hypot(spread, machine));
+  Sample sample;
+  for (int i = 0; i < count; ++i) {
+    const double strength = normal(random);
+    (strength < 0.0 ? sample.difference : sample.above).push_back(std::min(strength, 0.0));
+    (strength < 0.0 ? sample.variance : sample.variance_above).push_back(machine * machine);
+  }
+  const auto broken = static_cast<double>(sample.difference.size());
+  EXPECT_NEAR(std::sqrt(variance_between(sample, broken)), spread, 0.02 * spread);
+}
+
+// Bars 10 % apart, tested up to their mean strength: half of them break.
+TEST(Bound, FindsTheThresholdOfBarsThatWereStoppedAtTheirMeanStrength) {
+  constexpr int studies = 31, bars = 12;
+  const test::ClosedForm exact{.noise = 0.0};
+  const test::Truth truth{.specimen_effect = 0.1};
+  const double mean = truth.head_tail_MPa * 1e6 * (1.0 - 0.5 * truth.scatter);
+  std::vector<double> errors;
+  int held = 0;
+  for (unsigned draw = 1; draw <= studies; ++draw) {
+    auto study = test::synthetic_study(std::vector<double>(bars / 2, 0.0), truth, draw, exact);
+    study.calibrate.parameters = {"head_tail_MPa"};
+    study.calibrate.terms = {"strength"};
+    for (Specimen& specimen : study.specimens) {
+      specimen.broke = specimen.test.strength < mean;
+      if (!specimen.broke) specimen.test = test::straight_test(specimen.test.modulus, mean);
+    }
+    const auto threshold = test::parameter_of(test::fit(study, exact), "head_tail_MPa");
+    errors.push_back(std::log(threshold.value / truth.head_tail_MPa));
+    held += threshold.slopes_95[0] <= truth.head_tail_MPa &&
+                    truth.head_tail_MPa <= threshold.slopes_95[1]
+                ? 1
+                : 0;
+  }
+  std::ranges::sort(errors);
+  RecordProperty("median error", std::to_string(errors[studies / 2]));
+  EXPECT_NEAR(errors[studies / 2], 0.0, 0.02);
+  EXPECT_GE(held, 27);
+}
+
+}  // namespace
+}  // namespace havers::calib
