@@ -2,6 +2,9 @@
 // other specimens, another law?
 #pragma once
 
+#include <set>
+#include <string>
+
 #include "calib/fit/answer.hpp"
 
 namespace havers::calib {

@@ -10,8 +10,8 @@ double residual_of_bound(double z);
 /// d residual_of_bound / dz: 0 far above the bound, 1 far below. [-]
 double slope_of_bound(double z);
 
-/// z φ(z)/Φ(z): what a bound adds in the place of z² where the likeliest s is asked for, taken the
-/// other way. [-]
+/// z φ(z)/Φ(z): what a bound takes, where z² of a residual adds, when the likeliest s is asked
+/// for. [-]
 double square_of_bound(double z);
 
 }  // namespace havers::calib

@@ -72,7 +72,7 @@ struct TermResult {
   double specimens = 0.0;   ///< Between specimens, beyond all that.
   double parameters = 0.0;  ///< By the errors of the fit, which did not see this specimen.
   double sd = 0.0;          ///< Of all together.
-  double residual = 0.0;    ///< (simulated − measured)/sd; that of a bound is (F25).
+  double residual = 0.0;    ///< (simulated − measured)/sd; of bounds by (F4) and (F25). [-]
   double share = 0.0;       ///< Of the cost ½ Σ residual² of all fitted specimens. [-]
 };
 
@@ -100,11 +100,12 @@ struct SpecimenResult {
   double porosity = 0.0;     ///< NaN where unknown. [-]
   double scatter = 0.0;      ///< d used. [-]
   MeasuredTest measured;
-  Spread modulus;                    ///< Simulated. [Pa]
-  Spread strength;                   ///< Simulated. [Pa]
-  Spread failure_strain;             ///< Simulated. [-]
-  std::array<double, 3> residual{};  ///< Standardised, of modulus, strength, failure strain. [-]
-  std::vector<TermResult> terms{};   ///< Those that count for this specimen.
+  Spread modulus;         ///< Simulated. [Pa]
+  Spread strength;        ///< Simulated. [Pa]
+  Spread failure_strain;  ///< Simulated. [-]
+  std::array<double, 3>
+      residual{};  ///< Standardised (F7), of modulus, strength, failure strain. [-]
+  std::vector<TermResult> terms{};  ///< Those that count for this specimen.
   std::vector<ReplicateResult> replicates{};
   std::vector<Influence> influence{};  ///< Of this specimen on each fitted parameter.
   CurveBand band{};

@@ -57,7 +57,7 @@ std::vector<Evaluation> predict(const FitProblem& problem, SimulationBatch& batc
 void score(const FitProblem& problem, const Weights& weights, Evaluation& evaluation);
 
 /// simulated − measured, or − the bound of a test that was stopped; 0 where the test does not have
-/// the landmark, and where a strength that simulations did not reach contradicts nothing.
+/// the landmark, and where a strength that simulations did not reach contradicts nothing. [-]
 Landmarks difference(const Prediction& prediction, const Target& target);
 
 /// Standardised by given standard deviations (F7); that of a bound is (F25). [-]
@@ -68,10 +68,11 @@ Landmarks residuals_of(const Prediction& prediction, const Target& target, const
 Landmarks slopes_of_residuals(const Prediction& prediction, const Target& target,
                               const Landmarks& sd);
 
-/// Whether the test was stopped, so that its strength is a bound, and simulations reach theirs.
+/// Whether the test was stopped and simulations break, so that its strength bounds theirs.
 bool has_bound(const Prediction& prediction, const Target& target);
 
-/// The landmarks of a specimen that tell how much specimens differ: present, and no bounds.
+/// The landmarks of a specimen that tell how much specimens differ: present, and no bound of the
+/// test, nor one of the simulations that is not contradicted.
 Eigen::Array<bool, landmark_count, 1> tells(const Prediction& prediction, const Target& target);
 
 /// How many fitted specimens tell so of each landmark.

@@ -88,7 +88,8 @@ std::optional<double> chance(const FitProblem& problem, const Answer& answer, Ei
     }
   if (jacobian.cols() > 0)
     residuals -= jacobian * jacobian.completeOrthogonalDecomposition().solve(residuals).eval();
-  between -= parameters_spent(problem, answer.best, jacobian)[q];
+  const Eigen::VectorXd spent = leverage(jacobian);
+  for (const auto& [orientation, group] : groups) between -= spent(group.rows).sum();
   if (between < least_freedom) return std::nullopt;
   double squares = 0.0;
   for (const auto& [orientation, group] : groups)
@@ -142,7 +143,12 @@ Check check_orientations(const FitProblem& problem, const Answer& answer) {
   const auto breaking = chance(problem, answer, strength);
   if (!stiffness && !breaking)
     return {name, Outcome::pass,
-            "Not checked: it takes more orientations than parameters, and two specimens at one.",
+            std::string("Not checked: it takes more orientations than parameters, and two "
+                        "specimens at one") +
+                (one_sided_orientations(problem, answer.best).empty()
+                     ? "."
+                     : "; where tests were stopped near their strength, those that broke are the "
+                       "weaker ones."),
             false};
   if (stiffness && *stiffness < significance)
     return {name, Outcome::fail,
@@ -169,13 +175,15 @@ namespace {
 // (F9) without a specimen effect: what the residuals would be if specimens were alike.
 std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer) {
   if (answer.best.failed || answer.weights.sd.empty()) return "";
+  const auto one_sided = one_sided_orientations(problem, answer.best);
   double sum = 0.0, terms = 0.0;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
     const Landmarks alike =
         (answer.weights.sd[s].square() - answer.weights.specimen.square()).sqrt();
     const auto& prediction = answer.best.predictions[f];
-    const auto told = tells(prediction, problem.targets[s]);
+    auto told = tells(prediction, problem.targets[s]);
+    if (one_sided.contains(problem.study.specimens[s].orientation)) told[strength] = false;
     sum += told.select(difference(prediction, problem.targets[s]) / alike, 0.0).square().sum();
     terms += static_cast<double>(told.count());
   }

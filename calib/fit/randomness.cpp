@@ -32,8 +32,11 @@ VectorXd variance_of_mean(const FitProblem& problem, const Answer& answer) {
   VectorXd variance(answer.best.residuals.size());
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const Prediction& prediction = answer.best.predictions[f];
+    const std::size_t s = problem.fitted[f];
+    const Landmarks& sd = answer.weights.sd[s];
     variance.segment<landmark_count>(landmark_count * static_cast<Index>(f)) =
-        prediction.sd.square() / prediction.usable / answer.weights.sd[problem.fitted[f]].square();
+        (slopes_of_residuals(prediction, problem.targets[s], sd) * prediction.sd / sd).square() /
+        prediction.usable;
   }
   return variance;
 }

@@ -33,19 +33,23 @@ double variance_between(const Sample& sample, double freedom) {
   return high;
 }
 
+Eigen::VectorXd leverage(const Eigen::MatrixXd& jacobian) {
+  if (jacobian.cols() == 0) return Eigen::VectorXd::Zero(jacobian.rows());
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeThinU);
+  return svd.matrixU().leftCols(svd.rank()).rowwise().squaredNorm();
+}
+
 Landmarks parameters_spent(const FitProblem& problem, const Evaluation& at,
                            const Eigen::MatrixXd& jacobian) {
   Landmarks spent = Landmarks::Zero();
+  const Eigen::VectorXd of_row = leverage(jacobian);
   if (jacobian.cols() == 0) return spent;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeThinU);
-  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
-    const auto rows =
-        svd.matrixU()
-            .leftCols(svd.rank())
-            .middleRows<landmark_count>(landmark_count * static_cast<Eigen::Index>(f));
-    spent += tells(at.predictions[f], problem.targets[problem.fitted[f]])
-                 .select(Landmarks(rows.rowwise().squaredNorm()), 0.0);
-  }
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f)
+    spent +=
+        tells(at.predictions[f], problem.targets[problem.fitted[f]])
+            .select(of_row.segment<landmark_count>(landmark_count * static_cast<Eigen::Index>(f))
+                        .array(),
+                    0.0);
   return spent;
 }
 

@@ -6,7 +6,7 @@
 namespace havers::calib {
 
 /// Residuals of one landmark: difference of logarithms and its variance without the specimen
-/// effect; of bounds how far above them the simulation is.
+/// effect; of bounds how far above them the simulation is. [-]
 struct Sample {
   std::vector<double> difference, variance;
   std::vector<double> above{}, variance_above{};
@@ -20,13 +20,16 @@ double variance_between(const Sample& sample, double freedom);
 /// how much specimens differ. [-]
 inline constexpr double least_freedom = 0.5;
 
+/// How much of the columns' directions each row of J has: the sum of all is their number. [-]
+Eigen::VectorXd leverage(const Eigen::MatrixXd& jacobian);
+
 /// Parameters spent on each landmark, by the leverage of those of its residuals that tell how much
 /// specimens differ (F9).
 Landmarks parameters_spent(const FitProblem& problem, const Evaluation& at,
                            const Eigen::MatrixXd& jacobian);
 
-/// Standard deviation between specimens of each log landmark (F9), by Paule and Mandel: the
-/// smallest with which the residuals of that landmark are no larger than they should be. Zero where
+/// Standard deviation between specimens of each log landmark (F9), by Paule and Mandel: one with
+/// which the residuals of that landmark are no larger than they should be. Zero where
 /// there are too few to tell.
 Landmarks specimen_effect(const FitProblem& problem, const Weights& weights, const Evaluation& at,
                           const Eigen::MatrixXd& jacobian);

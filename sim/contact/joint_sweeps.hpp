@@ -19,8 +19,8 @@ class JointSweeps {
   void start(const JointStep& step, Eigen::VectorXd reactions, const Eigen::VectorXd& tie_forces);
   /// One sweep; returns whether a joint's state changed.
   /// @param relaxation  of a joint's change what is made, below 2; above 1: over-relaxed [-]
-  /// @param negligible  changes of the forces on both its bodies, since it was solved, for which a
-  /// joint is left as it is [N/m]
+  /// @param negligible  changes of the forces on both its bodies, since it was solved, up to which
+  /// a joint is left as it is [N/m]
   bool sweep(const JointStep& step, double relaxation = 1.0, double negligible = 0.0);
 
   [[nodiscard]] const Eigen::VectorXd& reactions() const { return reactions_; }  ///< [N/m]

@@ -20,10 +20,10 @@ constexpr int patience_for_nearest = 5;
 // From the seventh set on answers say themselves what is next, if that is so little.
 constexpr int sets_by_sweeps_alone = 6;
 constexpr std::size_t most_changes = 50;
-// Before it sweeps are over-relaxed and see farther, but not where the nearest answer is looked
-// for: they may pass it by.
+// Before it sweeps are over-relaxed and see farther, and leave joints as they are while their
+// bodies' forces change by no more than a part of the largest; but not where the nearest answer is
+// looked for: they may pass it by.
 constexpr double over_relaxed = 1.6;
-// Then joints are left as they are while their bodies' forces change by that part of the largest.
 constexpr double negligible = 1e-4;
 // Part of the reactions that an answer may err by, where it breaks a law by more; most that keep
 // the law to the first and break it after all show that by the second.
@@ -72,6 +72,7 @@ void SetSearch::answer(const JointStep& step, double accuracy, JointStepResult& 
   // Where corrections of another set's factor do not end, this one gets its own.
   if (!(last_.residual <= std::max(accuracy, enough)) && structure_->is_corrected()) {
     structure_->hold(structure_->held());
+    if (!(last_.residual < useful)) loads.near = nullptr;
     last_ = structure_->solve(loads);
   }
   ++result.iterations;

@@ -43,14 +43,14 @@ Eigen::Map<const Row<width>, Eigen::Aligned16> row(const float* values, int i) {
 // on, as strips are: memory is read in one direction.
 template <int width, class Weight>
 Row<width> sum_of_rows(const float* values, int rows, const Weight& weight) {
-  Row<width> even = Row<width>::Zero(), odd = Row<width>::Zero();
+  Row<width> one = Row<width>::Zero(), other = Row<width>::Zero();
   int i = rows;
   for (; i >= 2; i -= 2) {
-    even += weight(i - 1) * row<width>(values, i - 1);
-    odd += weight(i - 2) * row<width>(values, i - 2);
+    one += weight(i - 1) * row<width>(values, i - 1);
+    other += weight(i - 2) * row<width>(values, i - 2);
   }
-  if (i > 0) even += weight(0) * row<width>(values, 0);
-  return even + odd;
+  if (i > 0) one += weight(0) * row<width>(values, 0);
+  return one + other;
 }
 
 }  // namespace

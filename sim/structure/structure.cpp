@@ -184,14 +184,14 @@ void Structure::refine_with_friction(const PortLoads& loads, VectorXd missing,
     }
     const double length = -missing.dot(change.effect) / change.effect.squaredNorm();
     if (!std::isfinite(length)) {
-      if (lacked > 0.0) state.error = std::numeric_limits<double>::infinity();
+      if (lacked != 0.0) state.error = std::numeric_limits<double>::infinity();
       break;
     }
     if (past.empty())
       scale = std::max(loads.force_scale, (state.forces + length * change.forces).norm());
     answer += length * change.answer;
     missing += length * change.effect;
-    // What is lacking is to forces as it was.
+    // Forces err by as many times what is lacking as they did before.
     const double lacks = missing.norm();
     state.error = scale > 0.0 ? std::max(correction / lacked, 1.0) * lacks / scale : 0.0;
     if (!(state.error > loads.accuracy)) break;
@@ -218,6 +218,9 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads, PortState st
   } else {
     refine_with_friction(loads, std::move(missing), state);
     state.forces = forces();
+    const double scale = std::max(loads.force_scale, state.forces.norm());
+    missing = in_forces(state.forces, bodies_->incompatibility(state.displacements));
+    if (scale > 0.0) state.error = std::max(state.error, missing.norm() / scale);
   }
   return state;
 }

@@ -108,18 +108,17 @@ VectorXd Structure::solve_nearby(const VectorXd& load) const {
     Index row = 0;
     for (const Change& change : changes_)
       for (const std::size_t component : change.components)
-        visit(change, static_cast<Index>(component), row++);
+        visit(change, static_cast<Index>(component), row++,
+              Index{layout_.of_port[static_cast<std::size_t>(port_b(change.joint, component))][0]});
   };
   if (is_corrected()) {
-    for_each_change([&](const Change& change, Index component, Index row) {
-      const Index own = layout_.of_port[static_cast<std::size_t>(
-          port_b(change.joint, static_cast<std::size_t>(component)))][0];
+    for_each_change([&](const Change& change, Index component, Index row, Index own) {
       by(row) = change.holds_more ? 0.0 : load(own) / size;
       for (const auto& [rows, values] : change.over_pivots)
         by(row) -= values.row(component).dot(half(rows));
     });
     by = between_changes_.solve(by).eval();
-    for_each_change([&](const Change& change, Index component, Index row) {
+    for_each_change([&](const Change& change, Index component, Index row, Index) {
       for (const auto& [rows, values] : change.halves)
         half(rows) -= by(row) * values.row(component).transpose();
     });
@@ -131,10 +130,8 @@ VectorXd Structure::solve_nearby(const VectorXd& load) const {
   for_each_loose_component([&](int joint_unknown, int own, int in_the_factor) {
     if (own != joint_unknown) answer(own) = found(in_the_factor);
   });
-  for_each_change([&](const Change& change, Index component, Index row) {
-    if (change.holds_more) return;
-    answer(layout_.of_port[static_cast<std::size_t>(
-        port_b(change.joint, static_cast<std::size_t>(component)))][0]) += size * by(row);
+  for_each_change([&](const Change& change, Index, Index row, Index own) {
+    if (!change.holds_more) answer(own) += size * by(row);
   });
   return answer;
 }
