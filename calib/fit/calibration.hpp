@@ -74,6 +74,7 @@ struct TermResult {
   double sd = 0.0;          ///< Of all together.
   double residual = 0.0;    ///< (simulated − measured)/sd; of bounds by (F4) and (F25). [-]
   double share = 0.0;       ///< Of the cost ½ Σ residual² of all fitted specimens. [-]
+  bool bound = false;       ///< The test was stopped, and simulations break: `measured` is a bound.
 };
 
 /// One simulation at the answer.

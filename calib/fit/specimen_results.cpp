@@ -79,6 +79,7 @@ std::vector<TermResult> terms_of(const Prediction& prediction, const Target& tar
     term.parameters = sources.parameters[q];
     term.sd = sd[q];
     term.residual = residuals[q];
+    term.bound = q == strength && has_bound(prediction, target);
     terms.push_back(std::move(term));
   }
   return terms;

@@ -106,6 +106,7 @@ void keys(Table& table, calib::TermResult& term) {
   table.key("sd", term.sd);
   table.key("residual", term.residual);
   table.key("share", term.share);
+  table.key("bound", term.bound);
 }
 
 template <class Table>

@@ -97,12 +97,13 @@ std::string logarithm_of(const std::string& term) {
 mstch::array term_rows(const calib::SpecimenResult& specimen) {
   mstch::array rows;
   for (const calib::TermResult& term : specimen.terms)
-    rows.emplace_back(mstch::map{{"term", text(logarithm_of(term.term))},
-                                 {"measured", text(number(term.measured))},
-                                 {"simulated", text(number(without_rounding(term.simulated)))},
-                                 {"sd", text(number(term.sd, 2))},
-                                 {"residual", text(number(term.residual, 2))},
-                                 {"share", text(number(term.share / in::percent, 2))}});
+    rows.emplace_back(
+        mstch::map{{"term", text(logarithm_of(term.term))},
+                   {"measured", text((term.bound ? "≥ " : "") + number(term.measured))},
+                   {"simulated", text(number(without_rounding(term.simulated)))},
+                   {"sd", text(number(term.sd, 2))},
+                   {"residual", text(number(term.residual, 2))},
+                   {"share", text(number(term.share / in::percent, 2))}});
   return rows;
 }
 

@@ -176,6 +176,8 @@ TEST(Hindsight, AStoppedTestIsABoundAndNoError) {
               test::parameter_of(whole, "head_tail_MPa").value, 0.2);
   ASSERT_EQ(result.specimens.back().terms.size(), 2U);
   EXPECT_EQ(result.specimens.back().terms[1].residual, 0.0);
+  EXPECT_TRUE(result.specimens.back().terms[1].bound);
+  EXPECT_FALSE(result.specimens.front().terms[1].bound);
 }
 
 // Bars about 10 % apart, without noise of the simulator. Stopped ones far below their strength say
