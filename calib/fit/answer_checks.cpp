@@ -164,8 +164,8 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
   if (answer.slopes.failed) return not_fitted(name);
   if (!one_sided_orientations(problem, answer.best).empty())
     return {name, Outcome::pass,
-            "Not checked: tests were stopped near their strength, and those that broke are the "
-            "weaker ones.",
+            "Not checked: tests were stopped near their strength, and only the weaker specimens "
+            "broke.",
             false};
   std::vector<Broken> specimens;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {

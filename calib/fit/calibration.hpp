@@ -101,12 +101,11 @@ struct SpecimenResult {
   double porosity = 0.0;     ///< NaN where unknown. [-]
   double scatter = 0.0;      ///< d used. [-]
   MeasuredTest measured;
-  Spread modulus;         ///< Simulated. [Pa]
-  Spread strength;        ///< Simulated. [Pa]
-  Spread failure_strain;  ///< Simulated. [-]
-  std::array<double, 3>
-      residual{};  ///< Standardised (F7), of modulus, strength, failure strain. [-]
-  std::vector<TermResult> terms{};  ///< Those that count for this specimen.
+  Spread modulus;                    ///< Simulated. [Pa]
+  Spread strength;                   ///< Simulated. [Pa]
+  Spread failure_strain;             ///< Simulated. [-]
+  std::array<double, 3> residual{};  ///< Standardised, of modulus, strength, failure strain. [-]
+  std::vector<TermResult> terms{};   ///< Those that count for this specimen.
   std::vector<ReplicateResult> replicates{};
   std::vector<Influence> influence{};  ///< Of this specimen on each fitted parameter.
   CurveBand band{};

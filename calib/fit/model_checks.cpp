@@ -147,8 +147,8 @@ Check check_orientations(const FitProblem& problem, const Answer& answer) {
                         "specimens at one") +
                 (one_sided_orientations(problem, answer.best).empty()
                      ? "."
-                     : "; where tests were stopped near their strength, those that broke are the "
-                       "weaker ones."),
+                     : "; those where tests were stopped near their strength do not count, as only "
+                       "the weaker specimens broke."),
             false};
   if (stiffness && *stiffness < significance)
     return {name, Outcome::fail,

@@ -56,33 +56,56 @@ TEST(Bound, LeavesTheSpreadOfStrengthsThatWereStoppedAtTheirMean) {
   EXPECT_NEAR(std::sqrt(variance_between(sample, broken)), spread, 0.02 * spread);
 }
 
-// Bars 10 % apart, tested up to their mean strength: half of them break.
+/// Bars 10 % apart, tested up to their mean strength: half of them break.
+Study stopped_at_the_mean(const std::vector<double>& degrees, unsigned draw) {
+  const test::Truth truth{.specimen_effect = 0.1};
+  Study study = test::synthetic_study(degrees, truth, draw, {.noise = 0.0});
+  study.calibrate.terms = {"strength"};
+  for (Specimen& specimen : study.specimens) {
+    sim::Scene scene;
+    scene.assembly.orientation = specimen.orientation;
+    apply(scene, "ratio", truth.ratio);
+    const double mean = truth.head_tail_MPa * 1e6 * (1.0 - 0.5 * truth.scatter) *
+                        test::ClosedForm::orientation_factor(scene);
+    specimen.broke = specimen.test.strength < mean;
+    if (!specimen.broke) specimen.test = test::straight_test(specimen.test.modulus, mean);
+  }
+  return study;
+}
+
 TEST(Bound, FindsTheThresholdOfBarsThatWereStoppedAtTheirMeanStrength) {
   constexpr int studies = 31, bars = 12;
-  const test::ClosedForm exact{.noise = 0.0};
-  const test::Truth truth{.specimen_effect = 0.1};
-  const double mean = truth.head_tail_MPa * 1e6 * (1.0 - 0.5 * truth.scatter);
+  constexpr double truth = test::Truth{}.head_tail_MPa;
   std::vector<double> errors;
   int held = 0;
   for (unsigned draw = 1; draw <= studies; ++draw) {
-    auto study = test::synthetic_study(std::vector<double>(bars / 2, 0.0), truth, draw, exact);
+    Study study = stopped_at_the_mean(std::vector<double>(bars / 2, 0.0), draw);
     study.calibrate.parameters = {"head_tail_MPa"};
-    study.calibrate.terms = {"strength"};
-    for (Specimen& specimen : study.specimens) {
-      specimen.broke = specimen.test.strength < mean;
-      if (!specimen.broke) specimen.test = test::straight_test(specimen.test.modulus, mean);
-    }
-    const auto threshold = test::parameter_of(test::fit(study, exact), "head_tail_MPa");
-    errors.push_back(std::log(threshold.value / truth.head_tail_MPa));
-    held += threshold.slopes_95[0] <= truth.head_tail_MPa &&
-                    truth.head_tail_MPa <= threshold.slopes_95[1]
-                ? 1
-                : 0;
+    const auto threshold = test::parameter_of(test::fit(study, {.noise = 0.0}), "head_tail_MPa");
+    errors.push_back(std::log(threshold.value / truth));
+    held += threshold.slopes_95[0] <= truth && truth <= threshold.slopes_95[1] ? 1 : 0;
   }
   std::ranges::sort(errors);
   RecordProperty("median error", std::to_string(errors[studies / 2]));
   EXPECT_NEAR(errors[studies / 2], 0.0, 0.02);
   EXPECT_GE(held, 27);
+}
+
+// Those that broke are the weaker half.
+TEST(Bound, LeavesNoCheckToSpecimensThatBroke) {
+  Study study = stopped_at_the_mean({0.0, 0.0, 0.0, 45.0, 45.0, 45.0, 90.0, 90.0, 90.0}, 1);
+  study.calibrate.parameters = {"head_tail_MPa", "ratio"};
+  const auto result = test::fit(study, {.noise = 0.0});
+  int seen = 0;
+  for (const Check& check : result.verdict) {
+    if (check.check != "residuals unstructured" && check.check != "better than a plain law")
+      continue;
+    ++seen;
+    EXPECT_FALSE(check.done);
+    EXPECT_NE(check.text.find("only the weaker specimens broke"), std::string::npos) << check.text;
+  }
+  EXPECT_EQ(seen, 2);
+  EXPECT_TRUE(result.trusted());
 }
 
 }  // namespace
