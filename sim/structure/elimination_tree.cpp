@@ -6,7 +6,7 @@
 #include <cassert>
 #include <map>
 #include <new>
-#include <string>
+#include <numeric>
 #include <utility>
 
 namespace havers::sim {
@@ -15,20 +15,22 @@ namespace {
 // CHOLMOD's analysis of a matrix, and what it counts.
 class Analysis {
  public:
-  explicit Analysis(const Eigen::SparseMatrix<double>& lower) {
-    assert(lower.isCompressed());
+  explicit Analysis(const Graph& graph) {
+    assert(graph.isCompressed());
     cholmod_start(&common_);
     common_.nmethods = 1;
+    common_.method[0].ordering = CHOLMOD_GIVEN;
+    common_.supernodal = CHOLMOD_SUPERNODAL;
     common_.print = 0;
     // No panels of columns that only nearly reach the same rows.
     for (std::size_t& columns : common_.nrelax) columns = 0;
     for (double& zeros : common_.zrelax) zeros = 0.0;
     // The view is not const; what it is given to only reads it.
-    view_.nrow = static_cast<std::size_t>(lower.rows());
-    view_.ncol = static_cast<std::size_t>(lower.cols());
-    view_.nzmax = static_cast<std::size_t>(lower.nonZeros());
-    view_.p = const_cast<int*>(lower.outerIndexPtr());  // NOLINT
-    view_.i = const_cast<int*>(lower.innerIndexPtr());  // NOLINT
+    view_.nrow = static_cast<std::size_t>(graph.rows());
+    view_.ncol = static_cast<std::size_t>(graph.cols());
+    view_.nzmax = static_cast<std::size_t>(graph.nonZeros());
+    view_.p = const_cast<int*>(graph.outerIndexPtr());  // NOLINT
+    view_.i = const_cast<int*>(graph.innerIndexPtr());  // NOLINT
     view_.stype = -1;
     view_.itype = CHOLMOD_INT;
     view_.xtype = CHOLMOD_PATTERN;
@@ -43,22 +45,19 @@ class Analysis {
   Analysis(const Analysis&) = delete;
   Analysis& operator=(const Analysis&) = delete;
 
-  /// @param order  given; null: of minimum degree
-  const cholmod_factor& factor(int* order, int kind) {
-    common_.supernodal = kind;
-    common_.method[0].ordering = order != nullptr ? CHOLMOD_GIVEN : CHOLMOD_AMD;
-    factor_ = cholmod_analyze_p(&view_, order, nullptr, 0, &common_);
+  const cholmod_factor& factor(std::vector<int> order) {
+    factor_ = cholmod_analyze_p(&view_, order.data(), nullptr, 0, &common_);
     if (factor_ == nullptr) throw std::bad_alloc();
     return *factor_;
   }
-  std::vector<int> least_degree_in(std::vector<int> parts) {
+  std::vector<int> least_degree(std::vector<int> parts) {
     std::vector<int> order(view_.nrow);
-    if (cholmod_camd(&view_, nullptr, 0, parts.data(), order.data(), &common_) == 0)
-      throw std::bad_alloc();
+    const int done = parts.empty()
+                         ? cholmod_amd(&view_, nullptr, 0, order.data(), &common_)
+                         : cholmod_camd(&view_, nullptr, 0, parts.data(), order.data(), &common_);
+    if (done == 0) throw std::bad_alloc();
     return order;
   }
-  [[nodiscard]] double operations() const { return common_.fl; }
-  [[nodiscard]] double nonzeros() const { return common_.lnz; }
 
  private:
   cholmod_common common_{};
@@ -72,19 +71,31 @@ std::span<const int> span_of(const void* numbers, std::size_t count) {
 
 }  // namespace
 
-Order least_degree_order(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& parts) {
-  Analysis analysis(lower);
-  std::vector<int> given;
-  if (!parts.empty()) given = analysis.least_degree_in(parts);
-  const cholmod_factor& L =
-      analysis.factor(given.empty() ? nullptr : given.data(), CHOLMOD_SIMPLICIAL);
-  const auto rows = span_of(L.Perm, L.n);
-  return {{rows.begin(), rows.end()}, analysis.nonzeros(), analysis.operations()};
+std::vector<int> least_degree_order(const Graph& graph, std::vector<int> parts) {
+  return Analysis(graph).least_degree(std::move(parts));
 }
 
-EliminationTree elimination_tree(const Eigen::SparseMatrix<double>& lower, std::vector<int> order) {
-  Analysis analysis(lower);
-  const cholmod_factor& L = analysis.factor(order.data(), CHOLMOD_SUPERNODAL);
+Cost cost_of(const Graph& graph, std::vector<int> order, std::span<const int> sizes) {
+  const EliminationTree tree = elimination_tree(graph, std::move(order));
+  std::vector<int> size_at(tree.place.size());
+  for (std::size_t row = 0; row < size_at.size(); ++row)
+    size_at[static_cast<std::size_t>(tree.place[row])] = sizes[row];
+  Cost cost;
+  for (const Panel& panel : tree.panels) {
+    double height = 0.0;
+    for (const int place : tree.rows_of(panel)) height += size_at[static_cast<std::size_t>(place)];
+    for (int place = panel.first; place < panel.first + panel.columns; ++place)
+      for (int column = 0; column < size_at[static_cast<std::size_t>(place)]; ++column, --height) {
+        cost.nonzeros += height;
+        cost.operations += height * height;
+      }
+  }
+  return cost;
+}
+
+EliminationTree elimination_tree(const Graph& graph, std::vector<int> order) {
+  Analysis analysis(graph);
+  const cholmod_factor& L = analysis.factor(std::move(order));
   EliminationTree tree;
   tree.place.resize(L.n);
   int next = 0;
@@ -110,17 +121,83 @@ EliminationTree elimination_tree(const Eigen::SparseMatrix<double>& lower, std::
   return tree;
 }
 
-// What a panel's values follow from, as bytes: its size, its entries, which panels its children are
-// like and where their rows are in it.
-void share_values(EliminationTree& tree, const Eigen::SparseMatrix<double>& matrix) {
+namespace {
+
+// Each supervariable's rows in its place.
+EliminationTree in_rows(EliminationTree tree, const Supervariables& groups) {
+  const auto size = [&](int group) { return groups.sizes()[static_cast<std::size_t>(group)]; };
+  std::vector<int> first(tree.place.size() + 1, 0);  // row of each place
+  for (std::size_t group = 0; group < tree.place.size(); ++group)
+    first[static_cast<std::size_t>(tree.place[group]) + 1] = size(static_cast<int>(group));
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  const auto begin_of = [&](int place) { return first[static_cast<std::size_t>(place)]; };
+
+  std::vector<int> rows;
+  tree.values = 0;
+  for (Panel& panel : tree.panels) {
+    const std::size_t at = rows.size();
+    for (const int place : tree.rows_of(panel))
+      for (int row = begin_of(place); row < begin_of(place + 1); ++row) rows.push_back(row);
+    panel.columns = begin_of(panel.first + panel.columns) - begin_of(panel.first);
+    panel.first = begin_of(panel.first);
+    panel.at = at;
+    panel.height = rows.size() - at;
+    panel.values = tree.values;
+    tree.values += panel.height * static_cast<std::size_t>(panel.columns);
+  }
+  tree.rows = std::move(rows);
+  std::vector<int> next(tree.place.size());  // of each supervariable
+  for (std::size_t group = 0; group < next.size(); ++group)
+    next[group] = begin_of(tree.place[group]);
+  tree.place.clear();
+  for (const int group : groups.of_rows())
+    tree.place.push_back(next[static_cast<std::size_t>(group)]++);
+  return tree;
+}
+
+void hand_out_elements(EliminationTree& tree, const ElementMatrices& sum) {
+  std::vector<int> panel_of(tree.place.size());
+  for (std::size_t p = 0; p < tree.panels.size(); ++p)
+    std::fill_n(panel_of.begin() + tree.panels[p].first, tree.panels[p].columns,
+                static_cast<int>(p));
+  std::vector<std::size_t> of_element;
+  for (const ElementMatrices::Element& element : sum.elements) {
+    int first = sum.size;
+    for (const int row : sum.rows_of(element))
+      first = std::min(first, tree.place[static_cast<std::size_t>(row)]);
+    of_element.push_back(static_cast<std::size_t>(panel_of[static_cast<std::size_t>(first)]));
+    ++tree.panels[of_element.back()].element_count;
+  }
+  std::size_t next = 0;
+  for (Panel& panel : tree.panels) {
+    panel.elements = next;
+    next += std::exchange(panel.element_count, 0);
+  }
+  tree.elements.resize(next);
+  for (std::size_t e = 0; e < of_element.size(); ++e) {
+    Panel& panel = tree.panels[of_element[e]];
+    tree.elements[panel.elements + panel.element_count++] = static_cast<int>(e);
+  }
+}
+
+}  // namespace
+
+EliminationTree elimination_tree(const ElementMatrices& sum, const Supervariables& groups,
+                                 std::vector<int> order) {
+  EliminationTree tree = in_rows(elimination_tree(groups.graph(), std::move(order)), groups);
+  hand_out_elements(tree, sum);
+  return tree;
+}
+
+// What a panel's values follow from, as numbers: its size, its elements' matrices and which panels
+// its children are like, each with where their rows are in it.
+void share_values(EliminationTree& tree, const ElementMatrices& sum) {
   std::vector<int> row_at(tree.place.size()), where(tree.place.size());
   for (std::size_t row = 0; row < row_at.size(); ++row)
     row_at[static_cast<std::size_t>(tree.place[row])] = static_cast<int>(row);
-  std::map<std::string, int> known;
-  std::string key;
-  const auto add = [&key](const auto& value) {
-    key.append(reinterpret_cast<const char*>(&value), sizeof value);  // NOLINT(*-reinterpret-cast)
-  };
+  std::map<std::vector<int>, int> known;
+  std::vector<int> key;
+  const auto add_place = [&](int place) { key.push_back(where[static_cast<std::size_t>(place)]); };
   tree.values = 0;
   for (std::size_t p = 0; p < tree.panels.size(); ++p) {
     Panel& panel = tree.panels[p];
@@ -130,19 +207,16 @@ void share_values(EliminationTree& tree, const Eigen::SparseMatrix<double>& matr
                       {}, [&](int place) { return row_at[static_cast<std::size_t>(place)]; });
     int height = 0;
     for (const int row : tree.rows_of(panel)) where[static_cast<std::size_t>(row)] = height++;
-    key.clear();
-    add(panel.columns);
-    add(panel.height);
-    for (int j = 0; j < panel.columns; ++j)
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, panel.first + j); entry;
-           ++entry) {
-        add(j);
-        add(where[static_cast<std::size_t>(entry.row())]);
-        add(entry.value());
-      }
+    key.assign({panel.columns, height, static_cast<int>(panel.element_count)});
+    for (const int e : tree.elements_of(panel)) {
+      const ElementMatrices::Element& element = sum.elements[static_cast<std::size_t>(e)];
+      key.push_back(element.matrix);
+      for (const int row : sum.rows_of(element))
+        add_place(tree.place[static_cast<std::size_t>(row)]);
+    }
     for (const Panel* child = tree.at(panel.child); child; child = tree.at(child->sibling)) {
-      add(~child->like);  // less than zero, as no entry's column is
-      for (const int row : tree.below(*child)) add(where[static_cast<std::size_t>(row)]);
+      key.push_back(child->like);
+      for (const int row : tree.below(*child)) add_place(row);
     }
     panel.like = known.try_emplace(key, static_cast<int>(p)).first->second;
     const Panel& first = tree.panels[static_cast<std::size_t>(panel.like)];

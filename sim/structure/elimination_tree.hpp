@@ -1,25 +1,27 @@
 // In which order a sparse symmetric matrix is eliminated, and what that fills (CHOLMOD).
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <cstddef>
 #include <span>
 #include <vector>
 
+#include "sim/structure/element_matrices.hpp"
+
 namespace havers::sim {
 
-/// An order of elimination, and what it costs.
-struct Order {
-  std::vector<int> rows;
-  double nonzeros = 0.0;    ///< Of the factor.
+/// An order of elimination, of minimum degree (AMD).
+/// @param parts  of each row: lower ones come first (CAMD); empty: one part
+std::vector<int> least_degree_order(const Graph& graph, std::vector<int> parts = {});
+
+/// What a factor costs.
+struct Cost {
+  double nonzeros = 0.0;
   double operations = 0.0;  ///< Of floating point, to find it.
 };
 
-/// An order of minimum degree (AMD).
-/// @param lower  lower triangle of a symmetric matrix; only where its entries are counts
-/// @param parts  of each row: lower ones come first (CAMD); empty: one part
-Order least_degree_order(const Eigen::SparseMatrix<double>& lower,
-                         const std::vector<int>& parts = {});
+/// @param order  of elimination
+/// @param sizes  how many rows each row of the graph stands for
+Cost cost_of(const Graph& graph, std::vector<int> order, std::span<const int> sizes);
 
 /// Neighbouring columns of a factor that reach the same rows (a supernode).
 struct Panel {
@@ -30,20 +32,25 @@ struct Panel {
   int child = -1;          ///< The first panel of those it is the parent of,
   int sibling = -1;        ///< and the next one after itself.
   int like = -1;           ///< The first panel of those that share their values.
+  std::size_t elements = 0, element_count = 0;  ///< Of the matrix, that are added to it.
 };
 
 /// The panels of a factor, children before their parents.
 struct EliminationTree {
   std::vector<int> place;  ///< Of each row, in the order of elimination.
   std::vector<Panel> panels;
-  std::vector<int> rows;   ///< Of all panels, by their places.
-  std::size_t values = 0;  ///< Of all panels, once of those that share them.
+  std::vector<int> rows;      ///< Of all panels, by their places.
+  std::size_t values = 0;     ///< Of all panels, once of those that share them.
+  std::vector<int> elements;  ///< Of all panels: each in that of the first of its rows.
 
   [[nodiscard]] std::span<const int> rows_of(const Panel& panel) const {
     return std::span(rows).subspan(panel.at, panel.height);
   }
   [[nodiscard]] std::span<const int> below(const Panel& panel) const {
     return rows_of(panel).subspan(static_cast<std::size_t>(panel.columns));
+  }
+  [[nodiscard]] std::span<const int> elements_of(const Panel& panel) const {
+    return std::span(elements).subspan(panel.elements, panel.element_count);
   }
   [[nodiscard]] const Panel* parent_of(const Panel& panel) const { return at(panel.parent); }
   /// Of those that share their values.
@@ -55,14 +62,17 @@ struct EliminationTree {
   [[nodiscard]] const Panel& panel_of(int column) const;
 };
 
-/// @param lower  as above
 /// @param order  of elimination; rows that do not feel each other may change places
-EliminationTree elimination_tree(const Eigen::SparseMatrix<double>& lower, std::vector<int> order);
+EliminationTree elimination_tree(const Graph& graph, std::vector<int> order);
 
-/// Lets panels share their values where these come out the same bit for bit: they have the same
-/// entries, and so have all that are eliminated before them and feel them. For that, rows below a
-/// panel's own take the order of the matrix.
-/// @param matrix  lower triangle, its rows in the order of elimination
-void share_values(EliminationTree& tree, const Eigen::SparseMatrix<double>& matrix);
+/// The same for the rows of a matrix.
+/// @param order  of its supervariables
+EliminationTree elimination_tree(const ElementMatrices& sum, const Supervariables& groups,
+                                 std::vector<int> order);
+
+/// Lets panels share their values where these come out the same bit for bit: the same is added to
+/// them, and to all that are eliminated before them and feel them. For that, rows below a panel's
+/// own take the order of the matrix.
+void share_values(EliminationTree& tree, const ElementMatrices& sum);
 
 }  // namespace havers::sim

@@ -22,8 +22,9 @@ namespace {
 // parent has added it.
 class Fronts {
  public:
-  explicit Fronts(const EliminationTree& tree)
+  Fronts(const EliminationTree& tree, const ElementMatrices& sum)
       : tree_(tree),
+        sum_(sum),
         where_(tree.place.size()),
         fronts_(tree.panels.size()),
         awaited_(tree.panels.size(), 0) {
@@ -32,20 +33,24 @@ class Fronts {
         ++awaited_[static_cast<std::size_t>(panel.like)];
   }
 
-  /// The entries of a panel and what its children take from its rows.
+  /// The elements of a panel and what its children take from its rows.
   /// @return what they take from those below, lower triangle
-  MatrixXd assemble(const Panel& panel, const Eigen::SparseMatrix<double>& matrix,
-                    Eigen::Ref<MatrixXd> own) {
+  MatrixXd assemble(const Panel& panel, Eigen::Ref<MatrixXd> own) {
     Index height = 0;
     for (const int row : tree_.rows_of(panel)) where_[static_cast<std::size_t>(row)] = height++;
-    for (Index j = 0; j < own.cols(); ++j)
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, panel.first + j); entry;
-           ++entry)
-        own(where_[static_cast<std::size_t>(entry.row())], j) = entry.value();
     MatrixXd below = MatrixXd::Zero(height - own.cols(), height - own.cols());
+    for (const int e : tree_.elements_of(panel)) {
+      const ElementMatrices::Element& element = sum_.elements[static_cast<std::size_t>(e)];
+      places_.clear();
+      for (const int row : sum_.rows_of(element))
+        add_place(tree_.place[static_cast<std::size_t>(row)]);
+      add(sum_.matrix_of(element), own, below);
+    }
     for (const Panel* child = tree_.at(panel.child); child; child = tree_.at(child->sibling)) {
       const auto first = static_cast<std::size_t>(child->like);
-      add(fronts_[first], places_of(*child), own, below);
+      places_.clear();
+      for (const int row : tree_.below(*child)) add_place(row);
+      add(fronts_[first], own, below);
       if (--awaited_[first] == 0) fronts_[first].resize(0, 0);
     }
     return below;
@@ -56,32 +61,27 @@ class Fronts {
   }
 
  private:
-  using Places = std::vector<std::array<Index, 2>>;  // in a parent and in its child, in order
-
-  // Of the rows below a child's own.
-  const Places& places_of(const Panel& child) {
-    places_.clear();
-    for (const int row : tree_.below(child))
-      places_.push_back({where_[static_cast<std::size_t>(row)], std::ssize(places_)});
-    std::ranges::sort(places_);
-    return places_;
+  void add_place(int row) {
+    places_.push_back({where_[static_cast<std::size_t>(row)], std::ssize(places_)});
   }
-  static void add(const MatrixXd& taken, const Places& places, Eigen::Ref<MatrixXd> own,
-                  MatrixXd& below) {
-    for (auto place = places.begin(); place != places.end(); ++place) {
+  // A matrix of which the lower triangle counts, its rows at these places.
+  void add(const MatrixXd& part, Eigen::Ref<MatrixXd> own, MatrixXd& below) {
+    std::ranges::sort(places_);
+    for (auto place = places_.begin(); place != places_.end(); ++place) {
       const auto [column, j] = *place;
       double* const to =
           column < own.cols() ? &own(0, column) : &below(0, column - own.cols()) - own.cols();
-      for (auto lower = place; lower != places.end(); ++lower) {
+      for (auto lower = place; lower != places_.end(); ++lower) {
         const auto [row, i] = *lower;
-        to[row] += taken(std::max(i, j), std::min(i, j));
+        to[row] += part(std::max(i, j), std::min(i, j));
       }
     }
   }
 
   const EliminationTree& tree_;
-  std::vector<Index> where_;  // rows are in the panel that was assembled last
-  Places places_;
+  const ElementMatrices& sum_;
+  std::vector<Index> where_;                  // rows are in the panel that was assembled last
+  std::vector<std::array<Index, 2>> places_;  // in a panel and in what is added to it
   std::vector<MatrixXd> fronts_;
   std::vector<int> awaited_;  // parents
 };
@@ -121,41 +121,34 @@ void substitute_panels(const EliminationTree& tree, const std::vector<double>& v
 
 }  // namespace
 
-SparseFactor::SparseFactor(const Eigen::SparseMatrix<double>& lower, Index multipliers,
-                           Elimination how, std::vector<double> memory)
-    : tree_(elimination_tree(lower, std::move(how.order))),
-      values_(std::move(memory)),
-      inverse_pivots_(lower.rows()) {
-  const Index n = lower.rows();
-  Eigen::SparseMatrix<double> matrix(n, n);
-  matrix.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(
-      Eigen::Map<const Eigen::VectorXi>(tree_.place.data(), n).asPermutation());
-  if (how.share) share_values(tree_, matrix);
+SparseFactor::SparseFactor(const ElementMatrices& A, EliminationTree tree, const Pivots& pivots,
+                           std::vector<double> memory)
+    : tree_(std::move(tree)), values_(std::move(memory)), inverse_pivots_(A.size) {
   values_.clear();
   values_.reserve(tree_.values);
   ask_for_large_pages(values_.data(), tree_.values * sizeof(double));
   values_.assign(tree_.values, 0.0);
-  VectorXd sign = VectorXd::Ones(n);
-  sign(std::span(tree_.place).last(static_cast<std::size_t>(multipliers))).setConstant(-1.0);
-  ok_ = factorise(matrix, sign, how.least_pivot);
+  ok_ = factorise(A, pivots);
 }
 
 // Multifrontal: a panel is complete when its children have handed on what they take from it.
-bool SparseFactor::factorise(const Eigen::SparseMatrix<double>& matrix, const VectorXd& sign,
-                             double least_pivot) {
-  Fronts fronts(tree_);
+bool SparseFactor::factorise(const ElementMatrices& A, const Pivots& asked) {
+  VectorXd sign = VectorXd::Ones(A.size);
+  sign(std::span(tree_.place).last(static_cast<std::size_t>(A.multipliers))).setConstant(-1.0);
+  Fronts fronts(tree_, A);
   for (const Panel& panel : tree_.panels) {
     Eigen::Map<MatrixXd> own(values_.data() + panel.values, static_cast<Index>(panel.height),
                              panel.columns);
+    const auto signs = sign.segment(panel.first, panel.columns).array();
     if (tree_.is_first(panel)) {
-      MatrixXd below = fronts.assemble(panel, matrix, own);
+      MatrixXd below = fronts.assemble(panel, own);
+      own.diagonal().array() += asked.added * signs.max(0.0);
       factorise_panel(own);
       take_panel_from(below, own);
       fronts.keep(panel, std::move(below));
     }
     const auto pivots = own.diagonal().array();
-    const auto signs = sign.segment(panel.first, panel.columns).array();
-    if (!(pivots * signs > (signs < 0.0).cast<double>() * least_pivot).all()) return false;
+    if (!(pivots * signs > (signs < 0.0).cast<double>() * asked.least).all()) return false;
     inverse_pivots_.segment(panel.first, panel.columns) = pivots.inverse();
   }
   return true;

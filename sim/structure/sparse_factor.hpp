@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -20,11 +19,9 @@ struct Eliminated {
 /// aᵀ A⁻¹ b of half solves, one of them over its pivots.
 Eigen::Matrix2d product(const Eliminated& a, const Eliminated& b);
 
-/// In which way a matrix (K Nᵀ; N 0) is eliminated.
-struct Elimination {
-  std::vector<int> order;    ///< Each row of N behind some of those it has entries with.
-  double least_pivot = 0.0;  ///< Of a row of N; a smaller one is rounding, N is not independent.
-  bool share = true;         ///< Panels with the same values are found and kept once.
+struct Pivots {
+  double least = 0.0;  ///< Of a row of N; a smaller one is rounding, N is not independent.
+  double added = 0.0;  ///< To the diagonal of K.
 };
 
 /// L D Lᵀ = P A Pᵀ of A = (K Nᵀ; N 0), K positive definite, the rows of N independent. There is no
@@ -32,11 +29,12 @@ struct Elimination {
 /// others.
 class SparseFactor {
  public:
-  /// @param lower  lower triangle of A
-  /// @param multipliers  rows of N; they come last in A
+  /// @param A  its rows of N are the multipliers
+  /// @param tree  of elimination: each row of N comes behind some of those it has entries with
+  /// @param pivots  what is asked of them
   /// @param memory  that of a factor which is no longer needed: fresh memory takes as long as the
   /// factor
-  SparseFactor(const Eigen::SparseMatrix<double>& lower, Eigen::Index multipliers, Elimination how,
+  SparseFactor(const ElementMatrices& A, EliminationTree tree, const Pivots& pivots = {},
                std::vector<double> memory = {});
   /// For another factor; this one can do nothing more.
   [[nodiscard]] std::vector<double> memory() && { return std::move(values_); }
@@ -65,8 +63,7 @@ class SparseFactor {
 
  private:
   friend class SinglePrecisionFactor;
-  [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& matrix,
-                               const Eigen::VectorXd& sign, double least_pivot);
+  [[nodiscard]] bool factorise(const ElementMatrices& A, const Pivots& pivots);
 
   EliminationTree tree_;
   std::vector<double> values_;  // of all panels, once of those that share them

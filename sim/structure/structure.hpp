@@ -175,15 +175,16 @@ class Structure {
   [[nodiscard]] Eigen::VectorXd as_held(const Eigen::VectorXd& displacements) const;
   void add_to_unknowns(const Eigen::VectorXd& port_forces, Eigen::VectorXd& all) const;
   [[nodiscard]] Eigen::VectorXd reactions_of(const Eigen::VectorXd& port_forces) const;
-  [[nodiscard]] Eigen::SparseMatrix<double> mixed_form() const;
+  [[nodiscard]] ElementMatrices mixed_form() const;
+  [[nodiscard]] Eigen::MatrixXd add_rows(int body, std::vector<int>& rows) const;
   void factorise();
   [[nodiscard]] std::vector<char> conducting() const;
   [[nodiscard]] std::vector<Branch> network(const std::vector<int>& place) const;
   [[nodiscard]] Eigen::Index first_multiplier(std::size_t body) const {
     return factorised_.unknowns + bodies_->first_compatibility(static_cast<int>(body));
   }
-  [[nodiscard]] std::vector<int> order_of_unknowns(const Eigen::SparseMatrix<double>& matrix) const;
-  [[nodiscard]] std::vector<int> elimination_order(const Eigen::SparseMatrix<double>& matrix) const;
+  [[nodiscard]] std::vector<int> order_of_unknowns(const Supervariables& groups) const;
+  [[nodiscard]] std::vector<int> elimination_order(const Supervariables& groups) const;
 
   const Bodies* bodies_;
   Layout layout_, factorised_;              // as the joints hold, and of the factor

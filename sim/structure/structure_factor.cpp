@@ -95,10 +95,13 @@ std::vector<Structure::Branch> Structure::network(const std::vector<int>& place)
 
 // Minimum degree is the quicker to find, and mostly the better one. Where much is left to do for
 // each nonzero, nested dissection is tried too.
-std::vector<int> Structure::order_of_unknowns(const Eigen::SparseMatrix<double>& matrix) const {
+std::vector<int> Structure::order_of_unknowns(const Supervariables& groups) const {
   constexpr double much = 150.0;  // operations
-  Order order = least_degree_order(matrix);
-  if (order.operations <= much * order.nonzeros) return order.rows;
+  const int unknowns = groups.unknowns();
+  const Graph graph = groups.graph().topLeftCorner(unknowns, unknowns);
+  std::vector<int> order = least_degree_order(graph);
+  const Cost cost = cost_of(graph, order, groups.sizes());
+  if (cost.operations <= much * cost.nonzeros) return order;
   std::vector<std::array<int, 2>> bodies_of(static_cast<std::size_t>(layout_.unknowns), {-1, -1});
   for (int body = 0; body < static_cast<int>(op_of_body_.size()); ++body) {
     const Index ports = op_of_body_[static_cast<std::size_t>(body)]->impedance.rows();
@@ -109,10 +112,12 @@ std::vector<int> Structure::order_of_unknowns(const Eigen::SparseMatrix<double>&
     }
   }
   if (!tops_of_ties_.empty()) bodies_of.pop_back();  // all feel it: it comes last
-  std::vector<int> parts = dissection(bodies_->assembly(), bodies_of);
-  parts.resize(static_cast<std::size_t>(layout_.unknowns), static_cast<int>(parts.size()));
-  Order other = least_degree_order(matrix, parts);
-  return other.operations < order.operations ? other.rows : order.rows;
+  const std::vector<int> part_of_row = dissection(bodies_->assembly(), bodies_of);
+  std::vector<int> parts(static_cast<std::size_t>(unknowns), unknowns - 1);
+  for (std::size_t row = 0; row < part_of_row.size(); ++row)
+    parts[static_cast<std::size_t>(groups.of_rows()[row])] = part_of_row[row];
+  std::vector<int> other = least_degree_order(graph, std::move(parts));
+  return cost_of(graph, other, groups.sizes()).operations < cost.operations ? other : order;
 }
 
 // The multipliers of two bodies that share a joint say the same of it with opposite signs: over all
@@ -120,11 +125,9 @@ std::vector<int> Structure::order_of_unknowns(const Eigen::SparseMatrix<double>&
 // eliminated, bodies that they connect have their pivots, but for one in each connected part that
 // no branch leads out of yet. So a body's multipliers follow the joint by which its part meets
 // another one, or a body without any; those of clipped bodies that are no such nodes come last.
-std::vector<int> Structure::elimination_order(const Eigen::SparseMatrix<double>& matrix) const {
-  std::vector<int> order =
-      order_of_unknowns(matrix.topLeftCorner(layout_.unknowns, layout_.unknowns));
-  std::vector<int> place(static_cast<std::size_t>(matrix.rows()),
-                         2 * static_cast<int>(layout_.unknowns));
+std::vector<int> Structure::elimination_order(const Supervariables& groups) const {
+  std::vector<int> order = order_of_unknowns(groups);
+  std::vector<int> place(static_cast<std::size_t>(groups.count()), 2 * groups.unknowns());
   for (std::size_t i = 0; i < order.size(); ++i)
     place[static_cast<std::size_t>(order[i])] = 2 * static_cast<int>(i);
 
@@ -135,7 +138,10 @@ std::vector<int> Structure::elimination_order(const Eigen::SparseMatrix<double>&
   DisjointSets parts(ground + 1);
   for (std::size_t body = 0; body < ground; ++body)
     if (rows(body) == 0) parts.unite(ground, body);
-  for (const Branch& branch : network(place)) {
+  std::vector<int> place_of_row;
+  for (const int group : groups.of_rows())
+    place_of_row.push_back(place[static_cast<std::size_t>(group)]);
+  for (const Branch& branch : network(place_of_row)) {
     std::size_t stays = parts.find(branch.a), goes = parts.find(branch.b), through = branch.b;
     if (stays == goes) continue;
     if (goes == ground || (stays != ground && rows(stays) < rows(goes))) {
@@ -144,47 +150,64 @@ std::vector<int> Structure::elimination_order(const Eigen::SparseMatrix<double>&
     }
     if (rows(through) < rows(goes)) continue;
     parts.unite(stays, goes);
-    for (Index i = 0; i < rows(goes); ++i)
-      place[static_cast<std::size_t>(first_multiplier(goes) + i)] = branch.place + 1;
+    const auto first = static_cast<std::size_t>(first_multiplier(goes));
+    place[static_cast<std::size_t>(groups.of_rows()[first])] = branch.place + 1;
   }
-  for (Index row = layout_.unknowns; row < matrix.rows(); ++row)
-    order.push_back(static_cast<int>(row));
+  for (int group = groups.unknowns(); group < groups.count(); ++group) order.push_back(group);
   std::ranges::stable_sort(order, {},
-                           [&](int row) { return place[static_cast<std::size_t>(row)]; });
+                           [&](int group) { return place[static_cast<std::size_t>(group)]; });
   return order;
 }
 
 // (S7): the mixed form with NᵀN added to Z, which changes nothing where Np = 0 and makes the block
-// of the unknowns positive definite; its lower triangle.
-Eigen::SparseMatrix<double> Structure::mixed_form() const {
-  std::size_t most = 0;
+// of the unknowns positive definite; an element for each body.
+ElementMatrices Structure::mixed_form() const {
+  ElementMatrices sum;
+  sum.multipliers = static_cast<int>(bodies_->compatibilities());
+  sum.size = static_cast<int>(layout_.unknowns) + sum.multipliers;
   for (const BodyClass& group : bodies_->classes()) {
     const Index ports = group.op.impedance.rows(), ring = group.op.compatibility.rows();
-    most += group.bodies.size() * static_cast<std::size_t>(ports * (ports + 1) / 2 + ring * ports);
-  }
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(most);
-  const auto add = [&](Index row, Index column, double value) {
-    if (row >= column) entries.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
-  };
-  for (const BodyClass& group : bodies_->classes()) {
-    const MatrixXd& N = group.op.compatibility;
-    const MatrixXd Z = stiffened(group.op);
+    if (ports == 0) continue;
+    MatrixXd matrix = MatrixXd::Zero(ports + ring, ports + ring);
+    matrix.topLeftCorner(ports, ports) = stiffened(group.op);
+    matrix.bottomLeftCorner(ring, ports) = group.op.compatibility;
+    matrix.topRightCorner(ports, ring) = group.op.compatibility.transpose();
+    const int of_class = static_cast<int>(sum.matrices.size());
+    sum.matrices.push_back(matrix);
     for (const int body : group.bodies) {
-      const Index first = bodies_->first_port(body);
-      const Index multiplier = first_multiplier(static_cast<std::size_t>(body));
-      for (Index j = 0; j < Z.cols(); ++j)
-        for (const Index column : unknowns_of_port(first + j)) {
-          for (Index i = 0; i < Z.rows(); ++i)
-            for (const Index row : unknowns_of_port(first + i)) add(row, column, Z(i, j));
-          for (Index i = 0; i < N.rows(); ++i) add(multiplier + i, column, N(i, j));
-        }
+      sum.elements.push_back({of_class, sum.rows.size()});
+      const MatrixXd into = add_rows(body, sum.rows);
+      if (into.size() == 0) continue;
+      sum.elements.back().matrix = static_cast<int>(sum.matrices.size());
+      sum.matrices.emplace_back(into * matrix * into.transpose());
     }
   }
-  const Index n = layout_.unknowns + bodies_->compatibilities();
-  Eigen::SparseMatrix<double> lower(n, n);
-  lower.setFromTriplets(entries.begin(), entries.end());
-  return lower;
+  return sum;
+}
+
+// The rows of a body's ports and multipliers, each once.
+// @return which they are of all of these; empty: one of each, in order. Two ports have the same one
+// where a tie leads from a body to itself, one has two where it is the top of a tie.
+MatrixXd Structure::add_rows(int body, std::vector<int>& rows) const {
+  const BodyOperator& op = *op_of_body_[static_cast<std::size_t>(body)];
+  const Index ports = op.impedance.rows(), ring = op.compatibility.rows();
+  const auto first = std::ssize(rows);
+  MatrixXd into = MatrixXd::Zero(ports + ring + 1, ports + ring);
+  bool in_order = true;
+  for (Index port = 0; port < ports; ++port)
+    for (const int row : unknowns_of_port(bodies_->first_port(body) + port)) {
+      const auto known = std::find(rows.begin() + first, rows.end(), row);
+      const auto place = known - (rows.begin() + first);
+      into(place, port) = 1.0;
+      in_order = in_order && place == port;
+      if (known == rows.end()) rows.push_back(row);
+    }
+  for (Index i = 0; i < ring; ++i) {
+    into(std::ssize(rows) - first, ports + i) = 1.0;
+    rows.push_back(static_cast<int>(first_multiplier(static_cast<std::size_t>(body)) + i));
+  }
+  if (in_order) return {};
+  return into.topRows(std::ssize(rows) - first);
 }
 
 // In the memory of the factor before, if there is one.
@@ -200,22 +223,24 @@ void Structure::factorise() {
     single_.reset();
     return;
   }
-  Eigen::SparseMatrix<double> matrix = mixed_form();
-  const std::vector<int> order = elimination_order(matrix);
+  const ElementMatrices sum = mixed_form();
+  const Supervariables groups(sum);
+  EliminationTree tree = elimination_tree(sum, groups, elimination_order(groups));
   // Where many joints are loose, hardly anything is like anything else.
-  const bool share = bodies_->shared() &&
-                     std::ranges::count(layout_.held, Held::fully) == std::ssize(layout_.held);
+  if (bodies_->shared() &&
+      std::ranges::count(layout_.held, Held::fully) == std::ssize(layout_.held))
+    share_values(tree, sum);
+  // A mechanism has nothing but its trace of inertia. The factor may hold it, for the corrections
+  // take what it adds away from everything that bears a load.
+  double hold = 0.0;
   const auto try_to = [&] {
     std::vector<double> memory;
     if (factor_) memory = std::move(*factor_).memory();
-    factor_.emplace(matrix, bodies_->compatibilities(),
-                    Elimination{order, least_pivot / stiffness_, share}, std::move(memory));
+    factor_.emplace(sum, tree, Pivots{least_pivot / stiffness_, hold * stiffness_},
+                    std::move(memory));
     return factor_->ok();
   };
-  // A mechanism has nothing but its trace of inertia. The factor may hold it, for the corrections
-  // take what it adds away from everything that bears a load.
-  for (double hold = 1e-13; !try_to() && hold < most_hold; hold *= 10.0)
-    matrix.diagonal().head(layout_.unknowns).array() += hold * stiffness_;
+  for (double more = 1e-13; !try_to() && more < most_hold; more *= 10.0) hold += more;
   const bool slides = std::ranges::count(layout_.held, Held::normal) > 0;
   const bool has_inertia = std::ranges::all_of(bodies_->classes(), [](const BodyClass& group) {
     return group.op.inertia_part > least_inertia;

@@ -17,23 +17,20 @@ int nonzeros_of(const EliminationTree& tree) {
 
 TEST(LeastDegreeOrder, LeavesNoFillInAStar) {
   constexpr int arms = 20;  // eliminated first, the centre would connect them all
-  std::vector<Eigen::Triplet<double>> entries{{0, 0, arms + 1.0}};
-  for (int i = 1; i <= arms; ++i) {
-    entries.emplace_back(i, i, 2.0);
-    entries.emplace_back(i, 0, -1.0);
-  }
-  Eigen::SparseMatrix<double> star(arms + 1, arms + 1);
+  std::vector<Eigen::Triplet<char>> entries;
+  for (int i = 1; i <= arms; ++i) entries.emplace_back(i, 0, 1);
+  Graph star(arms + 1, arms + 1);
   star.setFromTriplets(entries.begin(), entries.end());
-  const Order order = least_degree_order(star);
-  EXPECT_EQ(order.nonzeros, 2 * arms + 1);
-  EXPECT_EQ(nonzeros_of(elimination_tree(star, order.rows)), 2 * arms + 1);
+  const std::vector<int> sizes(arms + 1, 1), order = least_degree_order(star);
+  EXPECT_EQ(cost_of(star, order, sizes).nonzeros, 2 * arms + 1);
+  EXPECT_EQ(nonzeros_of(elimination_tree(star, order)), 2 * arms + 1);
   // The centre in a part before the others'.
   std::vector<int> parts(arms + 1, 1);
   parts[0] = 0;
-  const Order worst = least_degree_order(star, parts);
-  EXPECT_EQ(worst.rows[0], 0);
-  EXPECT_EQ(worst.nonzeros, (arms + 1) * (arms + 2) / 2);
-  EXPECT_EQ(nonzeros_of(elimination_tree(star, worst.rows)), (arms + 1) * (arms + 2) / 2);
+  const std::vector<int> worst = least_degree_order(star, parts);
+  EXPECT_EQ(worst[0], 0);
+  EXPECT_EQ(cost_of(star, worst, sizes).nonzeros, (arms + 1) * (arms + 2) / 2);
+  EXPECT_EQ(nonzeros_of(elimination_tree(star, worst)), (arms + 1) * (arms + 2) / 2);
 }
 
 // What a panel takes from the rows below it is all that its parent needs of it: these are the
@@ -41,15 +38,14 @@ TEST(LeastDegreeOrder, LeavesNoFillInAStar) {
 // with what is below each of them.
 TEST(EliminationTree, HandsRowsOnFromChildToParent) {
   constexpr int side = 12;
-  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Eigen::Triplet<char>> entries;
   for (int i = 0; i < side * side; ++i) {
-    entries.emplace_back(i, i, 4.0);
-    if (i % side + 1 < side) entries.emplace_back(i + 1, i, -1.0);
-    if (i + side < side * side) entries.emplace_back(i + side, i, -1.0);
+    if (i % side + 1 < side) entries.emplace_back(i + 1, i, 1);
+    if (i + side < side * side) entries.emplace_back(i + side, i, 1);
   }
-  Eigen::SparseMatrix<double> grid(side * side, side * side);
+  Graph grid(side * side, side * side);
   grid.setFromTriplets(entries.begin(), entries.end());
-  const EliminationTree tree = elimination_tree(grid, least_degree_order(grid).rows);
+  const EliminationTree tree = elimination_tree(grid, least_degree_order(grid));
   ASSERT_GT(tree.panels.size(), 10U);
 
   int column = 0;

@@ -18,6 +18,36 @@ namespace {
 
 constexpr int links = 50;
 
+// Each entry below the diagonal is an element, and so is each row with its own.
+ElementMatrices elements_of(const Eigen::SparseMatrix<double>& lower, int multipliers) {
+  ElementMatrices sum{.size = static_cast<int>(lower.rows()), .multipliers = multipliers};
+  for (int j = 0; j < lower.cols(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(lower, j); entry; ++entry) {
+      const bool diagonal = entry.row() == j;
+      Eigen::MatrixXd matrix(1, 1);
+      matrix(0, 0) = entry.value();
+      if (!diagonal) matrix = Eigen::Matrix2d{{0.0, entry.value()}, {entry.value(), 0.0}};
+      const auto known = std::ranges::find_if(sum.matrices, [&](const Eigen::MatrixXd& other) {
+        return other.size() == matrix.size() && other == matrix;
+      });
+      sum.elements.push_back({static_cast<int>(known - sum.matrices.begin()), sum.rows.size()});
+      if (known == sum.matrices.end()) sum.matrices.push_back(std::move(matrix));
+      sum.rows.push_back(j);
+      if (!diagonal) sum.rows.push_back(static_cast<int>(entry.row()));
+    }
+  return sum;
+}
+
+// Its rows feel too different ones to be eliminated together, so that each has a supervariable.
+SparseFactor factor_of(const Eigen::SparseMatrix<double>& lower, int multipliers,
+                       const std::vector<int>& order, bool share = false,
+                       std::vector<double> memory = {}) {
+  const ElementMatrices sum = elements_of(lower, multipliers);
+  EliminationTree tree = elimination_tree(sum, Supervariables(sum), order);
+  if (share) share_values(tree, sum);
+  return SparseFactor(sum, std::move(tree), {}, std::move(memory));
+}
+
 // A chain of springs of stiffness 1, held at one end, the other end's displacement prescribed by a
 // multiplier: the lower triangle of (K Nᵀ; N 0).
 Eigen::SparseMatrix<double> chain() {
@@ -40,7 +70,7 @@ std::vector<int> end_first() {
 }
 
 TEST(SparseFactor, StretchesAChain) {
-  const SparseFactor factor(chain(), 1, {end_first()});
+  const SparseFactor factor = factor_of(chain(), 1, end_first());
   ASSERT_TRUE(factor.ok());
   const Eigen::VectorXd x = factor.solve(-3.0 * Eigen::VectorXd::Unit(links + 1, links));
   for (int i = 0; i < links; ++i) EXPECT_NEAR(x(i), -3.0 * (i + 1.0) / links, 1e-13);
@@ -49,7 +79,7 @@ TEST(SparseFactor, StretchesAChain) {
 }
 
 TEST(SparseFactor, SolvesForFewEntriesAsForMany) {
-  const SparseFactor factor(chain(), 1, {end_first()});
+  const SparseFactor factor = factor_of(chain(), 1, end_first());
   Eigen::MatrixX2d values(2, 2);
   values << 1.0, 0.5, -2.0, 3.0;
   const Eliminated half = factor.eliminate({7, 8}, values);
@@ -89,9 +119,10 @@ TEST(SparseFactor, SolvesWithPanelsOfAnyWidth) {
       for (int j = m; j < n; j += 3) entries.emplace_back(n + m, j, 1.0 + m);
     Eigen::SparseMatrix<double> lower(n + multipliers, n + multipliers);
     lower.setFromTriplets(entries.begin(), entries.end());
-    std::vector<int> order = least_degree_order(lower.topLeftCorner(n, n)).rows;
+    std::vector<int> order =
+        least_degree_order(Supervariables(elements_of(lower.topLeftCorner(n, n), 0)).graph());
     for (int m = 0; m < multipliers; ++m) order.push_back(n + m);
-    const SparseFactor factor(lower, multipliers, {order});
+    const SparseFactor factor = factor_of(lower, multipliers, order);
     ASSERT_TRUE(factor.ok()) << side;
 
     const Eigen::MatrixXd dense = Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
@@ -154,7 +185,8 @@ TEST(SparseFactor, KeepsOnceWhatRepeatsItself) {
     const Eigen::SparseMatrix<double> lower = bunch_of_grids(grids, side, first_entry);
     std::vector<int> order(static_cast<std::size_t>(lower.rows()));
     std::iota(order.begin(), order.end(), 0);
-    const SparseFactor shared(lower, 1, {order}), apart(lower, 1, {order, 0.0, false});
+    const SparseFactor shared = factor_of(lower, 1, order, true),
+                       apart = factor_of(lower, 1, order);
     ASSERT_TRUE(shared.ok());
     EXPECT_EQ(shared.nonzeros(), apart.nonzeros());
     EXPECT_GT(shared.values(), kept);
@@ -177,9 +209,9 @@ TEST(SparseFactor, FindsWhatRepeatsItselfInAnyOrder) {
   const Eigen::SparseMatrix<double> lower = bunch_of_grids(5, side, 4.5);
   std::vector<int> order(static_cast<std::size_t>(lower.rows()));
   std::iota(order.begin(), order.end(), 0);
-  const std::size_t in_order = SparseFactor(lower, 1, {order}).values();
+  const std::size_t in_order = factor_of(lower, 1, order, true).values();
   std::reverse(order.end() - 1 - side, order.end() - 1);
-  const SparseFactor factor(lower, 1, {order});
+  const SparseFactor factor = factor_of(lower, 1, order, true);
   ASSERT_TRUE(factor.ok());
   EXPECT_EQ(factor.values(), in_order);
   const Eigen::MatrixXd dense = Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
@@ -190,11 +222,12 @@ TEST(SparseFactor, FindsWhatRepeatsItselfInAnyOrder) {
 // Of a smaller one, and of one that has left more behind than is needed.
 TEST(SparseFactor, UsesTheMemoryOfAnotherAgain) {
   const Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(links + 1, -1.0, 2.0);
-  const Eigen::VectorXd alone = SparseFactor(chain(), 1, {end_first()}).solve(load);
+  const Eigen::VectorXd alone = factor_of(chain(), 1, end_first()).solve(load);
   for (const std::size_t values : {1U, 1000U}) {
-    SparseFactor factor(chain(), 1, {end_first()}, std::vector<double>(values, 7.0));
+    SparseFactor factor =
+        factor_of(chain(), 1, end_first(), false, std::vector<double>(values, 7.0));
     EXPECT_EQ(factor.solve(load), alone);
-    SparseFactor next(chain(), 1, {end_first()}, std::move(factor).memory());
+    const SparseFactor next = factor_of(chain(), 1, end_first(), false, std::move(factor).memory());
     EXPECT_EQ(next.solve(load), alone);
   }
 }
@@ -202,14 +235,14 @@ TEST(SparseFactor, UsesTheMemoryOfAnotherAgain) {
 TEST(SparseFactor, SaysWhenItHasNoPivots) {
   Eigen::SparseMatrix<double> indefinite = chain();
   indefinite.coeffRef(3, 3) = -1.0;
-  EXPECT_FALSE(SparseFactor(indefinite, 1, {end_first()}).ok());
+  EXPECT_FALSE(factor_of(indefinite, 1, end_first()).ok());
   std::vector<int> too_early = end_first();
   std::swap(too_early[0], too_early[1]);
-  EXPECT_FALSE(SparseFactor(chain(), 1, {too_early}).ok());
+  EXPECT_FALSE(factor_of(chain(), 1, too_early).ok());
 }
 
 TEST(SparseFactor, ServesSeveralThreadsAtOnce) {
-  const SparseFactor factor(chain(), 1, {end_first()});
+  const SparseFactor factor = factor_of(chain(), 1, end_first());
   const Eigen::VectorXd stretch = Eigen::VectorXd::Unit(links + 1, links);
   const Eigen::VectorXd alone = factor.solve(stretch);
   std::vector<Eigen::VectorXd> found(4);
@@ -225,7 +258,7 @@ TEST(SparseFactor, ServesSeveralThreadsAtOnce) {
 
 TEST(SparseFactor, OutlivesTheThreadThatMadeIt) {
   std::optional<SparseFactor> factor;
-  std::thread([&] { factor.emplace(chain(), 1, Elimination{end_first()}); }).join();
+  std::thread([&] { factor.emplace(factor_of(chain(), 1, end_first())); }).join();
   EXPECT_NEAR(factor->solve(Eigen::VectorXd::Unit(links + 1, links))(links - 1), 1.0, 1e-14);
 }
 
