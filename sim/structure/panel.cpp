@@ -7,6 +7,8 @@ namespace havers::sim {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Ref;
+template <class Scalar>
+using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
 namespace {
 
@@ -62,12 +64,13 @@ void substitute_all(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd>
 
 }  // namespace
 
-void factorise_panel(Ref<MatrixXd> panel) {
-  MatrixXd scaled;
+template <class Scalar>
+void factorise_panel(Ref<Matrix<Scalar>> panel) {
+  Matrix<Scalar> scaled;
   for (Index begin = 0; begin < panel.cols(); begin += in_block) {
     const Index end = std::min(begin + in_block, panel.cols());
     for (Index j = begin; j < end; ++j) {
-      const double pivot = panel(j, j);
+      const Scalar pivot = panel(j, j);
       for (Index k = j + 1; k < end; ++k)
         panel.col(k).tail(panel.rows() - k) -=
             panel(k, j) / pivot * panel.col(j).tail(panel.rows() - k);
@@ -81,10 +84,17 @@ void factorise_panel(Ref<MatrixXd> panel) {
   }
 }
 
-void take_panel_from(Ref<MatrixXd> rest, const Ref<const MatrixXd>& panel) {
+template <class Scalar>
+void take_panel_from(Ref<Matrix<Scalar>> rest, const Ref<const Matrix<Scalar>>& panel) {
   const auto below = panel.bottomRows(rest.rows());
-  rest.triangularView<Eigen::Lower>() -= below * panel.diagonal().asDiagonal() * below.transpose();
+  rest.template triangularView<Eigen::Lower>() -=
+      below * panel.diagonal().asDiagonal() * below.transpose();
 }
+
+template void factorise_panel<double>(Ref<MatrixXd>);
+template void factorise_panel<float>(Ref<Eigen::MatrixXf>);
+template void take_panel_from<double>(Ref<MatrixXd>, const Ref<const MatrixXd>&);
+template void take_panel_from<float>(Ref<Eigen::MatrixXf>, const Ref<const Eigen::MatrixXf>&);
 
 void eliminate_panel(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd> x) {
   for (; first + 4 <= panel.cols(); first += 4) eliminate<4>(panel, first, x);

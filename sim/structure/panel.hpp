@@ -9,12 +9,23 @@ namespace havers::sim {
 
 /// Factorises a panel that all panels before it have been taken from: L D Lᵀ of its own rows, and
 /// the rows below divided by D Lᵀ. No pivoting.
-void factorise_panel(Eigen::Ref<Eigen::MatrixXd> panel);
+template <class Scalar>
+void factorise_panel(Eigen::Ref<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>> panel);
 
 /// What a factorised panel takes from the matrix of the rows below it.
 /// @param rest  its lower triangle becomes that of rest − L D Lᵀ
-void take_panel_from(Eigen::Ref<Eigen::MatrixXd> rest,
-                     const Eigen::Ref<const Eigen::MatrixXd>& panel);
+template <class Scalar>
+void take_panel_from(
+    Eigen::Ref<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>> rest,
+    const Eigen::Ref<const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>& panel);
+
+// Both in double and in single precision.
+extern template void factorise_panel<double>(Eigen::Ref<Eigen::MatrixXd>);
+extern template void factorise_panel<float>(Eigen::Ref<Eigen::MatrixXf>);
+extern template void take_panel_from<double>(Eigen::Ref<Eigen::MatrixXd>,
+                                             const Eigen::Ref<const Eigen::MatrixXd>&);
+extern template void take_panel_from<float>(Eigen::Ref<Eigen::MatrixXf>,
+                                            const Eigen::Ref<const Eigen::MatrixXf>&);
 
 /// x ← L⁻¹ x on the rows of a panel, where x is zero before column `first`; D is not looked at.
 void eliminate_panel(const Eigen::Ref<const Eigen::MatrixXd>& panel, Eigen::Index first,

@@ -55,13 +55,39 @@ Row<width> sum_of_rows(const float* values, int rows, const Weight& weight) {
 
 }  // namespace
 
-SinglePrecisionFactor::SinglePrecisionFactor(const SparseFactor& factor) : factor_(&factor) {
-  const EliminationTree& tree = factor.tree_;
+SinglePrecisionFactor::SinglePrecisionFactor(const SparseFactor& factor)
+    : tree_(factor.tree_), inverse_pivots_(factor.inverse_pivots_) {
+  lay_out();
+  for (const Panel& panel : tree_->panels)
+    if (tree_->is_first(panel))
+      copy<double>(panel, {factor.values_.data() + panel.values, static_cast<Index>(panel.height),
+                           panel.columns});
+}
+
+SinglePrecisionFactor::SinglePrecisionFactor(const ElementMatrices& A,
+                                             std::shared_ptr<const EliminationTree> tree,
+                                             const Pivots& pivots)
+    : tree_(std::move(tree)) {
+  lay_out();
+  using Panels = PanelStore<float>::Panels;
+  Eigen::MatrixXf at_work;
+  inverse_pivots_ =
+      factorise<float>(A, *tree_, pivots,
+                       {[&](const Panel& panel) {
+                          at_work.setZero(static_cast<Index>(panel.height), panel.columns);
+                          return Panels(at_work.data(), at_work.rows(), at_work.cols());
+                        },
+                        [&](const Panel& panel, const Panels& found) {
+                          copy<float>(panel, {found.data(), found.rows(), found.cols()});
+                        }});
+}
+
+void SinglePrecisionFactor::lay_out() {
   std::size_t size = 0;
-  std::vector<std::size_t> first_strip, values(tree.panels.size());  // of each panel
-  for (const Panel& panel : tree.panels) {
-    first_strip.push_back(strips_.size());
-    const bool is_first = tree.is_first(panel);
+  std::vector<std::size_t> values(tree_->panels.size());  // of each panel
+  for (const Panel& panel : tree_->panels) {
+    first_strip_.push_back(strips_.size());
+    const bool is_first = tree_->is_first(panel);
     const auto like = static_cast<std::size_t>(panel.like);
     if (is_first) values[like] = size;
     std::size_t at = values[like];
@@ -75,46 +101,48 @@ SinglePrecisionFactor::SinglePrecisionFactor(const SparseFactor& factor) : facto
     }
     if (is_first) size = at;
   }
+  first_strip_.push_back(strips_.size());
   values_.reserve(size);
   ask_for_large_pages(values_.data(), size * sizeof(float));
   values_.assign(size, 0.0F);
-  for (std::size_t p = 0; p < tree.panels.size(); ++p)
-    if (tree.is_first(tree.panels[p])) copy(tree.panels[p], first_strip[p]);
 }
 
-void SinglePrecisionFactor::copy(const Panel& panel, std::size_t first_strip) {
-  const auto height = static_cast<Index>(panel.height);
-  const Eigen::Map<const MatrixXd> from(factor_->values_.data() + panel.values, height,
-                                        panel.columns);
-  for (Index first = 0; first < panel.columns; ++first_strip) {
-    const Strip& strip = strips_[first_strip];
+template <class Scalar>
+void SinglePrecisionFactor::copy(
+    const Panel& panel,
+    const Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>& from) {
+  using Square = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  std::size_t next = first_strip_[static_cast<std::size_t>(&panel - tree_->panels.data())];
+  for (Index first = 0; first < from.cols(); ++next) {
+    const Strip& strip = strips_[next];
     const Index columns = strip.columns;
     Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to(
         values_.data() + strip.values, strip.height, width_of(strip.columns));
     to.topLeftCorner(columns, columns) = from.block(first, first, columns, columns)
-                                             .triangularView<Eigen::UnitLower>()
-                                             .solve(MatrixXd::Identity(columns, columns))
-                                             .cast<float>();
+                                             .template triangularView<Eigen::UnitLower>()
+                                             .solve(Square::Identity(columns, columns))
+                                             .template cast<float>();
     first += columns;
     to.bottomRows(strip.height - columns).leftCols(columns) =
-        from.bottomRows(height - first).middleCols(first - columns, columns).cast<float>();
+        from.bottomRows(from.rows() - first)
+            .middleCols(first - columns, columns)
+            .template cast<float>();
   }
 }
 
-// x ← L⁻¹ x.
-void SinglePrecisionFactor::eliminate(VectorXf& x) const {
-  for (const Strip& strip : strips_)
-    with_width(strip.columns, [&](auto width) {
-      const float* const values = values_.data() + strip.values;
-      const int* const rows = factor_->tree_.rows.data() + strip.rows;
-      auto own = x.segment(*rows, strip.columns).array();
-      Row<width> known = Row<width>::Zero();
-      known.head(strip.columns) = own;
-      for (int i = 0; i < strip.columns; ++i) own(i) = (row<width>(values, i) * known).sum();
-      known.head(strip.columns) = own;
-      for (int i = strip.columns; i < strip.height; ++i)
-        x(rows[i]) -= (row<width>(values, i) * known).sum();
-    });
+// x ← L⁻¹ x on the rows of a strip.
+void SinglePrecisionFactor::eliminate(const Strip& strip, Eigen::Ref<VectorXf> x) const {
+  with_width(strip.columns, [&](auto width) {
+    const float* const values = values_.data() + strip.values;
+    const int* const rows = tree_->rows.data() + strip.rows;
+    auto own = x.segment(*rows, strip.columns).array();
+    Row<width> known = Row<width>::Zero();
+    known.head(strip.columns) = own;
+    for (int i = 0; i < strip.columns; ++i) own(i) = (row<width>(values, i) * known).sum();
+    known.head(strip.columns) = own;
+    for (int i = strip.columns; i < strip.height; ++i)
+      x(rows[i]) -= (row<width>(values, i) * known).sum();
+  });
 }
 
 // x ← L⁻ᵀ x.
@@ -123,7 +151,7 @@ void SinglePrecisionFactor::substitute(VectorXf& x) const {
     const Strip& strip = strips_[i];
     with_width(strip.columns, [&](auto width) {
       const float* const values = values_.data() + strip.values;
-      const int* const rows = factor_->tree_.rows.data() + strip.rows;
+      const int* const rows = tree_->rows.data() + strip.rows;
       const int* const below = rows + strip.columns;
       auto own = x.segment(*rows, strip.columns).array();
       Row<width> left = Row<width>::Zero();
@@ -138,15 +166,39 @@ void SinglePrecisionFactor::substitute(VectorXf& x) const {
 
 VectorXf SinglePrecisionFactor::halve(const VectorXd& b) const {
   VectorXf x(b.size());
-  x(factor_->tree_.place) = b.cast<float>();
-  eliminate(x);
+  x(tree_->place) = b.cast<float>();
+  for (const Strip& strip : strips_) eliminate(strip, x);
   return x;
 }
 
 VectorXf SinglePrecisionFactor::complete(const Eigen::Ref<const VectorXd>& half) const {
-  VectorXf x = factor_->inverse_pivots_.cwiseProduct(half).cast<float>();
+  VectorXf x = inverse_pivots_.cwiseProduct(half).cast<float>();
   substitute(x);
-  return x(factor_->tree_.place);
+  return x(tree_->place);
+}
+
+Eliminated SinglePrecisionFactor::eliminate(std::vector<int> rows,
+                                            const Eigen::MatrixX2d& values) const {
+  Eigen::MatrixX2f x = Eigen::MatrixX2f::Zero(inverse_pivots_.size(), 2);
+  for (int& row : rows) row = tree_->place[static_cast<std::size_t>(row)];
+  x(rows, Eigen::all) = values.cast<float>();
+  Eliminated half;
+  const int first = *std::ranges::min_element(rows);
+  for (const Panel* panel = &tree_->panel_of(first); panel != nullptr;
+       panel = tree_->parent_of(*panel)) {
+    const auto p = static_cast<std::size_t>(panel - tree_->panels.data());
+    for (std::size_t strip = first_strip_[p]; strip < first_strip_[p + 1]; ++strip)
+      for (const Index load : {0, 1}) eliminate(strips_[strip], x.col(load));
+    for (int row = std::max(panel->first, first); row < panel->first + panel->columns; ++row)
+      half.rows.push_back(row);
+  }
+  half.values = x(half.rows, Eigen::all).transpose().cast<double>();
+  return half;
+}
+
+Eliminated SinglePrecisionFactor::over_pivots(Eliminated half) const {
+  half.values = half.values * inverse_pivots_(half.rows).asDiagonal();
+  return half;
 }
 
 }  // namespace havers::sim

@@ -3,10 +3,11 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
-#include "sim/structure/elimination_tree.hpp"
+#include "sim/structure/multifrontal.hpp"
 
 namespace havers::sim {
 
@@ -19,11 +20,6 @@ struct Eliminated {
 /// aᵀ A⁻¹ b of half solves, one of them over its pivots.
 Eigen::Matrix2d product(const Eliminated& a, const Eliminated& b);
 
-struct Pivots {
-  double least = 0.0;  ///< Of a row of N; a smaller one is rounding, N is not independent.
-  double added = 0.0;  ///< To the diagonal of K.
-};
-
 /// L D Lᵀ = P A Pᵀ of A = (K Nᵀ; N 0), K positive definite, the rows of N independent. There is no
 /// pivoting: the order has to make sure that no pivot of N is small, unless its row is a sum of
 /// others.
@@ -34,13 +30,13 @@ class SparseFactor {
   /// @param pivots  what is asked of them
   /// @param memory  that of a factor which is no longer needed: fresh memory takes as long as the
   /// factor
-  SparseFactor(const ElementMatrices& A, EliminationTree tree, const Pivots& pivots = {},
-               std::vector<double> memory = {});
+  SparseFactor(const ElementMatrices& A, std::shared_ptr<const EliminationTree> tree,
+               const Pivots& pivots = {}, std::vector<double> memory = {});
   /// For another factor; this one can do nothing more.
   [[nodiscard]] std::vector<double> memory() && { return std::move(values_); }
 
   /// Whether K was positive definite and N independent; only then may anything be solved.
-  [[nodiscard]] bool ok() const { return ok_; }
+  [[nodiscard]] bool ok() const { return inverse_pivots_.size() == rows(); }
 
   // All of these may be called by several threads at once.
   /// A⁻¹ b, one load a column. What entries of b do not reach is left out of the first half.
@@ -56,19 +52,17 @@ class SparseFactor {
   /// Half a solve over the pivots, D⁻¹ L⁻¹ P b.
   [[nodiscard]] Eliminated over_pivots(Eliminated half) const;
 
-  [[nodiscard]] Eigen::Index rows() const { return static_cast<Eigen::Index>(tree_.place.size()); }
+  [[nodiscard]] Eigen::Index rows() const { return static_cast<Eigen::Index>(tree_->place.size()); }
   [[nodiscard]] long nonzeros() const;  ///< Of L.
   /// That are kept, zeros of panels included.
   [[nodiscard]] std::size_t values() const { return values_.size(); }
 
  private:
   friend class SinglePrecisionFactor;
-  [[nodiscard]] bool factorise(const ElementMatrices& A, const Pivots& pivots);
 
-  EliminationTree tree_;
+  std::shared_ptr<const EliminationTree> tree_;
   std::vector<double> values_;  // of all panels, once of those that share them
   Eigen::VectorXd inverse_pivots_;
-  bool ok_ = false;
 };
 
 }  // namespace havers::sim

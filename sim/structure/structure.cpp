@@ -135,8 +135,7 @@ Structure::Correction Structure::correct(const VectorXd& missing, const VectorXd
   auto gap = load.tail(bodies_->compatibilities());
   if (gap.lpNorm<1>() != 0.0) add_to_unknowns(bodies_->compatibility_forces(gap), load);
   gap /= stiffness_;
-  const bool nearby = is_corrected() || (single_ && friction.size() > 0);
-  Correction change{nearby ? solve_nearby(load) : VectorXd(factor_->solve(load)), {}, {}, {}};
+  Correction change{single_ ? solve_nearby(load) : VectorXd(factor_->solve(load)), {}, {}, {}};
   change.displacements = unknowns_to_ports<VectorXd>(change.answer, layout_);
   change.forces = bodies_->port_forces(change.displacements, change.answer.tail(gap.size()));
   if (friction.size() > 0) rub(friction, change.forces);
@@ -211,7 +210,7 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads, PortState st
     return all;
   };
   state.forces = forces();
-  if (!factor_) return state;
+  if (!factor_ && !single_) return state;
   VectorXd missing = in_forces(state.forces, bodies_->incompatibility(state.displacements));
   if (!rubs) {
     refine(loads, std::move(missing), state);

@@ -84,7 +84,9 @@ class Structure {
   [[nodiscard]] bool is_corrected() const { return !changes_.empty(); }
 
   /// Whether it can be solved; bodies without ports need no factor.
-  [[nodiscard]] bool ok() const { return factor_ ? factor_->ok() : layout_.unknowns == 0; }
+  [[nodiscard]] bool ok() const {
+    return factor_ ? factor_->ok() : single_ || layout_.unknowns == 0;
+  }
   [[nodiscard]] const std::vector<Held>& held() const { return layout_.held; }
   [[nodiscard]] Eigen::Index joints() const {
     return static_cast<Eigen::Index>(layout_.held.size());
@@ -128,6 +130,12 @@ class Structure {
     std::vector<std::size_t> components;
     std::vector<Eliminated> halves, over_pivots;
   };
+  /// Rows of the unknowns and multipliers that unit jumps act on.
+  struct LoadOfJump {
+    std::vector<int> rows;
+    Eigen::MatrixX2d load;
+  };
+  [[nodiscard]] LoadOfJump load_of_jump(int joint) const;
   [[nodiscard]] Layout laid_out(std::vector<Held> held) const;
   [[nodiscard]] Change change_of(int joint) const;
   [[nodiscard]] Eigen::MatrixXd coupling(const Change& of, const Change& to) const;
@@ -191,8 +199,8 @@ class Structure {
   std::vector<Eigen::Index> tops_of_ties_;  // their ports
   double stiffness_ = 0.0;                  // the largest of Z [N/m²]
   std::vector<const BodyOperator*> op_of_body_;
-  std::optional<SparseFactor> factor_;
-  std::optional<SinglePrecisionFactor> single_;  // of it, for the many corrections of friction
+  std::optional<SparseFactor> factor_;           // or,
+  std::optional<SinglePrecisionFactor> single_;  // for the many corrections of friction, this one
   std::vector<Change> changes_;                  // since
   Eigen::PartialPivLU<Eigen::MatrixXd> between_changes_;
 };

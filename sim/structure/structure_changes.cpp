@@ -56,14 +56,14 @@ Structure::Change Structure::change_of(int joint) const {
       };
       const double sign = side == 0 ? -1.0 : 1.0;
       change.halves.push_back(
-          factor_->eliminate({row(0), row(1)}, sign * Eigen::Matrix2d::Identity()));
+          single_->eliminate({row(0), row(1)}, sign * Eigen::Matrix2d::Identity()));
     }
   } else {
-    change.halves.push_back(jump(joint).half);
-    change.halves.back().values *= -1.0;  // it is the load that a jump is, on the other side
+    const auto [rows, load] = load_of_jump(joint);
+    change.halves.push_back(single_->eliminate(rows, -load));  // on the other side
   }
   for (const Eliminated& half : change.halves)
-    change.over_pivots.push_back(factor_->over_pivots(half));
+    change.over_pivots.push_back(single_->over_pivots(half));
   return change;
 }
 

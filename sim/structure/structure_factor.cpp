@@ -225,30 +225,36 @@ void Structure::factorise() {
   }
   const ElementMatrices sum = mixed_form();
   const Supervariables groups(sum);
-  EliminationTree tree = elimination_tree(sum, groups, elimination_order(groups));
+  auto tree =
+      std::make_shared<EliminationTree>(elimination_tree(sum, groups, elimination_order(groups)));
   // Where many joints are loose, hardly anything is like anything else.
   if (bodies_->shared() &&
       std::ranges::count(layout_.held, Held::fully) == std::ssize(layout_.held))
-    share_values(tree, sum);
-  // A mechanism has nothing but its trace of inertia. The factor may hold it, for the corrections
-  // take what it adds away from everything that bears a load.
-  double hold = 0.0;
-  const auto try_to = [&] {
-    std::vector<double> memory;
-    if (factor_) memory = std::move(*factor_).memory();
-    factor_.emplace(sum, tree, Pivots{least_pivot / stiffness_, hold * stiffness_},
-                    std::move(memory));
-    return factor_->ok();
-  };
-  for (double more = 1e-13; !try_to() && more < most_hold; more *= 10.0) hold += more;
+    share_values(*tree, sum);
+  Pivots pivots{least_pivot / stiffness_, 0.0};
   const bool slides = std::ranges::count(layout_.held, Held::normal) > 0;
   const bool has_inertia = std::ranges::all_of(bodies_->classes(), [](const BodyClass& group) {
     return group.op.inertia_part > least_inertia;
   });
-  if (factor_->ok() && slides && has_inertia)
-    single_.emplace(*factor_);
-  else
+  single_.reset();
+  if (slides && has_inertia) {
+    single_.emplace(sum, tree, pivots);
+    if (single_->ok()) {
+      factor_.reset();
+      return;
+    }
     single_.reset();
+  }
+  // A mechanism has nothing but its trace of inertia. The factor may hold it, for the corrections
+  // take what it adds away from everything that bears a load.
+  const auto try_to = [&] {
+    std::vector<double> memory;
+    if (factor_) memory = std::move(*factor_).memory();
+    factor_.emplace(sum, tree, pivots, std::move(memory));
+    return factor_->ok();
+  };
+  for (double hold = 1e-13; !try_to() && hold < most_hold; hold *= 10.0)
+    pivots.added += hold * stiffness_;
 }
 
 }  // namespace havers::sim

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/structure/structure.hpp"
 
@@ -11,7 +12,7 @@ using Eigen::VectorXd;
 using Eigen::VectorXf;
 
 // The load of unit jumps: forces at the ports of body b, and what they ask of its ring.
-Jump Structure::jump(int joint) const {
+Structure::LoadOfJump Structure::load_of_jump(int joint) const {
   const int body = bodies_->assembly().joints[static_cast<std::size_t>(joint)].body_b;
   const BodyOperator& op = *op_of_body_[static_cast<std::size_t>(body)];
   const Index first = bodies_->first_port(body);
@@ -36,6 +37,11 @@ Jump Structure::jump(int joint) const {
   }
   Eigen::MatrixX2d load(static_cast<Index>(rows.size()), 2);
   for (std::size_t i = 0; i < rows.size(); ++i) load.row(static_cast<Index>(i)) = -values[i];
+  return {std::move(rows), std::move(load)};
+}
+
+Jump Structure::jump(int joint) const {
+  auto [rows, load] = load_of_jump(joint);
   return {joint, factor_->eliminate(std::move(rows), load)};
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <thread>
@@ -43,8 +44,8 @@ SparseFactor factor_of(const Eigen::SparseMatrix<double>& lower, int multipliers
                        const std::vector<int>& order, bool share = false,
                        std::vector<double> memory = {}) {
   const ElementMatrices sum = elements_of(lower, multipliers);
-  EliminationTree tree = elimination_tree(sum, Supervariables(sum), order);
-  if (share) share_values(tree, sum);
+  auto tree = std::make_shared<EliminationTree>(elimination_tree(sum, Supervariables(sum), order));
+  if (share) share_values(*tree, sum);
   return SparseFactor(sum, std::move(tree), {}, std::move(memory));
 }
 
