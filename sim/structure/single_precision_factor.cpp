@@ -1,7 +1,10 @@
 #include "sim/structure/single_precision_factor.hpp"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <type_traits>
+#include <utility>
 
 #include "sim/memory.hpp"
 
@@ -130,22 +133,22 @@ void SinglePrecisionFactor::copy(
   }
 }
 
-// x ← L⁻¹ x on the rows of a strip.
-void SinglePrecisionFactor::eliminate(const Strip& strip, Eigen::Ref<VectorXf> x) const {
+// x ← L⁻¹ x on the rows of a strip. What is read beyond its own columns counts with zeros; x ends
+// with as many more as that may be.
+void SinglePrecisionFactor::eliminate(const Strip& strip, VectorXf& x) const {
   with_width(strip.columns, [&](auto width) {
     const float* const values = values_.data() + strip.values;
     const int* const rows = tree_->rows.data() + strip.rows;
-    auto own = x.segment(*rows, strip.columns).array();
-    Row<width> known = Row<width>::Zero();
-    known.head(strip.columns) = own;
-    for (int i = 0; i < strip.columns; ++i) own(i) = (row<width>(values, i) * known).sum();
-    known.head(strip.columns) = own;
+    const auto all = x.segment<width>(*rows).array();
+    Row<width> known = all;
+    for (int i = 0; i < strip.columns; ++i) x(*rows + i) = (row<width>(values, i) * known).sum();
+    known = all;
     for (int i = strip.columns; i < strip.height; ++i)
       x(rows[i]) -= (row<width>(values, i) * known).sum();
   });
 }
 
-// x ← L⁻ᵀ x.
+// x ← L⁻ᵀ x, likewise.
 void SinglePrecisionFactor::substitute(VectorXf& x) const {
   for (std::size_t i = strips_.size(); i-- > 0;) {
     const Strip& strip = strips_[i];
@@ -153,46 +156,51 @@ void SinglePrecisionFactor::substitute(VectorXf& x) const {
       const float* const values = values_.data() + strip.values;
       const int* const rows = tree_->rows.data() + strip.rows;
       const int* const below = rows + strip.columns;
-      auto own = x.segment(*rows, strip.columns).array();
-      Row<width> left = Row<width>::Zero();
-      left.head(strip.columns) = own;
+      Row<width> left = x.segment<width>(*rows).array();
       left -= sum_of_rows<width>(values + strip.columns * width, strip.height - strip.columns,
                                  [&](int k) { return x(below[k]); });
       const auto weight = [&](int column) { return left(column); };
-      own = sum_of_rows<width>(values, strip.columns, weight).head(strip.columns);
+      const Row<width> own = sum_of_rows<width>(values, strip.columns, weight);
+      for (int column = 0; column < strip.columns; ++column) x(*rows + column) = own(column);
     });
   }
 }
 
 VectorXf SinglePrecisionFactor::halve(const VectorXd& b) const {
-  VectorXf x(b.size());
+  VectorXf x = VectorXf::Zero(b.size() + widest);
   x(tree_->place) = b.cast<float>();
   for (const Strip& strip : strips_) eliminate(strip, x);
-  return x;
+  return x.head(b.size());
 }
 
 VectorXf SinglePrecisionFactor::complete(const Eigen::Ref<const VectorXd>& half) const {
-  VectorXf x = inverse_pivots_.cwiseProduct(half).cast<float>();
+  VectorXf x = VectorXf::Zero(half.size() + widest);
+  x.head(half.size()) = inverse_pivots_.cwiseProduct(half).cast<float>();
   substitute(x);
   return x(tree_->place);
 }
 
 Eliminated SinglePrecisionFactor::eliminate(std::vector<int> rows,
                                             const Eigen::MatrixX2d& values) const {
-  Eigen::MatrixX2f x = Eigen::MatrixX2f::Zero(inverse_pivots_.size(), 2);
+  std::array<VectorXf, 2> x;
   for (int& row : rows) row = tree_->place[static_cast<std::size_t>(row)];
-  x(rows, Eigen::all) = values.cast<float>();
+  for (const std::size_t load : {0U, 1U}) {
+    x[load].setZero(inverse_pivots_.size() + widest);
+    x[load](rows) = values.col(static_cast<Index>(load)).cast<float>();
+  }
   Eliminated half;
   const int first = *std::ranges::min_element(rows);
   for (const Panel* panel = &tree_->panel_of(first); panel != nullptr;
        panel = tree_->parent_of(*panel)) {
     const auto p = static_cast<std::size_t>(panel - tree_->panels.data());
     for (std::size_t strip = first_strip_[p]; strip < first_strip_[p + 1]; ++strip)
-      for (const Index load : {0, 1}) eliminate(strips_[strip], x.col(load));
+      for (VectorXf& load : x) eliminate(strips_[strip], load);
     for (int row = std::max(panel->first, first); row < panel->first + panel->columns; ++row)
       half.rows.push_back(row);
   }
-  half.values = x(half.rows, Eigen::all).transpose().cast<double>();
+  half.values.resize(2, std::ssize(half.rows));
+  for (const std::size_t load : {0U, 1U})
+    half.values.row(static_cast<Index>(load)) = x[load](half.rows).transpose().cast<double>();
   return half;
 }
 

@@ -45,7 +45,7 @@ class SinglePrecisionFactor {
   void copy(const Panel& panel,
             const Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>& from);
   void substitute(Eigen::VectorXf& x) const;
-  void eliminate(const Strip& strip, Eigen::Ref<Eigen::VectorXf> x) const;
+  void eliminate(const Strip& strip, Eigen::VectorXf& x) const;
 
   std::shared_ptr<const EliminationTree> tree_;
   std::vector<Strip> strips_;             // in the order of elimination
