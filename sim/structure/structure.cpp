@@ -48,6 +48,7 @@ Structure::Structure(const Bodies& bodies, std::vector<Held> held) : bodies_(&bo
 void Structure::hold(std::vector<Held> held) {
   layout_ = laid_out(std::move(held));
   factorised_ = layout_;
+  find_loose_components();
   changes_.clear();
   tops_of_ties_.clear();
   const std::size_t first_tie = 2 * bodies_->assembly().joints.size();
@@ -119,6 +120,7 @@ void Structure::rub(const VectorXd& friction, VectorXd& port_forces) const {
 // and in the equations.
 struct Structure::Correction {
   VectorXd answer, displacements, forces, effect;
+  double size = 0.0;  // square of the effect's norm
 };
 
 VectorXd Structure::in_forces(const VectorXd& forces, const VectorXd& gap) const {
@@ -177,11 +179,12 @@ void Structure::refine_with_friction(const PortLoads& loads, VectorXd missing,
     ++state.solves;
     const double lacked = missing.norm(), correction = change.forces.norm();
     for (const Correction& old : past) {
-      const double part = change.effect.dot(old.effect) / old.effect.squaredNorm();
+      const double part = change.effect.dot(old.effect) / old.size;
       change.answer -= part * old.answer;
       change.effect -= part * old.effect;
     }
-    const double length = -missing.dot(change.effect) / change.effect.squaredNorm();
+    change.size = change.effect.squaredNorm();
+    const double length = -missing.dot(change.effect) / change.size;
     if (!std::isfinite(length)) {
       if (lacked != 0.0) state.error = std::numeric_limits<double>::infinity();
       break;
@@ -194,7 +197,7 @@ void Structure::refine_with_friction(const PortLoads& loads, VectorXd missing,
     const double lacks = missing.norm();
     state.error = scale > 0.0 ? std::max(correction / lacked, 1.0) * lacks / scale : 0.0;
     if (!(state.error > loads.accuracy)) break;
-    past.push_back({std::move(change.answer), {}, {}, std::move(change.effect)});
+    past.push_back({std::move(change.answer), {}, {}, std::move(change.effect), change.size});
   }
   state.displacements += unknowns_to_ports<VectorXd>(answer, layout_);
   state.multipliers += answer.tail(state.multipliers.size());

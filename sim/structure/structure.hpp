@@ -135,12 +135,17 @@ class Structure {
     std::vector<int> rows;
     Eigen::MatrixX2d load;
   };
+  /// Of a joint, whose side b has an unknown of its own as it holds, or in the factor; where it has
+  /// none, that is the joint's.
+  struct LooseComponent {
+    int joint_unknown, own, in_the_factor;
+  };
   [[nodiscard]] LoadOfJump load_of_jump(int joint) const;
   [[nodiscard]] Layout laid_out(std::vector<Held> held) const;
   [[nodiscard]] Change change_of(int joint) const;
   [[nodiscard]] Eigen::MatrixXd coupling(const Change& of, const Change& to) const;
   [[nodiscard]] Eigen::Matrix2d stiffness_between(int joint, int other) const;
-  void for_each_loose_component(const auto& visit) const;
+  void find_loose_components();
   [[nodiscard]] Eigen::VectorXd solve_nearby(const Eigen::VectorXd& load) const;
   [[nodiscard]] Eigen::MatrixXd half_solved(const std::vector<SharedJump>& jumps,
                                             const Eigen::MatrixXd& y) const;
@@ -201,7 +206,8 @@ class Structure {
   std::vector<const BodyOperator*> op_of_body_;
   std::optional<SparseFactor> factor_;           // or,
   std::optional<SinglePrecisionFactor> single_;  // for the many corrections of friction, this one
-  std::vector<Change> changes_;                  // since
+  std::vector<LooseComponent> loose_components_;
+  std::vector<Change> changes_;  // since
   Eigen::PartialPivLU<Eigen::MatrixXd> between_changes_;
 };
 

@@ -24,6 +24,7 @@ bool Structure::hold_nearby(const std::vector<Held>& held) {
   if (changed.size() > worth_a_factor) return false;
 
   layout_ = laid_out(held);
+  find_loose_components();
   changes_.clear();
   std::vector<Index> first;  // of each, among the components of all
   Index size = 0;
@@ -76,14 +77,14 @@ MatrixXd Structure::coupling(const Change& of, const Change& to) const {
   return all(of.components, to.components);
 }
 
-// Visits the components whose side b has unknowns of its own, in this layout or in the factor;
-// where it has none, that is the joint's.
-void Structure::for_each_loose_component(const auto& visit) const {
+void Structure::find_loose_components() {
+  loose_components_.clear();
   for (int joint_unknown = 0; joint_unknown < 2 * static_cast<int>(joints()); ++joint_unknown) {
     if (holds(joint_unknown) && holds(joint_unknown, factorised_)) continue;
     const auto port =
         static_cast<std::size_t>(bodies_->ends()[static_cast<std::size_t>(joint_unknown)][1]);
-    visit(joint_unknown, layout_.of_port[port][0], factorised_.of_port[port][0]);
+    loose_components_.push_back(
+        {joint_unknown, layout_.of_port[port][0], factorised_.of_port[port][0]});
   }
 }
 
@@ -94,12 +95,11 @@ VectorXd Structure::solve_nearby(const VectorXd& load) const {
   VectorXd in_factor(factorised_.unknowns + load.size() - layout_.unknowns);
   in_factor.head(shared) = load.head(shared);
   in_factor.tail(last) = load.tail(last);
-  for_each_loose_component([&](int joint_unknown, int own, int in_the_factor) {
+  for (const auto& [joint_unknown, own, in_the_factor] : loose_components_)
     if (in_the_factor != joint_unknown)
       in_factor(in_the_factor) = own == joint_unknown ? 0.0 : load(own);
     else
       in_factor(joint_unknown) += load(own);
-  });
   // Single precision has but so many powers of ten.
   const double largest = in_factor.lpNorm<Eigen::Infinity>(), size = largest > 0.0 ? largest : 1.0;
   VectorXd half = single_->halve(in_factor / size).cast<double>();
@@ -127,9 +127,8 @@ VectorXd Structure::solve_nearby(const VectorXd& load) const {
   VectorXd answer(load.size());
   answer.head(shared) = found.head(shared);
   answer.tail(last) = found.tail(last);
-  for_each_loose_component([&](int joint_unknown, int own, int in_the_factor) {
+  for (const auto& [joint_unknown, own, in_the_factor] : loose_components_)
     if (own != joint_unknown) answer(own) = found(in_the_factor);
-  });
   for_each_change([&](const Change& change, Index, Index row, Index own) {
     if (!change.holds_more) answer(own) += size * by(row);
   });
