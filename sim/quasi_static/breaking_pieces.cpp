@@ -1,4 +1,8 @@
 // What of a breaking specimen hangs together.
+#include <algorithm>
+#include <span>
+#include <utility>
+
 #include "sim/quasi_static/breaking_run.hpp"
 #include "sim/structure/pieces.hpp"
 
@@ -21,20 +25,48 @@ bool BreakingRun::severed() const {
   return all.find(left) != all.find(left + 1);
 }
 
+// Whether few bonded joints lead from one side of a broken joint to the other, so that no piece has
+// come off by it.
+bool BreakingRun::has_detour(const Joint& broken) const {
+  constexpr std::size_t few = 32;  // bodies
+  std::vector<int> reached{broken.body_a};
+  for (std::size_t i = 0; i < reached.size() && reached.size() < few; ++i)
+    for (const int joint : intact_->joints_of(reached[i])) {
+      if (joints_[static_cast<std::size_t>(joint)].broken) continue;
+      const Joint& on = intact_->assembly().joints[static_cast<std::size_t>(joint)];
+      const int next = on.body_a == reached[i] ? on.body_b : on.body_a;
+      if (next == broken.body_b) return true;
+      if (std::ranges::find(reached, next) == reached.end()) reached.push_back(next);
+    }
+  return false;
+}
+
 // Loose joints at a body that no chain of bonded joints connects to an end: 1. Such a body carries
 // nothing, and without inertia its position is not determined, so neither is what it touches.
-std::vector<char> BreakingRun::apart() const {
+std::vector<char> BreakingRun::apart() {
   const Assembly& assembly = intact_->assembly();
-  DisjointSets pieces = this->pieces();
-  const std::size_t left = assembly.bodies.size();
-  const auto carries = [&](int body) {
-    const std::size_t piece = pieces.find(static_cast<std::size_t>(body));
-    return piece == pieces.find(left) || piece == pieces.find(left + 1);
+  const auto joint_of = [&](int joint) -> const Joint& {
+    return assembly.joints[static_cast<std::size_t>(joint)];
   };
+  const auto broken_since = std::span(loose_.joints()).subspan(in_pieces_);
+  const bool as_before = in_pieces_ > 0 && std::ranges::all_of(broken_since, [&](int joint) {
+                           return has_detour(joint_of(joint));
+                         });
+  in_pieces_ = loose_.size();
+  if (!as_before) {
+    DisjointSets pieces = this->pieces();
+    const std::size_t left = assembly.bodies.size();
+    floats_.clear();
+    for (std::size_t body = 0; body < left; ++body) {
+      const std::size_t piece = pieces.find(body);
+      floats_.push_back(piece == pieces.find(left) || piece == pieces.find(left + 1) ? 0 : 1);
+    }
+  }
   std::vector<char> apart;
   for (const int joint : loose_.joints()) {
-    const Joint& between = assembly.joints[static_cast<std::size_t>(joint)];
-    apart.push_back(carries(between.body_a) && carries(between.body_b) ? 0 : 1);
+    const auto [a, b] = std::pair{joint_of(joint).body_a, joint_of(joint).body_b};
+    apart.push_back(
+        std::max(floats_[static_cast<std::size_t>(a)], floats_[static_cast<std::size_t>(b)]));
   }
   return apart;
 }

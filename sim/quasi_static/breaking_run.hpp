@@ -62,7 +62,8 @@ class BreakingRun {
   bool settle();
   void take_back(const std::vector<std::size_t>& breaking, const Eigen::VectorXd& gaps_before);
   [[nodiscard]] DisjointSets pieces() const;
-  [[nodiscard]] std::vector<char> apart() const;
+  [[nodiscard]] bool has_detour(const Joint& broken) const;
+  [[nodiscard]] std::vector<char> apart();
   [[nodiscard]] bool severed() const;
   [[nodiscard]] bool bears_nothing() const;
   [[nodiscard]] Eigen::VectorXd gaps() const;
@@ -95,8 +96,10 @@ class BreakingRun {
   std::vector<IntactStructure::SharedColumn> columns_;  // of these, or of the first of them
   LocalContact contact_;                                // of the loose joints
   StateSystem system_{contact_};
-  Eigen::VectorXd extra_;  // cohesion that lets those just broken bear what they bore [N/m]
-  Eigen::VectorXd y_;      // gaps of the loose joints [m per unit strain]
+  std::vector<char> floats_;   // each body, when the first `in_pieces_` of the loose joints had
+  std::size_t in_pieces_ = 0;  // broken
+  Eigen::VectorXd extra_;      // cohesion that lets those just broken bear what they bore [N/m]
+  Eigen::VectorXd y_;          // gaps of the loose joints [m per unit strain]
   // The intact structure, or the last one solved with its gaps: what changes is reckoned from it.
   UnitAnswer reference_;
   Eigen::VectorXd y_at_reference_;

@@ -64,7 +64,8 @@ IntactStructure::IntactStructure(const AssemblyOptions& options, const Loading& 
     : assembly_(build_assembly(options, loading.lateral)),
       bodies_(assembly_, unit_material(material), quasi_static_shift(assembly_), leave_out),
       structure_(bodies_),
-      end_bodies_(sim::end_bodies(assembly_)) {
+      end_bodies_(sim::end_bodies(assembly_)),
+      joints_of_bodies_(joints_of_bodies(assembly_)) {
   if (!structure_.ok()) return;
   if (structure_.joints() > 0) single_.emplace(structure_.factor());
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(2 * structure_.joints());

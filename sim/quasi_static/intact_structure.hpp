@@ -47,6 +47,9 @@ class IntactStructure {
   [[nodiscard]] double energy(const Eigen::VectorXd& q) const;
   /// Bodies with a node at the left and at the right end.
   [[nodiscard]] const std::array<std::vector<int>, 2>& end_bodies() const { return end_bodies_; }
+  [[nodiscard]] const std::vector<int>& joints_of(int body) const {
+    return joints_of_bodies_[static_cast<std::size_t>(body)];
+  }
 
   // What these two find is remembered for later runs while there is room. Both may be called by
   // several threads.
@@ -78,6 +81,7 @@ class IntactStructure {
   bool stress_is_known_ = false;
   Eigen::VectorXd lost_;  // forces of the uniform stress that a solve does not find [N/m]
   std::array<std::vector<int>, 2> end_bodies_;
+  std::vector<std::vector<int>> joints_of_bodies_;
   mutable std::mutex mutex_;
   mutable std::map<int, SharedJump> jumps_;      // at each joint
   mutable std::map<int, SharedColumn> columns_;  // of each that was asked for; none: not made

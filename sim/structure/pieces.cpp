@@ -18,4 +18,12 @@ std::array<std::vector<int>, 2> end_bodies(const Assembly& assembly) {
   return ends;
 }
 
+std::vector<std::vector<int>> joints_of_bodies(const Assembly& assembly) {
+  std::vector<std::vector<int>> joints(assembly.bodies.size());
+  for (std::size_t j = 0; j < assembly.joints.size(); ++j)
+    for (const int body : {assembly.joints[j].body_a, assembly.joints[j].body_b})
+      joints[static_cast<std::size_t>(body)].push_back(static_cast<int>(j));
+  return joints;
+}
+
 }  // namespace havers::sim

@@ -12,6 +12,9 @@ namespace havers::sim {
 /// Bodies at the left and at the right side.
 std::array<std::vector<int>, 2> end_bodies(const Assembly& assembly);
 
+/// Joints of each body.
+std::vector<std::vector<int>> joints_of_bodies(const Assembly& assembly);
+
 /// Bodies that bonded joints connect to each other, and after them the left and the right end.
 /// @param ends  end_bodies(assembly)
 /// @param is_bonded  whether a joint is, by its index

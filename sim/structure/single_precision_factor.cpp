@@ -167,14 +167,16 @@ void SinglePrecisionFactor::substitute(VectorXf& x) const {
 }
 
 VectorXf SinglePrecisionFactor::halve(const VectorXd& b) const {
-  VectorXf x = VectorXf::Zero(b.size() + widest);
+  VectorXf x(b.size() + widest);
+  x.tail<widest>().setZero();
   x(tree_->place) = b.cast<float>();
   for (const Strip& strip : strips_) eliminate(strip, x);
   return x.head(b.size());
 }
 
 VectorXf SinglePrecisionFactor::complete(const Eigen::Ref<const VectorXd>& half) const {
-  VectorXf x = VectorXf::Zero(half.size() + widest);
+  VectorXf x(half.size() + widest);
+  x.tail<widest>().setZero();
   x.head(half.size()) = inverse_pivots_.cwiseProduct(half).cast<float>();
   substitute(x);
   return x(tree_->place);
