@@ -39,14 +39,19 @@ ElementMatrices elements_of(const Eigen::SparseMatrix<double>& lower, int multip
   return sum;
 }
 
-// Its rows feel too different ones to be eliminated together, so that each has a supervariable.
+// Its rows are told apart by the elements on the diagonal: each is a supervariable.
+std::shared_ptr<const EliminationTree> tree_of(const ElementMatrices& sum,
+                                               const std::vector<int>& order, bool share) {
+  auto tree = std::make_shared<EliminationTree>(elimination_tree(sum, Supervariables(sum), order));
+  if (share) share_values(*tree, sum);
+  return tree;
+}
+
 SparseFactor factor_of(const Eigen::SparseMatrix<double>& lower, int multipliers,
                        const std::vector<int>& order, bool share = false,
                        std::vector<double> memory = {}) {
   const ElementMatrices sum = elements_of(lower, multipliers);
-  auto tree = std::make_shared<EliminationTree>(elimination_tree(sum, Supervariables(sum), order));
-  if (share) share_values(*tree, sum);
-  return SparseFactor(sum, std::move(tree), {}, std::move(memory));
+  return SparseFactor(sum, tree_of(sum, order, share), {}, std::move(memory));
 }
 
 // A chain of springs of stiffness 1, held at one end, the other end's displacement prescribed by a
@@ -142,12 +147,24 @@ TEST(SparseFactor, SolvesWithPanelsOfAnyWidth) {
     Eigen::MatrixXd path = Eigen::MatrixXd::Zero(n + multipliers, 2);
     path(half.rows, Eigen::all) = half.values.transpose();
     EXPECT_LT((dense * factor.complete(path) - few).norm(), 1e-12 * few.norm()) << side;
-    const SinglePrecisionFactor single(factor);
-    const Eigen::VectorXd b = few.col(0);
-    const Eigen::VectorXf halved = single.halve(b);
-    for (const Eigen::VectorXd& of_b :
-         {Eigen::VectorXd(path.col(0)), Eigen::VectorXd(halved.cast<double>())})
-      EXPECT_LT((dense * single.complete(of_b).cast<double>() - b).norm(), 1e-5 * b.norm()) << side;
+    // A copy, and one that was found so.
+    const ElementMatrices sum = elements_of(lower, multipliers);
+    for (const SinglePrecisionFactor& single :
+         {SinglePrecisionFactor(factor),
+          SinglePrecisionFactor(sum, tree_of(sum, order, false), {})}) {
+      ASSERT_TRUE(single.ok()) << side;
+      const Eliminated nearly = single.eliminate({1, 0}, values);
+      EXPECT_EQ(nearly.rows, half.rows);
+      EXPECT_LT((nearly.values - half.values).norm(), 1e-6 * half.values.norm()) << side;
+      EXPECT_LT((product(single.over_pivots(nearly), half) - few.transpose() * x).norm(), 1e-5)
+          << side;
+      const Eigen::VectorXd b = few.col(0);
+      const Eigen::VectorXf halved = single.halve(b);
+      for (const Eigen::VectorXd& of_b :
+           {Eigen::VectorXd(path.col(0)), Eigen::VectorXd(halved.cast<double>())})
+        EXPECT_LT((dense * single.complete(of_b).cast<double>() - b).norm(), 1e-5 * b.norm())
+            << side;
+    }
   }
 }
 
@@ -237,6 +254,8 @@ TEST(SparseFactor, SaysWhenItHasNoPivots) {
   Eigen::SparseMatrix<double> indefinite = chain();
   indefinite.coeffRef(3, 3) = -1.0;
   EXPECT_FALSE(factor_of(indefinite, 1, end_first()).ok());
+  const ElementMatrices sum = elements_of(indefinite, 1);
+  EXPECT_FALSE(SinglePrecisionFactor(sum, tree_of(sum, end_first(), false), {}).ok());
   std::vector<int> too_early = end_first();
   std::swap(too_early[0], too_early[1]);
   EXPECT_FALSE(factor_of(chain(), 1, too_early).ok());
