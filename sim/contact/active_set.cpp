@@ -144,7 +144,8 @@ bool ActiveSetSolver::reattach_closed(const JointStepResult& result) {
   for (const int joint : again) held[static_cast<std::size_t>(joint)] = Held::fully;
   again.insert(again.end(), loose_.joints().begin(), loose_.joints().end());
   rebuild(std::move(held));
-  for (const int joint : again) loose_.add(joint);
+  if (structure_.ok())
+    for (const int joint : again) loose_.add(joint);
   return true;
 }
 
@@ -187,6 +188,9 @@ JointStepResult ActiveSetSolver::search(const JointStep& step, bool nearest) {
 JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effort,
                                              std::size_t most_leave) {
   detach_opened(step);
+  JointStepResult result;
+  result.states = step.states;
+  if (!structure_.ok()) return result;
   // What is broken and not detached may move; after a rebuild it has to be said again.
   for (int joint = 0; joint < static_cast<int>(step.laws.size()); ++joint) {
     const auto j = static_cast<std::size_t>(joint);
@@ -194,7 +198,6 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effor
     if (moves && !detached(joint) && !loose_.contains(joint)) loose_.add(joint);
   }
 
-  JointStepResult result;
   do {
     result.states = step.states;
     result.converged = false;

@@ -69,9 +69,14 @@ void SetSearch::answer(const JointStep& step, double accuracy, JointStepResult& 
     loads.given(2 * j + 1) = loads.friction(j) * law.cohesion;
   }
   last_ = structure_->solve(loads);
-  // Where corrections of another set's factor do not end, this one gets its own.
-  if (!(last_.residual <= std::max(accuracy, enough)) && structure_->is_corrected()) {
-    structure_->hold(structure_->held());
+  // Where corrections of another set's factor do not end, this one gets its own, and where those of
+  // a factor in single precision do not, one in double precision.
+  for (const Precision precision : {Precision::single_where_enough, Precision::full}) {
+    const bool ends = last_.residual <= std::max(accuracy, enough);
+    if (ends || !structure_->would_differ(precision)) continue;
+    structure_->hold(structure_->held(), precision);
+    result.converged = false;
+    if (!structure_->ok()) return;
     if (!(last_.residual < useful)) loads.near = nullptr;
     last_ = structure_->solve(loads);
   }

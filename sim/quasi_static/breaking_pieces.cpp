@@ -48,25 +48,25 @@ std::vector<char> BreakingRun::apart() {
   const auto joint_of = [&](int joint) -> const Joint& {
     return assembly.joints[static_cast<std::size_t>(joint)];
   };
-  const auto broken_since = std::span(loose_.joints()).subspan(in_pieces_);
-  const bool as_before = in_pieces_ > 0 && std::ranges::all_of(broken_since, [&](int joint) {
+  const auto broken_since = std::span(loose_.joints()).subspan(joints_in_pieces_);
+  const bool as_before = joints_in_pieces_ > 0 && std::ranges::all_of(broken_since, [&](int joint) {
                            return has_detour(joint_of(joint));
                          });
-  in_pieces_ = loose_.size();
+  joints_in_pieces_ = loose_.size();
   if (!as_before) {
     DisjointSets pieces = this->pieces();
     const std::size_t left = assembly.bodies.size();
-    floats_.clear();
+    adrift_.clear();
     for (std::size_t body = 0; body < left; ++body) {
       const std::size_t piece = pieces.find(body);
-      floats_.push_back(piece == pieces.find(left) || piece == pieces.find(left + 1) ? 0 : 1);
+      adrift_.push_back(piece == pieces.find(left) || piece == pieces.find(left + 1) ? 0 : 1);
     }
   }
   std::vector<char> apart;
   for (const int joint : loose_.joints()) {
     const auto [a, b] = std::pair{joint_of(joint).body_a, joint_of(joint).body_b};
     apart.push_back(
-        std::max(floats_[static_cast<std::size_t>(a)], floats_[static_cast<std::size_t>(b)]));
+        std::max(adrift_[static_cast<std::size_t>(a)], adrift_[static_cast<std::size_t>(b)]));
   }
   return apart;
 }

@@ -87,7 +87,6 @@ void BreakingRun::take_back(const std::vector<std::size_t>& breaking, const Vect
     joints_[j].broken_at_strain = std::numeric_limits<double>::quiet_NaN();
     --broken_;
   }
-  in_pieces_ = 0;
   y_.setZero(2 * static_cast<Index>(loose_.size()));
   y_.head(gaps_before.size()) = gaps_before;
   take_reference();

@@ -96,10 +96,10 @@ class BreakingRun {
   std::vector<IntactStructure::SharedColumn> columns_;  // of these, or of the first of them
   LocalContact contact_;                                // of the loose joints
   StateSystem system_{contact_};
-  std::vector<char> floats_;   // each body, when the first `in_pieces_` of the loose joints had
-  std::size_t in_pieces_ = 0;  // broken
-  Eigen::VectorXd extra_;      // cohesion that lets those just broken bear what they bore [N/m]
-  Eigen::VectorXd y_;          // gaps of the loose joints [m per unit strain]
+  std::vector<char> adrift_;  // each body, when so many of the loose joints had broken:
+  std::size_t joints_in_pieces_ = 0;
+  Eigen::VectorXd extra_;  // cohesion that lets those just broken bear what they bore [N/m]
+  Eigen::VectorXd y_;      // gaps of the loose joints [m per unit strain]
   // The intact structure, or the last one solved with its gaps: what changes is reckoned from it.
   UnitAnswer reference_;
   Eigen::VectorXd y_at_reference_;

@@ -1,7 +1,7 @@
 #include "sim/structure/element_matrices.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <cassert>
 
 namespace havers::sim {
 
@@ -31,6 +31,7 @@ std::vector<int> told_apart(const ElementMatrices& sum) {
 }  // namespace
 
 Supervariables::Supervariables(const ElementMatrices& sum) : of_rows_(told_apart(sum)) {
+  assert(!of_rows_.empty());
   std::vector<int> number(1 + static_cast<std::size_t>(std::ranges::max(of_rows_)), -1);
   for (std::size_t row = 0; row < of_rows_.size(); ++row) {
     int& group = number[static_cast<std::size_t>(of_rows_[row])];
@@ -56,7 +57,7 @@ Supervariables::Supervariables(const ElementMatrices& sum) : of_rows_(told_apart
         entries.emplace_back(*row, *column, 1);
   }
   graph_.resize(count(), count());
-  graph_.setFromTriplets(entries.begin(), entries.end());
+  graph_.setFromTriplets(entries.begin(), entries.end(), [](char one, char) { return one; });
 }
 
 }  // namespace havers::sim

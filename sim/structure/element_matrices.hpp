@@ -20,7 +20,7 @@ struct ElementMatrices {
   int multipliers = 0;  ///< of which so many, the last ones, have no entries with each other.
   std::vector<Eigen::MatrixXd> matrices;
   std::vector<Element> elements;
-  std::vector<int> rows;  ///< Of the sum, for each row of each element; none twice in one.
+  std::vector<int> rows;  ///< Of the sum, for each row of each element: one or more, none twice.
 
   [[nodiscard]] const Eigen::MatrixXd& matrix_of(const Element& element) const {
     return matrices[static_cast<std::size_t>(element.matrix)];

@@ -12,7 +12,7 @@
 namespace havers::sim {
 namespace {
 
-// CHOLMOD's analysis of a matrix, and what it counts.
+// CHOLMOD's analysis of a matrix.
 class Analysis {
  public:
   explicit Analysis(const Graph& graph) {
@@ -156,16 +156,12 @@ EliminationTree in_rows(EliminationTree tree, const Supervariables& groups) {
 }
 
 void hand_out_elements(EliminationTree& tree, const ElementMatrices& sum) {
-  std::vector<int> panel_of(tree.place.size());
-  for (std::size_t p = 0; p < tree.panels.size(); ++p)
-    std::fill_n(panel_of.begin() + tree.panels[p].first, tree.panels[p].columns,
-                static_cast<int>(p));
   std::vector<std::size_t> of_element;
   for (const ElementMatrices::Element& element : sum.elements) {
     int first = sum.size;
     for (const int row : sum.rows_of(element))
       first = std::min(first, tree.place[static_cast<std::size_t>(row)]);
-    of_element.push_back(static_cast<std::size_t>(panel_of[static_cast<std::size_t>(first)]));
+    of_element.push_back(static_cast<std::size_t>(&tree.panel_of(first) - tree.panels.data()));
     ++tree.panels[of_element.back()].element_count;
   }
   std::size_t next = 0;
@@ -208,6 +204,8 @@ void share_values(EliminationTree& tree, const ElementMatrices& sum) {
     int height = 0;
     for (const int row : tree.rows_of(panel)) where[static_cast<std::size_t>(row)] = height++;
     key.assign({panel.columns, height, static_cast<int>(panel.element_count)});
+    for (int place = panel.first; place < panel.first + panel.columns; ++place)
+      key.push_back(row_at[static_cast<std::size_t>(place)] < sum.size - sum.multipliers ? 0 : 1);
     for (const int e : tree.elements_of(panel)) {
       const ElementMatrices::Element& element = sum.elements[static_cast<std::size_t>(e)];
       key.push_back(element.matrix);

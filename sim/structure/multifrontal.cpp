@@ -20,18 +20,14 @@ namespace {
 template <class Scalar>
 class Fronts {
  public:
-  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  using Matrix = Eigen::MatrixX<Scalar>;
 
   Fronts(const EliminationTree& tree, const ElementMatrices& sum)
       : tree_(tree),
         sum_(sum),
-        matrices_(sum.matrices.size()),
         where_(tree.place.size()),
         fronts_(tree.panels.size()),
         awaited_(tree.panels.size(), 0) {
-    std::ranges::transform(sum.matrices, matrices_.begin(), [](const Eigen::MatrixXd& matrix) {
-      return matrix.template cast<Scalar>();
-    });
     for (const Panel& panel : tree.panels)
       if (const Panel* parent = tree.parent_of(panel); parent != nullptr && tree.is_first(*parent))
         ++awaited_[static_cast<std::size_t>(panel.like)];
@@ -48,7 +44,7 @@ class Fronts {
       places_.clear();
       for (const int row : sum_.rows_of(element))
         add_place(tree_.place[static_cast<std::size_t>(row)]);
-      add(matrices_[static_cast<std::size_t>(element.matrix)], own, below);
+      add(sum_.matrix_of(element), own, below);
     }
     for (const Panel* child = tree_.at(panel.child); child; child = tree_.at(child->sibling)) {
       const auto first = static_cast<std::size_t>(child->like);
@@ -69,7 +65,7 @@ class Fronts {
     places_.push_back({where_[static_cast<std::size_t>(row)], std::ssize(places_)});
   }
   // A matrix of which the lower triangle counts, its rows at these places.
-  void add(const Matrix& part, Eigen::Ref<Matrix> own, Matrix& below) {
+  void add(const auto& part, Eigen::Ref<Matrix> own, Matrix& below) {
     std::ranges::sort(places_);
     for (auto place = places_.begin(); place != places_.end(); ++place) {
       const auto [column, j] = *place;
@@ -77,14 +73,13 @@ class Fronts {
           column < own.cols() ? &own(0, column) : &below(0, column - own.cols()) - own.cols();
       for (auto lower = place; lower != places_.end(); ++lower) {
         const auto [row, i] = *lower;
-        to[row] += part(std::max(i, j), std::min(i, j));
+        to[row] += static_cast<Scalar>(part(std::max(i, j), std::min(i, j)));
       }
     }
   }
 
   const EliminationTree& tree_;
   const ElementMatrices& sum_;
-  std::vector<Matrix> matrices_;              // of its elements
   std::vector<Index> where_;                  // rows are in the panel that was assembled last
   std::vector<std::array<Index, 2>> places_;  // in a panel and in what is added to it
   std::vector<Matrix> fronts_;

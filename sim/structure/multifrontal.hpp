@@ -17,7 +17,7 @@ struct Pivots {
 /// Where panels are while they are worked on, in single or double precision.
 template <class Scalar>
 struct PanelStore {
-  using Panels = Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>;
+  using Panels = Eigen::Map<Eigen::MatrixX<Scalar>>;
   std::function<Panels(const Panel&)> zeros;              ///< Of a panel that is not yet known.
   std::function<void(const Panel&, const Panels&)> take;  ///< Of a panel that is found.
 };

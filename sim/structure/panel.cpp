@@ -7,8 +7,6 @@ namespace havers::sim {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Ref;
-template <class Scalar>
-using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
 namespace {
 
@@ -65,8 +63,8 @@ void substitute_all(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd>
 }  // namespace
 
 template <class Scalar>
-void factorise_panel(Ref<Matrix<Scalar>> panel) {
-  Matrix<Scalar> scaled;
+void factorise_panel(Ref<Eigen::MatrixX<Scalar>> panel) {
+  Eigen::MatrixX<Scalar> scaled;
   for (Index begin = 0; begin < panel.cols(); begin += in_block) {
     const Index end = std::min(begin + in_block, panel.cols());
     for (Index j = begin; j < end; ++j) {
@@ -85,7 +83,8 @@ void factorise_panel(Ref<Matrix<Scalar>> panel) {
 }
 
 template <class Scalar>
-void take_panel_from(Ref<Matrix<Scalar>> rest, const Ref<const Matrix<Scalar>>& panel) {
+void take_panel_from(Ref<Eigen::MatrixX<Scalar>> rest,
+                     const Ref<const Eigen::MatrixX<Scalar>>& panel) {
   const auto below = panel.bottomRows(rest.rows());
   rest.template triangularView<Eigen::Lower>() -=
       below * panel.diagonal().asDiagonal() * below.transpose();

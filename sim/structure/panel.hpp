@@ -10,14 +10,13 @@ namespace havers::sim {
 /// Factorises a panel that all panels before it have been taken from: L D Lᵀ of its own rows, and
 /// the rows below divided by D Lᵀ. No pivoting.
 template <class Scalar>
-void factorise_panel(Eigen::Ref<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>> panel);
+void factorise_panel(Eigen::Ref<Eigen::MatrixX<Scalar>> panel);
 
 /// What a factorised panel takes from the matrix of the rows below it.
 /// @param rest  its lower triangle becomes that of rest − L D Lᵀ
 template <class Scalar>
-void take_panel_from(
-    Eigen::Ref<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>> rest,
-    const Eigen::Ref<const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>& panel);
+void take_panel_from(Eigen::Ref<Eigen::MatrixX<Scalar>> rest,
+                     const Eigen::Ref<const Eigen::MatrixX<Scalar>>& panel);
 
 // Both in double and in single precision.
 extern template void factorise_panel<double>(Eigen::Ref<Eigen::MatrixXd>);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <iterator>
 #include <type_traits>
 #include <utility>
@@ -11,7 +12,6 @@
 namespace havers::sim {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Eigen::VectorXf;
 
@@ -111,20 +111,19 @@ void SinglePrecisionFactor::lay_out() {
 }
 
 template <class Scalar>
-void SinglePrecisionFactor::copy(
-    const Panel& panel,
-    const Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>& from) {
-  using Square = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+void SinglePrecisionFactor::copy(const Panel& panel,
+                                 const Eigen::Map<const Eigen::MatrixX<Scalar>>& from) {
   std::size_t next = first_strip_[static_cast<std::size_t>(&panel - tree_->panels.data())];
   for (Index first = 0; first < from.cols(); ++next) {
     const Strip& strip = strips_[next];
     const Index columns = strip.columns;
     Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to(
         values_.data() + strip.values, strip.height, width_of(strip.columns));
-    to.topLeftCorner(columns, columns) = from.block(first, first, columns, columns)
-                                             .template triangularView<Eigen::UnitLower>()
-                                             .solve(Square::Identity(columns, columns))
-                                             .template cast<float>();
+    to.topLeftCorner(columns, columns) =
+        from.block(first, first, columns, columns)
+            .template triangularView<Eigen::UnitLower>()
+            .solve(Eigen::MatrixX<Scalar>::Identity(columns, columns))
+            .template cast<float>();
     first += columns;
     to.bottomRows(strip.height - columns).leftCols(columns) =
         from.bottomRows(from.rows() - first)
@@ -167,6 +166,7 @@ void SinglePrecisionFactor::substitute(VectorXf& x) const {
 }
 
 VectorXf SinglePrecisionFactor::halve(const VectorXd& b) const {
+  assert(ok());
   VectorXf x(b.size() + widest);
   x.tail<widest>().setZero();
   x(tree_->place) = b.cast<float>();
@@ -175,6 +175,7 @@ VectorXf SinglePrecisionFactor::halve(const VectorXd& b) const {
 }
 
 VectorXf SinglePrecisionFactor::complete(const Eigen::Ref<const VectorXd>& half) const {
+  assert(ok());
   VectorXf x(half.size() + widest);
   x.tail<widest>().setZero();
   x.head(half.size()) = inverse_pivots_.cwiseProduct(half).cast<float>();
@@ -184,6 +185,7 @@ VectorXf SinglePrecisionFactor::complete(const Eigen::Ref<const VectorXd>& half)
 
 Eliminated SinglePrecisionFactor::eliminate(std::vector<int> rows,
                                             const Eigen::MatrixX2d& values) const {
+  assert(ok());
   std::array<VectorXf, 2> x;
   for (int& row : rows) row = tree_->place[static_cast<std::size_t>(row)];
   for (const std::size_t load : {0U, 1U}) {

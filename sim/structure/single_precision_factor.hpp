@@ -42,8 +42,7 @@ class SinglePrecisionFactor {
   };
   void lay_out();
   template <class Scalar>
-  void copy(const Panel& panel,
-            const Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>& from);
+  void copy(const Panel& panel, const Eigen::Map<const Eigen::MatrixX<Scalar>>& from);
   void substitute(Eigen::VectorXf& x) const;
   void eliminate(const Strip& strip, Eigen::VectorXf& x) const;
 

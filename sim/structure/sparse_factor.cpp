@@ -12,7 +12,6 @@ namespace havers::sim {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 namespace {
 

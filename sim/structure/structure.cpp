@@ -45,7 +45,7 @@ Structure::Structure(const Bodies& bodies, std::vector<Held> held) : bodies_(&bo
   hold(std::move(held));
 }
 
-void Structure::hold(std::vector<Held> held) {
+void Structure::hold(std::vector<Held> held, Precision precision) {
   layout_ = laid_out(std::move(held));
   factorised_ = layout_;
   find_loose_components();
@@ -54,7 +54,7 @@ void Structure::hold(std::vector<Held> held) {
   const std::size_t first_tie = 2 * bodies_->assembly().joints.size();
   for (std::size_t tie = 0; tie < bodies_->assembly().ties.size(); ++tie)
     tops_of_ties_.push_back(bodies_->ends()[first_tie + tie][1]);
-  factorise();
+  factorise(precision);
 }
 
 Structure::Layout Structure::laid_out(std::vector<Held> held) const {
@@ -120,7 +120,7 @@ void Structure::rub(const VectorXd& friction, VectorXd& port_forces) const {
 // and in the equations.
 struct Structure::Correction {
   VectorXd answer, displacements, forces, effect;
-  double size = 0.0;  // square of the effect's norm
+  double effect_squared = 0.0;
 };
 
 VectorXd Structure::in_forces(const VectorXd& forces, const VectorXd& gap) const {
@@ -179,12 +179,12 @@ void Structure::refine_with_friction(const PortLoads& loads, VectorXd missing,
     ++state.solves;
     const double lacked = missing.norm(), correction = change.forces.norm();
     for (const Correction& old : past) {
-      const double part = change.effect.dot(old.effect) / old.size;
+      const double part = change.effect.dot(old.effect) / old.effect_squared;
       change.answer -= part * old.answer;
       change.effect -= part * old.effect;
     }
-    change.size = change.effect.squaredNorm();
-    const double length = -missing.dot(change.effect) / change.size;
+    change.effect_squared = change.effect.squaredNorm();
+    const double length = -missing.dot(change.effect) / change.effect_squared;
     if (!std::isfinite(length)) {
       if (lacked != 0.0) state.error = std::numeric_limits<double>::infinity();
       break;
@@ -197,7 +197,8 @@ void Structure::refine_with_friction(const PortLoads& loads, VectorXd missing,
     const double lacks = missing.norm();
     state.error = scale > 0.0 ? std::max(correction / lacked, 1.0) * lacks / scale : 0.0;
     if (!(state.error > loads.accuracy)) break;
-    past.push_back({std::move(change.answer), {}, {}, std::move(change.effect), change.size});
+    past.push_back(
+        {std::move(change.answer), {}, {}, std::move(change.effect), change.effect_squared});
   }
   state.displacements += unknowns_to_ports<VectorXd>(answer, layout_);
   state.multipliers += answer.tail(state.multipliers.size());
@@ -213,7 +214,8 @@ Structure::PortState Structure::solve_ports(const PortLoads& loads, PortState st
     return all;
   };
   state.forces = forces();
-  if (!factor_ && !single_) return state;
+  if (layout_.unknowns == 0) return state;
+  assert(ok());
   VectorXd missing = in_forces(state.forces, bodies_->incompatibility(state.displacements));
   if (!rubs) {
     refine(loads, std::move(missing), state);

@@ -4,12 +4,14 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <array>
+#include <cassert>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "sim/structure/bodies.hpp"
+#include "sim/structure/element_matrices.hpp"
 #include "sim/structure/single_precision_factor.hpp"
 #include "sim/structure/sparse_factor.hpp"
 
@@ -21,6 +23,10 @@ enum class Held : char {
   normal,  ///< It slides: only the normal displacement is shared.
   not_at_all
 };
+
+/// Of a factor. Where joints slide there are many corrections, which single precision is enough for
+/// unless pivots are lost in it.
+enum class Precision : char { single_where_enough, full };
 
 /// Port forces that err by less than this part of their norm are solved for as well as can be.
 constexpr double accuracy_of_forces = 1e-12;
@@ -76,10 +82,14 @@ class Structure {
   Structure& operator=(const Structure&) = delete;
   ~Structure() = default;
   /// The same bodies held in another way; memory is used again.
-  void hold(std::vector<Held> held);
+  void hold(std::vector<Held> held, Precision precision = Precision::single_where_enough);
+  /// Whether what holds now would get another factor by that.
+  [[nodiscard]] bool would_differ(Precision precision) const {
+    return is_corrected() || (single_ && precision == Precision::full);
+  }
   /// The same where few joints hold in another way than in the factor: this stays, and is corrected
-  /// by them (S9). Jumps are still those of the factor. False, and nothing done, where joints are
-  /// many, none slides in the factor or inertia is next to nothing.
+  /// by them (S9). False, and nothing done, where joints are many or the factor is not in single
+  /// precision: where none slides in it, or inertia is next to nothing.
   [[nodiscard]] bool hold_nearby(const std::vector<Held>& held);
   [[nodiscard]] bool is_corrected() const { return !changes_.empty(); }
 
@@ -91,10 +101,13 @@ class Structure {
   [[nodiscard]] Eigen::Index joints() const {
     return static_cast<Eigen::Index>(layout_.held.size());
   }
-  [[nodiscard]] const SparseFactor& factor() const { return *factor_; }
-
   [[nodiscard]] StructureResponse solve(const StructureLoads& loads) const;
 
+  // Only where no joint slides:
+  [[nodiscard]] const SparseFactor& factor() const {
+    assert(factor_);
+    return *factor_;
+  }
   /// Unit jumps at a joint that holds fully (S8).
   [[nodiscard]] Jump jump(int joint) const;
   /// Reactions of one such joint to unit jumps at others, a column for each. [N/m²]
@@ -190,7 +203,7 @@ class Structure {
   [[nodiscard]] Eigen::VectorXd reactions_of(const Eigen::VectorXd& port_forces) const;
   [[nodiscard]] ElementMatrices mixed_form() const;
   [[nodiscard]] Eigen::MatrixXd add_rows(int body, std::vector<int>& rows) const;
-  void factorise();
+  void factorise(Precision precision);
   [[nodiscard]] std::vector<char> conducting() const;
   [[nodiscard]] std::vector<Branch> network(const std::vector<int>& place) const;
   [[nodiscard]] Eigen::Index first_multiplier(std::size_t body) const {

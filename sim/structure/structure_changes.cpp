@@ -61,7 +61,7 @@ Structure::Change Structure::change_of(int joint) const {
     }
   } else {
     const auto [rows, load] = load_of_jump(joint);
-    change.halves.push_back(single_->eliminate(rows, -load));  // on the other side
+    change.halves.push_back(single_->eliminate(rows, -load));  // a jump's, on the other side
   }
   for (const Eliminated& half : change.halves)
     change.over_pivots.push_back(single_->over_pivots(half));

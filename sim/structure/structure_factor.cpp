@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "sim/structure/disjoint_sets.hpp"
 #include "sim/structure/dissection.hpp"
@@ -20,6 +22,7 @@ constexpr double most_hold = 1e-9;  // of a mechanism, part of the largest stiff
 // down to 1e-14 where slivers at angles of 1e-6 degrees nearly leave it no say, and below 2e-15
 // where what it says follows from the others.
 constexpr double least_pivot = 5e-15;
+constexpr double least_in_single_precision = 1e-5;
 // Part of the stiffness that inertia is, below which single precision holds no loose body.
 constexpr double least_inertia = 1e-5;
 constexpr double determined = 0.01;  // least share of a joint in multipliers to give them a pivot
@@ -172,14 +175,24 @@ ElementMatrices Structure::mixed_form() const {
     matrix.topLeftCorner(ports, ports) = stiffened(group.op);
     matrix.bottomLeftCorner(ring, ports) = group.op.compatibility;
     matrix.topRightCorner(ports, ring) = group.op.compatibility.transpose();
-    const int of_class = static_cast<int>(sum.matrices.size());
+    // By which rows of it each of its rows is: few of a class have other than their own.
+    std::vector<std::pair<MatrixXd, int>> known{
+        {MatrixXd(), static_cast<int>(sum.matrices.size())}};
     sum.matrices.push_back(matrix);
     for (const int body : group.bodies) {
-      sum.elements.push_back({of_class, sum.rows.size()});
+      ElementMatrices::Element& element =
+          sum.elements.emplace_back(ElementMatrices::Element{-1, sum.rows.size()});
       const MatrixXd into = add_rows(body, sum.rows);
-      if (into.size() == 0) continue;
-      sum.elements.back().matrix = static_cast<int>(sum.matrices.size());
-      sum.matrices.emplace_back(into * matrix * into.transpose());
+      const auto same = std::ranges::find_if(known, [&](const auto& one) {
+        return one.first.rows() == into.rows() && one.first == into;
+      });
+      if (same == known.end()) {
+        element.matrix = static_cast<int>(sum.matrices.size());
+        known.emplace_back(into, element.matrix);
+        sum.matrices.emplace_back(into * matrix * into.transpose());
+      } else {
+        element.matrix = same->second;
+      }
     }
   }
   return sum;
@@ -211,7 +224,7 @@ MatrixXd Structure::add_rows(int body, std::vector<int>& rows) const {
 }
 
 // In the memory of the factor before, if there is one.
-void Structure::factorise() {
+void Structure::factorise(Precision precision) {
   op_of_body_.resize(bodies_->assembly().bodies.size());
   for (const BodyClass& bodies : bodies_->classes()) {
     if (bodies.op.impedance.size() > 0)
@@ -237,12 +250,10 @@ void Structure::factorise() {
     return group.op.inertia_part > least_inertia;
   });
   single_.reset();
-  if (slides && has_inertia) {
-    single_.emplace(sum, tree, pivots);
-    if (single_->ok()) {
-      factor_.reset();
-      return;
-    }
+  if (slides && has_inertia && precision == Precision::single_where_enough) {
+    factor_.reset();
+    single_.emplace(sum, tree, Pivots{least_in_single_precision / stiffness_, 0.0});
+    if (single_->ok()) return;
     single_.reset();
   }
   // A mechanism has nothing but its trace of inertia. The factor may hold it, for the corrections

@@ -42,12 +42,12 @@ Structure::LoadOfJump Structure::load_of_jump(int joint) const {
 
 Jump Structure::jump(int joint) const {
   auto [rows, load] = load_of_jump(joint);
-  return {joint, factor_->eliminate(std::move(rows), load)};
+  return {joint, factor().eliminate(std::move(rows), load)};
 }
 
 Eigen::Matrix2Xd Structure::reactions_of(const Jump& jump,
                                          const std::vector<SharedJump>& to) const {
-  const Eliminated half = factor_->over_pivots(jump.half);
+  const Eliminated half = factor().over_pivots(jump.half);
   Eigen::Matrix2Xd reactions(2, 2 * static_cast<Index>(to.size()));
   for (std::size_t k = 0; k < to.size(); ++k)
     reactions.middleCols<2>(2 * static_cast<Index>(k)) =
@@ -77,7 +77,7 @@ Eigen::Matrix2d Structure::stiffness_between(int joint, int other) const {
 
 // L⁻¹ P of the load of jumps.
 MatrixXd Structure::half_solved(const std::vector<SharedJump>& jumps, const MatrixXd& y) const {
-  MatrixXd half = MatrixXd::Zero(factor_->rows(), y.cols());
+  MatrixXd half = MatrixXd::Zero(factor().rows(), y.cols());
   for (std::size_t i = 0; i < jumps.size(); ++i)
     half(jumps[i]->half.rows, Eigen::all) +=
         jumps[i]->half.values.transpose().lazyProduct(y.middleRows<2>(2 * static_cast<Index>(i)));
@@ -97,7 +97,7 @@ Vector Structure::port_displacements(const Eigen::Ref<const Vector>& unknowns,
 }
 
 MatrixXd Structure::reactions_to(const std::vector<SharedJump>& jumps, const MatrixXd& y) const {
-  const MatrixXd unknowns = factor_->complete(half_solved(jumps, y));
+  const MatrixXd unknowns = factor().complete(half_solved(jumps, y));
   MatrixXd reactions(2 * joints(), y.cols());
   for (Index c = 0; c < y.cols(); ++c) {
     const auto of_one = unknowns.col(c);
