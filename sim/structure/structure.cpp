@@ -45,18 +45,6 @@ Structure::Structure(const Bodies& bodies, std::vector<Held> held) : bodies_(&bo
   hold(std::move(held));
 }
 
-void Structure::hold(std::vector<Held> held, Precision precision) {
-  layout_ = laid_out(std::move(held));
-  factorised_ = layout_;
-  find_loose_components();
-  changes_.clear();
-  tops_of_ties_.clear();
-  const std::size_t first_tie = 2 * bodies_->assembly().joints.size();
-  for (std::size_t tie = 0; tie < bodies_->assembly().ties.size(); ++tie)
-    tops_of_ties_.push_back(bodies_->ends()[first_tie + tie][1]);
-  factorise(precision);
-}
-
 Structure::Layout Structure::laid_out(std::vector<Held> held) const {
   const Assembly& assembly = bodies_->assembly();
   assert(held.size() == assembly.joints.size());

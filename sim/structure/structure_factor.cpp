@@ -22,7 +22,7 @@ constexpr double most_hold = 1e-9;  // of a mechanism, part of the largest stiff
 // down to 1e-14 where slivers at angles of 1e-6 degrees nearly leave it no say, and below 2e-15
 // where what it says follows from the others.
 constexpr double least_pivot = 5e-15;
-constexpr double least_in_single_precision = 1e-5;
+constexpr double least_in_single_precision = 1e-5;  // likewise
 // Part of the stiffness that inertia is, below which single precision holds no loose body.
 constexpr double least_inertia = 1e-5;
 constexpr double determined = 0.01;  // least share of a joint in multipliers to give them a pivot
@@ -221,6 +221,18 @@ MatrixXd Structure::add_rows(int body, std::vector<int>& rows) const {
   }
   if (in_order) return {};
   return into.topRows(std::ssize(rows) - first);
+}
+
+void Structure::hold(std::vector<Held> held, Precision precision) {
+  layout_ = laid_out(std::move(held));
+  factorised_ = layout_;
+  find_loose_components();
+  changes_.clear();
+  tops_of_ties_.clear();
+  const std::size_t first_tie = 2 * bodies_->assembly().joints.size();
+  for (std::size_t tie = 0; tie < bodies_->assembly().ties.size(); ++tie)
+    tops_of_ties_.push_back(bodies_->ends()[first_tie + tie][1]);
+  factorise(precision);
 }
 
 // In the memory of the factor before, if there is one.

@@ -183,20 +183,27 @@ TEST_P(EveryJointSolver, DoesNotKnowTheOrderOfJoints) {
   }
 }
 
+// The same force on every node, from rest.
+JointStep first_step(const Bodies& bodies) {
+  const std::size_t joints = bodies.assembly().joints.size();
+  JointStep step;
+  step.forces = VectorXd::Constant(bodies.dofs(), 1.0);
+  step.prescribed = VectorXd::Zero(bodies.dofs());
+  step.predicted = step.gaps = step.held_at = step.reactions =
+      VectorXd::Zero(static_cast<Index>(2 * joints));
+  step.laws.assign(joints, intact_law({500.0, 500.0}));
+  step.states.assign(joints, JointState::stick);
+  step.broken.assign(joints, 0);
+  return step;
+}
+
 // The factor has no pivots, which a broken joint must not ask for what it does to the others.
 TEST(ActiveSetSolver, AsksNothingOfAFactorWithoutPivots) {
   const Scene scene = test::small_scene(5.0, 300, 1);
   const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
   const Bodies bodies(assembly, scene.material, {1.0 / (2e-8 * 2e-8), 1.0});
   ASSERT_FALSE(Structure(bodies).ok());
-  JointStep step;
-  step.forces = VectorXd::Constant(bodies.dofs(), 1.0);
-  step.prescribed = VectorXd::Zero(bodies.dofs());
-  step.predicted = step.gaps = step.held_at = step.reactions =
-      VectorXd::Zero(static_cast<Index>(2 * assembly.joints.size()));
-  step.laws.assign(assembly.joints.size(), intact_law({500.0, 500.0}));
-  step.states.assign(assembly.joints.size(), JointState::stick);
-  step.broken.assign(assembly.joints.size(), 0);
+  JointStep step = first_step(bodies);
   step.broken[7] = 1;
   step.laws[7] = broken_law(0.3);
   const JointStepResult result = ActiveSetSolver(bodies).solve(step);
@@ -208,15 +215,7 @@ TEST(GaussSeidelSolver, SaysWhenItRanOutOfSweeps) {
   const Scene scene = test::small_scene(0.0, 3, 2);
   const Assembly assembly = build_assembly(scene.assembly, Lateral::free);
   const Bodies bodies(assembly, scene.material, {1e14, 1.0});
-  JointStep step;
-  step.forces = VectorXd::Constant(bodies.dofs(), 1.0);
-  step.prescribed = VectorXd::Zero(bodies.dofs());
-  step.predicted = step.gaps = step.held_at = step.reactions =
-      VectorXd::Zero(static_cast<Index>(2 * assembly.joints.size()));
-  step.laws.assign(assembly.joints.size(), intact_law({500.0, 500.0}));
-  step.states.assign(assembly.joints.size(), JointState::stick);
-  step.broken.assign(assembly.joints.size(), 0);
-  const JointStepResult result = GaussSeidelSolver(bodies, 1e-12, 2).solve(step);
+  const JointStepResult result = GaussSeidelSolver(bodies, 1e-12, 2).solve(first_step(bodies));
   EXPECT_FALSE(result.converged);
   EXPECT_EQ(result.iterations, 2);
   EXPECT_GT(result.residual, 1e-12);
