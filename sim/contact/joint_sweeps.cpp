@@ -28,6 +28,20 @@ MatrixXd inverse_of_free_part(const BodyOperator& op) {
 
 }  // namespace
 
+SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const JointLaw& law) {
+  if (cone_margin(free, law) >= 0.0) return {free, JointState::stick};
+  const double n = free.x() + law.cohesion, t = free.y();
+  if (S(0, 1) * t >= S(1, 1) * n) return {{-law.cohesion, 0.0}, JointState::open};
+  SingleJoint slipped{};
+  for (const JointState way : {JointState::slip_forward, JointState::slip_backward}) {
+    const double slope = slip_sign(way) * law.friction;
+    const double slip = -(t + slope * n) / (S(1, 1) + slope * S(0, 1));
+    slipped = {free + slip * S.col(1), way};
+    if (slip_sign(way) * slip >= 0.0) break;
+  }
+  return slipped;
+}
+
 JointSweeps::JointSweeps(const Bodies& bodies)
     : bodies_(&bodies), class_of_(bodies.assembly().bodies.size()) {
   for (std::size_t c = 0; c < bodies.classes().size(); ++c) {
@@ -105,13 +119,6 @@ VectorXd JointSweeps::tie_forces() const {
   return forces;
 }
 
-void JointSweeps::push(int body, Index port, double force) {
-  const MatrixXd& answers = port_answers_[class_of_[static_cast<std::size_t>(body)]];
-  const Index first = bodies_->first_port(body);
-  p_.segment(first, answers.rows()) += force * answers.col(port - first);
-  unrest_(body) += std::abs(force);
-}
-
 void JointSweeps::push(int body, std::array<Index, 2> ports, const Local& force) {
   const MatrixXd& answers = port_answers_[class_of_[static_cast<std::size_t>(body)]];
   const Index first = bodies_->first_port(body);
@@ -142,9 +149,8 @@ bool JointSweeps::sweep(const JointStep& step, double relaxation, double negligi
                       p_(contact.ports_b) - p_(contact.ports_a);
     const Local old = reactions_.segment<2>(row);
     const Local free = old - contact.stiffness * gap;
-    const SingleJoint found =
-        solve_single_joint(contact.stiffness, free, Local::Zero(), step.laws[j]);
-    const Local now = old + relaxation * (free + contact.stiffness * found.y - old);
+    const SingleJoint found = solve_single_joint(contact.stiffness, free, step.laws[j]);
+    const Local now = old + relaxation * (found.reaction - old);
     push(contact.body_a, contact.ports_a, old - now);
     push(contact.body_b, contact.ports_b, now - old);
     reactions_.segment<2>(row) = now;
@@ -154,7 +160,7 @@ bool JointSweeps::sweep(const JointStep& step, double relaxation, double negligi
   for (std::size_t i = 0; i < ties_.size(); ++i) {
     const double force = -opening(ties_[i]) / ties_[i].compliance;
     for (std::size_t k = 0; k < 4; ++k)
-      push(ties_[i].bodies[k], ties_[i].ports[k], tie_signs[k] * force);
+      push(ties_[i].bodies[k], {ties_[i].ports[k], ties_[i].ports[k]}, {tie_signs[k] * force, 0.0});
     between_ties_(static_cast<Index>(i)) += force;
   }
   return changed;

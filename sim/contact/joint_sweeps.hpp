@@ -9,6 +9,14 @@
 
 namespace havers::sim {
 
+struct SingleJoint {
+  Local reaction;  ///< [N/m]
+  JointState state;
+};
+
+/// (C3) One joint alone, exactly: r = `free` + S u and the law for the gap u.
+SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const JointLaw& law);
+
 /// Keeps the bodies' answers to forces at their ports. The ties are n − 1 equations between
 /// neighbouring ones, solved in turn like the joints.
 class JointSweeps {
@@ -48,7 +56,6 @@ class JointSweeps {
   void find_contacts();
   void pair_ties();
   [[nodiscard]] double answer(int body, Eigen::Index row, Eigen::Index column) const;
-  void push(int body, Eigen::Index port, double force);
   void push(int body, std::array<Eigen::Index, 2> ports, const Local& force);
   [[nodiscard]] double opening(const TieEquation& tie) const;
   [[nodiscard]] Eigen::VectorXd port_forces() const;

@@ -78,22 +78,6 @@ JointState state_of(const Local& reaction, const Local& gap, JointState now, con
   return slip_sign(now) * gap.y() < -tolerance ? JointState::stick : now;
 }
 
-SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const Local& u0,
-                               const JointLaw& law) {
-  const Local stuck = -u0;
-  if (cone_margin(free + S * stuck, law) >= 0.0) return {stuck, JointState::stick};
-  const Local opened = -(S.inverse() * (free + Local(law.cohesion, 0.0)));
-  if (opened.x() + u0.x() >= 0.0) return {opened, JointState::open};
-  const double rn = free.x() - S(0, 0) * u0.x() + law.cohesion, rt = free.y() - S(1, 0) * u0.x();
-  SingleJoint slipped{stuck, JointState::slip_backward};
-  for (const JointState way : {JointState::slip_forward, JointState::slip_backward}) {
-    const double slope = slip_sign(way) * law.friction;
-    slipped = {{stuck.x(), -(rt + slope * rn) / (S(1, 1) + slope * S(0, 1))}, way};
-    if (slip_sign(way) * (slipped.y.y() + u0.y()) >= 0.0) break;
-  }
-  return slipped;
-}
-
 namespace {
 
 // A few sets, each made of the answer to the one before.

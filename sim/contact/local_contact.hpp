@@ -65,16 +65,6 @@ constexpr double law_is_met = 1e-10;
 JointState state_of(const Local& reaction, const Local& gap, JointState now, const JointLaw& law,
                     double scale);
 
-/// Gap and state of one joint.
-struct SingleJoint {
-  Local y;  ///< [m]
-  JointState state;
-};
-
-/// (C3) One joint alone, exactly: r = `free` + S y and the law for the gap u₀ + y.
-SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const Local& u0,
-                               const JointLaw& law);
-
 /// What is done before a problem counts as not solved.
 enum class Effort : char {
   little,  ///< Two paths: where another solver may be quicker than more of them.

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <cmath>
+
 #include "sim/bench/watched_run.hpp"
 #include "tests/support/bonded_wall.hpp"
 #include "tests/support/scenes.hpp"
@@ -23,6 +26,46 @@ int sweeps_to_uniform_stress(const Scene& scene, double relaxation) {
     if ((sweeps.reactions() - exact).norm() <= 1e-6 * exact.norm()) return sweep;
   }
   return 0;
+}
+
+// S = diag(2, 1), c = 1, μ = 1/2: each answer by hand.
+SingleJoint one_joint(const Local& free) {
+  return solve_single_joint(Eigen::Vector2d(2.0, 1.0).asDiagonal(), free, {1.0, 0.5});
+}
+
+TEST(SingleJoint, SticksInsideItsCone) {
+  const SingleJoint joint = one_joint({1.0, 0.9});
+  EXPECT_EQ(joint.state, JointState::stick);
+  EXPECT_EQ(joint.reaction, Local(1.0, 0.9));
+}
+
+TEST(SingleJoint, OpensWhenPulledBeyondItsTip) {
+  const SingleJoint joint = one_joint({-3.0, 0.4});
+  EXPECT_EQ(joint.state, JointState::open);
+  EXPECT_EQ(joint.reaction, Local(-1.0, 0.0));
+}
+
+TEST(SingleJoint, SlipsAgainstTheForce) {
+  const SingleJoint forward = one_joint({0.0, -2.0}), backward = one_joint({0.0, 2.0});
+  EXPECT_EQ(forward.state, JointState::slip_forward);
+  EXPECT_LT((forward.reaction - Local(0.0, -0.5)).norm(), 1e-15);
+  EXPECT_EQ(backward.state, JointState::slip_backward);
+  EXPECT_LT((backward.reaction - Local(0.0, 0.5)).norm(), 1e-15);
+}
+
+// Gaps u = S⁻¹ (r − f) of joints whose directions act on each other keep the law.
+TEST(SingleJoint, KeepsTheLawWhereDirectionsActOnEachOther) {
+  Eigen::Matrix2d S;
+  S << 2.0, 0.7, 0.7, 1.0;
+  const JointLaw law{1.0, 0.5};
+  for (int i = 0; i < 360; ++i) {
+    const double angle = i * test::degree;
+    const Local free = 3.0 * Local(std::cos(angle), std::sin(angle));
+    const auto [reaction, state] = solve_single_joint(S, free, law);
+    const Local gap = S.inverse() * (reaction - free);
+    EXPECT_LT(law_residual(reaction, gap, law, 1.0).norm(), 1e-14) << i;
+    EXPECT_EQ(state_of(reaction, gap, state, law, 1.0), state) << i;
+  }
 }
 
 class JointSweepsAt : public testing::TestWithParam<double> {};

@@ -83,48 +83,6 @@ TEST(LocalContact, StartedFromItsAnswerTakesOneSet) {
   EXPECT_EQ(again.y, first.y);
 }
 
-// One joint, S = diag(2, 1), c = 1, μ = 1/2: each answer by hand.
-class OneJoint : public testing::Test {
- protected:
-  Eigen::Matrix2d S = Eigen::Vector2d(2.0, 1.0).asDiagonal();
-  JointLaw law{1.0, 0.5};
-  [[nodiscard]] SingleJoint solve(const Local& free, const Local& u0 = {0.0, 0.0}) const {
-    return solve_single_joint(S, free, u0, law);
-  }
-};
-
-TEST_F(OneJoint, SticksInsideItsCone) {
-  const SingleJoint joint = solve({1.0, 0.9});
-  EXPECT_EQ(joint.state, JointState::stick);
-  EXPECT_EQ(joint.y, Local(0.0, 0.0));
-}
-
-TEST_F(OneJoint, ReturnsToWhereItWasHeld) {
-  const SingleJoint joint = solve({5.0, 0.0}, {0.2, 0.1});
-  EXPECT_EQ(joint.state, JointState::stick);
-  EXPECT_EQ(joint.y, Local(-0.2, -0.1));
-}
-
-TEST_F(OneJoint, OpensWhenPulledBeyondItsTip) {
-  const SingleJoint joint = solve({-3.0, 0.4});
-  EXPECT_EQ(joint.state, JointState::open);
-  EXPECT_LT((joint.y - Local(1.0, -0.4)).norm(), 1e-15);  // r = (−1, 0), the tip
-}
-
-TEST_F(OneJoint, SlipsAgainstTheForce) {
-  const SingleJoint forward = solve({0.0, -2.0}), backward = solve({0.0, 2.0});
-  EXPECT_EQ(forward.state, JointState::slip_forward);
-  EXPECT_LT((forward.y - Local(0.0, 1.5)).norm(), 1e-15);  // r_T from −2 to −1/2
-  EXPECT_EQ(backward.state, JointState::slip_backward);
-  EXPECT_LT((backward.y - Local(0.0, -1.5)).norm(), 1e-15);
-}
-
-TEST_F(OneJoint, StaysOpenAboveItsPlace) {
-  const SingleJoint joint = solve({-1.0, 0.0}, {0.5, 0.2});
-  EXPECT_EQ(joint.state, JointState::open);
-  EXPECT_LT(joint.y.norm(), 1e-15);
-}
-
 TEST(StateOf, LeavesAStateOnlyWhenItsConditionFails) {
   const JointLaw law{1.0, 0.5};
   const Local none(0.0, 0.0);
