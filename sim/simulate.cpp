@@ -50,9 +50,8 @@ bool is_severed(const Scene& scene) {
   if (!some_are_missing(scene.joints)) return false;
   const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
   const std::vector<Threshold> thresholds = draw_thresholds(scene, assembly);
-  DisjointSets pieces = pieces_of(assembly, end_bodies(assembly), [&](std::size_t joint) {
-    return !is_missing(thresholds[joint]);
-  });
+  DisjointSets pieces =
+      pieces_of(assembly, [&](std::size_t joint) { return !is_missing(thresholds[joint]); });
   const std::size_t left = assembly.bodies.size();
   return pieces.find(left) != pieces.find(left + 1);
 }

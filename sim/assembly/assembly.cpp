@@ -130,7 +130,7 @@ std::vector<int> HalfFibre::edge(std::size_t i) const {
 }
 
 std::vector<int> HalfFibre::edge(EdgeOrigin origin) const {
-  const int i = outline.empty() ? -1 : find_edge(polygon, origin);
+  const int i = find_edge(polygon, origin);
   return i < 0 ? std::vector<int>() : edge(static_cast<std::size_t>(i));
 }
 

@@ -146,8 +146,8 @@ double first_break_by_uniform_stress(const Scene& scene) {
   double first = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < thresholds.size(); ++j) {
     if (is_missing(thresholds[j])) continue;
-    const Local at_unit_strain = forces.segment<2>(static_cast<Index>(2 * j));
-    first = std::min(first, strain_at_cone(at_unit_strain, intact_law(thresholds[j]), 1.0, noise));
+    first =
+        std::min(first, strain_at_cone(of_joint(forces, j), intact_law(thresholds[j]), 1.0, noise));
   }
   return first;
 }

@@ -23,10 +23,6 @@ constexpr double least_borne = 1e-9;  // of the reactions
 // Part of the stiffness that is less than what inertia adds, in all but the longest steps.
 constexpr double below_inertia = 1e-13;
 
-Local at(const VectorXd& values, int joint) {
-  return values.segment<2>(2 * static_cast<Index>(joint));
-}
-
 // Of the bodies that inertia holds best: slivers are stiff.
 double inertia_part(const Bodies& bodies) {
   double part = 0.0;
@@ -37,9 +33,9 @@ double inertia_part(const Bodies& bodies) {
 // Broken joints that have just broken, or press.
 std::size_t bearing(const JointStep& step) {
   std::size_t count = 0;
-  for (int joint = 0; joint < static_cast<int>(step.broken.size()); ++joint)
-    if (step.broken[static_cast<std::size_t>(joint)] != 0 &&
-        at(step.reactions, joint).norm() > least_borne * step.force_scale)
+  for (std::size_t joint = 0; joint < step.broken.size(); ++joint)
+    if (step.broken[joint] != 0 &&
+        of_joint(step.reactions, joint).norm() > least_borne * step.force_scale)
       ++count;
   return count;
 }
@@ -127,7 +123,7 @@ std::vector<int> ActiveSetSolver::violated(const JointStep& step, const VectorXd
     const auto j = static_cast<std::size_t>(joint);
     if (detached(joint) || loose_.contains(joint)) continue;
     const JointState state =
-        state_of(at(reactions, joint), Local::Zero(), JointState::stick, step.laws[j], scale);
+        state_of(of_joint(reactions, j), Local::Zero(), JointState::stick, step.laws[j], scale);
     if (state == JointState::stick) continue;
     result.states[j] = state;
     joints.push_back(joint);
@@ -139,7 +135,8 @@ bool ActiveSetSolver::reattach_closed(const JointStepResult& result) {
   std::vector<Held> held = structure_.held();
   std::vector<int> again;
   for (int joint = 0; joint < static_cast<int>(held.size()); ++joint)
-    if (detached(joint) && at(result.gaps, joint).x() < 0.0) again.push_back(joint);
+    if (detached(joint) && of_joint(result.gaps, static_cast<std::size_t>(joint)).x() < 0.0)
+      again.push_back(joint);
   if (again.empty()) return false;
   for (const int joint : again) held[static_cast<std::size_t>(joint)] = Held::fully;
   again.insert(again.end(), loose_.joints().begin(), loose_.joints().end());
@@ -200,6 +197,8 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effor
 
   do {
     result.states = step.states;
+    for (std::size_t j = 0; j < result.states.size(); ++j)
+      if (detached(static_cast<int>(j))) result.states[j] = JointState::open;
     result.converged = false;
     if (!structure_.ok()) return result;
     const StructureLoads bonded{step.forces, step.prescribed, jumps(step), step.force_scale};
@@ -211,13 +210,13 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effor
       VectorXd y;
       result.converged = settle_loose(step, bonded_response.reactions, effort, result, y);
       response = &bonded_response;
+      if (!result.converged) break;
       if (y.size() > 0 && !y.isZero(0.0)) {
         StructureLoads loads = bonded;
         loads.jumps(loose_.rows()) += y;
         loose_response = structure_.solve(loads);
         response = &loose_response;
       }
-      if (!result.converged) break;
       overloaded = violated(step, response->reactions, result);
       result.converged = leaving(step, result) <= most_leave;
     } while (result.converged && !overloaded.empty());

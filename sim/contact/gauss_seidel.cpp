@@ -47,10 +47,9 @@ JointStepResult GaussSeidelSolver::solve(const JointStep& step) {
   result.displacements = sweeps_.displacements(step);
   const double unsure = tolerance_ * result.reactions.lpNorm<Eigen::Infinity>();
   for (std::size_t j = 0; j < step.laws.size(); ++j) {
-    const auto row = static_cast<Index>(2 * j);
-    result.states.push_back(state_within(unsure, result.reactions.segment<2>(row),
-                                         result.gaps(row + 1) - step.held_at(row + 1),
-                                         step.laws[j]));
+    const Local gap = of_joint(result.gaps, j) - of_joint(step.held_at, j);
+    result.states.push_back(
+        state_within(unsure, of_joint(result.reactions, j), gap.y(), step.laws[j]));
   }
   return result;
 }

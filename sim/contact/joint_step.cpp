@@ -33,11 +33,10 @@ double joint_residual(const JointStep& step, const JointStepResult& result,
                       const VectorXd& stiffness) {
   double squared = 0.0;
   for (std::size_t j = 0; j < step.laws.size(); ++j) {
-    const auto row = static_cast<Index>(2 * j);
-    const Local reaction = result.reactions.segment<2>(row);
-    const Local gap = result.gaps.segment<2>(row) - step.held_at.segment<2>(row);
-    squared +=
-        law_residual(reaction, gap, step.laws[j], stiffness(static_cast<Index>(j))).squaredNorm();
+    const Local gap = of_joint(result.gaps, j) - of_joint(step.held_at, j);
+    squared += law_residual(of_joint(result.reactions, j), gap, step.laws[j],
+                            stiffness(static_cast<Index>(j)))
+                   .squaredNorm();
   }
   const double scale = std::max(step.force_scale, result.reactions.norm());
   return squared == 0.0 ? 0.0 : std::sqrt(squared) / std::max(scale, 1e-300);

@@ -28,20 +28,6 @@ MatrixXd inverse_of_free_part(const BodyOperator& op) {
 
 }  // namespace
 
-SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const JointLaw& law) {
-  if (cone_margin(free, law) >= 0.0) return {free, JointState::stick};
-  const double n = free.x() + law.cohesion, t = free.y();
-  if (S(0, 1) * t >= S(1, 1) * n) return {{-law.cohesion, 0.0}, JointState::open};
-  SingleJoint slipped{};
-  for (const JointState way : {JointState::slip_forward, JointState::slip_backward}) {
-    const double slope = slip_sign(way) * law.friction;
-    const double slip = -(t + slope * n) / (S(1, 1) + slope * S(0, 1));
-    slipped = {free + slip * S.col(1), way};
-    if (slip_sign(way) * slip >= 0.0) break;
-  }
-  return slipped;
-}
-
 JointSweeps::JointSweeps(const Bodies& bodies)
     : bodies_(&bodies), class_of_(bodies.assembly().bodies.size()) {
   for (std::size_t c = 0; c < bodies.classes().size(); ++c) {

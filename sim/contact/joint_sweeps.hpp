@@ -15,7 +15,20 @@ struct SingleJoint {
 };
 
 /// (C3) One joint alone, exactly: r = `free` + S u and the law for the gap u.
-SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free, const JointLaw& law);
+inline SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free,
+                                      const JointLaw& law) {
+  if (cone_margin(free, law) >= 0.0) return {free, JointState::stick};
+  const double n = free.x() + law.cohesion, t = free.y();
+  if (S(0, 1) * t >= S(1, 1) * n) return {{-law.cohesion, 0.0}, JointState::open};
+  SingleJoint slipped{};
+  for (const JointState way : {JointState::slip_forward, JointState::slip_backward}) {
+    const double slope = slip_sign(way) * law.friction;
+    const double slip = -(t + slope * n) / (S(1, 1) + slope * S(0, 1));
+    slipped = {free + slip * S.col(1), way};
+    if (slip_sign(way) * slip >= 0.0) break;
+  }
+  return slipped;
+}
 
 /// Keeps the bodies' answers to forces at their ports. The ties are n − 1 equations between
 /// neighbouring ones, solved in turn like the joints.

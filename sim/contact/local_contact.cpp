@@ -45,11 +45,6 @@ States states_of(const LocalContact& p, const VectorXd& y, const States& now) {
 
 }  // namespace
 
-double slip_sign(JointState state) {
-  if (state == JointState::slip_forward) return 1.0;
-  return state == JointState::slip_backward ? -1.0 : 0.0;
-}
-
 double law_missed(const LocalContact& p, const VectorXd& r, const VectorXd& gaps) {
   double squared = 0.0;
   for (std::size_t i = 0; i < p.laws.size(); ++i) {
@@ -120,6 +115,8 @@ LocalContactResult solve_as_it_is(const LocalContact& problem, const States& sta
 LocalContactResult solve_with_springs(const LocalContact& problem, const States& states,
                                       LocalContactResult best) {
   double least = best.converged ? law_residual_of(problem, best.y) : nearly_met;
+  best.converged = best.converged && least <= nearly_met;
+  least = std::min(least, nearly_met);
   int spent = best.iterations;
   for (const double part : springs) {
     const double stiffness = part * problem.S.diagonal().maxCoeff();

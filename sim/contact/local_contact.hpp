@@ -15,7 +15,10 @@ namespace havers::sim {
 enum class JointState { stick, slip_forward, slip_backward, open };
 
 /// Sign of the slip; 0 where there is none, or no friction. The friction is −sign μ (R_N + c).
-double slip_sign(JointState state);
+inline double slip_sign(JointState state) {
+  if (state == JointState::slip_forward) return 1.0;
+  return state == JointState::slip_backward ? -1.0 : 0.0;
+}
 
 /// Find y with r = r₀ + S y and the joint law at every joint, gaps being u = u₀ + y (C1),
 /// sim/README.md.

@@ -96,9 +96,8 @@ std::vector<JointState> SetSearch::lawful(const JointStep& step, const JointStep
   const double scale = accuracy / accuracy_of_forces *
                        std::max(step.force_scale, result.reactions.lpNorm<Eigen::Infinity>());
   for (std::size_t j = 0; j < step.laws.size(); ++j) {
-    const auto row = static_cast<Index>(2 * j);
-    const Local gap = result.gaps.segment<2>(row) - step.held_at.segment<2>(row);
-    states[j] = state_of(result.reactions.segment<2>(row), stiffness_(static_cast<Index>(j)) * gap,
+    const Local gap = of_joint(result.gaps, j) - of_joint(step.held_at, j);
+    states[j] = state_of(of_joint(result.reactions, j), stiffness_(static_cast<Index>(j)) * gap,
                          result.states[j], step.laws[j], scale);
   }
   return states;

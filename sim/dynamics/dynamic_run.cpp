@@ -31,10 +31,6 @@ DynamicRun::DynamicRun(const Scene& scene, const Assembly& assembly, double step
       bodies_(assembly, scene.material,
               {1.0 / (step * step), 1.0 + scene.material.viscosity / step}, scene.solver.leave_out),
       solver_(make_solver(scene.solver, bodies_)) {
-  start();
-}
-
-void DynamicRun::start() {
   const auto rows = static_cast<Index>(2 * assembly_.joints.size());
   motion_.q = motion_.v = VectorXd::Zero(bodies_.dofs());
   if (scene_.loading.start == Start::uniform) {
@@ -55,7 +51,6 @@ void DynamicRun::start() {
   step_.laws.reserve(joints_.size());
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const bool missing = joints_[j].broken;
-    missing_ += missing ? 1 : 0;
     step_.broken[j] = missing ? 1 : 0;
     step_.laws.push_back(missing ? broken_law(scene_.joints.friction)
                                  : intact_law(joints_[j].threshold));
@@ -149,8 +144,7 @@ double DynamicRun::time_to_first_break() const {
   const double noise = 1e-9 * slope_.lpNorm<Eigen::Infinity>();
   double first = (scene_.loading.max_strain / scene_.loading.strain_rate) - time();
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const Local r = step_.reactions.segment<2>(static_cast<Index>(2 * j)),
-                change = slope_.segment<2>(static_cast<Index>(2 * j));
+    const Local r = of_joint(step_.reactions, j), change = of_joint(slope_, j);
     const JointLaw& law = step_.laws[j];
     for (const double side : {1.0, -1.0}) {
       const double used = side * change.y() - law.friction * change.x();  // of the margin, a step
@@ -163,12 +157,16 @@ double DynamicRun::time_to_first_break() const {
 
 double DynamicRun::leap() {
   constexpr double uniform = 1e-9, beyond = 1.0 + 1e-9;  // so that the step then breaks the joint
-  if (broken_ + missing_ > 0 || acceleration_force_ > uniform * motion_.Kq.norm()) return 0.0;
+  if (std::ranges::any_of(joints_, &JointOutcome::broken) ||
+      acceleration_force_ > uniform * motion_.Kq.norm())
+    return 0.0;
   const double time = beyond * time_to_first_break() - h_;
   if (!(time > h_)) return 0.0;
   energy_.viscous += scene_.material.viscosity * time * motion_.v.dot(motion_.Kv);
   motion_.q += time * motion_.v;
   motion_.Kq += time * motion_.Kv;
+  step_.reactions += time / h_ * slope_;
+  step_.force_scale = std::max(step_.force_scale, step_.reactions.norm());
   energy_.start(motion_, bodies_.mass());
   leapt_ += time;
   return scene_.loading.strain_rate * time;

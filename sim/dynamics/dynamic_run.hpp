@@ -33,7 +33,6 @@ class DynamicRun {
   void finish(Simulation& simulation) const;
 
  private:
-  void start();
   void prepare();
   void move(const JointStepResult& result);
   void account(const JointStepResult& result, const Motion& before);
@@ -61,7 +60,7 @@ class DynamicRun {
   double worst_residual_ = 0.0;                  // (M11) [-]
   double worst_penetration_ = 0.0;               // [m]
   long iterations_ = 0;
-  int steps_ = 0, broken_ = 0, missing_ = 0;
+  int steps_ = 0, broken_ = 0;
 };
 
 }  // namespace havers::sim

@@ -39,18 +39,12 @@ StepError error_of(const Simulation& finer, const Simulation& coarser) {
           std::abs(finer.strength - coarser.strength) / finer.strength};
 }
 
-Simulation summarised_run(const Scene& scene, const Stepping& stepping, const Observer& observer) {
-  Simulation run = run_in_steps(scene, stepping, observer);
-  summarise(run);
-  return run;
-}
-
 // A watcher sees the answer last.
 void show_again(const Scene& scene, Stepping stepping, const Observer& observer, Simulation& run) {
   if (!observer) return;
   const StepError error = *run.step_error;
   stepping.step = run.step;
-  run = summarised_run(scene, stepping, observer);
+  run = run_in_steps(scene, stepping, observer);
   run.step_error = has_ended(run) ? error : StepError{never_compared, never_compared};
 }
 
@@ -89,7 +83,7 @@ Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer) {
   std::string finer_failed;
   int agreed = 0;
   for (int halving = 0; halving <= most_halvings; ++halving, stepping.step *= 0.5) {
-    Simulation finer = summarised_run(scene, stepping, observer);
+    Simulation finer = run_in_steps(scene, stepping, observer);
     const bool first = !has_ended(run);
     // Long steps may have no answer where friction is strong; short ones do.
     if (first && finer.status == SimulationStatus::not_converged && halving < most_halvings)

@@ -68,6 +68,7 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
   run.finish(simulation);
   simulation.dropped = assembly.dropped;
   simulation.left_out = left_out_in_time(scene, simulation);
+  summarise(simulation);
   return simulation;
 }
 

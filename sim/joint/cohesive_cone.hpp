@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "sim/scene.hpp"
@@ -14,6 +15,11 @@ namespace havers::sim {
 
 /// A vector in a joint's frame: (normal, tangential).
 using Local = Eigen::Vector2d;
+
+/// That of one joint among those of all.
+inline Local of_joint(const Eigen::VectorXd& all, std::size_t joint) {
+  return all.segment<2>(static_cast<Eigen::Index>(2 * joint));
+}
 
 /// |R_T| ≤ μ (R_N + c): (M5) with c = f_N and μ = f_T/f_N while intact, (M7) with c = 0 and μ = μ_f
 /// when broken.
@@ -27,8 +33,13 @@ struct JointLaw {
 constexpr double least_friction = 1e-3;
 
 /// The law of (M5) and that of (M7).
-JointLaw intact_law(const Threshold& threshold);
-JointLaw broken_law(double friction);
+inline JointLaw intact_law(const Threshold& threshold) {
+  assert(threshold.normal > 0.0);
+  return {threshold.normal, std::max(threshold.tangent / threshold.normal, least_friction)};
+}
+inline JointLaw broken_law(double friction) {
+  return {0.0, std::max(friction, least_friction)};
+}
 
 /// How far inside the cone a reaction is, μ (R_N + c) − |R_T|; negative outside. [N/m]
 inline double cone_margin(const Local& reaction, const JointLaw& law) {

@@ -9,7 +9,7 @@
 namespace havers::sim {
 
 DisjointSets BreakingRun::pieces() const {
-  return pieces_of(intact_->assembly(), intact_->end_bodies(),
+  return pieces_of(intact_->assembly(),
                    [this](std::size_t joint) { return !joints_[joint].broken; });
 }
 

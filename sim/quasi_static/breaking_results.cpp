@@ -73,7 +73,7 @@ void BreakingRun::finish(Simulation& simulation) {
         scene_.material.young * strain_ * strain_ * std::abs(elastic - work) / energy_scale;
   simulation.worst_residual =
       std::max({simulation.worst_residual, intact_->answer().residual, last.residual,
-                worst_residual_ / scale,
+                scale > 0.0 ? worst_residual_ / scale : 0.0,
                 bears ? std::abs(last.force - force_) / intact_->answer().force : 0.0});
   simulation.iterations = iterations_;
   simulation.events_without_contact = without_contact_;

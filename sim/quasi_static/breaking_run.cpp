@@ -45,7 +45,8 @@ BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructu
       reactions_(reference_.reactions),
       force_(reference_.force),
       noise_(1e-10 * intact_->answer().reactions.lpNorm<Eigen::Infinity>()) {
-  contact_.force_scale = reactions_.norm() / std::sqrt(static_cast<double>(joints_.size()));
+  const auto joints = static_cast<double>(std::max<std::size_t>(1, joints_.size()));
+  contact_.force_scale = reactions_.norm() / std::sqrt(joints);
 }
 
 bool BreakingRun::take_missing() {
@@ -110,7 +111,7 @@ void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {
   y_.conservativeResizeLike(contact_.u0);
   y_at_reference_.conservativeResizeLike(contact_.u0);
   y_seen_.conservativeResizeLike(contact_.u0);
-  const VectorXd at_reference = of_loose(reference_.reactions);
+  const VectorXd at_reference = reference_.reactions(loose_.rows());
   contact_.r0 = at_reference - contact_.S * y_at_reference_;
   const auto breaking_rows = Eigen::lastN(2 * (n - old));
   borne_.conservativeResize(2 * n);
@@ -182,7 +183,7 @@ bool BreakingRun::settle() {
   const bool in_two = hardly_bears && severed();
   if (may_lose_digits() || hardly_bears) {
     see_all();
-    borne_ = of_loose(reactions_);
+    borne_ = reactions_(loose_.rows());
     summed_ = summed();
     lacked_ = lacking().norm();
     // Where a piece swings freely, its gaps change so much that digits are lost.
@@ -222,7 +223,7 @@ double BreakingRun::summed() const {
 // What the gaps change is reckoned from the reference.
 void BreakingRun::follow_gaps() {
   // By reciprocity the force at the end changes by r⁰·y/W, r⁰ being those of the intact structure.
-  force_ = reference_.force + of_loose(intact_->answer().reactions).dot(y_ - y_at_reference_) /
+  force_ = reference_.force + intact_->answer().reactions(loose_.rows()).dot(y_ - y_at_reference_) /
                                   intact_->assembly().width;
   borne_ = contact_.r0 + contact_.S * y_;
 }
@@ -238,7 +239,7 @@ void BreakingRun::take_reference() {
   y_at_reference_ = y_;
   reactions_ = reference_.reactions;
   y_seen_ = y_;
-  borne_ = of_loose(reactions_);
+  borne_ = reactions_(loose_.rows());
   force_ = reference_.force;
 }
 
@@ -248,13 +249,9 @@ VectorXd BreakingRun::all_reactions() const {
          intact_->structure().reactions_to(loose_.jumps(), y_ - y_at_reference_);
 }
 
-VectorXd BreakingRun::of_loose(const VectorXd& of_all) const {
-  return of_all(loose_.rows());
-}
-
 // What the loose joints' own problem lacks of their reactions.
 VectorXd BreakingRun::lacking() const {
-  return of_loose(reactions_) - (contact_.r0 + contact_.S * y_);
+  return reactions_(loose_.rows()) - (contact_.r0 + contact_.S * y_);
 }
 
 VectorXd BreakingRun::gaps() const {
@@ -281,7 +278,7 @@ void BreakingRun::refine() {
     if (moved <= little * scale) {
       follow_gaps();
       see_all();
-      borne_ = of_loose(reactions_);
+      borne_ = reactions_(loose_.rows());
     } else {
       take_reference();
     }

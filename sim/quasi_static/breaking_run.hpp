@@ -67,7 +67,6 @@ class BreakingRun {
   [[nodiscard]] bool severed() const;
   [[nodiscard]] bool bears_nothing() const;
   [[nodiscard]] Eigen::VectorXd gaps() const;
-  [[nodiscard]] Eigen::VectorXd of_loose(const Eigen::VectorXd& of_all) const;
   [[nodiscard]] Eigen::VectorXd lacking() const;
   [[nodiscard]] Eigen::VectorXd all_reactions() const;
   [[nodiscard]] bool may_lose_digits() const;

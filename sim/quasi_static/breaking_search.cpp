@@ -20,17 +20,13 @@ constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double most_missed = 10.0;       // by a glance at some joint, times what it is seen to
 constexpr std::size_t most_looked_at = 4;  // one by one: of more, all joints at once cost less
 
-Local of_joint(const VectorXd& of_all, std::size_t joint) {
-  return of_all.segment<2>(static_cast<Index>(2 * joint));
-}
-
 NearReactions sum_of(const std::vector<IntactStructure::SharedColumn>& columns,
                      const Eigen::VectorXf& gaps) {
   NearReactions sum{Eigen::VectorXf::Zero(columns.front()->reactions.rows())};
   Eigen::VectorXf off_balance(static_cast<Index>(columns.size()));  // by rounding, of each
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Eigen::Vector2f by = gaps.segment<2>(static_cast<Index>(2 * i));
-    sum.reactions.noalias() += columns[i]->reactions * by;
+    sum.reactions.noalias() += columns[i]->reactions.leftCols<2>() * by;
     off_balance(static_cast<Index>(i)) = columns[i]->off_balance * by.lpNorm<1>();
   }
   sum.off_balance = off_balance.norm();
@@ -65,7 +61,7 @@ BreakingRun::Glance BreakingRun::glance() const {
                                    : sum_of(columns_, moved.cast<float>());
   Glance found{reactions_ + change.reactions.cast<double>(), change.off_balance};
   found.missed =
-      std::max(found.missed, (of_loose(found.reactions) - borne_).lpNorm<Eigen::Infinity>());
+      std::max(found.missed, (found.reactions(loose_.rows()) - borne_).lpNorm<Eigen::Infinity>());
   if (!found.reactions.allFinite()) found.missed = never;
   return found;
 }

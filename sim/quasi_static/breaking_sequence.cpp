@@ -129,7 +129,7 @@ bool is_no_worse(const Simulation& a, const Simulation& b) {
 Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
   const std::shared_ptr<const IntactStructure> intact = intact_structure(scene);
   Simulation quick = break_event_by_event(scene, intact, false, observer);
-  if ((has_ended(quick) && quick.worst_residual <= accurate) ||
+  if ((has_ended(quick) && quick.worst_residual <= std::min(accurate, scene.solver.tolerance)) ||
       quick.status == SimulationStatus::cancelled)
     return quick;
   Simulation careful = break_event_by_event(scene, intact, true, observer);

@@ -24,7 +24,7 @@ std::size_t bytes(const Jump& jump) {
   return jump.half.rows.size() * (sizeof(int) + 2 * sizeof(double));
 }
 
-std::size_t bytes(const IntactStructure::Column& column) {
+std::size_t bytes(const NearReactions& column) {
   return sizeof(float) * static_cast<std::size_t>(column.reactions.size());
 }
 
@@ -59,22 +59,21 @@ Eigen::VectorXd uniform_stress_forces(const Assembly& assembly, double stress) {
   return forces;
 }
 
-IntactStructure::IntactStructure(const AssemblyOptions& options, const Loading& loading,
-                                 const Material& material, bool leave_out)
-    : assembly_(build_assembly(options, loading.lateral)),
-      bodies_(assembly_, unit_material(material), quasi_static_shift(assembly_), leave_out),
+IntactStructure::IntactStructure(const Scene& scene)
+    : assembly_(build_assembly(scene.assembly, scene.loading.lateral)),
+      bodies_(assembly_, unit_material(scene.material), quasi_static_shift(assembly_),
+              scene.solver.leave_out),
       structure_(bodies_),
-      end_bodies_(sim::end_bodies(assembly_)),
       joints_of_bodies_(joints_of_bodies(assembly_)) {
   if (!structure_.ok()) return;
   if (structure_.joints() > 0) single_.emplace(structure_.factor());
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(2 * structure_.joints());
   lost_ = none;
   answer_ = stretch(none);
-  if (material.layer_contrast != 1.0) return;
+  if (structure_.joints() == 0 || scene.material.layer_contrast != 1.0) return;
   const Eigen::VectorXd exact = uniform_stress_forces(assembly_, answer_.force / assembly_.height);
   const double missed = (exact - answer_.reactions).norm() / exact.norm();
-  stress_is_known_ = leave_out && missed <= known;
+  stress_is_known_ = scene.solver.leave_out && missed <= known;
   if (stress_is_known_) {
     lost_ = exact - answer_.reactions;
     answer_.reactions = exact;
@@ -119,8 +118,8 @@ IntactStructure::SharedColumn IntactStructure::column(const SharedJump& jump, bo
     const auto [place, is_new] = columns_.try_emplace(jump->joint);
     if (is_new || place->second || !make) return place->second;
   }
-  const auto [reactions, off_balance] = nearly_reactions_to({jump}, Eigen::Matrix2d::Identity());
-  auto column = std::make_shared<const Column>(Column{reactions, off_balance});
+  auto column = std::make_shared<const NearReactions>(
+      nearly_reactions_to({jump}, Eigen::Matrix2d::Identity()));
   const std::scoped_lock lock(mutex_);
   SharedColumn& place = columns_[jump->joint];
   if (!place && remembered + bytes(*column) <= most_remembered) {
@@ -165,8 +164,7 @@ std::shared_ptr<const IntactStructure> intact_structure(const Scene& scene) {
       recent.splice(recent.begin(), recent, entry);
       return entry->second;
     }
-  recent.emplace_front(key, std::make_shared<IntactStructure>(a, scene.loading, scene.material,
-                                                              scene.solver.leave_out));
+  recent.emplace_front(key, std::make_shared<IntactStructure>(scene));
   if (recent.size() > kept) recent.pop_back();
   return recent.front().second;
 }

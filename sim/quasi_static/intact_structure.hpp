@@ -2,7 +2,6 @@
 // changes.
 #pragma once
 
-#include <array>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -28,8 +27,7 @@ Eigen::VectorXd uniform_stress_forces(const Assembly& assembly, double stress);
 /// they are asked for.
 class IntactStructure {
  public:
-  IntactStructure(const AssemblyOptions& options, const Loading& loading, const Material& material,
-                  bool leave_out);
+  explicit IntactStructure(const Scene& scene);
   IntactStructure(const IntactStructure&) = delete;
   IntactStructure& operator=(const IntactStructure&) = delete;
   ~IntactStructure();
@@ -45,8 +43,6 @@ class IntactStructure {
   [[nodiscard]] UnitAnswer stretch(const Eigen::VectorXd& gaps) const;
   /// ½ qᵀKq. [J/m]
   [[nodiscard]] double energy(const Eigen::VectorXd& q) const;
-  /// Bodies with a node at the left and at the right end.
-  [[nodiscard]] const std::array<std::vector<int>, 2>& end_bodies() const { return end_bodies_; }
   [[nodiscard]] const std::vector<int>& joints_of(int body) const {
     return joints_of_bodies_[static_cast<std::size_t>(body)];
   }
@@ -56,11 +52,7 @@ class IntactStructure {
   /// Structure::jump.
   [[nodiscard]] SharedJump jump(int joint) const;
   /// Structure::nearly_reactions_to of a unit jump at one joint, normal and tangential. [N/m²]
-  struct Column {
-    Eigen::MatrixX2f reactions;
-    float off_balance;
-  };
-  using SharedColumn = std::shared_ptr<const Column>;
+  using SharedColumn = std::shared_ptr<const NearReactions>;
   /// What runs have asked for before; nothing else is worth it.
   /// @param make  if it was only asked for
   [[nodiscard]] SharedColumn column(const SharedJump& jump, bool make) const;
@@ -80,7 +72,6 @@ class IntactStructure {
   UnitAnswer answer_;
   bool stress_is_known_ = false;
   Eigen::VectorXd lost_;  // forces of the uniform stress that a solve does not find [N/m]
-  std::array<std::vector<int>, 2> end_bodies_;
   std::vector<std::vector<int>> joints_of_bodies_;
   mutable std::mutex mutex_;
   mutable std::map<int, SharedJump> jumps_;      // at each joint

@@ -33,7 +33,6 @@ class Halves {
  public:
   Halves(const Assembly& assembly, const std::vector<std::array<int, 2>>& bodies_of)
       : bodies_of_(bodies_of), second_(assembly.bodies.size(), 0), part_(bodies_of.size(), 0) {
-    if (assembly.bodies.empty()) return;
     const int layer = std::ranges::min(assembly.bodies, {}, &Body::layer).layer;
     const int column = std::ranges::min(assembly.bodies, {}, &Body::column).column;
     const Cell first{layer, column - ((layer + column) & 1)};

@@ -106,9 +106,7 @@ EliminationTree elimination_tree(const Graph& graph, std::vector<int> order) {
   tree.panels.reserve(L.nsuper);
   for (std::size_t p = 0; p < L.nsuper; ++p) {
     const auto begin = static_cast<std::size_t>(at[p]), end = static_cast<std::size_t>(at[p + 1]);
-    const Panel panel{first[p], first[p + 1] - first[p], begin, end - begin, tree.values};
-    tree.values += panel.height * static_cast<std::size_t>(panel.columns);
-    tree.panels.push_back(panel);
+    tree.panels.push_back({first[p], first[p + 1] - first[p], begin, end - begin, 0});
   }
   for (int p = static_cast<int>(L.nsuper) - 1; p >= 0; --p) {
     Panel& panel = tree.panels[static_cast<std::size_t>(p)];
@@ -133,7 +131,6 @@ EliminationTree in_rows(EliminationTree tree, const Supervariables& groups) {
   const auto begin_of = [&](int place) { return first[static_cast<std::size_t>(place)]; };
 
   std::vector<int> rows;
-  tree.values = 0;
   for (Panel& panel : tree.panels) {
     const std::size_t at = rows.size();
     for (const int place : tree.rows_of(panel))

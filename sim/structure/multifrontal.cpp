@@ -69,11 +69,11 @@ class Fronts {
     std::ranges::sort(places_);
     for (auto place = places_.begin(); place != places_.end(); ++place) {
       const auto [column, j] = *place;
-      Scalar* const to =
-          column < own.cols() ? &own(0, column) : &below(0, column - own.cols()) - own.cols();
+      const Index above = column < own.cols() ? 0 : own.cols();  // rows that are not in it
+      Scalar* const to = above == 0 ? &own(0, column) : &below(0, column - above);
       for (auto lower = place; lower != places_.end(); ++lower) {
         const auto [row, i] = *lower;
-        to[row] += static_cast<Scalar>(part(std::max(i, j), std::min(i, j)));
+        to[row - above] += static_cast<Scalar>(part(std::max(i, j), std::min(i, j)));
       }
     }
   }

@@ -22,15 +22,6 @@ constexpr int max_solves_with_friction = 40;
 
 }  // namespace
 
-// What acts at the ports of all bodies.
-struct Structure::PortLoads {
-  VectorXd forces;    // on the bodies
-  VectorXd friction;  // of each joint; empty: none
-  double force_scale = 0.0;
-  double accuracy = accuracy_of_forces;
-  bool near = false;  // start where an answer to other loads is
-};
-
 // Displacements, forces and compatibility multipliers at the ports of all bodies.
 struct Structure::PortState {
   VectorXd displacements;  // p, offsets included
@@ -41,7 +32,10 @@ struct Structure::PortState {
 };
 
 Structure::Structure(const Bodies& bodies, std::vector<Held> held) : bodies_(&bodies) {
-  held.resize(bodies.assembly().joints.size(), Held::fully);
+  const Assembly& assembly = bodies.assembly();
+  for (std::size_t tie = 0; tie < assembly.ties.size(); ++tie)
+    tops_of_ties_.push_back(bodies.ends()[2 * assembly.joints.size() + tie][1]);
+  held.resize(assembly.joints.size(), Held::fully);
   hold(std::move(held));
 }
 
@@ -58,10 +52,8 @@ Structure::Layout Structure::laid_out(std::vector<Held> held) const {
     layout.of_port.push_back({own ? next++ : port.unknown, -1});
   }
   layout.unknowns = next + (assembly.ties.empty() ? 0 : 1);
-  for (std::size_t tie = 0; tie < assembly.ties.size(); ++tie) {
-    const Index top = bodies_->ends()[static_cast<std::size_t>(joint_unknowns) + tie][1];
+  for (const Index top : tops_of_ties_)
     layout.of_port[static_cast<std::size_t>(top)][1] = static_cast<int>(layout.unknowns) - 1;
-  }
   return layout;
 }
 
@@ -134,8 +126,9 @@ Structure::Correction Structure::correct(const VectorXd& missing, const VectorXd
 }
 
 // Corrections of the mixed system (S6) until its own residuals are rounding.
-void Structure::refine(const PortLoads& loads, VectorXd missing, PortState& state) const {
-  double before = loads.near ? 0.0 : 1.0;  // how they shrink is then seen from the second on
+void Structure::refine(const StructureLoads& loads, VectorXd missing, PortState& state) const {
+  double before =
+      loads.near != nullptr ? 0.0 : 1.0;  // how they shrink is then seen from the second on
   while (state.solves < max_solves) {
     const Correction change = correct(missing, {});
     ++state.solves;
@@ -157,7 +150,7 @@ void Structure::refine(const PortLoads& loads, VectorXd missing, PortState& stat
 }
 
 // The same where joints rub: generalised conjugate residuals [EES83].
-void Structure::refine_with_friction(const PortLoads& loads, VectorXd missing,
+void Structure::refine_with_friction(const StructureLoads& loads, VectorXd missing,
                                      PortState& state) const {
   VectorXd answer = VectorXd::Zero(missing.size());
   double scale = 0.0;
@@ -192,10 +185,11 @@ void Structure::refine_with_friction(const PortLoads& loads, VectorXd missing,
   state.multipliers += answer.tail(state.multipliers.size());
 }
 
-Structure::PortState Structure::solve_ports(const PortLoads& loads, PortState state) const {
+Structure::PortState Structure::solve_ports(const StructureLoads& loads, const VectorXd& on_ports,
+                                            PortState state) const {
   const bool rubs = loads.friction.size() > 0 && !loads.friction.isZero(0.0);
   const auto forces = [&] {
-    VectorXd all = -loads.forces;
+    VectorXd all = -on_ports;
     if (state.displacements.lpNorm<1>() != 0.0 || state.multipliers.lpNorm<1>() != 0.0)
       all += bodies_->port_forces(state.displacements, state.multipliers);
     if (rubs) rub(loads.friction, all);
@@ -227,8 +221,7 @@ VectorXd Structure::reactions_of(const VectorXd& port_forces) const {
 }
 
 StructureResponse Structure::solve(const StructureLoads& loads) const {
-  PortLoads at_ports{VectorXd(ports()), loads.friction, loads.force_scale, loads.accuracy,
-                     loads.near != nullptr};
+  VectorXd on_ports(ports());
   VectorXd offsets = VectorXd::Zero(ports());  // what ports move beyond their unknowns
   std::vector<MatrixXd> forces;                // on the free degrees of freedom of each class
   forces.reserve(bodies_->classes().size());
@@ -240,7 +233,7 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
       on_class.noalias() -= op.shifted * moved;
       bodies_->ports_in(offsets, group).noalias() = -op.ports * moved;
     }
-    bodies_->ports_in(at_ports.forces, group).noalias() = op.recovery.transpose() * on_class;
+    bodies_->ports_in(on_ports, group).noalias() = op.recovery.transpose() * on_class;
   }
   const VectorXd prescribed = offsets;
   for (int unknown = 0; unknown < 2 * static_cast<int>(joints()); ++unknown) {
@@ -248,8 +241,8 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
     if (holds(unknown)) {
       offsets(b) += loads.jumps(unknown);
     } else if (loads.given.size() > 0) {
-      at_ports.forces(b) += loads.given(unknown);
-      at_ports.forces(a) -= loads.given(unknown);
+      on_ports(b) += loads.given(unknown);
+      on_ports(a) -= loads.given(unknown);
     }
   }
 
@@ -259,7 +252,7 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
                                    (start.displacements - prescribed));
     start.multipliers = loads.near->multipliers;
   }
-  PortState state = solve_ports(at_ports, std::move(start));
+  PortState state = solve_ports(loads, on_ports, std::move(start));
   VectorXd displacements = loads.prescribed;
   for (std::size_t k = 0; k < forces.size(); ++k) {  // (S4): recover the displacements
     const BodyClass& group = bodies_->classes()[k];

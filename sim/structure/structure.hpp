@@ -124,7 +124,6 @@ class Structure {
                                                   const SinglePrecisionFactor& factor) const;
 
  private:
-  struct PortLoads;
   struct PortState;
   struct Correction;
   struct Branch;
@@ -166,11 +165,12 @@ class Structure {
   [[nodiscard]] Vector port_displacements(const Eigen::Ref<const Vector>& unknowns,
                                           const std::vector<SharedJump>& jumps,
                                           const Eigen::Ref<const Vector>& y) const;
-  [[nodiscard]] PortState solve_ports(const PortLoads& loads, PortState state) const;
+  [[nodiscard]] PortState solve_ports(const StructureLoads& loads, const Eigen::VectorXd& on_ports,
+                                      PortState state) const;
   [[nodiscard]] Correction correct(const Eigen::VectorXd& missing,
                                    const Eigen::VectorXd& friction) const;
-  void refine(const PortLoads& loads, Eigen::VectorXd missing, PortState& state) const;
-  void refine_with_friction(const PortLoads& loads, Eigen::VectorXd missing,
+  void refine(const StructureLoads& loads, Eigen::VectorXd missing, PortState& state) const;
+  void refine_with_friction(const StructureLoads& loads, Eigen::VectorXd missing,
                             PortState& state) const;
   [[nodiscard]] Eigen::VectorXd in_forces(const Eigen::VectorXd& forces,
                                           const Eigen::VectorXd& gap) const;

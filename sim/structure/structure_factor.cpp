@@ -45,26 +45,18 @@ struct Structure::Branch {
 // Of each body: whether every joint determines its multipliers, as of all of its class. All fibres
 // of full size are so.
 std::vector<char> Structure::conducting() const {
-  std::vector<char> conducts(op_of_body_.size(), 1), is_first(op_of_body_.size(), 0);
-  for (const BodyClass& group : bodies_->classes())
-    is_first[static_cast<std::size_t>(group.bodies.front())] = 1;
-  for (std::size_t joint = 0; joint < layout_.held.size(); ++joint) {
-    const Joint& between = bodies_->assembly().joints[joint];
-    for (const std::size_t side : {0U, 1U}) {
-      const int body = side == 0 ? between.body_a : between.body_b;
-      if (is_first[static_cast<std::size_t>(body)] == 0) continue;
-      const MatrixXd& N = op_of_body_[static_cast<std::size_t>(body)]->compatibility;
-      const std::array<Index, 2> columns{
-          bodies_->ends()[2 * joint][side] - bodies_->first_port(body),
-          bodies_->ends()[2 * joint + 1][side] - bodies_->first_port(body)};
-      if (N.rows() > 0 && least_share(N(Eigen::all, columns)) < determined)
-        conducts[static_cast<std::size_t>(body)] = 0;
+  std::vector<char> conducts(op_of_body_.size());
+  for (const BodyClass& group : bodies_->classes()) {
+    const MatrixXd& N = group.op.compatibility;
+    const Index first = bodies_->first_port(group.bodies.front());
+    bool all = true;
+    // Two ports of each joint, then those of ties.
+    for (Index i = 0; i < N.cols() && N.rows() > 0; i += 2) {
+      if (bodies_->ports()[static_cast<std::size_t>(first + i)].unknown >= 2 * joints()) break;
+      all = all && least_share(N.middleCols<2>(i)) >= determined;
     }
+    for (const int body : group.bodies) conducts[static_cast<std::size_t>(body)] = all ? 1 : 0;
   }
-  for (const BodyClass& group : bodies_->classes())
-    for (const int body : group.bodies)
-      conducts[static_cast<std::size_t>(body)] =
-          conducts[static_cast<std::size_t>(group.bodies.front())];
   return conducts;
 }
 
@@ -228,10 +220,6 @@ void Structure::hold(std::vector<Held> held, Precision precision) {
   factorised_ = layout_;
   find_loose_components();
   changes_.clear();
-  tops_of_ties_.clear();
-  const std::size_t first_tie = 2 * bodies_->assembly().joints.size();
-  for (std::size_t tie = 0; tie < bodies_->assembly().ties.size(); ++tie)
-    tops_of_ties_.push_back(bodies_->ends()[first_tie + tie][1]);
   factorise(precision);
 }
 

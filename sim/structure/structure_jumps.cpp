@@ -17,27 +17,12 @@ Structure::LoadOfJump Structure::load_of_jump(int joint) const {
   const BodyOperator& op = *op_of_body_[static_cast<std::size_t>(body)];
   const Index first = bodies_->first_port(body);
   const std::array<Index, 2> jumping{port_b(joint, 0) - first, port_b(joint, 1) - first};
-  const Eigen::MatrixX2d forces = stiffened(op)(Eigen::all, jumping);
-
+  MatrixXd load(op.impedance.rows() + op.compatibility.rows(), 2);
+  load << -stiffened(op)(Eigen::all, jumping), -op.compatibility(Eigen::all, jumping);
   std::vector<int> rows;
-  std::vector<Eigen::RowVector2d> values;
-  for (Index i = 0; i < forces.rows(); ++i)
-    for (const Index row : unknowns_of_port(first + i)) {
-      const auto known = std::find(rows.begin(), rows.end(), static_cast<int>(row));
-      if (known != rows.end()) {
-        values[static_cast<std::size_t>(known - rows.begin())] += forces.row(i);
-        continue;
-      }
-      rows.push_back(static_cast<int>(row));
-      values.emplace_back(forces.row(i));
-    }
-  for (Index i = 0; i < op.compatibility.rows(); ++i) {
-    rows.push_back(static_cast<int>(first_multiplier(static_cast<std::size_t>(body)) + i));
-    values.emplace_back(op.compatibility(i, jumping[0]), op.compatibility(i, jumping[1]));
-  }
-  Eigen::MatrixX2d load(static_cast<Index>(rows.size()), 2);
-  for (std::size_t i = 0; i < rows.size(); ++i) load.row(static_cast<Index>(i)) = -values[i];
-  return {std::move(rows), std::move(load)};
+  const MatrixXd into = add_rows(body, rows);
+  if (into.size() > 0) load = into * load;
+  return {std::move(rows), load};
 }
 
 Jump Structure::jump(int joint) const {

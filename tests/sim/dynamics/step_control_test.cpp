@@ -27,8 +27,7 @@ INSTANTIATE_TEST_SUITE_P(Orientation, StepControl, testing::Values(0.0, 45.0, 90
 TEST_P(StepControl, LeapsToTheFirstBreakAndNotPastIt) {
   const Scene scene = without_step(GetParam());
   const double first = first_break_by_uniform_stress(scene);
-  Simulation run = run_in_steps(scene, {.step = 1e-9, .leap = true}, {});
-  summarise(run);
+  const Simulation run = run_in_steps(scene, {.step = 1e-9, .leap = true}, {});
   EXPECT_NEAR(run.first_break_strain / first, 1.0, 1e-7);
   EXPECT_GT(run.leapt_strain, 0.9 * first);
   EXPECT_NEAR(run.modulus / scene.material.young, 1.0, 1e-9);
@@ -37,8 +36,7 @@ TEST_P(StepControl, LeapsToTheFirstBreakAndNotPastIt) {
 
 TEST(StepLimit, EndsARunThatDoesNotBreakAndIsNotToBeTrusted) {
   const Scene scene = without_step(0.0);
-  Simulation run = run_in_steps(scene, {.step = 1e-9, .leap = true, .most = 7}, {});
-  summarise(run);
+  const Simulation run = run_in_steps(scene, {.step = 1e-9, .leap = true, .most = 7}, {});
   EXPECT_EQ(run.status, SimulationStatus::step_limit);
   EXPECT_EQ(run.steps, 7);
   EXPECT_THAT(run.why_not_trusted(), testing::HasSubstr("time steps were taken"));
@@ -50,8 +48,7 @@ TEST_P(StepControl, FindsTheAnswerOfMuchSmallerSteps) {
   const Simulation run = run_in_chosen_steps(scene, {});
   ASSERT_LT(run.step_error.value().failure_strain, 0.5e-3);
   ASSERT_LT(run.step_error.value().strength, GetParam() == 0.0 ? 7e-3 : 0.5e-3);
-  Simulation finer = run_in_steps(scene, {.step = run.step / 4.0, .leap = true}, {});
-  summarise(finer);
+  const Simulation finer = run_in_steps(scene, {.step = run.step / 4.0, .leap = true}, {});
   EXPECT_NEAR(run.failure_strain / finer.failure_strain, 1.0, 2e-3);
   EXPECT_NEAR(run.strength / finer.strength, 1.0, GetParam() == 0.0 ? 3e-2 : 2e-3);
 }
@@ -60,8 +57,7 @@ TEST_P(StepControl, FindsTheAnswerOfMuchSmallerSteps) {
 TEST(StepChosen, StandsForTheStrengthToo) {
   Scene scene = without_step(0.0);
   const Simulation run = run_in_chosen_steps(scene, {});
-  Simulation twice = run_in_steps(scene, {.step = 2.0 * run.step, .leap = true}, {});
-  summarise(twice);
+  const Simulation twice = run_in_steps(scene, {.step = 2.0 * run.step, .leap = true}, {});
   EXPECT_NEAR(run.step_error.value().strength, std::abs(1.0 - twice.strength / run.strength),
               1e-12);
   EXPECT_LT(std::abs(1.0 - twice.failure_strain / run.failure_strain),
@@ -74,8 +70,7 @@ TEST_P(StepControl, LeapsWithViscosityToo) {
   scene.material.viscosity = 1e-8;
   scene.loading.strain_rate = 1e4;
   const double first = first_break_by_uniform_stress(scene) - 1e-4;
-  Simulation run = run_in_steps(scene, {.step = 1e-10, .leap = true}, {});
-  summarise(run);
+  const Simulation run = run_in_steps(scene, {.step = 1e-10, .leap = true}, {});
   EXPECT_NEAR(run.first_break_strain / first, 1.0, 1e-6);
   EXPECT_LE(run.energy_defect, 1e-10);
 }
@@ -157,8 +152,7 @@ TEST(StepChosen, KeepsTheAnswerOfALongerStepWhereAShorterHasNone) {
             SimulationStatus::not_converged);
   EXPECT_EQ(run.step, first_step(scene) / 2.0);
   EXPECT_EQ(run.status, SimulationStatus::broken);
-  Simulation twice = run_in_steps(scene, {.step = 2.0 * run.step, .leap = true}, {});
-  summarise(twice);
+  const Simulation twice = run_in_steps(scene, {.step = 2.0 * run.step, .leap = true}, {});
   EXPECT_NEAR(run.step_error.value().strength, std::abs(1.0 - twice.strength / run.strength),
               1e-12);
   EXPECT_THAT(run.regime_ground, testing::HasSubstr("halving to it changed"));

@@ -175,6 +175,21 @@ TEST(SwingingPieces, KeepTheirContactsWhateverTheTolerance) {
   EXPECT_NEAR(strict.strength, usual.strength, 1e-9 * usual.strength);
 }
 
+TEST(SwingingPieces, AreSolvedWithCareWhereTheToleranceAsksForIt) {
+  int met = 0;
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    Scene scene = test::small_scene(0.0, 8, 8);
+    scene.joints.seed = seed;
+    scene.loading.end_fraction = 0.1;
+    const double usual = simulate(scene).worst_residual;
+    scene.solver.tolerance = 0.3 * usual;
+    const double careful = simulate(scene).worst_residual;
+    EXPECT_LE(careful, usual) << seed;
+    if (careful <= scene.solver.tolerance) ++met;
+  }
+  EXPECT_GT(met, 0);
+}
+
 // Columns of fibres that nothing holds lie anywhere, but not far away.
 TEST(SeveredSpecimen, LiesWhereItWasWhereAllBreakTogether) {
   for (const int layers : {6, 9, 14})
