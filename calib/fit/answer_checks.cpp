@@ -17,9 +17,17 @@ Check not_fitted(const char* check) {
   return {check, Outcome::pass, "Not checked: no parameter was fitted with an interval.", false};
 }
 
-double width(const CalibratedParameter& parameter, const std::array<double, 2>& interval) {
-  const bool logarithmic = parameter.interval_95[0] > 0.0 && interval[0] > 0.0;
-  return logarithmic ? std::log(interval[1] / interval[0]) : interval[1] - interval[0];
+double width(const ParameterInfo& info, const std::array<double, 2>& interval) {
+  return to_search(info, interval[1]) - to_search(info, interval[0]);
+}
+
+// Where a profile has no end though that of the slopes is inside the bounds.
+const char* open_side(const CalibratedParameter& parameter) {
+  if (std::isnan(parameter.profile_95[0]) && parameter.slopes_95[0] > parameter.bounds[0])
+    return "below";
+  if (std::isnan(parameter.profile_95[1]) && parameter.slopes_95[1] < parameter.bounds[1])
+    return "above";
+  return nullptr;
 }
 
 // "1.40", or "0.95 to 1.40".
@@ -132,23 +140,27 @@ Check check_correlation(const CalibrationResult& result) {
   return {name, Outcome::warn, text + fmt::format(" Most would tell {}.", helps->what)};
 }
 
-Check check_intervals(const CalibrationResult& result) {
+Check check_intervals(const FitProblem& problem, const CalibrationResult& result) {
   constexpr const char* name = "intervals agree";
   if (result.fitted.empty()) return not_fitted(name);
   std::vector<std::string> differ;
   int compared = 0;
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
-  for (const auto& parameter : result.parameters) {
-    if (!parameter.identifiable || !parameter.profile_missing.empty()) continue;
+  for (std::size_t k = 0; k < result.parameters.size(); ++k) {
+    const CalibratedParameter& parameter = result.parameters[k];
+    if (!parameter.identifiable || !problem.study.calibrate.profiles) continue;
+    if (const char* const side = open_side(parameter); side != nullptr)
+      differ.push_back(fmt::format("{} (open {})", parameter.name, side));
+    const ParameterInfo& info = *problem.unknowns[k].info;
+    const double part = width(info, parameter.profile_95) / width(info, parameter.slopes_95);
+    if (!std::isfinite(part)) continue;
     ++compared;
-    const double part =
-        width(parameter, parameter.profile_95) / width(parameter, parameter.slopes_95);
     least = std::min(least, part);
     most = std::max(most, part);
     if (part < 0.5 || part > 2.0)
       differ.push_back(fmt::format("{} ({:.2g} times as wide)", parameter.name, part));
   }
-  if (compared == 0)
+  if (compared == 0 && differ.empty())
     return {name, Outcome::pass, "Not checked: no profile was asked for or could be had.", false};
   if (differ.empty())
     return {name, Outcome::pass,

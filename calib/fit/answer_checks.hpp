@@ -23,7 +23,7 @@ Check check_influence(const CalibrationResult& result);
 Check check_correlation(const CalibrationResult& result);
 
 /// Wald's and the profile's intervals are about as wide.
-Check check_intervals(const CalibrationResult& result);
+Check check_intervals(const FitProblem& problem, const CalibrationResult& result);
 
 /// The model describes the strengths better than laws without fibres (F19).
 Check check_plain_law(const FitProblem& problem, const Answer& answer);

@@ -32,7 +32,10 @@ bool find_a_start(const FitProblem& problem, Trail& trail, int replicates) {
               {start_point(problem.unknowns), middle_point(problem.unknowns)}, trail.replicates());
   for (const auto& evaluation : both) {
     if (evaluation.failed) continue;
-    auto scatter = scatter_errors(problem, trail.batch(), evaluation);
+    std::vector<Landmarks> scatter(problem.models.size(), Landmarks(Landmarks::Zero()));
+    for (std::size_t f = 0; f < problem.fitted.size(); ++f)
+      scatter[problem.fitted[f]] = scatter_error(problem, trail.batch(), evaluation.point,
+                                                 problem.fitted[f], evaluation.predictions[f]);
     trail.restart(weigh(problem, evaluation, std::move(scatter), Landmarks::Zero()), evaluation);
     return true;
   }
@@ -152,10 +155,9 @@ void choose_replicates(const FitProblem& problem, Trail& trail, Answer& answer) 
 // From here on, at the best point of the scouts; false where they fail there.
 bool take_all_replicates(const FitProblem& problem, Trail& trail, int replicates) {
   trail.set_replicates(replicates);
-  auto here = predict(problem, trail.batch(), {trail.best().point}, trail.replicates()).front();
-  if (here.failed) return false;
-  trail.restart(trail.weights(), std::move(here));
-  return true;
+  trail.restart(trail.weights(),
+                predict(problem, trail.batch(), {trail.best().point}, trail.replicates()).front());
+  return !trail.best().failed;
 }
 
 // Search, weigh anew, search again, until weights and answer agree. The first weights come from
@@ -194,7 +196,7 @@ void alternate_search_and_weights(Trail& trail, Answer& answer) {
 void assess_answer(Trail& trail, Answer& answer) {
   answer.best = trail.best();
   answer.weights = trail.weights();
-  if (trail.stopped() || answer.active.empty()) return;
+  if (trail.stopped() || answer.active.empty() || answer.best.failed) return;
   trail.lift_budget();
   trail.enter("uncertainty");
   answer.slopes = differentiate(trail, answer.best, answer.active, slope_step);

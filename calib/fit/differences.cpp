@@ -1,11 +1,14 @@
 #include "calib/fit/differences.hpp"
 
+#include <cassert>
+
 namespace havers::calib {
 namespace {
 
 // Variance of the mean difference between paired replicates: common random numbers leave only what
 // does not cancel.
 Landmarks variance_of_difference(const Prediction& a, const Prediction& b) {
+  assert(a.replicates.size() == b.replicates.size());
   Landmarks sum = Landmarks::Zero(), squares = Landmarks::Zero();
   int n = 0;
   for (std::size_t i = 0; i < a.replicates.size(); ++i) {
@@ -44,7 +47,7 @@ void set_column(const FitProblem& problem, const Weights& weights, const Move& m
     result.variance.col(column).segment<landmark_count>(landmark_count *
                                                         static_cast<Eigen::Index>(f)) = paired;
     // Moves that need no new simulation cancel to rounding, and say nothing of the gain.
-    if (paired.sum() < 1e-9 * independent.sum()) continue;
+    if (paired.sum() <= 1e-9 * independent.sum() + 1e-18) continue;
     result.paired += paired.sum();
     result.independent += independent.sum();
   }

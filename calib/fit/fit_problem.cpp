@@ -69,21 +69,6 @@ std::vector<sim::Scene> replicates_of(const Specimen& specimen, std::uint64_t se
   return scenes;
 }
 
-// How the landmarks change with the scatter, per unit of d.
-Landmarks scatter_slope(const FitProblem& problem, SimulationBatch& batch, const Evaluation& at,
-                        std::size_t fitted) {
-  const std::size_t specimen = problem.fitted[fitted];
-  const auto& here = at.predictions[fitted];
-  sim::Scene scene = scene_at(problem, at.point, specimen);
-  const double step = scene.joints.scatter < 1.0 ? scatter_step : -scatter_step;
-  scene.joints.scatter += step;
-  const auto replicates = static_cast<int>(here.replicates.size());
-  const auto moved = summarise(batch.run(replicates_of(
-      problem.study.specimens[specimen], seed_at(problem, at.point), scene, replicates)));
-  if (moved.failed_point()) return Landmarks::Zero();
-  return (moved.mean - here.mean) / step;
-}
-
 }  // namespace
 
 FitProblem make_problem(const Study& study) {
@@ -198,16 +183,19 @@ std::set<double> one_sided_orientations(const FitProblem& problem, const Evaluat
   return orientations;
 }
 
-std::vector<Landmarks> scatter_errors(const FitProblem& problem, SimulationBatch& batch,
-                                      const Evaluation& at) {
-  std::vector<Landmarks> errors(problem.models.size(), Landmarks(Landmarks::Zero()));
-  if (searched(problem, "scatter")) return errors;
-  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
-    const std::size_t s = problem.fitted[f];
-    const double error = problem.models[s].scatter_standard_error;
-    if (error > 0.0) errors[s] = error * scatter_slope(problem, batch, at, f).abs();
-  }
-  return errors;
+Landmarks scatter_error(const FitProblem& problem, SimulationBatch& batch, const Point& point,
+                        std::size_t specimen, const Prediction& here) {
+  const double error = problem.models[specimen].scatter_standard_error;
+  if (!(error > 0.0) || searched(problem, "scatter") || !problem.targets[specimen].usable)
+    return Landmarks::Zero();
+  sim::Scene scene = scene_at(problem, point, specimen);
+  const double step = scene.joints.scatter < 1.0 ? scatter_step : -scatter_step;
+  scene.joints.scatter += step;
+  const auto moved =
+      summarise(batch.run(replicates_of(problem.study.specimens[specimen], seed_at(problem, point),
+                                        scene, static_cast<int>(here.replicates.size()))));
+  if (moved.failed_point()) return Landmarks::Zero();
+  return error * ((moved.mean - here.mean) / step).abs();
 }
 
 Weights weigh(const FitProblem& problem, const Evaluation& at, std::vector<Landmarks> scatter,

@@ -82,13 +82,14 @@ Landmarks residuals_told(const FitProblem& problem, const Evaluation& at);
 /// ones, which no check may take for all. [rad]
 std::set<double> one_sided_orientations(const FitProblem& problem, const Evaluation& at);
 
-/// How much the standard error of its scatter moves each specimen (F6), by simulation at another
-/// scatter. One per specimen of the study; zero where the scatter is searched or known exactly.
-std::vector<Landmarks> scatter_errors(const FitProblem& problem, SimulationBatch& batch,
-                                      const Evaluation& at);
+/// How much the standard error of its scatter moves a specimen (F6), by simulation at another
+/// scatter; zero where the scatter is searched or known exactly.
+/// @param here  what is simulated at the point
+Landmarks scatter_error(const FitProblem& problem, SimulationBatch& batch, const Point& point,
+                        std::size_t specimen, const Prediction& here);
 
 /// The weights (F6), with the replicates' spread at a point.
-/// @param scatter   from `scatter_errors`.
+/// @param scatter   of each specimen of the study, from `scatter_error`.
 /// @param specimen  sd between specimens, from `specimen_effect`.
 Weights weigh(const FitProblem& problem, const Evaluation& at, std::vector<Landmarks> scatter,
               const Landmarks& specimen);

@@ -29,9 +29,9 @@ std::vector<Landmarks> replicate_spread(const std::vector<Replicated>& specimens
   std::vector<Landmarks> spread;
   for (const Replicated& specimen : specimens) {
     const Pool& pool = pools[specimen.orientation];
-    spread.emplace_back(counts(specimen)
-                            ? Landmarks(specimen.scatter * (pool.squares / pool.freedom).sqrt())
-                            : specimen.prediction->sd);
+    const bool pooled = specimen.scatter > 0.0 && pool.freedom > 0.0;
+    spread.emplace_back(pooled ? Landmarks(specimen.scatter * (pool.squares / pool.freedom).sqrt())
+                               : specimen.prediction->sd);
   }
   return spread;
 }

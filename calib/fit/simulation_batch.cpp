@@ -14,15 +14,9 @@
 namespace havers::calib {
 namespace {
 
-// A simulator that throws, or answers with numbers that are none, has failed; the fit goes on
-// without it.
-std::optional<Response> run_safely(const Simulator& simulator, const sim::Scene& scene) {
-  std::optional<Response> answer;
-  try {
-    answer = simulator.run(scene);
-  } catch (const std::exception& error) {
-    return Response{.why = error.what()};
-  }
+// Answers with numbers that are none have failed; the fit goes on without them.
+std::optional<Response> run_checked(const Simulator& simulator, const sim::Scene& scene) {
+  std::optional<Response> answer = simulator.run(scene);
   if (!answer) return answer;
   Response& response = *answer;
   const auto usable = [](double x) { return x > 0.0 && x < 1e30; };
@@ -56,10 +50,14 @@ void SimulationBatch::settle(std::vector<Work>& work) {
     if (stopped_) return;
     if (store_) response = store_->find(key);
     if (response) return;
-    response = run_safely(simulator_, *scene);
+    try {
+      response = run_checked(simulator_, *scene);
+      if (!response) stopped_ = true;
+      if (store_ && response) store_->save(key, *response);
+    } catch (const std::exception& error) {  // which may not come again: for this fit only
+      response = Response{.why = error.what()};
+    }
     simulated = response.has_value();
-    if (!response) stopped_ = true;
-    if (store_ && response) store_->save(key, *response);
   };
   tbb::task_arena arena(threads_ > 0 ? threads_ : tbb::task_arena::automatic);
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, work.size(), settle_one); });

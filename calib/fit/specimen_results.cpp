@@ -160,6 +160,15 @@ Landmarks error_of_parameters(const FitProblem& problem, SimulationBatch& batch,
   return (slopes * answer.uncertainty.follow).rowwise().norm();
 }
 
+// (F6) As the weights have it, of a specimen that the fit did not see at the answer.
+Landmarks error_of_scatter(const FitProblem& problem, SimulationBatch& batch, const Answer& answer,
+                           std::size_t s, const Prediction& here) {
+  if (answer.weights.scatter.empty()) return Landmarks::Zero();
+  return problem.study.specimens[s].use == Use::fit
+             ? answer.weights.scatter[s]
+             : scatter_error(problem, batch, answer.best.point, s, here);
+}
+
 void set_shares(std::vector<SpecimenResult>& specimens) {
   const double sum = 2.0 * cost_of(specimens, 0.0);
   for (auto& specimen : specimens)
@@ -185,14 +194,13 @@ std::vector<SpecimenResult> specimens_of(const FitProblem& problem, SimulationBa
                                          const Answer& answer) {
   const auto simulated = simulate_all(problem, batch, answer);
   const auto spread = spread_of(problem, simulated);
-  const Landmarks none = Landmarks::Zero();
   std::vector<SpecimenResult> results;
   for (std::size_t s = 0; s < simulated.size(); ++s) {
     SpecimenResult& result = results.emplace_back(result_of(problem, s, simulated[s]));
     result.terms =
         terms_of(simulated[s].prediction, problem.targets[s],
                  {.replicates = spread[s],
-                  .scatter = answer.weights.scatter.empty() ? none : answer.weights.scatter[s],
+                  .scatter = error_of_scatter(problem, batch, answer, s, simulated[s].prediction),
                   .specimens = answer.weights.specimen,
                   .parameters = error_of_parameters(problem, batch, answer, s)});
     result.residual = standardised(result.terms);

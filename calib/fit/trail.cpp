@@ -9,7 +9,7 @@ std::vector<Evaluation> Trail::evaluate(const std::vector<Point>& points) {
   const auto& options = problem_.study.calibrate;
   const auto sets =
       static_cast<long>(problem_.fitted.size()) * std::max(options.replicates, replicates_);
-  budget_spent_ = budget_spent_ || batch_.distinct() >= options.budget * sets;
+  budget_spent_ = budget_spent_ || (!budget_lifted_ && batch_.distinct() >= options.budget * sets);
   if (stopped()) return std::vector<Evaluation>(points.size());
 
   auto evaluations = predict(problem_, batch_, points, replicates_);

@@ -44,7 +44,7 @@ class Trail {
   [[nodiscard]] double wall_seconds() const;  ///< Since the search began. [s]
   [[nodiscard]] bool cancelled() const { return cancelled_ || batch_.stopped(); }
   [[nodiscard]] bool budget_spent() const { return budget_spent_; }
-  [[nodiscard]] bool stopped() const { return cancelled() || (budget_spent_ && !budget_lifted_); }
+  [[nodiscard]] bool stopped() const { return cancelled() || budget_spent_; }
 
  private:
   void note(const Evaluation& evaluation);

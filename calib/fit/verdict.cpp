@@ -166,7 +166,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.back().text += weibull_sentence(result, one_sided_orientations(problem, answer.best));
   checks.push_back(check_plain_law(problem, answer));
   checks.push_back(check_correlation(result));
-  checks.push_back(check_intervals(result));
+  checks.push_back(check_intervals(problem, result));
   checks.push_back(check_influence(result));
   checks.push_back(check_randomness(result));
   checks.push_back(check_confirmation(result));

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 #include "calib/fit/calibrate.hpp"
+#include "calib/fit/scenes.hpp"
 #include "tests/support/memory_store.hpp"
 #include "tests/support/studies.hpp"
 
@@ -98,6 +101,39 @@ TEST(Calibrate, SaysThatTheBudgetIsSpentAndKeepsTheBestPoint) {
   EXPECT_EQ(result.status, CalibrationStatus::budget_spent);
   EXPECT_FALSE(result.trusted());
   EXPECT_LT(result.cost, 1e4);
+}
+
+// The last look at the answer is not the searches' any more.
+TEST(Calibrate, EndsWhereTheBudgetWouldEndOnlyItsHindsight) {
+  auto study = test::synthetic_study(test::three_orientations);
+  const auto whole = test::fit(study);
+  const long sets = static_cast<long>(study.specimens.size()) * study.calibrate.replicates;
+  study.calibrate.budget = static_cast<int>(whole.distinct_simulations / sets) - 1;
+  const auto result = test::fit(study);
+  EXPECT_GT(result.distinct_simulations, study.calibrate.budget * sets);
+  EXPECT_EQ(result.status, CalibrationStatus::converged);
+  EXPECT_EQ(result.parameters[0].interval_95, whole.parameters[0].interval_95);
+}
+
+// Scouts have three replicates of which the others tell nothing.
+TEST(Calibrate, HasNoAnswerWhereAllReplicatesOfTheBestPointFail) {
+  const auto study = test::synthetic_study(test::three_orientations);
+  std::set<std::uint64_t> of_scouts;
+  for (const auto& specimen : study.specimens)
+    for (const int replicate : {0, 1, 2})
+      of_scouts.insert(replicate_seed(study.calibrate.seed, specimen.id, replicate));
+  for (const double around : {0.01, 10.0}) {  // the answer, in the logarithm of the ratio
+    auto simulator = test::ClosedForm{}.simulator();
+    simulator.run = [&](const sim::Scene& scene) {
+      auto response = test::ClosedForm{}(scene);
+      const double away = std::log(sim::ratio(scene.assembly, scene.joints) / 2.0);
+      response.failed = !of_scouts.contains(scene.joints.seed) && std::abs(away) < around;
+      return response;
+    };
+    const auto result = calibrate_with(simulator, study);
+    EXPECT_EQ(result.status, CalibrationStatus::all_failed) << around;
+    EXPECT_FALSE(result.trusted());
+  }
 }
 
 // A point that no search came to says nothing of the model, and no interval is worth its time.

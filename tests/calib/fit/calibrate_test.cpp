@@ -173,5 +173,29 @@ TEST(Calibrate, SimulatesHeldOutSpecimensWithoutFittingThem) {
   EXPECT_FALSE(with.trusted());
 }
 
+// The same specimen, seen by the fit or not, at the same answer.
+TEST(Calibrate, CountsTheErrorOfAScatterInHeldOutSpecimensToo) {
+  auto study = test::synthetic_study(test::three_orientations);
+  for (auto& specimen : study.specimens) {
+    SectionPorosity section;
+    section.porosity = 0.1;
+    section.window_sd = 0.05;
+    section.window_sd_standard_error = 0.01;
+    specimen.sections = {section};
+  }
+  study.calibrate.parameters = {"young_GPa", "head_tail_MPa"};
+  const auto error_of = [](const SpecimenResult& specimen) {
+    for (const TermResult& term : specimen.terms)
+      if (term.term == "strength") return term.scatter;
+    return 0.0;
+  };
+  study.specimens.push_back(study.specimens.front());
+  study.specimens.back().use = Use::validate;
+  const auto result = test::fit(study);
+  EXPECT_GT(error_of(result.specimens.front()), 0.0);
+  EXPECT_NEAR(error_of(result.specimens.back()), error_of(result.specimens.front()),
+              0.01 * error_of(result.specimens.front()));
+}
+
 }  // namespace
 }  // namespace havers::calib

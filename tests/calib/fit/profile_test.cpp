@@ -33,6 +33,9 @@ TEST(Profile, GoesFurtherWhereTheCostIsTooLowAndIsOpenWhereItStaysLow) {
   EXPECT_EQ(ratio.interval_95[1], ratio.bounds[1]);
   EXPECT_GT(ratio.interval_95[0], profile->value.front());
   EXPECT_THAT(ratio.profile_missing, testing::HasSubstr("does not rise enough"));
+  const Check agree = test::check_of(result, "intervals agree");
+  EXPECT_EQ(agree.outcome, Outcome::warn);
+  EXPECT_THAT(agree.text, testing::HasSubstr("ratio (open above)"));
 }
 
 }  // namespace

@@ -22,11 +22,18 @@ TEST(ReplicateSpread, IsPooledOverAnOrientationInProportionToTheScatter) {
 }
 
 TEST(ReplicateSpread, WithoutScatterIsTheSpecimensOwn) {
-  const Prediction none = with_sd(0.0, 4), some = with_sd(0.02, 4), single = with_sd(0.0, 1);
-  const auto spread = replicate_spread({{0.0, 0.0, &none}, {0.0, 0.3, &some}, {0.0, 0.3, &single}});
+  const Prediction none = with_sd(0.0, 4), some = with_sd(0.02, 4);
+  const auto spread = replicate_spread({{0.0, 0.0, &none}, {0.0, 0.3, &some}});
   EXPECT_EQ(spread[0][modulus], 0.0);
   EXPECT_NEAR(spread[1][modulus], 0.02, 1e-12);
-  EXPECT_EQ(spread[2][modulus], 0.0);
+}
+
+// One simulation that answered shows no spread, but does not have none.
+TEST(ReplicateSpread, OfASingleReplicateIsThatOfTheOthersAtItsOrientation) {
+  const Prediction some = with_sd(0.02, 4), single = with_sd(0.0, 1);
+  const auto spread = replicate_spread({{0.0, 0.3, &some}, {0.0, 0.6, &single}});
+  EXPECT_NEAR(spread[1][modulus], 0.04, 1e-12);
+  EXPECT_EQ(replicate_spread({{0.0, 0.6, &single}})[0][modulus], 0.0) << "of one alone";
 }
 
 }  // namespace

@@ -64,13 +64,18 @@ TEST(SimulationBatch, CountsASimulatorThatThrowsOrGivesNoNumberAsFailed) {
     if (scene.joints.seed == 2) response.strength = std::numeric_limits<double>::quiet_NaN();
     return response;
   };
-  SimulationBatch batch(simulator, nullptr, 1);
-  const auto answers = batch.run(scenes_with_seeds({1, 2, 3}));
+  test::MemoryStore store;
+  SimulationBatch batch(simulator, &store, 1);
+  const auto scenes = scenes_with_seeds({1, 2, 3});
+  const auto answers = batch.run(scenes);
   EXPECT_TRUE(answers[0].failed);
   EXPECT_EQ(answers[0].why, "out of memory");
   EXPECT_TRUE(answers[1].failed);
   EXPECT_FALSE(answers[2].failed);
   EXPECT_EQ(batch.failed(), 2);
+  const auto keys = batch.keys(scenes);
+  EXPECT_FALSE(store.find(keys[0])) << "there may be memory the next time";
+  EXPECT_TRUE(store.find(keys[1]));
 }
 
 // Seed 2 is stopped: 1 is kept, 3 never begins.

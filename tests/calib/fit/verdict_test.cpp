@@ -37,6 +37,16 @@ TEST(Verdict, PassesAModelThatIsTrue) {
     EXPECT_EQ(check.outcome, Outcome::pass) << check.check << ": " << check.text;
 }
 
+// What a specimen tells does not depend on how narrow the bounds are that it is to lie in.
+TEST(Verdict, SaysThatAParameterIsPressedAgainstANarrowBound) {
+  auto study = test::synthetic_study(test::three_orientations);
+  study.calibrate.bounds["young_GPa"] = {14.5, 14.6};
+  const auto result = test::fit(study);
+  EXPECT_TRUE(test::parameter_of(result, "young_GPa").at_bound);
+  EXPECT_EQ(check_of(result, "inside bounds").outcome, Outcome::fail);
+  EXPECT_FALSE(result.trusted());
+}
+
 TEST(Verdict, GivesChiSquaredOfSpecimensThatWereAlike) {
   const auto alike = check_of(test::fit(test::synthetic_study(test::three_orientations)),
                               "spread between specimens");
