@@ -15,9 +15,6 @@
 namespace havers::cli {
 namespace {
 
-// What asks for 0.3 points of porosity with pores, and for 0.05 without.
-constexpr double enough = 0.003, enough_if_none = 0.0005;
-
 calib::MethodComparison try_all(const BenchArguments& arguments, const CommonOptions& common,
                                 const std::filesystem::path& image) {
   ProgressLine line(common);
@@ -56,9 +53,7 @@ int bench_porosity(const BenchArguments& arguments, const CommonOptions& common)
   if (reports::available())
     output.write("report.html", reports::methods_page({comparison, page_facts(provenance)}));
   answer(common, &output, result, page_or("result.json"), [&] { print_methods(comparison); });
-  const calib::MethodSummary& ours = comparison.methods.back();
-  const bool good = ours.worst_error <= enough && !(ours.worst_if_none > enough_if_none);
-  return good && !interrupted() ? done : answer_is_no;
+  return comparison.good() && !interrupted() ? done : answer_is_no;
 }
 
 }  // namespace havers::cli

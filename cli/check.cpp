@@ -39,8 +39,9 @@ Findings look_at(const std::filesystem::path& file, const io::Overrides& overrid
         findings.warnings = io::read_sweep(file, overrides).warnings;
         break;
       case io::FileKind::scene:
-        const sim::Scene scene = io::read_scene(file, overrides).scene;
-        if (const std::string doubt = sim::doubt_about_steps(scene); !doubt.empty())
+        io::SceneFile read = io::read_scene(file, overrides);
+        findings.warnings = std::move(read.warnings);
+        if (const std::string doubt = sim::doubt_about_steps(read.scene); !doubt.empty())
           findings.warnings.push_back(doubt);
     }
   } catch (const io::InputError& error) {

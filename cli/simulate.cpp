@@ -141,6 +141,10 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
   const Stopwatch watch;
   io::SceneFile file = io::read_scene(arguments.scene, common.set);
   if (common.seed) file.scene.joints.seed = *common.seed;
+  if (common.seed && !file.scene.joints.thresholds.empty())
+    file.warnings.emplace_back(
+        "--seed changes nothing: thresholds_file gives those of every joint");
+  for (const std::string& warning : file.warnings) note(common, "note: " + warning);
   if (const std::string doubt = sim::doubt_about_steps(file.scene); !doubt.empty())
     note(common, "note: " + doubt);
   io::SnapshotRecorder snapshots(file.snapshots);

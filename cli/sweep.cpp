@@ -172,11 +172,16 @@ int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
   OutputFolder output(arguments.folder, common.force || resumes);
   if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
   const auto store = io::open_store(output.keep("evaluations.sqlite"));
-  if (!run_all(all, *store, common))
-    return without_result(common, "cancelled",
-                          fmt::format("stopped by you; the runs so far are kept in {}: the same "
-                                      "command goes on from there",
-                                      output.folder().string()));
+  if (!run_all(all, *store, common)) {
+    const bool patterns =
+        std::ranges::any_of(all, [](const Done& one) { return one.sweep.patterns; });
+    return without_result(
+        common, "cancelled",
+        fmt::format("stopped by you; the runs so far are kept in {}{}: the same command goes on "
+                    "from there",
+                    output.folder().string(),
+                    patterns ? ", but those of sweeps with patterns, which begin anew" : ""));
+  }
   const io::Provenance provenance = provenance_of(common, inputs_of(all), watch);
   write_all(output, arguments, all, provenance);
   answer(common, &output, json_of_all(all, provenance), page_or("result.json"),

@@ -55,7 +55,7 @@ struct Spread {
 /// Simulated curves of one specimen on a common strain grid.
 struct CurveBand {
   std::vector<double> strain;                ///< [-]
-  std::vector<double> median, lower, upper;  ///< 2.5, 50, 97.5 % over replicates. [Pa]
+  std::vector<double> median, lower, upper;  ///< 50, 2.5, 97.5 % over replicates. [Pa]
   std::vector<double> measured;              ///< Interpolated on the grid; NaN beyond its end. [Pa]
   std::vector<double> residual;  ///< Simulated − measured; NaN beyond either end. [Pa]
 };

@@ -93,7 +93,9 @@ void cut_at(double max_strain, Response& response) {
 
 NormalForm normal_form(const sim::Scene& scene, bool quasi_static) {
   NormalForm form{.scene = scene, .max_strain = scene.loading.max_strain};
-  if (!quasi_static || !scene.joints.thresholds.empty()) return form;
+  if (!scene.joints.thresholds.empty()) return form;
+  if (scene.joints.scatter == 0.0 && scene.joints.missing == 0.0) form.scene.joints.seed = 0;
+  if (!quasi_static) return form;
 
   const double to_reference = reference_head_tail / scene.joints.head_tail;
   const double strain_factor = reference_young / scene.material.young / to_reference;

@@ -54,6 +54,11 @@ struct MethodComparison {
   std::vector<HardshipSummary> hardships;               ///< In the order of the trials.
   std::size_t with_pores = 0;                           ///< Trials of sections with pores.
   double coverage = 0.0;  ///< Share of our 95 % intervals that hold the truth, of these. [-]
+
+  /// Whether ours errs by 0.3 points of porosity at most, and 0.05 where there are no pores.
+  [[nodiscard]] bool good() const {
+    return methods.back().worst_error <= 0.003 && !(methods.back().worst_if_none > 0.0005);
+  }
 };
 
 /// Precondition: at least one trial.

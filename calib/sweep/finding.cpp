@@ -14,6 +14,7 @@ namespace havers::calib {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double rounding = 1e-9;  // a difference of no more is none
 
 // Where a value must lie for the claim to hold; for `matters`, for it not to hold.
 struct Bracket {
@@ -28,9 +29,9 @@ Bracket range_of(const FindingRequest& request) {
     case FindingTest::linear:
       return {-margin, margin};
     case FindingTest::rises:
-      return {0.0, infinity};
+      return {rounding, infinity};
     case FindingTest::falls:
-      return {-infinity, 0.0};
+      return {-infinity, -rounding};
     case FindingTest::steady:
     case FindingTest::below:
       return {-infinity, margin};
@@ -51,7 +52,8 @@ bool inside(const Comparison& c, Bracket range) {
 }
 
 bool outside(const Comparison& c, Bracket range) {
-  return c.high < range.low || c.low > range.high;
+  const double slack = c.step ? 2.0 * rounding : 0.0;  // a step may well be none
+  return c.high < range.low - slack || c.low > range.high + slack;
 }
 
 // Every interval inside: agrees. One wholly outside: disagrees; where it is that of a step between
@@ -152,8 +154,8 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
     if (worst.step && outside(worst, range) && finding.outcome == FindingOutcome::undecided)
       finding.ground += "; this step goes the other way";
     if (request.test == FindingTest::matters) finding.outcome = opposite(finding.outcome);
-    finding.meaning = meaning_of(request, finding.outcome);
   }
+  finding.meaning = meaning_of(request, finding.outcome);
   return finding;
 }
 

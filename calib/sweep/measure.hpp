@@ -14,11 +14,12 @@
 namespace havers::calib {
 
 enum class Measure {
-  strength,        ///< [Pa]
-  failure_strain,  ///< [-]
-  modulus,         ///< [Pa]
-  linear_part,     ///< Strain up to which the stress is within 1 % of Eε, over failure strain. [-]
-  fall_part,       ///< Strain from the strength to the end of the run, over failure strain. [-]
+  strength,          ///< [Pa]
+  failure_strain,    ///< [-]
+  modulus,           ///< [Pa]
+  linear_part,       ///< Strain at which the stress lacks 1 % of the strength of Eε, over failure
+                     ///< strain. [-]
+  fall_part,         ///< Strain from the strength to the end of the run, over failure strain. [-]
   head_tail_broken,  ///< Broken head-tail joints.
   flank_broken,      ///< Broken flank joints.
   crack_span,        ///< Height that the largest chain of broken joints spans, over H. [-]

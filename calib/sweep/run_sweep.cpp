@@ -138,8 +138,7 @@ bool SweepResult::trusted() const {
 sim::Scene scale_above(const sim::Scene& scene, const PointSummary& below) {
   const Statistics& strength = below[Measure::strength];
   sim::Scene above = scene;
-  above.joints.flank *= strength.mean / scene.joints.head_tail;
-  above.joints.head_tail = strength.mean;
+  apply(above, "head_tail_MPa", strength.mean / 1e6);
   above.joints.distribution = sim::Distribution::weibull;
   above.joints.scatter = std::min(strength.sd / strength.mean * std::sqrt(12.0), 1.99);
   return above;

@@ -1,5 +1,7 @@
 #include "io/config/read_scene.hpp"
 
+#include <fmt/format.h>
+
 #include "io/config/file_kind.hpp"
 #include "io/config/scene_tables.hpp"
 
@@ -15,6 +17,12 @@ SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrid
   TableReader output = top.table("output");
   output.key("snapshots", read.snapshots);
   output.require(read.snapshots >= 0, "snapshots", read.snapshots, "0 or more");
+
+  if (TableReader joints = top.table("joints"); joints.has("thresholds_file"))
+    for (const char* const key : {"seed", "scatter", "distribution", "missing"})
+      if (joints.has(key))
+        read.warnings.push_back(fmt::format(
+            "joints.{} changes nothing: thresholds_file gives those of every joint", key));
 
   config.finish();
   read.inputs = config.inputs();

@@ -17,6 +17,7 @@ struct SceneFile {
   sim::Scene scene;
   int snapshots = 0;                            ///< .vtu files to write.
   std::vector<std::filesystem::path> inputs{};  ///< The scene, and what it names.
+  std::vector<std::string> warnings{};          ///< A sentence for each key that changes nothing.
 };
 
 /// Reads a scene. Paths in it are relative to its folder.

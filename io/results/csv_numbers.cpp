@@ -15,6 +15,8 @@
 namespace havers::io {
 namespace {
 
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // as Excel's "CSV UTF-8" has it
+
 // Takes rows one by one: the header first, then numbers.
 class Columns {
  public:
@@ -23,6 +25,10 @@ class Columns {
 
   bool take(const Row& row) {
     if (positions_.empty()) return find_columns(row);
+    if (row.cells.size() > cells_)
+      problems_.push_back({fmt::format("{}:{}", file_, row.line),
+                           fmt::format("has {} cells, the header has {}", row.cells.size(), cells_),
+                           "is the decimal mark also the delimiter?"});
     CsvNumbers numbers{row.line, {}};
     for (std::size_t i = 0; i < names_.size(); ++i) numbers.values.push_back(number(row, i));
     rows_.push_back(std::move(numbers));
@@ -42,6 +48,7 @@ class Columns {
   }
 
   bool find_columns(const Row& header) {
+    cells_ = header.cells.size();
     for (const std::string& name : names_) {
       const auto found = std::ranges::find(header.cells, name);
       if (found == header.cells.end())
@@ -68,6 +75,7 @@ class Columns {
   std::string file_;
   const std::vector<std::string>& names_;
   std::vector<std::size_t> positions_;  // of each name in the header
+  std::size_t cells_ = 0;               // of the header
   std::vector<CsvNumbers> rows_;
   std::vector<Problem> problems_;
 };
@@ -91,7 +99,8 @@ std::vector<CsvNumbers> read_csv_numbers(const std::filesystem::path& file,
                                          const std::vector<std::string>& names) {
   Columns columns(file.string(), names);
   CsvRows rows(',', [&](const Row& row) { return columns.take(row); });
-  rows.feed(read_text(file, "a CSV file with a header row is expected there"));
+  const std::string text = read_text(file, "a CSV file with a header row is expected there");
+  rows.feed(std::string_view(text).substr(text.starts_with(byte_order_mark) ? 3 : 0));
   rows.finish();
   return columns.finish();
 }

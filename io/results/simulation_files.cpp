@@ -26,7 +26,9 @@ nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& s
       {"step_error", json_of(error.failure_strain)},
       {"step_error_of_strength", json_of(error.strength)},
       {"strength_Pa", json_of(simulation.strength)},
-      {"failure_strain", json_of(simulation.failure_strain)},
+      {"failure_strain",
+       json_of(simulation.status == sim::SimulationStatus::broken ? simulation.failure_strain
+                                                                  : NAN)},  // not reached
       {"modulus_Pa", json_of(simulation.modulus)},
       {"first_break_strain", json_of(simulation.first_break_strain)},
       {"broken_joints", simulation.broken_joints},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "io/config/file_kind.hpp"
 #include "io/config/parse_toml.hpp"
@@ -11,6 +12,8 @@
 
 namespace havers::io {
 namespace {
+
+constexpr std::array drawn_by{"joints.scatter", "joints.distribution", "joints.missing"};
 
 void read_plan(TableReader& top, calib::Sweep& sweep) {
   TableReader table = top.table("sweep");
@@ -31,6 +34,20 @@ void read_plan(TableReader& top, calib::Sweep& sweep) {
       table.complain("keys", fmt::format("{} cannot vary", key.name),
                      key.name == "joints.seed" ? "give sweep.seed and sweep.seeds instead"
                                                : "only keys of the scene can");
+}
+
+// Thresholds that are given leave nothing to draw.
+void check_thresholds(TableReader& top, const calib::Sweep& sweep) {
+  if (!top.table("joints").has("thresholds_file")) return;
+  TableReader table = top.table("sweep");
+  for (const calib::SweepKey& key : sweep.plan.keys)
+    if (std::ranges::find(drawn_by, key.name) != drawn_by.end())
+      table.complain("keys", key.name + " changes nothing beside joints.thresholds_file",
+                     "leave out one of them");
+  if (sweep.plan.seeds > 1 || sweep.levels > 1)
+    table.complain(sweep.levels > 1 ? "levels" : "seeds",
+                   "asks for draws that joints.thresholds_file leaves no room for",
+                   "leave out one of them");
 }
 
 // Every point puts its own value on top.
@@ -67,6 +84,18 @@ void require_varied(TableReader& table, const calib::SweepPlan& plan, const std:
                    "name a key of [sweep.keys]");
 }
 
+// The same of a key that stands for a number.
+void require_number(TableReader& table, const calib::SweepPlan& plan, const std::string& key,
+                    const char* name) {
+  require_varied(table, plan, key, name);
+  const auto found = std::ranges::find(plan.keys, key, &calib::SweepKey::name);
+  if (found != plan.keys.end() && std::ranges::any_of(found->values, [](const std::string& value) {
+        return std::isnan(calib::number_in(value));
+      }))
+    table.complain(name, fmt::format("names {}, whose values are no numbers", key),
+                   "name a key with numbers, or give one of words as per");
+}
+
 // What is read off the broken joints is known only where they are looked at.
 void require_looked_at(TableReader& table, const calib::Sweep& sweep, calib::Measure response) {
   if (!sweep.patterns && response >= calib::Measure::head_tail_broken)
@@ -79,14 +108,18 @@ void read_questions(TableReader& top, calib::Sweep& sweep) {
     calib::LawRequest& law = sweep.laws.emplace_back();
     keys(table, law);
     require_looked_at(table, sweep, law.response);
-    for (const std::string& term : law.terms) require_varied(table, sweep.plan, term, "terms");
+    for (const std::string& term : law.terms) require_number(table, sweep.plan, term, "terms");
     require_varied(table, sweep.plan, law.per, "per");
   }
   for (TableReader& table : top.tables("finding")) {
     calib::FindingRequest& finding = sweep.findings.emplace_back();
     keys(table, finding);
     require_looked_at(table, sweep, finding.response);
-    for (const std::string& key : finding.keys) require_varied(table, sweep.plan, key, "keys");
+    const bool in_order = finding.test == calib::FindingTest::rises ||
+                          finding.test == calib::FindingTest::falls ||
+                          finding.test == calib::FindingTest::linear;
+    for (const std::string& key : finding.keys)
+      (in_order ? require_number : require_varied)(table, sweep.plan, key, "keys");
     require_varied(table, sweep.plan, finding.per, "per");
     const bool of_keys = finding.test <= calib::FindingTest::linear;
     if (of_keys && finding.keys.empty())
@@ -101,7 +134,7 @@ void read_questions(TableReader& top, calib::Sweep& sweep) {
     calib::SweepFigure& figure = sweep.figures.emplace_back();
     keys(table, figure);
     require_looked_at(table, sweep, figure.response);
-    require_varied(table, sweep.plan, figure.x, "x");
+    require_number(table, sweep.plan, figure.x, "x");
     require_varied(table, sweep.plan, figure.series, "series");
     require_varied(table, sweep.plan, figure.per, "per");
   }
@@ -117,6 +150,7 @@ calib::SweepPoint read_point(SweepFile& read, Overrides overrides,
   TableReader top = config.top();
   calib::Sweep again;
   read_plan(top, again);
+  check_thresholds(top, again);
   read_questions(top, again);
   calib::SweepPoint point;
   read_scene_tables(top, point.scene);

@@ -39,7 +39,7 @@ std::string methods_page(const MethodsReport& report) {
     hardships.emplace_back(hardship_row(hardship));
   return render_page(
       "havers bench: porosity of sections", "methods",
-      {{"grade", text(ours.worst_error <= 0.003 ? "good" : "bad")},
+      {{"grade", text(comparison.good() ? "good" : "bad")},
        {"sentence",
         text(fmt::format("On {} drawn sections {} errs by {} points of porosity at most.",
                          comparison.trials.size(), to_string(ours.method),

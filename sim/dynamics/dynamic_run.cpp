@@ -129,6 +129,7 @@ bool DynamicRun::advance() {
   if (!result.converged && result.displacements.allFinite()) return false;
   const Motion before = motion_;
   move(result);
+  if (!finite()) return true;  // the joints stay as they are in the last row
   account(result, before);
   ++steps_;
   slope_ = result.reactions - step_.reactions;

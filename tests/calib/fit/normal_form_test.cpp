@@ -44,6 +44,19 @@ TEST(NormalForm, IsTheSameForEveryModulusAndHeadTailStress) {
   }
 }
 
+TEST(NormalForm, HasNoSeedWhereNothingIsDrawn) {
+  const auto seed_of = [](double scatter, double missing) {
+    auto scene = some_scene();
+    scene.joints.scatter = scatter;
+    scene.joints.missing = missing;
+    scene.joints.seed = 7;
+    return normal_form(scene, true).scene.joints.seed;
+  };
+  EXPECT_EQ(seed_of(0.0, 0.0), 0U);
+  EXPECT_EQ(seed_of(0.3, 0.0), 7U);
+  EXPECT_EQ(seed_of(0.0, 0.1), 7U);
+}
+
 TEST(NormalForm, DiffersInWhateverChangesTheSequenceOfBreaks) {
   const auto key = key_of(normal_form(some_scene(), true).scene);
   const auto differs = [&](auto change) {

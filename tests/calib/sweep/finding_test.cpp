@@ -23,6 +23,7 @@ Finding found(FindingTest test, double slope, double sd, double margin = 0.05) {
   request.keys = {"x"};
   request.margin = margin;
   request.if_agrees = "so it is";
+  request.if_undecided = "who knows";
   const auto findings = judge(request, known.plan, known.points, known.runs);
   EXPECT_EQ(findings.size(), 1U);
   return findings.front();
@@ -57,6 +58,13 @@ TEST(Finding, RisesAndFallsTellTheSign) {
   EXPECT_EQ(found(FindingTest::rises, 0.0, 1.0).outcome, FindingOutcome::undecided);
 }
 
+TEST(Finding, TakesNoDifferenceForOne) {
+  for (const double slope : {0.0, 1e-10, -1e-10}) {
+    EXPECT_EQ(found(FindingTest::rises, slope, 0.0).outcome, FindingOutcome::disagrees) << slope;
+    EXPECT_EQ(found(FindingTest::falls, slope, 0.0).outcome, FindingOutcome::disagrees) << slope;
+  }
+}
+
 // Judged over x = 0, 1, 2 by strengths of these means.
 Finding rising(std::vector<double> means, double sd) {
   const KnownSweep known({{"x", {"0", "1", "2"}}}, 20, [&](const SweepPoint& p, int k) {
@@ -82,6 +90,10 @@ TEST(Finding, AgreesWhereAStepFallsByNoMoreThanChance) {
   EXPECT_EQ(finding.outcome, FindingOutcome::agrees);
   EXPECT_EQ(finding.what, "x = 2 against 0");
   EXPECT_GT(finding.low, 0.0);
+}
+
+TEST(Finding, AgreesWhereAStepIsNone) {
+  EXPECT_EQ(rising({100.0, 100.0, 110.0}, 0.0).outcome, FindingOutcome::agrees);
 }
 
 TEST(Finding, DisagreesWhereTheEndsFallWhateverTheStepsDo) {
@@ -192,6 +204,7 @@ Finding judged_with_an_unbroken_run(Measure response) {
   FindingRequest request;
   request.keys = {"x"};
   request.response = response;
+  request.if_undecided = "who knows";
   return judge(request, known.plan, known.points, known.runs).front();
 }
 
@@ -212,6 +225,8 @@ TEST(Finding, OfTheModulusNeedsNoBreak) {
 TEST(Finding, GivesTheWordsOfItsOutcome) {
   EXPECT_EQ(found(FindingTest::same, 0.0, 1.0).meaning, "so it is");
   EXPECT_EQ(found(FindingTest::same, 9.0, 1.0).meaning, "");
+  EXPECT_EQ(found(FindingTest::same, 2.5, 5.0).meaning, "who knows");
+  EXPECT_EQ(judged_with_an_unbroken_run(Measure::strength).meaning, "who knows");
 }
 
 }  // namespace

@@ -255,6 +255,17 @@ TEST_F(ReadScene, NeedsANameOfAFile) {
               ElementsAre("scene.toml:2: joints.thresholds_file: is empty, must name a file"));
 }
 
+TEST_F(ReadScene, SaysWhatChangesNothingBesideThresholds) {
+  folder.write("joints.csv", "joint,f_N,f_T\n0,1,1\n1,1,1\n2,1,1\n");
+  const std::string text =
+      "[assembly]\nlayers = 2\nfibres = 1\n[joints]\nscatter = 0.3\nseed = 4\n";
+  EXPECT_THAT(read(text).warnings, testing::IsEmpty());
+  EXPECT_THAT(read(text + "thresholds_file = \"joints.csv\"\n", {"joints.missing=0.1"}).warnings,
+              ElementsAre(HasSubstr("joints.seed changes nothing"),
+                          HasSubstr("joints.scatter changes nothing"),
+                          HasSubstr("joints.missing changes nothing")));
+}
+
 TEST_F(ReadScene, ReadsThresholdsBesideIt) {
   folder.write("sub/joints.csv", "f_T,joint,f_N\n4,1,3\n2,0,1\n");
   const std::string text = "[assembly]\nlayers = 1\nfibres = 1\n[joints]\nthresholds_file = \"sub/";

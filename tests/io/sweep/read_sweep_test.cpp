@@ -77,7 +77,9 @@ TEST(ReadSweep, MakesASceneOfEveryPoint) {
 TEST(ReadSweep, NamesEveryFileThatItReadOnce) {
   const ScratchFolder folder;
   const auto joints = folder.write("joints.csv", "joint,f_N,f_T\n0,3,4\n");
-  const auto file = folder.write("s.toml", R"([sweep.keys]
+  const auto file = folder.write("s.toml", R"([sweep]
+seeds = 1
+[sweep.keys]
 "joints.friction" = [0.1, 0.2]
 [assembly]
 layers = 1
@@ -140,6 +142,43 @@ TEST(ReadSweep, AsksForPatternsWhereAQuestionIsAboutThem) {
               ElementsAre(HasSubstr("figure.response: is known only where the broken joints are "
                                     "looked at (say patterns = true in [sweep])")));
   EXPECT_NO_THROW(read_sweep(folder.write("s.toml", "[sweep]\npatterns = true\n" + text)));
+}
+
+// Words have no order, and no place on an axis.
+TEST(ReadSweep, AsksForNumbersWhereAQuestionIsAboutThem) {
+  const ScratchFolder folder;
+  const std::string text = "[sweep.keys]\n\"joints.distribution\" = [\"uniform\", \"weibull\"]\n";
+  const auto complaints = [&](const std::string& question) {
+    const auto file = folder.write("s.toml", text + question);
+    return complaints_of(folder, [&] { read_sweep(file); });
+  };
+  const auto refused =
+      ElementsAre(HasSubstr("names joints.distribution, whose values are no numbers"));
+  EXPECT_THAT(complaints("[[law]]\nterms = [\"joints.distribution\"]\n"), refused);
+  EXPECT_THAT(complaints("[[finding]]\ntest = \"rises\"\nkeys = [\"joints.distribution\"]\n"),
+              refused);
+  EXPECT_THAT(complaints("[[figure]]\nx = \"joints.distribution\"\n"), refused);
+  EXPECT_THAT(complaints("[[finding]]\ntest = \"same\"\nkeys = [\"joints.distribution\"]\n"),
+              testing::IsEmpty());
+}
+
+TEST(ReadSweep, DrawsNothingBesideGivenThresholds) {
+  const ScratchFolder folder;
+  folder.write("t.csv", "joint,f_N,f_T\n0,1,1\n1,1,1\n2,1,1\n");
+  const std::string text =
+      "[assembly]\nlayers = 2\nfibres = 1\n[joints]\nthresholds_file = \"t.csv\"\n[sweep]\n";
+  const auto complaints = [&](const std::string& sweep) {
+    const auto file = folder.write("s.toml", text + sweep);
+    return complaints_of(folder, [&] { read_sweep(file); });
+  };
+  const std::string friction = "keys.\"joints.friction\" = [0.1, 0.2]\n";
+  EXPECT_THAT(complaints("seeds = 1\n" + friction), testing::IsEmpty());
+  EXPECT_THAT(complaints("seeds = 3\n" + friction),
+              ElementsAre(HasSubstr("sweep.seeds: asks for draws that joints.thresholds_file")));
+  EXPECT_THAT(complaints("seeds = 1\nlevels = 2\n" + friction),
+              ElementsAre(HasSubstr("sweep.levels: asks for draws")));
+  EXPECT_THAT(complaints("seeds = 1\nkeys.\"joints.scatter\" = [0.1, 0.2]\n"),
+              ElementsAre(HasSubstr("joints.scatter changes nothing beside")));
 }
 
 TEST(ReadSweep, NamesAMarginThatCannotBe) {
