@@ -74,6 +74,23 @@ void warn_of_bone(const PoreMap& map, bool outlined, cv::Size image,
                     100.0 * share));
 }
 
+// Where the user says what is bone, but the image shows a background around it.
+void warn_of_background(const cv::Mat& whole, const PoreMap& map, cv::Rect box,
+                        const io::SectionOptions& options, Warnings& warnings) {
+  if (!options.mask && !options.fills_image) return;
+  const Regions found = divide(whole, options.pores);
+  if (!found.outlined) return;
+  cv::Mat elsewhere = cv::Mat(whole.size(), CV_8U, cv::Scalar(255));
+  elsewhere(found.box) &= ~found.search;
+  const double share =
+      cv::countNonZero(elsewhere(box) & map.bone) / static_cast<double>(cv::countNonZero(map.bone));
+  if (share > 0.01)
+    warnings.push_back(fmt::format(
+        "{:.0f} % of {} looks like background around a bone: if it is, {}", 100.0 * share,
+        options.mask ? "the mask" : "the image",
+        options.mask ? "make the mask smaller" : "do not say that bone fills the image"));
+}
+
 // As bright as the bone, a strip with a scale or a label passes for a second piece of it.
 void warn_of_strips(const PoreMap& map, cv::Rect box, cv::Size image, Warnings& warnings) {
   constexpr int blur = 4;  // [px]
@@ -225,6 +242,7 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
   measured.porosity.method = method_of(options.threshold);
   add_density(whole, grey, map, options.density, measured.porosity);
   warn_of_bone(map, regions.outlined, whole.size(), options, doubts);
+  warn_of_background(whole, map, regions.box, options, doubts);
   warn_of_strips(map, regions.box, whole.size(), doubts);
   warn_of_drawings(map, colours.empty() ? colours : colours(regions.box), doubts);
   warn_of_side(map, !regions.outlined || map.dark == regions.dark_pores, options.pores, doubts);

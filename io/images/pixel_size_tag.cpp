@@ -23,12 +23,20 @@ bool is_for_paper(double pixel) {
   return whole && dots <= 2400.0 && (std::fmod(dots, 12.0) == 0.0 || std::fmod(dots, 50.0) == 0.0);
 }
 
+// Of pixels that are not square, none.
+double square(double x, double y) {
+  return std::abs(x - y) <= 0.01 * x ? x : 0.0;
+}
+
 // Chunks of a PNG: length, name, data, checksum. pHYs: pixels a unit in x and y, unit 1 is a metre.
 double png_pixel(FileBytes& bytes) {
   for (Offset at = 8; bytes.text(at + 4, 4).size() == 4;) {
     const std::string name = bytes.text(at + 4, 4);
     if (name == "IDAT") break;
-    if (name == "pHYs") return bytes.number(at + 16, 1) == 1 ? 1.0 / real(bytes, at + 8) : 0.0;
+    if (name == "pHYs")
+      return bytes.number(at + 16, 1) == 1
+                 ? square(1.0 / real(bytes, at + 8), 1.0 / real(bytes, at + 12))
+                 : 0.0;
     at += 12 + bytes.number(at, 4);
   }
   return 0.0;
@@ -55,7 +63,7 @@ double unit_of(const std::string& description) {
 double tiff_pixel(FileBytes& bytes) {
   bytes.set_big_endian(bytes.text(0, 2) == "MM");
   const Offset directory = bytes.number(4, 4);
-  double resolution = 0.0, unit = inch, described = 0.0;
+  double across = 0.0, down = 0.0, unit = inch, described = 0.0;  // pixels a unit
   for (Offset i = 0; i < bytes.number(directory, 2); ++i) {
     const Offset entry = directory + 2 + 12 * i, place = bytes.number(entry + 8, 4);
     switch (bytes.number(entry, 2)) {
@@ -63,7 +71,9 @@ double tiff_pixel(FileBytes& bytes) {
         described = unit_of(bytes.text(place, bytes.number(entry + 4, 4)));
         break;
       case 282:  // XResolution, a fraction
-        resolution = real(bytes, place) / std::max(1.0, real(bytes, place + 4));
+      case 283:  // YResolution
+        (bytes.number(entry, 2) == 282 ? across : down) =
+            real(bytes, place) / real(bytes, place + 4);
         break;
       case 296: {  // ResolutionUnit: none, inch, centimetre
         const auto code = bytes.number(entry + 8, 2);
@@ -74,7 +84,15 @@ double tiff_pixel(FileBytes& bytes) {
         break;
     }
   }
+  const double resolution = square(across, down > 0.0 ? down : across);
   return resolution > 0.0 ? (described > 0.0 ? described : unit) / resolution : 0.0;
+}
+
+// "rows\columns", in mm.
+double spacing_in(const std::string& text) {
+  char* end = nullptr;
+  const double rows = 1e-3 * std::strtod(text.c_str(), &end);
+  return *end == '\\' ? square(rows, 1e-3 * std::strtod(end + 1, nullptr)) : rows;
 }
 
 // Elements of a DICOM file: group, element, [type,] length, data. Sequences of unknown length are
@@ -100,7 +118,7 @@ double dicom_pixel(FileBytes& bytes) {
     if (group == 2 && element == 0x10)  // transfer syntax
       typed = text.substr(0, text.find('\0')) != "1.2.840.10008.1.2";
     if ((group == 0x28 && element == 0x30) || (group == 0x18 && element == 0x1164))
-      return 1e-3 * std::strtod(text.c_str(), nullptr);
+      return spacing_in(text);
     const bool inside = length == 0xFFFFFFFFU || (group == 0xFFFE && element == 0xE000);
     at = inside ? data : data + length;
   }

@@ -25,10 +25,10 @@ std::string number(std::uint32_t value, int size, Order order) {
 }
 
 // A PNG as far as its pHYs chunk.
-std::string png(std::uint32_t per_unit, int unit) {
+std::string png(std::uint32_t per_unit, int unit, std::uint32_t down = 0) {
   const auto big = [](std::uint32_t value, int size) { return number(value, size, Order::big); };
   const std::string header = "\x89PNG\r\n\x1a\n" + big(13, 4) + "IHDR" + std::string(17, '\0');
-  return header + big(9, 4) + "pHYs" + big(per_unit, 4) + big(per_unit, 4) +
+  return header + big(9, 4) + "pHYs" + big(per_unit, 4) + big(down > 0 ? down : per_unit, 4) +
          static_cast<char>(unit) + big(0, 4);
 }
 
@@ -99,6 +99,7 @@ TEST_F(PixelSizeTag, OfAPngIsInPixelsAMetre) {
   EXPECT_NEAR(size_of(png(200000, 1)), 5.0, 1e-9);
   EXPECT_TRUE(std::isnan(size_of(png(200000, 0))));  // a ratio of sides, not a size
   EXPECT_TRUE(std::isnan(size_of(png(0, 1))));
+  EXPECT_TRUE(std::isnan(size_of(png(200000, 1, 100000))));  // no square
 }
 
 TEST_F(PixelSizeTag, OfATiffIsInItsUnitInEitherOrderOfBytes) {
@@ -133,6 +134,8 @@ TEST_F(PixelSizeTag, OfADicomSliceComesWithItsPixels) {
   const auto drawn = test::draw({.width = 300, .height = 260, .porosity = 0.1, .blur = 0.7});
   const auto file = file_of("slice.dcm", dicom("0.0082\\0.0082", drawn.image));
   EXPECT_NEAR(1e6 * tagged_pixel_size(file).value(), 8.2, 1e-9);
+  const auto wide = file_of("wide.dcm", dicom("0.0082\\0.0164", drawn.image));
+  EXPECT_EQ(tagged_pixel_size(wide), std::nullopt);
   const auto measured = io::measure_sections(file, {}).front().porosity;
   EXPECT_NEAR(measured.pixel_size, 8.2e-6, 1e-12);
   EXPECT_NEAR(measured.porosity, drawn.porosity, 3e-3);

@@ -25,6 +25,19 @@ bool warns(const calib::SectionPorosity& section, const std::string& words) {
   });
 }
 
+// The outline that is found ends where the mask goes on.
+TEST(SectionDoubt, AMaskThatTakesInBackgroundIsDoubted) {
+  const auto drawn = test::draw({.porosity = 0.1, .blur = 0.7});
+  const auto doubt = "looks like background around a bone";
+  const cv::Mat all(drawn.image.size(), CV_8U, cv::Scalar(255));
+  cv::Mat inside = cv::Mat::zeros(drawn.image.size(), CV_8U);
+  inside(cv::Rect(200, 180, 250, 200)).setTo(255);
+  const auto file = test::write(all, "all.png"), part = test::write(inside, "inside.png");
+  EXPECT_TRUE(warns(doubted(drawn, "a.png", {.pixel_size = two_um, .mask = file}), doubt));
+  EXPECT_TRUE(warns(doubted(drawn, "a.png", {.pixel_size = two_um, .fills_image = true}), doubt));
+  EXPECT_FALSE(warns(doubted(drawn, "a.png", {.pixel_size = two_um, .mask = part}), doubt));
+}
+
 // Noise about one level: bone, paper, or a lens with its cap on.
 TEST(SectionDoubt, AnImageOfNothingIsRefusedUnlessBoneIsSaidToFillIt) {
   const auto nothing =
