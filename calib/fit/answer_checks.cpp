@@ -226,11 +226,14 @@ std::string weibull_sentence(const CalibrationResult& result, const std::set<dou
         simulated.push_back(replicate.strength / specimen.strength.mean);
   }
   if (measured.size() < 5 || simulated.size() < 5) return "";
-  const Weibull tests = weibull(measured), model = weibull(simulated);
+  const Weibull tests = weibull(measured);
+  const auto [least, most] = std::ranges::minmax(simulated);
   return fmt::format(
       " The scatter of the measured strengths about those predicted is that of a Weibull modulus "
-      "of {:.3g} (95 % interval {:.3g} to {:.3g}), the scatter of the replicates that of {:.3g}.",
-      tests.unbiased, tests.interval_95[0], tests.interval_95[1], model.unbiased);
+      "of {:.3g} (95 % interval {:.3g} to {:.3g}), the replicates {}.",
+      tests.unbiased, tests.interval_95[0], tests.interval_95[1],
+      most - least > 1e-9 ? fmt::format("have one of {:.3g}", weibull(simulated).unbiased)
+                          : "do not scatter");
 }
 
 }  // namespace havers::calib

@@ -19,7 +19,8 @@ Landmarks variance_of_difference(const Prediction& a, const Prediction& b) {
     ++n;
   }
   if (n < 2) return Landmarks::Zero();
-  return (squares - sum.square() / n).max(0.0) / (n * (n - 1.0));
+  constexpr double but_for_rounding = 1.0 - 1e-12;  // of changes that are all the same
+  return (but_for_rounding * squares - sum.square() / n).max(0.0) / (n * (n - 1.0));
 }
 
 // A parameter moved down and up.
@@ -47,7 +48,7 @@ void set_column(const FitProblem& problem, const Weights& weights, const Move& m
     result.variance.col(column).segment<landmark_count>(landmark_count *
                                                         static_cast<Eigen::Index>(f)) = paired;
     // Moves that need no new simulation cancel to rounding, and say nothing of the gain.
-    if (paired.sum() <= 1e-9 * independent.sum() + 1e-18) continue;
+    if (paired.sum() <= 1e-9 * independent.sum()) continue;
     result.paired += paired.sum();
     result.independent += independent.sum();
   }

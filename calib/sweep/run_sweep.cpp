@@ -6,6 +6,7 @@
 
 #include "calib/fit/normal_form.hpp"
 #include "calib/fit/simulation_batch.hpp"
+#include "calib/study/parameter.hpp"
 #include "calib/sweep/sweep.hpp"
 #include "sim/simulation.hpp"
 

@@ -26,11 +26,14 @@ void require_not_negative(TableReader& table, std::string_view key, double value
   table.require(value >= 0.0, key, value, "0 or more");
 }
 
-// The id names files of the result.
+// The id names files of the result, with endings.
+constexpr std::size_t longest_id = 200;  // bytes; file systems take 255
+
 void check_id(TableReader& table, const std::string& id, std::set<std::string>& ids) {
   if (id.empty())
     table.complain("id", table.has("id") ? "is empty" : "is missing", "name the specimen");
-  else if (id.find_first_of("/\\\n") != std::string::npos || id.front() == '.')
+  else if (id.find_first_of(std::string_view("/\\\n\0", 4)) != std::string::npos ||
+           id.front() == '.' || id.size() > longest_id)
     table.complain("id", fmt::format("is \"{}\", must be usable as a file's name", id));
   else if (!ids.insert(id).second)
     table.complain("id", fmt::format("is \"{}\", as that of an earlier specimen", id));

@@ -33,13 +33,8 @@ struct JointLaw {
 constexpr double least_friction = 1e-3;
 
 /// The law of (M5) and that of (M7).
-inline JointLaw intact_law(const Threshold& threshold) {
-  assert(threshold.normal > 0.0);
-  return {threshold.normal, std::max(threshold.tangent / threshold.normal, least_friction)};
-}
-inline JointLaw broken_law(double friction) {
-  return {0.0, std::max(friction, least_friction)};
-}
+JointLaw intact_law(const Threshold& threshold);
+JointLaw broken_law(double friction);
 
 /// How far inside the cone a reaction is, μ (R_N + c) − |R_T|; negative outside. [N/m]
 inline double cone_margin(const Local& reaction, const JointLaw& law) {

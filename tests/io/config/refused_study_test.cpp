@@ -136,6 +136,9 @@ TEST_F(RefusedStudy, NamesImpossibleValuesWithLineAndRule) {
        "study.toml:2: specimen.id: is empty (name the specimen)"},
       {"[[specimen]]\nid = \"a/b\"\ntest = \"t\"\n",
        "study.toml:2: specimen.id: is \"a/b\", must be usable as a file's name"},
+      {"[[specimen]]\nid = \"" + std::string(201, 'a') + "\"\ntest = \"t\"\n",
+       "study.toml:2: specimen.id: is \"" + std::string(201, 'a') +
+           "\", must be usable as a file's name"},
       {"[[specimen]]\nid = \"A1\"\n",
        "study.toml:1: specimen.test: is missing (the testing machine's file)"},
       {one_specimen + "width_mm = 0", "study.toml:4: specimen.width_mm: is 0, must be above 0"},
