@@ -100,7 +100,8 @@ std::vector<CsvNumbers> read_csv_numbers(const std::filesystem::path& file,
   Columns columns(file.string(), names);
   CsvRows rows(',', [&](const Row& row) { return columns.take(row); });
   const std::string text = read_text(file, "a CSV file with a header row is expected there");
-  rows.feed(std::string_view(text).substr(text.starts_with(byte_order_mark) ? 3 : 0));
+  rows.feed(std::string_view(text).substr(text.starts_with(byte_order_mark) ? byte_order_mark.size()
+                                                                            : 0));
   rows.finish();
   return columns.finish();
 }
