@@ -69,11 +69,12 @@ int bench_scene(const BenchArguments& arguments, const CommonOptions& common) {
     throw io::InputError("bench", "no scene is given", "havers bench SCENE.toml -o DIR");
   const Stopwatch watch;
   io::SceneFile file = io::read_scene(arguments.scene, common.set);
+  Digests inputs = digests_of(file.inputs);
   if (common.seed) file.scene.joints.seed = *common.seed;
   OutputFolder output(arguments.folder, common.force);
 
   const sim::WorkPrecision study = watched(file.scene, arguments, common);
-  const io::Provenance provenance = provenance_of(common, file.inputs, watch);
+  const io::Provenance provenance = provenance_of(common, std::move(inputs), watch);
   const nlohmann::json result = io::work_precision_json(file.scene, study, provenance);
   output.write("result.json", io::json_text(result));
   output.write("bench.csv", io::work_precision_csv(study));

@@ -25,7 +25,7 @@ CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& n
                   "2 usage, input, or a part not built in.");
   command->add_flag("--json", common.json, "one JSON object on stdout instead of the summary");
   command->add_flag("-q,--quiet", common.quiet, "no notes and no progress");
-  command->add_flag("-v,--verbose", common.verbose, "more notes");
+  command->add_flag("-v,--verbose", common.verbose, "what a run or fit left out, too");
   command->add_option("--threads", common.threads, "threads; never changes a number (default: all)")
       ->type_name("N")
       ->check(count());

@@ -28,7 +28,7 @@ enum ExitCode {
 struct CommonOptions {
   bool json = false;     ///< One JSON object on stdout instead of the summary.
   bool quiet = false;    ///< No notes and no progress on stderr.
-  bool verbose = false;  ///< More notes on stderr.
+  bool verbose = false;  ///< What was left out, on stdout.
   bool force = false;    ///< Write into a folder that holds a run.
   int threads = 0;       ///< 0: as many as the machine has. Never changes a number.
   std::optional<std::uint64_t> seed;

@@ -54,6 +54,7 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
   if (common.seed) loaded.study.calibrate.seed = *common.seed;
   for (const std::string& doubt : loaded.all_notes()) note(common, "note: " + doubt);
 
+  Digests inputs = digests_of(loaded.inputs);
   const bool resumes = was_stopped(arguments.folder);
   OutputFolder output(arguments.folder, common.force || resumes);
   if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
@@ -67,10 +68,11 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
                                       "same command goes on from there",
                                       output.folder().string()));
 
-  const io::Provenance provenance = provenance_of(common, loaded.inputs, watch);
+  const io::Provenance provenance = provenance_of(common, std::move(inputs), watch);
   write_fit(output, loaded, result, provenance);
   answer(common, &output, io::calibration_json(loaded.study, result, provenance),
-         page_or("result.json"), [&] { print_fit_summary(result, provenance.wall_seconds); });
+         page_or("result.json"),
+         [&] { print_fit_summary(result, provenance.wall_seconds, common.verbose); });
   return result.trusted() ? done : answer_is_no;
 }
 

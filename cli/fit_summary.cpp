@@ -52,7 +52,7 @@ std::string reservations_of(const calib::CalibrationResult& result) {
 
 }  // namespace
 
-void print_fit_summary(const calib::CalibrationResult& result, double wall_seconds) {
+void print_fit_summary(const calib::CalibrationResult& result, double wall_seconds, bool verbose) {
   fmt::print("{}{}: {}\n", result.trusted() ? "to be trusted" : "NOT to be trusted",
              reservations_of(result), ground_of(result));
   for (const calib::Check& check : result.verdict)
@@ -66,6 +66,9 @@ void print_fit_summary(const calib::CalibrationResult& result, double wall_secon
              std::isfinite(result.cost) ? fmt::format("for a cost of {:.4g}", result.cost)
                                         : "without an answer",
              result.evaluations, result.simulated, result.failed_simulations);
+  if (!verbose) return;
+  for (const sim::LeftOut& left_out : result.left_out)
+    fmt::print("left out: {}: {}\n", left_out.what, left_out.why);
 }
 
 }  // namespace havers::cli

@@ -5,7 +5,7 @@
 
 namespace havers::cli {
 
-/// `wall_seconds` stands beside the cost it bought. [s]
-void print_fit_summary(const calib::CalibrationResult& result, double wall_seconds);
+/// `wall_seconds` stands beside the cost it bought [s]; `verbose`: what was left out, too.
+void print_fit_summary(const calib::CalibrationResult& result, double wall_seconds, bool verbose);
 
 }  // namespace havers::cli

@@ -213,7 +213,7 @@ void write_results(const OutputFolder& output, const ImportArguments& arguments,
   if (arguments.gauge) inputs.push_back(*arguments.gauge);
   std::erase_if(inputs, [](const auto& file) { return !std::filesystem::exists(file); });
   if (reports::available())
-    write_figures(output, tests, page_facts(provenance_of(common, inputs, watch)));
+    write_figures(output, tests, page_facts(provenance_of(common, digests_of(inputs), watch)));
   else
     note(common, "no figures and no page: this build makes none (havers --version)");
 }

@@ -189,12 +189,11 @@ void doubt_scatter(LoadedStudy& loaded) {
 }
 
 // Only what the tests do not tell is taken from the model.
-void doubt_rate(LoadedStudy& loaded) {
+void doubt_rate(bool given, LoadedStudy& loaded) {
   std::vector<std::string> silent;
   for (const calib::Specimen& specimen : loaded.study.specimens)
     if (!(specimen.test.strain_rate > 0.0)) silent.push_back(specimen.id);
   const sim::Scene& model = loaded.study.model;
-  const bool given = model.loading.strain_rate != sim::Loading{}.strain_rate;
   if (silent.empty() && given)
     loaded.notes.emplace_back(
         "model.loading.strain_rate_per_s changes nothing: every test has its own");
@@ -272,7 +271,7 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
     take_specimen(read.specimens[i], std::move(outcomes[i]), loaded);
   require_specimens(loaded, file);
   doubt_scatter(loaded);
-  doubt_rate(loaded);
+  doubt_rate(read.rate_is_given, loaded);
   doubt_search(loaded);
   return loaded;
 }

@@ -1,9 +1,13 @@
 #include "cli/output_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <string>
 #include <system_error>
@@ -65,6 +69,15 @@ std::vector<fs::path> missing_above(const fs::path& staging) {
   return missing;
 }
 
+// A descriptor that holds the staging folder of a run, which a kill lets go of; -1: there is none.
+int lock(const fs::path& staging) {
+  const int held = open(staging.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (held < 0 || flock(held, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return held;
+  close(held);
+  throw io::InputError(staging.string(), "is in use: another run is writing there",
+                       "wait for it, or give another folder after -o");
+}
+
 void refuse_to_overwrite(const fs::path& folder, bool force) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder))
@@ -99,15 +112,19 @@ OutputFolder::OutputFolder(const fs::path& folder, bool force)
       made_(missing_above(staging_)) {
   refuse_to_overwrite(folder_, force);
   std::error_code error;
-  fs::remove_all(staging_beside(folder_), error);  // a run that was killed may have left it
-  fs::remove_all(staging_, error);
+  for (const fs::path& left : {staging_beside(folder_), staging_}) {  // by a run that was killed
+    close(lock(left));
+    fs::remove_all(left, error);
+  }
   fs::create_directories(staging_, error);
   if (error) throw io::InputError(folder.string(), "cannot be written: " + error.message());
+  lock_ = lock(staging_);
 }
 
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
   fs::remove_all(staging_, ignored);
+  close(lock_);
   for (const fs::path& folder : made_) fs::remove(folder, ignored);  // where nothing is in it
 }
 

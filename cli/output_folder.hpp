@@ -23,7 +23,8 @@ bool was_stopped(const std::filesystem::path& folder);
 /// again, so that no run leaves half of its files.
 class OutputFolder {
  public:
-  /// @throws InputError when `folder` holds something and `force` is false, or cannot be made.
+  /// @throws InputError when `folder` holds something and `force` is false, cannot be made, or
+  /// another run is writing there.
   OutputFolder(const std::filesystem::path& folder, bool force);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -52,6 +53,7 @@ class OutputFolder {
  private:
   std::filesystem::path folder_, staging_;
   std::vector<std::filesystem::path> made_;  // above them
+  int lock_ = -1;                            // on the staging folder: no other run writes there
 };
 
 }  // namespace havers::cli

@@ -60,9 +60,10 @@ io::DensityReference reference_of(const std::string& text) {
     in >> known.x >> comma >> known.y >> comma >> known.width >> comma >> known.height;
   else
     in >> known.grey;
-  in >> comma >> known.density;
-  if (!in || comma != '=' || known.density < 0.0 ||
-      (is_phantom && (known.width < 1 || known.height < 1)))
+  char equals = 0;
+  in >> equals >> known.density;
+  if (!in || !(in >> std::ws).eof() || (is_phantom && comma != ',') || equals != '=' ||
+      known.density < 0.0 || (is_phantom && (known.width < 1 || known.height < 1)))
     throw io::InputError("--density " + text, "is not understood",
                          "write GREY=DENSITY or X,Y,WIDTH,HEIGHT=DENSITY, in kg/m³, 0 or more");
   return known;
@@ -164,7 +165,7 @@ void write_page(const OutputFolder& output, const PorosityArguments& arguments,
     page.histograms.push_back(section.measured.histogram);
   }
   page.mean = mean_of(sections);
-  page.provenance = page_facts(provenance_of(common, arguments.images, watch));
+  page.provenance = page_facts(provenance_of(common, digests_of(arguments.images), watch));
   output.write("porosity.json", io::json_text(json_of(sections)));
   if (reports::available()) output.write("report.html", reports::porosity_page(page));
 }
@@ -227,6 +228,7 @@ Command porosity_command(CLI::App& app, CommonOptions& common) {
       ->check(not_negative())
       ->capture_default_str();
   parser->add_option("--density", arguments->density, "a known material: grey level or rectangle")
+      ->allow_extra_args(false)
       ->type_name("GREY=KG_M3");
   parser
       ->add_option("--fibre-length-um", arguments->fibre_length_um,

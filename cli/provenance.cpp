@@ -2,6 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <utility>
+
+#include "io/results/sha256.hpp"
+
 namespace havers::cli {
 
 double Stopwatch::wall_seconds() const {
@@ -12,12 +16,16 @@ double Stopwatch::cpu_seconds() const {
   return static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC;
 }
 
-io::Provenance provenance_of(const CommonOptions& common,
-                             const std::vector<std::filesystem::path>& inputs,
-                             const Stopwatch& watch) {
+Digests digests_of(const std::vector<std::filesystem::path>& inputs) {
+  Digests digests;
+  for (const auto& file : inputs) digests[file.string()] = io::sha256(file);
+  return digests;
+}
+
+io::Provenance provenance_of(const CommonOptions& common, Digests inputs, const Stopwatch& watch) {
   io::Provenance provenance;
   provenance.command = common.command_line;
-  for (const auto& file : inputs) provenance.inputs[file.string()] = io::sha256(file);
+  provenance.inputs = std::move(inputs);
   provenance.wall_seconds = watch.wall_seconds();
   provenance.cpu_seconds = watch.cpu_seconds();
   return provenance;

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <ctime>
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "cli/command.hpp"
@@ -23,10 +25,12 @@ class Stopwatch {
   std::clock_t cpu_ = std::clock();
 };
 
+/// File names to SHA-256; to be taken as files are read, for users may change them during a run.
+using Digests = std::map<std::string, std::string>;
+Digests digests_of(const std::vector<std::filesystem::path>& inputs);
+
 /// The command as typed, the inputs' digests, and the time so far.
-io::Provenance provenance_of(const CommonOptions& common,
-                             const std::vector<std::filesystem::path>& inputs,
-                             const Stopwatch& watch);
+io::Provenance provenance_of(const CommonOptions& common, Digests inputs, const Stopwatch& watch);
 
 /// The same as facts for the foot of a page.
 reports::Provenance page_facts(const io::Provenance& provenance);

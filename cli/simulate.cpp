@@ -140,6 +140,7 @@ void print_summary(const sim::Scene& scene, const sim::Simulation& run, double w
 int run_simulate(const SimulateArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   io::SceneFile file = io::read_scene(arguments.scene, common.set);
+  Digests inputs = digests_of(file.inputs);
   if (common.seed) file.scene.joints.seed = *common.seed;
   if (common.seed && !file.scene.joints.thresholds.empty())
     file.warnings.emplace_back(
@@ -160,7 +161,7 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
                     "not hold together as one structure",
                     sim::explain(simulation.status)));
   snapshots.finish(simulation);
-  const io::Provenance provenance = provenance_of(common, file.inputs, watch);
+  const io::Provenance provenance = provenance_of(common, std::move(inputs), watch);
   write_results(output, file, simulation, snapshots, provenance);
   answer(common, &output, io::simulation_json(file.scene, simulation, provenance),
          page_or("result.json"),

@@ -168,6 +168,7 @@ void print_summary(const std::vector<Done>& all, double wall_seconds) {
 int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   std::vector<Done> all = read_all(arguments, common);
+  Digests inputs = digests_of(inputs_of(all));
   const bool resumes = was_stopped(arguments.folder);
   OutputFolder output(arguments.folder, common.force || resumes);
   if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
@@ -182,7 +183,7 @@ int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
                     output.folder().string(),
                     patterns ? ", but those of sweeps with patterns, which begin anew" : ""));
   }
-  const io::Provenance provenance = provenance_of(common, inputs_of(all), watch);
+  const io::Provenance provenance = provenance_of(common, std::move(inputs), watch);
   write_all(output, arguments, all, provenance);
   answer(common, &output, json_of_all(all, provenance), page_or("result.json"),
          [&] { print_summary(all, provenance.wall_seconds); });

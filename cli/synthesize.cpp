@@ -78,7 +78,13 @@ void refuse_what_is_not_made(const std::string& where, const io::SpecimenFiles& 
 
 std::vector<io::Problem> problems_of(const fs::path& study, const io::StudyFile& file) {
   std::vector<io::Problem> problems;
-  std::set<fs::path> to_be_made;
+  std::set<fs::path> to_be_made{"study.toml", "truth.json"};
+  for (const fs::path& input : file.inputs) {  // these are copied
+    to_be_made.insert(place(study, input));
+    if (*place(study, input).begin() == "..")
+      problems.push_back({input.string(), "lies outside the study's folder",
+                          "put it beside the study to have it copied"});
+  }
   for (const io::SpecimenFiles& specimen : file.specimens) {
     std::vector<fs::path> files = specimen.sections;
     files.push_back(specimen.test);
@@ -96,12 +102,10 @@ std::vector<io::Problem> problems_of(const fs::path& study, const io::StudyFile&
       problems.push_back(
           {where, "has sections to draw but no porosity", "add porosity = 0.05, say"});
   }
-  for (const fs::path& input : file.inputs)  // these are copied
-    if (*place(study, input).begin() == "..")
-      problems.push_back({input.string(), "lies outside the study's folder",
-                          "put it beside the study to have it copied"});
   return problems;
 }
+
+constexpr double most_lacking = 0.02;  // of the porosity aimed at; pores come whole
 
 // Draws the sections; what was drawn, not what was aimed at, is the truth.
 std::vector<calib::SectionPorosity> draw_sections(const fs::path& study, const OutputFolder& output,
@@ -122,6 +126,12 @@ std::vector<calib::SectionPorosity> draw_sections(const fs::path& study, const O
     drawing.seed = calib::specimen_seed(seed, i);
     const fs::path image = output.stage(place(study, specimen.sections[i]));
     drawn.push_back(io::draw_section(image, drawing, window));
+    if (drawing.porosity - drawn.back().porosity > most_lacking)
+      throw io::InputError(
+          study.string() + ": specimen " + specimen.id,
+          fmt::format("has porosity {:g}, of which a section holds {:.2f}: pores lie apart",
+                      drawing.porosity, drawn.back().porosity),
+          "lower it, or change pore_radius_um or section_pixels");
   }
   return drawn;
 }
@@ -226,14 +236,15 @@ int run_synthesize(const SynthesizeArguments& arguments, const CommonOptions& co
     throw io::InputError(std::move(problems));
   OutputFolder output(arguments.folder, common.force);
 
+  for (const fs::path& input : file.inputs)  // as they are now
+    fs::copy_file(input, output.stage(input == arguments.study ? "study.toml"
+                                                               : place(arguments.study, input)));
+
   const std::vector<Made> made = make_all(arguments.study, output, file);
   if (!all_are_tests(made))
     return without_result(common, interrupted() ? "cancelled" : "failed", "nothing was written");
   const nlohmann::json truth = truth_of(file, made);
   output.write("truth.json", io::json_text(truth));
-  for (const fs::path& input : file.inputs)
-    fs::copy_file(input, output.stage(input == arguments.study ? "study.toml"
-                                                               : place(arguments.study, input)));
   answer(common, &output, truth, "study.toml", [&] { print_summary(made); });
   return done;
 }

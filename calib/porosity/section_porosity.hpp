@@ -26,7 +26,7 @@ struct SectionPorosity {
   std::string file;
   double pixel_size = 0.0;               ///< [m]
   std::string method;                    ///< How the threshold was found.
-  double threshold = 0.0;                ///< On the flat-fielded grey scale, 0 pore to 1 bone. [-]
+  double threshold = 0.0;                ///< Deeper is pore; depth is 0 in bone, 1 in pores. [-]
   double porosity = 0.0;                 ///< p, Ct.Po: pore area over bone area. [-]
   double porosity_standard_error = 0.0;  ///< [-]
   double porosity_by_grey = 0.0;         ///< Cross-check without a threshold. [-]

@@ -90,9 +90,9 @@ std::vector<std::vector<std::string>> list(const std::vector<SweepKey>& keys) {
 }  // namespace
 
 double number_in(const std::string& value) {
-  double number = std::nan("");
-  std::from_chars(value.data(), value.data() + value.size(), number);
-  return number;
+  double number = 0.0;
+  const char* const end = value.data() + value.size();
+  return std::from_chars(value.data(), end, number).ptr == end ? number : std::nan("");
 }
 
 std::vector<SweepPlan::Problem> SweepPlan::problems() const {
@@ -102,8 +102,8 @@ std::vector<SweepPlan::Problem> SweepPlan::problems() const {
   };
   if (keys.empty()) complain("keys", "names no keys to vary");
   if (seeds < 1) complain("seeds", fmt::format("is {}, must be 1 or more", seeds));
-  if (is_sample(sampling) && points < 1)
-    complain("points", fmt::format("is {}, must be 1 or more", points));
+  if (is_sample(sampling) && (points < 1 || points > most_points))
+    complain("points", fmt::format("is {}, must be from 1 to {}", points, most_points));
   if (sampling == Sampling::sobol && keys.size() > 40)
     complain("keys", "has more keys than the 40 dimensions of the Sobol sequence");
   for (const SweepKey& key : keys) {

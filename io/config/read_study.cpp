@@ -29,11 +29,14 @@ void require_not_negative(TableReader& table, std::string_view key, double value
 // The id names files of the result, with endings.
 constexpr std::size_t longest_id = 200;  // bytes; file systems take 255
 
+bool no_part_of_an_id(char c) {
+  return c == '/' || c == '\\' || c == '"' || (c >= '\0' && c < ' ');
+}
+
 void check_id(TableReader& table, const std::string& id, std::set<std::string>& ids) {
   if (id.empty())
     table.complain("id", table.has("id") ? "is empty" : "is missing", "name the specimen");
-  else if (id.find_first_of(std::string_view("/\\\n\0", 4)) != std::string::npos ||
-           id.front() == '.' || id.size() > longest_id)
+  else if (std::ranges::any_of(id, no_part_of_an_id) || id.front() == '.' || id.size() > longest_id)
     table.complain("id", fmt::format("is \"{}\", must be usable as a file's name", id));
   else if (!ids.insert(id).second)
     table.complain("id", fmt::format("is \"{}\", as that of an earlier specimen", id));
@@ -202,13 +205,13 @@ void read_synthesize(TableReader table, SynthesizeOptions& options) {
   require_positive(table, "sampling_s", options.sampling);
   require_positive(table, "crosshead_mm_per_min", options.crosshead_rate, millimetre_per_minute);
   require_positive(table, "pore_radius_um", options.pore_radius, micrometre);
-  table.require(options.section_pixels >= 16, "section_pixels", options.section_pixels,
-                "at least 16");
+  table.require(options.section_pixels >= 16 && options.section_pixels <= 4096, "section_pixels",
+                options.section_pixels, "from 16 to 4096");
 }
 
 void read_sections(TableReader table, SectionOptions& options) {
   keys(table, options);
-  require_not_negative(table, "rim_um", options.rim);
+  require_not_negative(table, "rim_um", from_si(options.rim, micrometre));
   require_not_negative(table, "crack_slenderness", options.crack_slenderness);
 }
 
@@ -233,6 +236,7 @@ StudyFile read_tables(ConfigFile& config, const std::filesystem::path& file, Fil
 
   TableReader model = top.table("model");
   read_scene_tables(model, read.study.model);
+  read.rate_is_given = model.table("loading").has("strain_rate_per_s");
   if (TableReader joints = model.table("joints"); joints.has("thresholds_file"))
     joints.complain("thresholds_file",
                     "is of one assembly; a study draws thresholds for each specimen",

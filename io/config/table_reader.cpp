@@ -110,7 +110,7 @@ std::optional<std::int64_t> TableReader::whole_number(std::string_view name) {
   if (node == nullptr) return std::nullopt;
   const std::optional<std::int64_t> number = node->value_exact<std::int64_t>();
   if (!number && node->is_number())
-    complain(name, fmt::format("is {}, must be a whole number", *node->value<double>()));
+    complain(name, fmt::format("is {:#}, must be a whole number", *node->value<double>()));
   else if (!number)
     wrong_type(name, *node, "a whole number");
   return number;
@@ -186,12 +186,18 @@ bool TableReader::key(std::string_view name, std::vector<std::filesystem::path>&
 }
 
 bool TableReader::require_file(std::string_view name, const std::filesystem::path& file) {
-  const bool there = std::filesystem::is_regular_file(file);
+  std::error_code error;  // of a name that is too long
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  const bool there = std::filesystem::is_regular_file(status);
   const bool named = file.has_filename();  // beside() has added nothing else to the folder
   if (there) file_->inputs_.push_back(file);
   if (!named) complain(name, "is empty, must name a file");
   if (!named || there) return there;
   const bool set = is_override(innermost(*table_, name));
+  if (std::filesystem::is_directory(status)) {
+    complain(name, fmt::format("names {}, which is a folder", file.string()), "name a file in it");
+    return false;
+  }
   complain(name, fmt::format("names {}, which is not there", file.string()),
            "paths are relative to the folder of " + (set ? file_->file_.string() : "this file"));
   return false;
@@ -220,7 +226,7 @@ std::vector<TableReader> TableReader::tables(std::string_view name) {
   if (node == nullptr) return {};
   const toml::array* list = node->as_array();
   const auto is_table = [](const toml::node& item) { return item.is_table(); };
-  if (list == nullptr || !std::all_of(list->begin(), list->end(), is_table)) {
+  if (list == nullptr || list->empty() || !std::all_of(list->begin(), list->end(), is_table)) {
     complain(name, fmt::format("is {}, must be tables", kind(*node)),
              fmt::format("write [[{}]]", name));
     return {};
@@ -234,7 +240,9 @@ std::vector<TableReader> TableReader::tables(std::string_view name) {
 std::vector<TableReader::List> TableReader::lists(std::string_view name) {
   const toml::node* node = ask(name);
   std::vector<List> all;
-  if (node == nullptr || !node->is_table()) return all;
+  if (node == nullptr) return all;
+  if (!node->is_table()) wrong_type(name, *node, "a table");
+  if (!node->is_table()) return all;
   for (auto&& [key, item] : *node->as_table()) {
     all.emplace_back(key.str(), std::vector<std::string>{});
     if (!item.is_array()) wrong_type(join(std::string(name), key.str()), item, "a list");
@@ -243,6 +251,8 @@ std::vector<TableReader::List> TableReader::lists(std::string_view name) {
       std::ostringstream text;
       if (value.is_floating_point())  // the shortest that reads back the same
         text << fmt::format("{}", **value.as_floating_point());
+      else if (value.is_integer())  // 0x10 is 16
+        text << **value.as_integer();
       else
         text << toml::node_view<const toml::node>(value);
       all.back().second.push_back(text.str());
@@ -282,10 +292,17 @@ std::vector<Problem> ConfigFile::problems() {
       else if (const toml::table* inner = node.as_table())
         open.emplace_back(inner, name);
       else if (const toml::array* list = node.as_array())
-        for (const toml::node& item : *list) open.emplace_back(item.as_table(), name);
+        for (const toml::node& item : *list)
+          if (const toml::table* one = item.as_table()) open.emplace_back(one, name);
     }
   }
   return std::move(problems_);
+}
+
+// One mistake may stand in the way of many keys.
+void ConfigFile::complain(Problem problem) {
+  const auto same = [&](const Problem& other) { return to_string(other) == to_string(problem); };
+  if (std::ranges::none_of(problems_, same)) problems_.push_back(std::move(problem));
 }
 
 void ConfigFile::finish() {

@@ -108,7 +108,7 @@ class ConfigFile {
   ConfigFile& operator=(const ConfigFile&) = delete;
 
   TableReader top();
-  void complain(Problem problem) { problems_.push_back(std::move(problem)); }
+  void complain(Problem problem);
   /// To be called when all keys were asked for: all problems, unknown keys among them.
   std::vector<Problem> problems();
   /// @throws InputError with these.

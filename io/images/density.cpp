@@ -1,5 +1,7 @@
 #include "io/images/density.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
@@ -35,6 +37,11 @@ void add_density(const cv::Mat& whole, const cv::Mat& bone_grey, const PoreMap& 
   const auto at = [&](double g) { return level[0] + common / spread * (g - middle[0]); };
   for (std::size_t i = 0; i < grey.size(); ++i) squares += std::pow(density[i] - at(grey[i]), 2);
   section.density = at(cv::mean(bone_grey, eroded(map.bone, 5) & ~dilated(map.pores, 5))[0]);
+  if (section.density < 0.0)
+    throw io::InputError(
+        section.file,
+        fmt::format("solid bone has a density of {:.0f} kg/m³ by these materials", section.density),
+        "give each grey level or rectangle the density of what it shows");
   section.density_residual = std::sqrt(squares / n);
 }
 

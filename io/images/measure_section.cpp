@@ -34,7 +34,9 @@ std::optional<double> pixel_size_of(const std::filesystem::path& image,
     throw io::InputError(
         image.string(),
         fmt::format("a pixel size of {:g} µm is outside 0.1 to 200 µm", *given * 1e6),
-        "pixel_size_um is the side of one pixel in µm; if it is meant, add --any-pixel-size");
+        "pixel_size_um is the side of one pixel in µm; if it is meant, add --any-pixel-size (in a "
+        "study "
+        "any_pixel_size = true in [sections])");
   const std::optional<double> own = tagged_pixel_size(image);
   if (given && own && std::abs(*given / *own - 1.0) > 0.01)
     warnings.push_back(
@@ -170,8 +172,11 @@ void leave_out_rim(const io::SectionOptions& options, const std::string& name, c
   if (options.rim == 0.0) return;
   if (!options.pixel_size)
     throw io::InputError(name, "the rim to leave out is in µm, but no pixel size is known",
-                         "give it with --pixel-size-um");
+                         "give it with --pixel-size-um (in a study pixel_size_um)");
   const int reach = cvRound(options.rim / *options.pixel_size);
+  if (reach == 0)
+    throw io::InputError(name, "the rim to leave out is less than half a pixel",
+                         "give more, or none");
   bone = eroded_by(bone, reach);
 }
 

@@ -80,7 +80,7 @@ calib::SectionPorosity section_quantities(const PoreMap& map, bool outlined,
   const double bone = cv::countNonZero(map.bone), pixel_area = pixel * pixel;
   calib::SectionPorosity section;
   section.pixel_size = pixel;
-  section.threshold = 1.0 - map.threshold;
+  section.threshold = map.threshold;
   section.porosity = map.area / bone;
   section.porosity_by_grey = map.area_by_grey / bone;
   // (I10): how the parts of the section differ, and how the two ways to measure a pore's area do.

@@ -39,7 +39,7 @@ std::string_view doubt_of_column(const Column& column) {
 }
 
 Candidate classify(const Column& column) {
-  if (is_no_reading(column.name)) return {};
+  if (is_no_reading(column.name) || fact_of_key(column.name)) return {};
   const Quantity named = quantity_of_name(column.name);
   const std::optional<Unit> unit = find_unit(column.unit);
   const Rank rank = !doubt_of_column(column).empty() ? in_doubt
@@ -153,6 +153,18 @@ void name_doubts(TestFile& file, const ReadOptions& options, const Chosen& chose
   }
 }
 
+// A name that says nothing leaves the choice to the unit.
+void name_guesses(TestFile& file, const ReadOptions& options, const Chosen& chosen) {
+  for (const auto& [quantity, i] : chosen) {
+    const Column& column = file.columns[i];
+    if (quantity_of_name(column.name) != Quantity::other || options.columns.contains(quantity))
+      continue;
+    file.test.warnings.push_back(fmt::format(
+        "column \"{}\" is taken as {} by its unit alone ({} takes another)", column.name,
+        to_string(quantity), column_setting(options, to_string(quantity), "...")));
+  }
+}
+
 // A unit of another quantity than the name's is believed, and said where it decides: where the
 // column is taken by it, or what the name speaks of is missing.
 void name_contradictions(TestFile& file, const ReadOptions& options, const Chosen& chosen) {
@@ -239,6 +251,7 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   Chosen chosen = take_hints(file, where, options);
   choose(file, candidates, options, chosen);
   name_doubts(file, options, chosen);
+  name_guesses(file, options, chosen);
   name_contradictions(file, options, chosen);
   name_unknown_units(file, where, options, chosen);
   if (options.logger)

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "io/input_error.hpp"
 #include "io/machine/excerpt.hpp"
@@ -78,18 +79,27 @@ std::string column_place(const ReadOptions& options) {
 void take_units(TestFile& file, const std::string& where, const ReadOptions& options) {
   for (const auto& [quantity, unit] : options.units) {
     if (!held_in(unit, quantity)) throw wrong_unit(where, unit, quantity);
-    bool named = false;
-    for (Column& column : file.columns) {
-      if (quantity_of_name(column.name) != quantity) continue;
-      column.unit = unit;
-      named = true;
-    }
-    if (!named)
+    std::vector<Column*> named;
+    for (Column& column : file.columns)
+      if (quantity_of_name(column.name) == quantity) named.push_back(&column);
+    if (named.empty())
       throw InputError(
           where,
           fmt::format("no column's name speaks of {0}, but {0}_unit is given", to_string(quantity)),
           fmt::format("say {}; the columns are {}",
                       column_setting(options, to_string(quantity), "..."), list_of(file.columns)));
+    if (named.size() > 1)  // meant are those that need it
+      std::erase_if(named,
+                    [](const Column* column) { return find_unit(column->unit).has_value(); });
+    if (named.empty())
+      throw InputError(
+          where,
+          fmt::format("several columns speak of {0}, and {0}_unit does not say which "
+                      "it is of",
+                      to_string(quantity)),
+          fmt::format("say {} too; the columns are {}",
+                      column_setting(options, to_string(quantity), "..."), list_of(file.columns)));
+    for (Column* column : named) column->unit = unit;
   }
 }
 

@@ -21,10 +21,23 @@ struct HeaderLine {
   std::string key, value, unit;
 };
 
+// "4.00 mm", or a value alone.
+HeaderLine value_and_unit(std::string_view key, std::string_view value) {
+  const std::size_t blank = value.rfind(' ');
+  if (blank == std::string_view::npos || !find_unit(value.substr(blank + 1)))
+    return {std::string(key), std::string(value), {}};
+  return {std::string(key), std::string(value.substr(0, blank)),
+          std::string(value.substr(blank + 1))};
+}
+
 HeaderLine header_line(const PreviewRow& row) {
-  auto [key, unit] = split_unit(row.cells[0]);
-  if (row.cells.size() > 2 && !row.cells[2].empty()) unit = without_brackets(row.cells[2]);
-  return {key, row.cells[1], unit};
+  const auto [key, unit] = split_unit(row.cells[0]);
+  HeaderLine line = value_and_unit(key, row.cells[1]);
+  if (row.cells.size() > 2 && !row.cells[2].empty())
+    line.unit = without_brackets(row.cells[2]);
+  else if (line.unit.empty())
+    line.unit = unit;
+  return line;
 }
 
 // "Width: 4.00 mm" in a single cell, as MTS writes its header.
@@ -33,11 +46,7 @@ HeaderLine header_line(std::string_view text) {
   if (colon == std::string_view::npos) return {};
   std::string_view value = text.substr(colon + 1);
   while (value.starts_with(' ') || value.starts_with('\t')) value.remove_prefix(1);
-  const std::size_t blank = value.rfind(' ');
-  if (blank == std::string_view::npos || !find_unit(value.substr(blank + 1)))
-    return {std::string(text.substr(0, colon)), std::string(value), {}};
-  return {std::string(text.substr(0, colon)), std::string(value.substr(0, blank)),
-          std::string(value.substr(blank + 1))};
+  return value_and_unit(text.substr(0, colon), value);
 }
 
 // A row is a line, or, where it is one cell, as many as the cell has.

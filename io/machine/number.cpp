@@ -68,6 +68,7 @@ class Scrubbed {
       cell.remove_prefix(minus_sign.size());
     } else if (cell.starts_with('+')) {
       cell.remove_prefix(1);
+      if (cell.starts_with('-')) return false;
     }
     std::size_t whole = 0;  // digits before the decimal mark
     bool fraction = false;  // past the decimal mark or the exponent's letter

@@ -21,11 +21,16 @@ bool has_ended(const Row& row, const SpecimenColumns& specimen) {
   });
 }
 
-void check_time(const Row& row, const SpecimenColumns& specimen, std::vector<Problem>& problems) {
+// A clock that goes back by most of a day has passed midnight.
+void check_time(const Row& row, SpecimenColumns& specimen, std::vector<Problem>& problems) {
+  constexpr double day = 86400.0;
   for (std::size_t i = 0; i < specimen.channels.size(); ++i) {
-    const std::vector<double>& values = specimen.values[i];
+    std::vector<double>& values = specimen.values[i];
     if (specimen.channels[i].quantity != Quantity::time || values.size() < 2) continue;
-    const double before = values[values.size() - 2], now = values.back();
+    const double before = values[values.size() - 2];
+    double& now = values.back();
+    const bool clock = row.cells[specimen.channels[i].column].find(':') != std::string_view::npos;
+    if (clock && before > now) now += day * std::round((before - now) / day);
     if (now < before)
       problems.push_back({place(specimen.file, row.line),
                           fmt::format("time goes back from {:.6g} s to {:.6g} s", before, now),
@@ -75,7 +80,7 @@ void check_width(const Row& row, std::span<const SpecimenColumns> side_by_side,
 Number read_cell(std::string_view cell, char decimal, const Channel& channel) {
   Number number = parse_number(cell, decimal);
   if (number.fault == NumberFault::text && channel.quantity == Quantity::time)
-    number = parse_clock(cell);
+    return parse_clock(cell);  // in s, whatever the unit
   number.value *= channel.to_si;
   if (std::isinf(number.value)) number.fault = NumberFault::too_large;
   return number;
@@ -85,7 +90,17 @@ void take_numbers(const Row& row, char decimal, std::span<SpecimenColumns> side_
                   std::vector<Problem>& problems) {
   check_width(row, side_by_side, problems);
   for (SpecimenColumns& specimen : side_by_side) {
-    if (side_by_side.size() > 1 && has_ended(row, specimen)) continue;
+    if (side_by_side.size() > 1 && has_ended(row, specimen)) {
+      specimen.ended = true;
+      continue;
+    }
+    if (specimen.ended) {
+      problems.push_back({place(specimen.file, row.line),
+                          fmt::format("specimen {} goes on after rows without cells",
+                                      excerpt(specimen.file.test.specimen_id)),
+                          "fill them, or leave them out"});
+      return;
+    }
     if (!take_cells(row, decimal, specimen, problems)) return;
     check_time(row, specimen, problems);
   }

@@ -16,6 +16,7 @@ struct SpecimenColumns {
   TestFile file;
   std::vector<Channel> channels;
   std::vector<std::vector<double>> values;  ///< As `channels`, in SI units.
+  bool ended = false;                       ///< Its cells were empty in a row.
 };
 
 /// A cell of the channel, in SI units; of a time, a clock's too.

@@ -62,6 +62,13 @@ bool may_be_requoted(std::string_view text) {
   return 2 * quoted > lines;
 }
 
+// 1.5.26 or 01.05.2026, and no number of thousands.
+bool is_dotted_date(std::string_view cell) {
+  const std::size_t first = cell.find('.'), last = cell.rfind('.');
+  return std::ranges::count(cell, '.') == 2 && first <= 2 && last - first <= 3 &&
+         (cell.size() - last == 3 || cell.size() - last == 5);
+}
+
 // 10:00:01 or 2026-05-01: loggers write such a column beside their numbers.
 bool is_clock_time(std::string_view cell) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -69,7 +76,7 @@ bool is_clock_time(std::string_view cell) {
   if (cell.find_first_not_of("0123456789:/-.,T ") != std::string_view::npos) return false;
   if (cell.empty() || !is_digit(cell.front()) || !is_digit(cell.back())) return false;
   const auto marks = std::ranges::count_if(cell, [](char c) { return c == '/' || c == '-'; });
-  return cell.find(':') != std::string_view::npos || marks == 2;
+  return cell.find(':') != std::string_view::npos || marks == 2 || is_dotted_date(cell);
 }
 
 }  // namespace

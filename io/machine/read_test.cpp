@@ -116,7 +116,9 @@ TestFile read_test(const std::filesystem::path& file, const ReadOptions& options
   if (tests.size() > 1)
     throw InputError(
         file.string(), fmt::format("holds {} specimens", tests.size()),
-        fmt::format("say which by specimen_in_file, its name or number: {}", list_of(tests)));
+        options.logger
+            ? "a logger's file holds one"
+            : fmt::format("say which by specimen_in_file, its name or number: {}", list_of(tests)));
   return std::move(tests.front());
 }
 

@@ -68,7 +68,8 @@ class Columns {
     if (!cell.empty() && !(whole && std::isfinite(value)))
       problems_.push_back(
           {fmt::format("{}:{}", file_, row.line),
-           fmt::format("column {} holds \"{}\", must be a number", names_[column], cell), ""});
+           fmt::format("column {} holds \"{}\", must be a number", names_[column], excerpt(cell)),
+           ""});
     return value;
   }
 
@@ -102,6 +103,8 @@ std::vector<CsvNumbers> read_csv_numbers(const std::filesystem::path& file,
   const std::string text = read_text(file, "a CSV file with a header row is expected there");
   rows.feed(std::string_view(text).substr(text.starts_with(byte_order_mark) ? byte_order_mark.size()
                                                                             : 0));
+  if (const std::size_t line = rows.open_quote_line(); line > 0)
+    throw InputError(fmt::format("{}:{}", file.string(), line), "a quote is opened and not closed");
   rows.finish();
   return columns.finish();
 }

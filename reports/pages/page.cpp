@@ -110,7 +110,7 @@ std::string section_caption(const calib::SectionPorosity& section) {
       base_name(section.file),
       plus_minus(section.porosity / in::percent, section.porosity_standard_error / in::percent),
       count(section.pore_count, "pore"), number(section.bone_area / in::mm2, 3),
-      number(section.window_sd, 3), section.method, number(1.0 - section.threshold, 3),
+      number(section.window_sd, 3), section.method, number(section.threshold, 3),
       quantity(section.pixel_size / in::um, "µm", 3));
 }
 

@@ -54,7 +54,7 @@ mstch::array class_rows(const std::vector<calib::PoreClass>& classes) {
 // What no column of the table says of a section.
 Facts facts_of(const calib::SectionPorosity& s) {
   Facts facts{{"Threshold", fmt::format("at a depth of {}, 0 bone, 1 pore ({})",
-                                        number(1.0 - s.threshold, 3), s.method)},
+                                        number(s.threshold, 3), s.method)},
               {"Porosity by grey levels", quantity(s.porosity_by_grey / in::percent, "%", 4)},
               {"Pixel", quantity(s.pixel_size / in::um, "µm", 3)}};
   if (std::isfinite(s.mean_pore_area))

@@ -24,9 +24,11 @@ CurvePoint BreakingRun::point() const {
           .dissipated = dissipated_};
 }
 
+// Not where pieces touch whose position is not determined.
 void BreakingRun::take_note_of_penetration() {
-  for (Index i = 0; i < y_.size(); i += 2)
-    worst_penetration_ = std::max(worst_penetration_, -strain_ * y_(i));
+  for (std::size_t i = 0; i < loose_.size(); ++i)
+    if (!contact_.is_apart(i))
+      worst_penetration_ = std::max(worst_penetration_, -strain_ * y_(2 * static_cast<Index>(i)));
 }
 
 std::vector<JointOutcome> BreakingRun::outcomes() const {

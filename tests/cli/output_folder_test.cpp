@@ -1,5 +1,8 @@
 // Nothing is overwritten unasked, nothing is left half-written.
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include "tests/cli/run_havers.hpp"
 
@@ -34,6 +37,18 @@ TEST(OutputFolder, IsNotReplacedUnlessForceIsGiven) {
   EXPECT_FALSE(fs::exists(folder / "out/snapshots"))
       << "an earlier run's snapshots beside a later run";
   EXPECT_EQ(test::contents(folder / "out/notes.txt"), "mine");
+}
+
+TEST(OutputFolder, IsOfOneRunAtATime) {
+  const fs::path folder = test::folder_with_scene();
+  fs::create_directories(folder / ".out.partial");
+  const int held = open((folder / ".out.partial").c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(flock(held, LOCK_EX), 0);
+  const auto refused = run_havers(folder, "simulate scene.toml -o out");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("another run is writing there"));
+  close(held);
+  EXPECT_EQ(run_havers(folder, "simulate scene.toml -o out").exit_code, 0);
 }
 
 // As a shell takes it again.

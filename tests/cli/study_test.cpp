@@ -43,6 +43,30 @@ TEST(Synthesize, RefusesFilesOutsideTheStudysFolder) {
   EXPECT_FALSE(fs::exists(folder / "made"));
 }
 
+TEST(Synthesize, RefusesFilesInThePlaceOfItsOwn) {
+  const fs::path folder = test::folder_with_study();
+  for (const std::string name : {"truth.json", "study.toml"}) {
+    std::string study = test::small_study();
+    study.replace(study.find("B0.csv"), 6, name);
+    test::write_text(folder / "study.toml", study);
+    const auto answer = run_havers(folder, "synthesize study.toml -o made");
+    EXPECT_EQ(answer.exit_code, 2);
+    EXPECT_THAT(answer.err, HasSubstr(name + ": would be made twice"));
+  }
+}
+
+TEST(Synthesize, RefusesPorosityThatASectionCannotHold) {
+  const fs::path folder = test::folder_with_study();
+  test::write_text(folder / "study.toml", test::small_study() +
+                                              "sections = [\"s.png\"]\nporosity = 0.7\n"
+                                              "[synthesize]\nsection_pixels = 100\n");
+  const auto answer = run_havers(folder, "synthesize study.toml -o made");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_FALSE(fs::exists(folder / "made"));
+  if (answer.err.find("reads no images") != std::string::npos) GTEST_SKIP() << answer.err;
+  EXPECT_THAT(answer.err, HasSubstr("has porosity 0.7, of which"));
+}
+
 TEST(Synthesize, RefusesWhatItDoesNotMake) {
   const fs::path folder = test::folder_with_study();
   test::write_text(folder / "study.toml", test::small_study() +

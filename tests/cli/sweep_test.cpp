@@ -50,6 +50,16 @@ TEST(Sweep, LeavesTablesLawsResultAndStore) {
   EXPECT_THAT(answer.out, HasSubstr("F1"));
 }
 
+TEST(Sweep, ReadsWholeNumbersOfAnyBase) {
+  const fs::path folder = own_folder();
+  std::string text = small;
+  text.insert(text.find("[assembly]"), "\"assembly.fibres\" = [0x3, 0b101]\n");
+  test::write_text(folder / "small.toml", text);
+  EXPECT_EQ(run_havers(folder, "sweep small.toml -o out").exit_code, 0);
+  const auto result = nlohmann::json::parse(test::contents(folder / "out/result.json"));
+  EXPECT_EQ(result["sweeps"][0]["points"].back()["values"]["assembly.fibres"], 5);
+}
+
 TEST(Sweep, PrintsMeansInTheirUnitAndDifferencesInPerCent) {
   const fs::path folder = own_folder();
   test::write_text(folder / "small.toml", std::string(small) +

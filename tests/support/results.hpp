@@ -124,7 +124,7 @@ inline calib::SectionPorosity section_sample(std::string file) {
   section.file = std::move(file);
   section.pixel_size = 5e-6;
   section.method = "half maximum";
-  section.threshold = 0.51;
+  section.threshold = 0.49;
   section.porosity = 0.048;
   section.porosity_standard_error = 0.0021;
   section.pore_count = 213;

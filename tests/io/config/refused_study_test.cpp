@@ -56,6 +56,27 @@ young_GPa = -1
                           "study.toml:2: study.nmae: is not a known key (did you mean name?)"));
 }
 
+// Each by one sentence, however many keys it stands in the way of.
+TEST_F(RefusedStudy, TakesNothingElseForATable) {
+  for (const std::string table : {"study", "model", "porosity", "calibrate", "reduction",
+                                  "sections", "synthesize", "model.joints", "calibrate.bounds"})
+    for (const auto& [value, kind] : {std::pair{"3", "a number"}, {"[1, 2]", "a list"}})
+      EXPECT_THAT(complaints(table + " = " + value + "\n" + one_specimen),
+                  ElementsAre("study.toml:1: " + table + ": is " + kind + ", must be a table"));
+}
+
+TEST_F(RefusedStudy, NamesFoldersAndNamesThatNoFileHas) {
+  folder.write("tests/a.csv", "");
+  EXPECT_THAT(complaints("[[specimen]]\nid = \"A\"\ntest = \"tests\"\n", Files::must_exist),
+              ElementsAre(testing::HasSubstr("which is a folder (name a file in it)")));
+  EXPECT_THAT(complaints("[[specimen]]\nid = \"A\"\ntest = \"" + std::string(300, 'a') + "\"\n",
+                         Files::must_exist),
+              ElementsAre(testing::HasSubstr("study.toml:3: specimen.test: names aaa")));
+  for (const char* id : {"a\\\"b", "a\\tb"})
+    EXPECT_THAT(complaints("[[specimen]]\nid = \"" + std::string(id) + "\"\ntest = \"t.csv\"\n"),
+                ElementsAre(testing::HasSubstr("must be usable as a file's name")));
+}
+
 TEST_F(RefusedStudy, ReportsFaultyLawsAmongTheOthers) {
   folder.write("laws.json", "{}");
   EXPECT_THAT(complaints(one_specimen + "width_mm = 0\n[calibrate]\nlaws = \"laws.json\"\n"),
@@ -80,6 +101,9 @@ TEST_F(RefusedStudy, AsksForSpecimens) {
   EXPECT_THAT(
       complaints("[specimen]\nid = \"A\"\n"),
       ElementsAre("study.toml:1: specimen: is a table, must be tables (write [[specimen]])"));
+  EXPECT_THAT(
+      complaints("specimen = []\n"),
+      ElementsAre("study.toml:1: specimen: is a list, must be tables (write [[specimen]])"));
 }
 
 TEST_F(RefusedStudy, NeedsASpecimenToFit) {
@@ -195,7 +219,11 @@ TEST_F(RefusedStudy, NamesImpossibleValuesWithLineAndRule) {
       {one_specimen + "[synthesize]\nsampling_s = 0",
        "study.toml:5: synthesize.sampling_s: is 0, must be above 0"},
       {one_specimen + "[synthesize]\nsection_pixels = 3",
-       "study.toml:5: synthesize.section_pixels: is 3, must be at least 16"},
+       "study.toml:5: synthesize.section_pixels: is 3, must be from 16 to 4096"},
+      {one_specimen + "[synthesize]\nsection_pixels = 100000",
+       "study.toml:5: synthesize.section_pixels: is 100000, must be from 16 to 4096"},
+      {one_specimen + "[sections]\nrim_um = -1",
+       "study.toml:5: sections.rim_um: is -1, must be 0 or more"},
   };
   for (const ImpossibleStudy& wrong : cases)
     EXPECT_THAT(complaints(wrong.text), ElementsAre(wrong.sentence)) << wrong.text;

@@ -76,6 +76,8 @@ TEST(SectionQuantities, ReadsDensityFromMaterialsOfKnownOne) {
   const DensityReference between{.grey = 127.5, .density = 980.0};
   const auto measured = quantities(drawn, "residual.png", {.density = {air, bone, between}});
   EXPECT_NEAR(measured.density_residual, std::sqrt(200.0), 1e-6);
+  const DensityReference light{.grey = 204.0, .density = 0.0}, heavy{.grey = 255.0, .density = 9.0};
+  EXPECT_THROW(quantities(drawn, "reversed.png", {.density = {heavy, light}}), InputError);
   const auto without = quantities(drawn, "no_reference.png", {});
   EXPECT_TRUE(std::isnan(without.density) && std::isnan(without.density_residual));
 }

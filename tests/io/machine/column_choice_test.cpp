@@ -107,7 +107,7 @@ TEST(ColumnChoice, PassesOverAColumnOfClockTimes) {
 
 // Where it is the time, it counts from its own zero.
 TEST(ColumnChoice, ReadsTheTimeOfAClock) {
-  for (const char* name : {"Time", "Zeit (hh:mm:ss)", "Time (s)"}) {
+  for (const char* name : {"Time", "Zeit (hh:mm:ss)", "Time (s)", "Time (min)", "Time (ms)"}) {
     const TestFile file = choice_of(std::string(name) +
                                     ";Force (N);Strain (%)\n"
                                     "09:59:59,5;1;0,1\n10:00:00,0;2;0,2\n");
@@ -116,6 +116,44 @@ TEST(ColumnChoice, ReadsTheTimeOfAClock) {
   const test::TemporaryFile logger(
       "Time,Strain (%)\n2026-05-01 09:59:59,0.1\n2026-05-01 10:00:00,0.2\n");
   EXPECT_EQ(read_test(logger.path(), {.logger = true}).test.time, (std::vector{35999.0, 36000.0}));
+}
+
+TEST(ColumnChoice, FollowsAClockThroughMidnight) {
+  const char* const rows = "2026-05-01 23:59:59,1\n2026-05-02 00:00:00,2\n2026-05-02 00:00:01,3\n";
+  const TestFile file = choice_of(std::string("Time,Load (N)\n") + rows);
+  EXPECT_EQ(file.test.time, (std::vector{86399.0, 86400.0, 86401.0}));
+  EXPECT_THROW(choice_of("Time,Load (N)\n10:00:05,1\n10:00:00,2\n"), InputError);
+}
+
+TEST(ColumnChoice, PassesOverADateWithDots) {
+  const TestFile file = choice_of(
+      "Datum;Uhrzeit;Kraft (N)\n01.05.2026;10:00:00;1,5\n"
+      "01.05.2026;10:00:01;2,5\n");
+  EXPECT_EQ(file.test.time, (std::vector{36000.0, 36001.0}));
+  EXPECT_EQ(file.test.force, (std::vector{1.5, 2.5}));
+}
+
+TEST(ColumnChoice, TakesNoSizeForAReadingAndSaysWhatAUnitAloneDecides) {
+  EXPECT_TRUE(choice_of("Time (s),Load (N),Width (mm)\n0,1,4\n1,2,4\n").test.extension.empty());
+  const TestFile file = choice_of("Time (s),Load (N),LE1 (mm)\n0,1,0\n1,2,0.1\n");
+  EXPECT_EQ(file.test.extension, (std::vector{0.0, 1e-4}));
+  EXPECT_EQ(file.test.warnings.at(0),
+            "column \"LE1\" is taken as extension by its unit alone (extension = ... in "
+            "[specimen.columns] takes another)");
+}
+
+TEST(ColumnChoice, ReadsMicrostrainAsItIsWritten) {
+  for (const char* unit : {"µstrain", "μstrain", "ustrain", "uε"}) {
+    const TestFile file = choice_of(std::string("Load (N),Strain (") + unit + ")\n1,100\n2,200\n");
+    EXPECT_DOUBLE_EQ(file.test.strain.at(1), 2e-4) << unit;
+    EXPECT_TRUE(file.test.warnings.empty()) << unit;
+  }
+}
+
+TEST(ColumnChoice, RefusesASpecimenThatGoesOnAfterItsEnd) {
+  EXPECT_THROW(choice_of("Specimen 1,,Specimen 2,\nLoad (N),Strain (%),Load (N),Strain (%)\n"
+                         "1,1,1,1\n,,2,2\n3,3,3,3\n"),
+               InputError);
 }
 
 TEST(ColumnChoice, NamesTheKeyOfASignalInVolts) {

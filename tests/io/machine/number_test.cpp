@@ -77,6 +77,7 @@ TEST(ParseClock, ReadsHoursMinutesAndSeconds) {
   for (const char* cell : {"10:00:01.25", "2026-05-01 10:00:01,25", "2026-05-01T10:00:01.25"})
     EXPECT_EQ(parse_clock(cell).value, 36001.25) << cell;
   EXPECT_EQ(parse_clock("2026-05-01T10:00:01.25Z").value, 36001.25);
+  EXPECT_EQ(parse_number("+-5.2").fault, NumberFault::text);
   EXPECT_EQ(parse_clock("0:0:5").value, 5.0);
   EXPECT_EQ(parse_clock("12:01,5").value, 721.5);
   EXPECT_EQ(parse_clock("100:00:00").value, 360000.0);

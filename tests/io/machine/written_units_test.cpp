@@ -98,6 +98,10 @@ TEST(WrittenUnits, AreOverruledByAUnitAlone) {
   }
   EXPECT_DOUBLE_EQ(
       test_of("Time (s);Load (V)", {.units = {{Quantity::force, "500 N/V"}}}).force.at(1), 1000.0);
+  const ReadOptions percent{.units = {{Quantity::strain, "%"}}};
+  EXPECT_DOUBLE_EQ(test_of("Strain;Load (N);Strain 2 (mm/mm)", percent).strain.at(1), 0.01);
+  EXPECT_TRUE(refusal_of("Strain (mm/mm);Load (N);Strain 2 (mm/mm)", percent)
+                  .starts_with("several columns speak of strain, and strain_unit does not say"));
   EXPECT_EQ(refusal_of("Time (s);Load (N)", {.units = {{Quantity::strain, "%"}}}),
             "no column's name speaks of strain, but strain_unit is given (say strain = ... in "
             "[specimen.columns]; the columns are Time (s), Load (N))");

@@ -194,7 +194,7 @@ TEST(PorosityJson, HoldsTheKeysOfTheContract) {
   const nlohmann::json contract{{"file", "s.png"},
                                 {"pixel_size_um", 5.0},
                                 {"method", "half maximum"},
-                                {"threshold", 0.51},
+                                {"threshold", 0.49},
                                 {"porosity", 0.048},
                                 {"porosity_standard_error", 0.0021},
                                 {"pore_count", 213},
