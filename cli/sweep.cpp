@@ -131,8 +131,8 @@ void write_all(const OutputFolder& output, const SweepArguments& arguments,
   output.write("result.json", io::json_text(json_of_all(all, provenance)));
 }
 
-// "strength 12.3 % (11.9 to 12.7)", to two digits of the interval's width; a dash where nothing
-// could be compared.
+// "strength 12.3 % (11.9 to 12.7)", to two digits of the interval's width or one more; a dash where
+// nothing could be compared.
 std::string found(const calib::Finding& finding) {
   if (!std::isfinite(finding.value)) return fmt::format("{} -", io::word(finding.response));
   const bool of_means =
@@ -141,7 +141,8 @@ std::string found(const calib::Finding& finding) {
       of_means ? calib::words_of(finding.response) : calib::MeasureWords{"", "%", 0.01};
   const double width = (finding.high - finding.low) / scale;
   const bool known = std::isfinite(width) && width > 0.0;
-  const int decimals = known ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(width)))) : 3;
+  const int two = known ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(width)))) : 3;
+  const int decimals = two + calib::extra_digits(finding, scale);
   const auto shown = [&, scale = scale](double number) {
     return fmt::format("{:.{}f}", number / scale, decimals);
   };

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "calib/sweep/comparison.hpp"
 #include "calib/sweep/measure_words.hpp"
@@ -41,12 +42,6 @@ Bracket range_of(const FindingRequest& request) {
   return {};
 }
 
-// What is not known speaks more against a claim than what lies inside, less than what lies beyond.
-double excess(const Comparison& comparison, Bracket range) {
-  if (std::isnan(comparison.low)) return 0.0;
-  return std::max(range.low - comparison.value, comparison.value - range.high);
-}
-
 bool inside(const Comparison& c, Bracket range) {
   return c.low >= range.low && c.high <= range.high;
 }
@@ -67,10 +62,20 @@ FindingOutcome outcome_of(const std::vector<Comparison>& comparisons, Bracket ra
   return agrees ? FindingOutcome::agrees : FindingOutcome::undecided;
 }
 
-// What speaks most against the claim; a step does only where its interval lies wholly outside.
+// How far beyond the range the end lies that decides: of an interval wholly outside the nearer one.
+// What is not known speaks more against a claim than what lies inside, less than what lies beyond.
+double excess(const Comparison& c, Bracket range) {
+  if (std::isnan(c.low)) return 0.0;
+  return outside(c, range) ? std::max(range.low - c.high, c.low - range.high)
+                           : std::max(range.low - c.low, c.high - range.high);
+}
+
+// What speaks most against the claim, first of all what makes it disagree; a step does only where
+// its interval lies wholly outside.
 Comparison worst_of(const std::vector<Comparison>& comparisons, Bracket range) {
   return *std::ranges::max_element(comparisons, {}, [range](const Comparison& c) {
-    return c.step && !outside(c, range) ? -infinity : excess(c, range);
+    const bool beyond = outside(c, range);
+    return std::pair{beyond && !c.step, c.step && !beyond ? -infinity : excess(c, range)};
   });
 }
 
@@ -150,6 +155,8 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
     finding.value = worst.value;
     finding.low = worst.low;
     finding.high = worst.high;
+    finding.asked_low = range.low;
+    finding.asked_high = range.high;
     finding.outcome = outcome_of(comparisons, range);
     if (worst.step && outside(worst, range) && finding.outcome == FindingOutcome::undecided)
       finding.ground += "; this step goes the other way";
@@ -164,6 +171,19 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
 std::string to_string(FindingOutcome outcome) {
   constexpr std::array words{"agrees", "disagrees", "undecided"};
   return words.at(static_cast<std::size_t>(outcome));
+}
+
+int extra_digits(const Finding& finding, double scale) {
+  const double width = (finding.high - finding.low) / scale;
+  if (!std::isfinite(width) || width <= 0.0) return 0;
+  const std::string two_digits = fmt::format("{:.1e}", width);
+  const int exponent = std::stoi(two_digits.substr(two_digits.find('e') + 1));
+  const double unit = scale * std::pow(10.0, std::min(0, exponent - 1));
+  const auto steps = [unit](double value) { return std::round(value / unit); };
+  const bool hidden =
+      (finding.low < finding.asked_low && steps(finding.low) >= steps(finding.asked_low)) ||
+      (finding.high > finding.asked_high && steps(finding.high) <= steps(finding.asked_high));
+  return hidden ? 1 : 0;
 }
 
 std::vector<Finding> judge(const FindingRequest& request, const SweepPlan& plan,

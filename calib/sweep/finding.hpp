@@ -44,13 +44,18 @@ struct Finding {
   Measure response = Measure::strength;
   FindingOutcome outcome = FindingOutcome::undecided;
   double value = 0.0, low = 0.0, high = 0.0;  ///< NaN where nothing could be compared.
-  std::string what;                           ///< The comparison: "joints.ratio = 3.0 against 1.0".
-  std::string ground;                         ///< The test, in words.
-  std::string meaning;                        ///< The words given for this outcome.
+  double asked_low = 0.0, asked_high = 0.0;  ///< What agrees lies between; of `matters`, disagrees.
+  std::string what;                          ///< The comparison: "joints.ratio = 3.0 against 1.0".
+  std::string ground;                        ///< The test, in words.
+  std::string meaning;                       ///< The words given for this outcome.
   int comparisons = 0;
   long runs = 0;                                 ///< That the judgement rests on.
   double inertia_low = 0.0, inertia_high = 0.0;  ///< I (M12) of its points; NaN: none has one. [-]
 };
+
+/// 1 where two digits of the interval's width, in units of `scale`, would hide that an end of it
+/// lies beyond what was asked; else 0.
+int extra_digits(const Finding& finding, double scale);
 
 /// The claim, once for each value of `per`.
 std::vector<Finding> judge(const FindingRequest& request, const SweepPlan& plan,

@@ -26,9 +26,10 @@ std::string value_of(const calib::Finding& finding) {
       : absolute                                   ? words.name
                                                    : words.name + ", difference";
   const double scale = absolute ? words.scale : in::percent;
-  return fmt::format("{}: {}", what,
-                     with_interval(finding.value / scale, finding.low / scale, finding.high / scale,
-                                   absolute ? words.unit : "%"));
+  return fmt::format(
+      "{}: {}", what,
+      with_interval(finding.value / scale, finding.low / scale, finding.high / scale,
+                    absolute ? words.unit : "%", calib::extra_digits(finding, scale)));
 }
 
 std::string inertia_of(const calib::Finding& finding) {

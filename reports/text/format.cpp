@@ -106,24 +106,24 @@ std::string plus_minus(double value, double error) {
   return fmt::format("{} ± {}", fixed(value, decimals), fixed(error, decimals));
 }
 
-std::string interval(double low, double high) {
+std::string interval(double low, double high, int more) {
   if (!std::isfinite(low) || !std::isfinite(high)) return std::string(unknown);
   const double width = high - low;
   if (width <= 0.0 || !shows_plainly(std::max(std::abs(low), std::abs(high)), width))
     return fmt::format("{} to {}", number(low), number(high));
-  const int decimals = decimals_for(width);
+  const int decimals = decimals_for(width) + more;
   return fmt::format("{} to {}", fixed(low, decimals), fixed(high, decimals));
 }
 
-std::string with_interval(double value, double low, double high, std::string_view unit) {
+std::string with_interval(double value, double low, double high, std::string_view unit, int more) {
   const double width = high - low, most = std::max(std::abs(low), std::abs(high));
   const bool plainly = std::isfinite(value) && std::isfinite(width) && width > 0.0 &&
                        shows_plainly(std::max(std::abs(value), most), width);
-  const std::string shown = plainly ? fixed(value, decimals_for(width)) : number(value, 3);
+  const std::string shown = plainly ? fixed(value, decimals_for(width) + more) : number(value, 3);
   const std::string space = unit.empty() ? "" : "\u00a0";
   if (!std::isfinite(value)) return std::string(unknown);
   return fmt::format("{}{}{} ({})", shown, space, unit,
-                     std::isfinite(width) ? interval(low, high) : "interval not known");
+                     std::isfinite(width) ? interval(low, high, more) : "interval not known");
 }
 
 std::string chance(double p) {

@@ -35,11 +35,12 @@ std::string quantity(double value, std::string_view unit, int digits = 4);
 /// not known.
 std::string plus_minus(double value, double error);
 
-/// "12.74 to 13.30", to two digits of the width; "–" when an end is not known.
-std::string interval(double low, double high);
+/// "12.74 to 13.30", to two digits of the width and `more`; "–" when an end is not known.
+std::string interval(double low, double high, int more = 0);
 
 /// "12.90 (12.74 to 13.05)": value with the decimals of its interval, each with the unit.
-std::string with_interval(double value, double low, double high, std::string_view unit = {});
+std::string with_interval(double value, double low, double high, std::string_view unit = {},
+                          int more = 0);
 
 /// "p = 0.013"; no test is good enough for less than 10⁻⁶.
 std::string chance(double p);

@@ -96,6 +96,19 @@ TEST(SweepPage, HasADashAloneWhereNothingCouldBeCompared) {
                     HasSubstr("<td class=\"n\">–</td><td class=\"n\">40</td>")));
 }
 
+TEST(SweepPage, HasADigitMoreWhereRoundingWouldHideWhyAFindingDoesNotAgree) {
+  Case known;
+  calib::Finding& finding = known.result.findings.front();
+  finding.test = calib::FindingTest::linear;
+  finding.value = 0.0131;
+  finding.low = -0.0241;
+  finding.high = 0.0502;
+  finding.asked_low = -0.05;
+  finding.asked_high = 0.05;
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+              HasSubstr("1.31\u00a0% (−2.41 to 5.02)"));
+}
+
 TEST(SweepPage, GivesEveryLawWithItsIntervals) {
   const Case known;
   const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);

@@ -45,6 +45,43 @@ TEST(Finding, ShowsTheComparisonThatSpeaksMostAgainstTheClaim) {
   EXPECT_EQ(finding.runs, 60);
 }
 
+// The first point lies farther off, the second is less well known.
+TEST(Finding, ShowsTheComparisonThatLeavesItUndecided) {
+  const KnownSweep known({{"x", {"0", "1"}}}, 20, [](const SweepPoint& p, int k) {
+    return p.numbers[0] < 0.5 ? 103.0 + 0.1 * deviation(k) : 100.0 + 10.0 * deviation(k);
+  });
+  FindingRequest request{.test = FindingTest::below, .margin = 104.0};
+  const Finding finding = judge(request, known.plan, known.points, known.runs).front();
+  EXPECT_EQ(finding.outcome, FindingOutcome::undecided);
+  EXPECT_EQ(finding.what, "x = 1");
+  EXPECT_GT(finding.high, finding.asked_high);
+}
+
+TEST(Finding, ShowsTheComparisonThatContradictsTheClaim) {
+  const KnownSweep known({{"x", {"0", "1"}}}, 20, [](const SweepPoint& p, int k) {
+    return p.numbers[0] < 0.5 ? 106.0 + 0.1 * deviation(k) : 106.5 + 10.0 * deviation(k);
+  });
+  FindingRequest request{.test = FindingTest::below, .margin = 104.0};
+  const Finding finding = judge(request, known.plan, known.points, known.runs).front();
+  EXPECT_EQ(finding.outcome, FindingOutcome::disagrees);
+  EXPECT_EQ(finding.what, "x = 0");
+}
+
+TEST(Finding, HasADigitMoreWhereRoundingWouldHideWhyItDoesNotAgree) {
+  Finding finding;
+  finding.low = -0.0241;
+  finding.asked_low = -0.05;
+  finding.asked_high = 0.05;
+  finding.high = 0.0502;
+  EXPECT_EQ(extra_digits(finding, 0.01), 1);
+  finding.high = 0.0499;
+  EXPECT_EQ(extra_digits(finding, 0.01), 0);
+  finding.high = 0.0531;
+  EXPECT_EQ(extra_digits(finding, 0.01), 0);
+  finding.low = std::nan("");
+  EXPECT_EQ(extra_digits(finding, 0.01), 0);
+}
+
 TEST(Finding, MattersIsTheOppositeOfSame) {
   EXPECT_EQ(found(FindingTest::matters, 1.0, 1.0).outcome, FindingOutcome::disagrees);
   EXPECT_EQ(found(FindingTest::matters, 5.0, 1.0).outcome, FindingOutcome::agrees);
