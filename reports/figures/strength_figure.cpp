@@ -139,6 +139,20 @@ std::string group_data(int number, const std::vector<const calib::SpecimenResult
   return block + "EOD\n";
 }
 
+// An arrow from each test that was stopped before it broke to the strengths that it leaves open.
+std::string stopped_data(const Groups& groups, const Range& range) {
+  std::string rows;
+  const double length = std::max(0.08 * (range.high - range.low), 0.01 * range.high);
+  for (const auto& [group, members] : groups)
+    for (const auto* specimen : members) {
+      if (specimen->measured.broke) continue;
+      const double strength = specimen->measured.strength / in::MPa;
+      rows += fmt::format("{:.6g} {:.6g} {:.6g} 0\n", strength, specimen->strength.mean / in::MPa,
+                          is_wide(range) ? 0.2 * strength : length);
+    }
+  return rows.empty() ? "" : "$stopped << EOD\n" + rows + "EOD\n";
+}
+
 // Equal axes; logarithmic ones where strengths differ much.
 std::string axes(const Range& range) {
   if (is_wide(range))
@@ -186,6 +200,10 @@ Figure strength_figure(const std::vector<calib::SpecimenResult>& specimens, cons
     data += group_data(number, members, sides);
     plots += group_plot(number, group, shape);
     ++number;
+  }
+  if (const std::string stopped = stopped_data(groups, range); !stopped.empty()) {
+    data += stopped;
+    plots += ", $stopped with vectors filled lw 1.4 lc rgb dark title 'stopped, at least'";
   }
   figure.commands = data + panel(0.135, 0.88) + axes(range) + R"(
 set xlabel 'Measured strength (MPa)' offset 0,0.5

@@ -84,6 +84,18 @@ TEST(Figure, NamesNeighboursOnEitherSide) {
   for (const auto& specimen : specimens) EXPECT_TRUE(contains(svg, specimen.id)) << specimen.id;
 }
 
+TEST(Figure, TellsTestsThatWereStoppedFromThoseThatBroke) {
+  auto sample = test::fit_sample();
+  EXPECT_FALSE(contains(draw(strength_figure(sample.result.specimens, "s")), "stopped, at least"));
+  sample.result.specimens.front().measured.broke = false;
+  const Figure figure = strength_figure(sample.result.specimens, "s");
+  EXPECT_TRUE(contains(draw(figure), "stopped, at least"));
+  const std::size_t begin = figure.commands.find("$stopped << EOD\n");
+  const std::string rows =
+      figure.commands.substr(begin, figure.commands.find("\nEOD", begin) - begin);
+  EXPECT_EQ(std::ranges::count(rows, '\n'), 1);
+}
+
 // To the right of the first, "longer" would stand beside the second point.
 TEST(Figure, GivesNoPointTheNameOfAnother) {
   std::vector<calib::SpecimenResult> specimens;
