@@ -180,6 +180,16 @@ std::string group_plot(int number, const Group& group, int shape) {
       fitted ? "" : ", validation");
 }
 
+// Pixels for the rows of the legend that have no room above a figure of usual height.
+int legend_room(const Groups& groups, bool stopped) {
+  const bool long_names = stopped || std::ranges::any_of(groups, [](const auto& one) {
+                            return one.first.second != calib::Use::fit;
+                          });
+  const int entries = 1 + static_cast<int>(groups.size()) + (stopped ? 1 : 0);
+  const int in_a_row = long_names ? 2 : 4, rows = (entries + in_a_row - 1) / in_a_row;
+  return 20 * std::max(0, rows - 2);
+}
+
 }  // namespace
 
 Figure strength_figure(const std::vector<calib::SpecimenResult>& specimens, const std::string& id) {
@@ -201,11 +211,16 @@ Figure strength_figure(const std::vector<calib::SpecimenResult>& specimens, cons
     plots += group_plot(number, group, shape);
     ++number;
   }
-  if (const std::string stopped = stopped_data(groups, range); !stopped.empty()) {
+  const std::string stopped = stopped_data(groups, range);
+  if (!stopped.empty()) {
     data += stopped;
     plots += ", $stopped with vectors filled lw 1.4 lc rgb dark title 'stopped, at least'";
   }
-  figure.commands = data + panel(0.135, 0.88) + axes(range) + R"(
+  const int room = legend_room(groups, !stopped.empty());
+  const double bottom = 0.135 * figure.height, top = 0.12 * figure.height + room;
+  figure.height += room;
+  figure.commands = data + panel(bottom / figure.height, 1.0 - top / figure.height) + axes(range) +
+                    R"(
 set xlabel 'Measured strength (MPa)' offset 0,0.5
 set ylabel 'Simulated strength (MPa)' offset 1,0
 plot x with lines lw 1.2 dt 2 lc rgb grey title 'equal')" +

@@ -96,6 +96,17 @@ TEST(Figure, TellsTestsThatWereStoppedFromThoseThatBroke) {
   EXPECT_EQ(std::ranges::count(rows, '\n'), 1);
 }
 
+// Two names a row of 20 pixels, and two rows have room anyway.
+TEST(Figure, HasRoomForTheLegendOfSixGroups) {
+  auto specimens = test::fit_sample().result.specimens;
+  for (std::size_t i = 0; i < specimens.size(); ++i)
+    specimens[i].use = i % 2 == 0 ? calib::Use::fit : calib::Use::validate;
+  specimens.front().measured.broke = false;
+  EXPECT_EQ(strength_figure(specimens, "s").height, 480 + 40);
+  specimens.resize(1);
+  EXPECT_EQ(strength_figure(specimens, "s").height, 480);
+}
+
 // To the right of the first, "longer" would stand beside the second point.
 TEST(Figure, GivesNoPointTheNameOfAnother) {
   std::vector<calib::SpecimenResult> specimens;
