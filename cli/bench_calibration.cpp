@@ -39,27 +39,31 @@ std::string spread(const std::array<double, 3>& quantiles, double unit, int digi
 }
 
 std::string percent(const calib::Rate& rate) {
-  return fmt::format("{:.0f} % ({:.0f} to {:.0f})", 100.0 * rate.part, 100.0 * rate.interval_95[0],
+  return fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100.0 * rate.part, 100.0 * rate.interval_95[0],
                      100.0 * rate.interval_95[1]);
 }
 
 void print_chains(const calib::ChainBenchmark& benchmark) {
-  fmt::print("{:<36}{:>20}{:>22}{:>24}{:>20}\n", "median (10 to 90 %)", "error [%]", "simulations",
+  if (benchmark.summaries.empty()) {
+    fmt::print("stopped after {} fits: no chain is summed up\n", benchmark.rows.size());
+    return;
+  }
+  fmt::print("{:<36}{:>20}{:>22}{:>24}{:>24}\n", "median (10 to 90 %)", "error [%]", "simulations",
              "wall [s]", "success (95 %)");
   for (const calib::ChainSummary& s : benchmark.summaries)
-    fmt::print("{:<36}{:>20}{:>22}{:>24}{:>20}\n", s.chain, spread(s.error, 0.01, 2),
+    fmt::print("{:<36}{:>20}{:>22}{:>24}{:>24}\n", s.chain, spread(s.error, 0.01, 2),
                spread(s.simulations, 1.0, 4), spread(s.seconds, 1.0, 2), percent(s.success));
-  if (!benchmark.summaries.empty())
-    fmt::print("fewest simulations of those that succeed most often with the least error: {}\n",
-               benchmark.winner().chain);
+  fmt::print("fewest simulations of those that succeed most often with the least error: {}\n",
+             benchmark.winner().chain);
 }
 
 void print_coverage(const calib::Coverage& coverage) {
-  fmt::print("{:<38}{:<16}{:>10}{:>20}{:>24}  {}\n", "specimens", "parameter", "informed",
+  if (!coverage.complete) fmt::print("stopped before all studies were fitted\n");
+  fmt::print("{:<38}{:<16}{:>10}{:>24}{:>24}  {}\n", "specimens", "parameter", "informed",
              "hold the truth", "half width [%]", "intervals are");
   for (const calib::CoverageSummary& s : coverage.summaries) {
     const bool informed = s.informed > 0;
-    fmt::print("{:<38}{:<16}{:>10}{:>20}{:>24}  {}\n", s.design, s.parameter,
+    fmt::print("{:<38}{:<16}{:>10}{:>24}{:>24}  {}\n", s.design, s.parameter,
                fmt::format("{} of {}", s.informed, s.studies), informed ? percent(s.inside) : "-",
                informed ? spread(s.half_width, 0.01, 2) : "-",
                informed ? to_string(coverage.width_of(s)) : "-");
@@ -88,7 +92,7 @@ int bench_calibration(const BenchArguments& arguments, const CommonOptions& comm
          [&] { print_chains(benchmark); });
   const bool usual_wins =
       !benchmark.summaries.empty() && benchmark.winner().chain == benchmark.summaries.front().chain;
-  return usual_wins && !interrupted() ? done : answer_is_no;
+  return usual_wins ? done : answer_is_no;
 }
 
 int bench_coverage(const BenchArguments& arguments, const CommonOptions& common) {
@@ -106,7 +110,7 @@ int bench_coverage(const BenchArguments& arguments, const CommonOptions& common)
   if (reports::available())
     output.write("report.html", reports::coverage_page({coverage, page_facts(provenance)}));
   answer(common, &output, result, page_or("result.json"), [&] { print_coverage(coverage); });
-  return coverage.holds() && !interrupted() ? done : answer_is_no;
+  return coverage.holds() && coverage.complete ? done : answer_is_no;
 }
 
 }  // namespace havers::cli

@@ -53,20 +53,27 @@ int CoverageSummary::held() const {
 }
 
 std::string to_string(IntervalWidth width) {
-  constexpr std::array words{"as promised", "too wide", "too narrow"};
+  constexpr std::array words{"as promised",      "too wide",           "too narrow",
+                             "perhaps too wide", "perhaps too narrow", "too few to tell"};
   return words.at(static_cast<std::size_t>(width));
 }
 
 IntervalWidth Coverage::width_of(const CoverageSummary& summary) const {
-  if (summary.informed == 0) return IntervalWidth::as_promised;
+  constexpr double promised = 0.95;
   const auto shares =
       std::ranges::count_if(summaries, [](const CoverageSummary& one) { return one.informed > 0; });
-  const double risk_each_side = 0.025 / static_cast<double>(shares);
+  const double risk_each_side = 0.025 / static_cast<double>(std::max(shares, std::ptrdiff_t{1}));
   const auto held = static_cast<unsigned>(summary.held());
   const auto all = static_cast<unsigned>(summary.informed);
-  if (gsl_cdf_binomial_P(held, 0.95, all) < risk_each_side) return IntervalWidth::too_narrow;
-  const bool too_wide = held > 0 && gsl_cdf_binomial_Q(held - 1, 0.95, all) < risk_each_side;
-  return too_wide ? IntervalWidth::too_wide : IntervalWidth::as_promised;
+  const double none_held = std::pow(1.0 - promised, all), all_held = std::pow(promised, all);
+  if (std::min(none_held, all_held) >= risk_each_side) return IntervalWidth::too_few;
+  if (gsl_cdf_binomial_P(held, promised, all) < risk_each_side) return IntervalWidth::too_narrow;
+  if (held > 0 && gsl_cdf_binomial_Q(held - 1, promised, all) < risk_each_side)
+    return IntervalWidth::too_wide;
+  const auto [low, high] = summary.inside.interval_95;
+  return high < promised  ? IntervalWidth::perhaps_too_narrow
+         : low > promised ? IntervalWidth::perhaps_too_wide
+                          : IntervalWidth::as_promised;
 }
 
 bool Coverage::holds() const {
@@ -88,7 +95,9 @@ Coverage measure_coverage(const std::vector<Design>& designs, int studies, int t
                           const std::function<bool()>& go_on) {
   Coverage coverage;
   for (const Design& design : designs)
-    for (int number = 1; number <= studies && go_on(); ++number) {
+    for (int number = 1; number <= studies; ++number) {
+      coverage.complete = coverage.complete && go_on();
+      if (!coverage.complete) break;
       KnownStudy known = known_study(design, number);
       known.study.calibrate.threads = threads;
       known.study.calibrate.profiles = true;

@@ -34,12 +34,20 @@ struct CoverageSummary {
 };
 
 /// What a share says of intervals that promise 95 %.
-enum class IntervalWidth { as_promised, too_wide, too_narrow };
+enum class IntervalWidth {
+  as_promised,
+  too_wide,
+  too_narrow,
+  perhaps_too_wide,  ///< The share's own interval leaves out 95 %, which may be chance among many.
+  perhaps_too_narrow,
+  too_few,  ///< Neither all nor none would be beside 95 % by more than chance.
+};
 std::string to_string(IntervalWidth width);
 
 struct Coverage {
   std::vector<CoverageRow> rows;
   std::vector<CoverageSummary> summaries;
+  bool complete = true;  ///< Every study was fitted.
 
   /// Beside 95 % by more than chance: by the binomial law, at 0.05/m for m shares (Bonferroni). Of
   /// intervals that are as promised one bench in twenty or fewer calls any something else.

@@ -43,7 +43,8 @@ nlohmann::json chains_json(const calib::ChainBenchmark& benchmark, const Provena
                       {"success_95", summary.success.interval_95},
                       {"by_simulations", progress_json(summary.by_simulations, "simulations")},
                       {"by_wall_s", progress_json(summary.by_seconds, "wall_s")}});
-  return {{"chains", chains},
+  return {{"complete", !chains.empty()},
+          {"chains", chains},
           {"winner", chains.empty() ? "" : benchmark.winner().chain},
           {"fits", benchmark.rows.size()},
           {"wall_s", provenance.wall_seconds},
@@ -79,7 +80,8 @@ nlohmann::json coverage_json(const calib::Coverage& coverage, const Provenance& 
                          {"intervals", to_string(coverage.width_of(summary))},
                          {"half_width_10_50_90", summary.half_width}});
   }
-  return {{"coverage", summaries},
+  return {{"complete", coverage.complete},
+          {"coverage", summaries},
           {"wall_s", provenance.wall_seconds},
           {"provenance", provenance_object(provenance)}};
 }

@@ -19,7 +19,7 @@ std::string spread(const std::array<double, 3>& quantiles, double unit, int digi
 
 std::string rate_text(const calib::Rate& rate) {
   if (!std::isfinite(rate.part)) return "–";
-  return fmt::format("{:.0f} ({:.0f} to {:.0f})", rate.part / in::percent,
+  return fmt::format("{:.1f} ({:.1f} to {:.1f})", rate.part / in::percent,
                      rate.interval_95[0] / in::percent, rate.interval_95[1] / in::percent);
 }
 
@@ -39,6 +39,16 @@ mstch::map coverage_row(const calib::CoverageSummary& one, calib::IntervalWidth 
           {"inside", text(rate_text(one.inside))},
           {"judged", text(one.informed > 0 ? to_string(judged) : "–")},
           {"width", text(one.informed > 0 ? spread(one.half_width, in::percent, 2) : "–")}};
+}
+
+// By the shares that are not too few to tell.
+std::string what_shares_say(const std::set<calib::IntervalWidth>& widths) {
+  using enum calib::IntervalWidth;
+  if (widths.contains(too_narrow)) return "Some intervals are too narrow by more than chance.";
+  if (widths.contains(too_wide))
+    return "Some intervals are too wide by more than chance, none too narrow.";
+  return widths.empty() ? "Too few studies to tell the shares from 95 %."
+                        : "No share differs from 95 % by more than chance.";
 }
 
 }  // namespace
@@ -80,17 +90,16 @@ std::string coverage_page(const CoverageReport& report) {
     inside += one.held();
   }
   const calib::Rate all = calib::rate_of(inside, informed);
-  const char* detail = widths.contains(calib::IntervalWidth::too_narrow)
-                           ? "Some intervals are too narrow by more than chance."
-                       : widths.contains(calib::IntervalWidth::too_wide)
-                           ? "Some intervals are too wide by more than chance, none too narrow."
-                           : "No share differs from 95 % by more than chance.";
+  widths.erase(calib::IntervalWidth::too_few);
+  const std::string stopped = coverage.complete ? "" : "Stopped before all studies were fitted. ";
   return render_page(
       "havers bench: what the intervals hold", "coverage",
-      {{"grade", text(coverage.holds() ? "good" : "bad")},
-       {"sentence", text(fmt::format("{} % of {} intervals hold the truth; 95 % should.",
+      {{"grade", text(!coverage.holds()                      ? "bad"
+                      : coverage.complete && !widths.empty() ? "good"
+                                                             : "mixed")},
+       {"sentence", text(fmt::format("{}{} % of {} intervals hold the truth; 95 % should.", stopped,
                                      number(all.part / in::percent, 3), informed))},
-       {"detail", text(detail)},
+       {"detail", text(what_shares_say(widths))},
        {"rows", mstch::node{rows}}},
       report.provenance);
 }

@@ -58,6 +58,7 @@ TEST(KnownStudy, OneSpecimenDoesNotTellTheScatter) {
 TEST(Coverage, OfAFewStudiesHoldsTheTruth) {
   const Coverage coverage = measure_coverage({three_orientations()}, 6, 1, [] { return true; });
   ASSERT_EQ(coverage.rows.size(), 18U);
+  EXPECT_TRUE(coverage.complete);
   ASSERT_EQ(coverage.summaries.size(), 3U);
   int informed = 0, inside = 0;
   for (const CoverageRow& row : coverage.rows) {
@@ -75,6 +76,7 @@ TEST(Coverage, StopsWhenTold) {
   const Coverage coverage =
       measure_coverage({three_orientations()}, 6, 1, [&] { return ++asked < 2; });
   EXPECT_EQ(coverage.rows.size(), 3U);
+  EXPECT_FALSE(coverage.complete);
 }
 
 Coverage shares_of(const std::vector<int>& held, int informed) {
@@ -96,12 +98,13 @@ TEST(Coverage, IsJudgedByAllSharesTogether) {
   };
   std::vector<int> twelve(12, 95);
   twelve.front() = 88;
-  EXPECT_EQ(width_of_first(shares_of(twelve, 100)), IntervalWidth::as_promised);
+  EXPECT_EQ(width_of_first(shares_of(twelve, 100)), IntervalWidth::perhaps_too_narrow);
   EXPECT_TRUE(shares_of(twelve, 100).holds());
   EXPECT_EQ(width_of_first(shares_of({88}, 100)), IntervalWidth::too_narrow);
   twelve.front() = 87;
   EXPECT_EQ(width_of_first(shares_of(twelve, 100)), IntervalWidth::too_narrow);
   EXPECT_FALSE(shares_of(twelve, 100).holds());
+  EXPECT_EQ(width_of_first(shares_of(std::vector<int>(12, 1), 1)), IntervalWidth::too_few);
   EXPECT_TRUE(shares_of({0}, 1).holds()) << "one study says nothing";
   EXPECT_TRUE(shares_of({0}, 0).holds());
 }

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "io/machine/csv_rows.hpp"
 #include "io/results/csv_row.hpp"
 
@@ -49,6 +51,12 @@ TEST(BenchFiles, HaveAColumnForEveryPartOfASetting) {
   EXPECT_EQ(rows.front().front(), "setting");
   EXPECT_EQ(rows.front()[1], "regime");
   EXPECT_EQ(rows.back()[0], to_string(study.rows.front().setting));
+}
+
+TEST(BenchFiles, SayWhetherABenchWasCompleted) {
+  EXPECT_EQ(chains_json({}, {})["complete"], false);
+  EXPECT_EQ(coverage_json({.rows = {}, .summaries = {}, .complete = false}, {})["complete"], false);
+  EXPECT_EQ(coverage_json({}, {})["complete"], true);
 }
 
 TEST(BenchFiles, HaveAHeaderWithoutRows) {
