@@ -35,8 +35,6 @@ void print_methods(const calib::MethodComparison& comparison) {
     fmt::print("{:<40}{:>12.3f}{:>12.3f}{:>14.3f}{:>10.1f}\n", to_string(method.method),
                100.0 * method.median_error, 100.0 * method.worst_error,
                100.0 * method.worst_if_none, 1e-6 / method.cpu_per_pixel);
-  fmt::print("95 % intervals that hold the truth: {:.0f} % of {} sections with pores\n",
-             100.0 * comparison.coverage, comparison.with_pores);
 }
 
 }  // namespace

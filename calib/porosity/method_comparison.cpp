@@ -36,17 +36,6 @@ std::array<MethodSummary, porosity_methods> summaries_of(const std::vector<Poros
   return all;
 }
 
-// A section without pores has no interval to speak of.
-void add_coverage(const std::vector<PorosityTrial>& trials, MethodComparison& comparison) {
-  double covered = 0.0;
-  for (const PorosityTrial& trial : trials) {
-    if (trial.truth == 0.0) continue;
-    ++comparison.with_pores;
-    covered += trial.error(PorosityMethod::ours) <= 1.96 * trial.standard_error ? 1.0 : 0.0;
-  }
-  comparison.coverage = covered / static_cast<double>(comparison.with_pores);  // NaN: no pores
-}
-
 }  // namespace
 
 std::string to_string(PorosityMethod method) {
@@ -62,7 +51,6 @@ double PorosityTrial::error(PorosityMethod method) const {
 MethodComparison compare_methods(std::vector<PorosityTrial> trials) {
   assert(!trials.empty());
   MethodComparison comparison{.methods = summaries_of(trials)};
-  add_coverage(trials, comparison);
   std::vector<std::string> known;
   for (const PorosityTrial& trial : trials)
     if (std::ranges::find(known, trial.hardship) == known.end()) known.push_back(trial.hardship);

@@ -52,8 +52,6 @@ struct MethodComparison {
   std::vector<PorosityTrial> trials;
   std::array<MethodSummary, porosity_methods> methods;  ///< Over all trials.
   std::vector<HardshipSummary> hardships;               ///< In the order of the trials.
-  std::size_t with_pores = 0;                           ///< Trials of sections with pores.
-  double coverage = 0.0;  ///< Share of our 95 % intervals that hold the truth, of these. [-]
 
   /// Whether ours errs by 0.3 points of porosity at most, and 0.05 where there are no pores.
   [[nodiscard]] bool good() const {

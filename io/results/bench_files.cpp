@@ -160,8 +160,6 @@ nlohmann::json methods_json(const calib::MethodComparison& comparison,
   for (const auto& [hardship, methods] : comparison.hardships)
     hardships.push_back({{"hardship", hardship}, {"methods", summaries_of(methods)}});
   return {{"sections", comparison.trials.size()},
-          {"sections_with_pores", comparison.with_pores},
-          {"coverage", comparison.coverage},
           {"methods", summaries_of(comparison.methods)},
           {"hardships", hardships},
           {"provenance", provenance_object(provenance)}};

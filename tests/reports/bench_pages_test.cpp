@@ -26,7 +26,8 @@ TEST(MethodsPage, ComparesMethodsByErrorAndTime) {
   const std::string page = methods_page({comparison, {{"seed", "1"}}});
   expect_sound(page);
   EXPECT_TRUE(contains(page, "On 2 drawn sections havers porosity errs by 0.20 points"));
-  EXPECT_TRUE(contains(page, "of the 1 sections with pores"));
+  EXPECT_TRUE(contains(page, "Asked: at most 0.3 points"));
+  EXPECT_FALSE(contains(page, "hold the truth"));
   EXPECT_TRUE(contains(page, "<th>noise</th>"));
   EXPECT_TRUE(contains(page, "33.3"));  // MPix/s of 0.03 s for a million pixels
 }
