@@ -117,6 +117,18 @@ std::string meaning_of(const FindingRequest& request, FindingOutcome outcome) {
   return outcome == FindingOutcome::agrees ? request.if_agrees : request.if_disagrees;
 }
 
+// The comparison as a reader sees it: Student's interval of a share may end where no share can be.
+void show(const Comparison& comparison, const FindingRequest& request, Finding& finding) {
+  finding.what = comparison.what;
+  finding.value = comparison.value;
+  finding.low = comparison.low;
+  finding.high = comparison.high;
+  const bool of_means = request.test == FindingTest::above || request.test == FindingTest::below;
+  if (!of_means || !is_share(request.response) || std::isnan(comparison.low)) return;
+  finding.low = std::max(finding.low, 0.0);
+  finding.high = std::min(finding.high, 1.0);
+}
+
 Finding judge_group(const Evidence& evidence, const PointGroup& group) {
   const FindingRequest& request = evidence.request;
   Finding finding;
@@ -151,10 +163,7 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
   if (!comparisons.empty()) {
     const Bracket range = range_of(request);
     const Comparison worst = worst_of(comparisons, range);
-    finding.what = worst.what;
-    finding.value = worst.value;
-    finding.low = worst.low;
-    finding.high = worst.high;
+    show(worst, request, finding);
     finding.asked_low = range.low;
     finding.asked_high = range.high;
     finding.outcome = outcome_of(comparisons, range);

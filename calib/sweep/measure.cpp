@@ -80,6 +80,10 @@ Statistics statistics_of(const std::vector<double>& values) {
   return statistics;
 }
 
+bool is_share(Measure m) {
+  return m == Measure::linear_part || m == Measure::crack_span || m == Measure::crack_linked;
+}
+
 bool needs_break(Measure m) {
   return m != Measure::modulus;
 }

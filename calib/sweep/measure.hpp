@@ -81,6 +81,9 @@ struct PointSummary {
 /// Whether a run that did not break leaves a measure open: all but the modulus.
 bool needs_break(Measure m);
 
+/// Whether a measure is a part of a whole, from 0 to 1.
+bool is_share(Measure m);
+
 /// A measure of all runs of a point that tell it: that did not fail and, where it `needs_break`,
 /// broke. A bound is not among values.
 std::vector<double> values_of(const std::vector<SweepRun>& runs, std::size_t point, Measure m);

@@ -150,6 +150,22 @@ TEST(Finding, AboveAndBelowCompareTheMeanWithTheMargin) {
   EXPECT_EQ(found(FindingTest::below, 0.0, 1.0, 100.1).outcome, FindingOutcome::undecided);
 }
 
+TEST(Finding, OfAShareShowsNoIntervalBeyondWhatAShareCanBe) {
+  const KnownSweep known({{"x", {"0", "1"}}}, 2, [](const SweepPoint& p, int k) {
+    return p.numbers[0] < 0.5 ? 0.2 * k : 1.0 - 0.2 * k;
+  });
+  FindingRequest request{.test = FindingTest::below, .response = Measure::crack_span};
+  request.margin = 0.95;
+  Finding finding = judge(request, known.plan, known.points, known.runs).front();
+  EXPECT_EQ(finding.high, 1.0);
+  request.test = FindingTest::above;
+  finding = judge(request, known.plan, known.points, known.runs).front();
+  EXPECT_EQ(finding.low, 0.0);
+  EXPECT_EQ(finding.outcome, FindingOutcome::undecided);
+  request.response = Measure::fall_part;
+  EXPECT_LT(judge(request, known.plan, known.points, known.runs).front().low, 0.0);
+}
+
 TEST(Finding, SaysWhatWasAskedInTheUnitOfTheMeasure) {
   FindingRequest request{.test = FindingTest::above, .margin = 2e7};
   const KnownSweep known({{"x", {"0", "1"}}}, 20,
