@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
+#include <utility>
 
 #include "reports/figures/figures.hpp"
 #include "reports/pages/page.hpp"
@@ -93,21 +93,31 @@ std::string specimens_of(const FitReport& fit) {
   return joined(ids);
 }
 
-// Files by their names, whose contents or presence differ.
-std::string files_unlike(const FitReport& fit, const FitReport& first) {
-  const auto digests = [](const FitReport& of) {
-    std::map<std::string, std::string> files;
-    for (const auto& [name, value] : of.provenance)
-      if (value.starts_with("SHA-256")) files[base_name(name)] = value;
-    return files;
-  };
-  const auto these = digests(fit), those = digests(first);
-  std::set<std::string> unlike;
-  for (const auto& [files, others] : {std::pair{&these, &those}, std::pair{&those, &these}})
-    for (const auto& [name, digest] : *files)
-      if (const auto found = others->find(name); found == others->end() || found->second != digest)
-        unlike.insert(name);
-  return joined({unlike.begin(), unlike.end()});
+// Digests of the files that a fit read, by their names.
+std::map<std::string, std::string> digests_of(const FitReport& fit) {
+  std::map<std::string, std::string> files;
+  for (const auto& [name, value] : fit.provenance)
+    if (value.starts_with("SHA-256")) files[base_name(name)] = value;
+  return files;
+}
+
+// "contents of A1.csv", "without A2.csv", "with A3.csv".
+std::vector<std::string> files_unlike(const FitReport& fit, const FitReport& first) {
+  const auto these = digests_of(fit), those = digests_of(first);
+  std::vector<std::string> changed, missing, besides, parts;
+  for (const auto& [name, digest] : those) {
+    const auto found = these.find(name);
+    if (found == these.end())
+      missing.push_back(name);
+    else if (found->second != digest)
+      changed.push_back(name);
+  }
+  for (const auto& [name, digest] : these)
+    if (!those.contains(name)) besides.push_back(name);
+  if (!changed.empty()) parts.push_back("contents of " + joined(changed));
+  if (!missing.empty()) parts.push_back("without " + joined(missing));
+  if (!besides.empty()) parts.push_back("with " + joined(besides));
+  return parts;
 }
 
 std::string program_of(const FitReport& fit) {
@@ -125,8 +135,7 @@ std::string differs_in(const FitReport& fit, const FitReport& first) {
   compare("parameters", parameters_of);
   compare("specimens", specimens_of);
   compare("settings", settings_of);
-  if (const std::string files = files_unlike(fit, first); !files.empty())
-    parts.push_back("contents of " + files);
+  for (std::string& files : files_unlike(fit, first)) parts.push_back(std::move(files));
   compare("program", program_of);
   return parts.empty() ? "nothing" : fmt::format("{}", fmt::join(parts, "; "));
 }

@@ -205,6 +205,15 @@ TEST(FitPage, NamesTheTermThatStandsForTheFailureStrainByWhatItIs) {
   EXPECT_TRUE(contains(page, "<th>ln strength (Pa)</th>"));
 }
 
+TEST(ComparisonPage, TellsMissingFilesFromChangedOnes) {
+  const auto fit = test::fit_sample();
+  const Provenance first{{"a.csv", "SHA-256 1"}, {"b.csv", "SHA-256 2"}};
+  const Provenance second{{"a.csv", "SHA-256 3"}, {"c.csv", "SHA-256 4"}};
+  const std::string page =
+      comparison_page({{fit.study, fit.result, {}, first}, {fit.study, fit.result, {}, second}});
+  EXPECT_TRUE(contains(page, "<td>contents of a.csv; without b.csv; with c.csv</td>"));
+}
+
 TEST(ComparisonPage, SaysInWhatFitsDiffer) {
   const auto one = test::fit_sample();
   auto two = test::fit_sample();
