@@ -158,9 +158,10 @@ std::string curve_commands(const Panel& panel) {
     if (run == panel.result.runs.end() || run->strain.empty()) continue;
     const Points points = thin(run->strain, run->stress);
     data += data_block(fmt::format("s{}", i), {points.x, points.y});
-    plots += fmt::format("{}$s{} using ($1*100):($2*1e-6) with lines lw 1.6 lc rgb {} title '{}'",
-                         plots.empty() ? "" : ", ", i, colours.at(i % colours.size()),
-                         title_of(panel, series.value));
+    plots +=
+        fmt::format("{}$s{} using ($1*100):($2*1e-6) with lines lw 1.6 dt {} lc rgb {} title '{}'",
+                    plots.empty() ? "" : ", ", i, 1 + i % 5, colours.at(i % colours.size()),
+                    title_of(panel, series.value));
     ++i;
   }
   if (plots.empty()) return {};

@@ -149,6 +149,15 @@ TEST(SweepFigures, HaveAPanelForEveryValueOfPer) {
   EXPECT_THAT(panels[0].figure.commands, HasSubstr("Strength (MPa)"));
 }
 
+TEST(SweepFigures, TellCurvesApartWithoutColour) {
+  Case known;
+  for (calib::SweepRun& run : known.result.runs) run.strain = run.stress = {0.0, 1.0};
+  const calib::SweepFigure wanted{.caption = "c", .series = "joints.scatter"};
+  const std::string commands =
+      sweep_figures(known.sweep, known.result, wanted, "f").front().figure.commands;
+  EXPECT_THAT(commands, AllOf(HasSubstr("dt 1 lc rgb blue"), HasSubstr("dt 2 lc rgb red")));
+}
+
 TEST(Avalanche, IsASentenceWhereNothingBroke) {
   EXPECT_THAT(avalanche_svg({}, {}), HasSubstr("no joint broke"));
 }
