@@ -158,6 +158,14 @@ TEST(SweepFigures, TellCurvesApartWithoutColour) {
   EXPECT_THAT(commands, AllOf(HasSubstr("dt 1 lc rgb blue"), HasSubstr("dt 2 lc rgb red")));
 }
 
+TEST(SweepFigures, WriteTheirSeriesAsTheTextDoes) {
+  Case known;
+  for (calib::SweepPoint& point : known.result.points) point.values[1] = "1e-07";
+  known.sweep.figures = {{.caption = "c", .x = "joints.ratio", .series = "joints.scatter"}};
+  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
+  EXPECT_THAT(page, AllOf(HasSubstr("10⁻⁷"), Not(HasSubstr("1e-07"))));
+}
+
 TEST(Avalanche, IsASentenceWhereNothingBroke) {
   EXPECT_THAT(avalanche_svg({}, {}), HasSubstr("no joint broke"));
 }
