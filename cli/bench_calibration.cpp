@@ -34,6 +34,7 @@ class FitCounter {
 };
 
 std::string spread(const std::array<double, 3>& quantiles, double unit, int digits) {
+  if (quantiles[0] == quantiles[2]) return fmt::format("{:.{}g}", quantiles[1] / unit, digits);
   return fmt::format("{:.{}g} ({:.{}g} to {:.{}g})", quantiles[1] / unit, digits,
                      quantiles[0] / unit, digits, quantiles[2] / unit, digits);
 }

@@ -7,6 +7,18 @@
 
 namespace havers::reports {
 
+namespace {
+
+constexpr int usual_height = 380;
+
+// Two names have room side by side, above the axes. [pixels]
+int legend_height(const calib::ChainBenchmark& benchmark) {
+  const int entries = static_cast<int>(benchmark.summaries.size()) + 1;
+  return 18 * ((entries + 1) / 2);
+}
+
+}  // namespace
+
 Figure chains_figure(const calib::ChainBenchmark& benchmark, ChainCost cost,
                      const std::string& id) {
   constexpr std::array<const char*, 6> looks{"lc rgb grey",  "lc rgb orange", "lc rgb red",
@@ -14,7 +26,7 @@ Figure chains_figure(const calib::ChainBenchmark& benchmark, ChainCost cost,
   const bool simulations = cost == ChainCost::simulations;
   Figure figure{.id = id,
                 .description = "Error of the best point so far against what it cost, by chain",
-                .height = 380};
+                .height = usual_height + legend_height(benchmark)};
   std::string band, lines;
   for (std::size_t i = 0; i < benchmark.summaries.size(); ++i) {
     const calib::ChainSummary& summary = benchmark.summaries[i];
@@ -42,10 +54,11 @@ Figure chains_figure(const calib::ChainBenchmark& benchmark, ChainCost cost,
   if (figure.commands.empty()) return figure;
   figure.commands += fmt::format(
       "set logscale xy\nset format y '%g'\nset format x '%g'\n"
-      "set key inside left bottom\n"
+      "set key samplen 2 font ',11' width -6\nset tmargin at screen {:.3f}\n"
       "set xlabel '{}' offset 0,0.5\nset ylabel 'Error of the parameters (%)' offset 1.5,0\n"
       "plot $chain0 using 1:2:4 with filledcurves lc rgb band title '10 to 90 % of the default', "
       "{}{}\n",
+      1.0 - (legend_height(benchmark) + 12.0) / figure.height,
       simulations ? "Simulations" : "Wall time (s)", lines, band);
   return figure;
 }

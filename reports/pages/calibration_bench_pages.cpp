@@ -11,8 +11,9 @@
 namespace havers::reports {
 namespace {
 
-// "12 (8 to 31)": median, and 10 to 90 %.
+// "12 (8 to 31)": median, and 10 to 90 %; of one study its value.
 std::string spread(const std::array<double, 3>& quantiles, double unit, int digits) {
+  if (quantiles[0] == quantiles[2]) return number(quantiles[1] / unit, digits);
   return fmt::format("{} ({} to {})", number(quantiles[1] / unit, digits),
                      number(quantiles[0] / unit, digits), number(quantiles[2] / unit, digits));
 }
@@ -25,9 +26,10 @@ std::string rate_text(const calib::Rate& rate) {
 
 mstch::map chain_row(const calib::ChainSummary& chain, bool usual) {
   const auto& [low, median, high] = chain.simulations;
+  const std::string range = low == high ? "" : fmt::format(" ({:.0f} to {:.0f})", low, high);
   return {{"chain", text(chain.chain + (usual ? " (default)" : ""))},
           {"error", text(spread(chain.error, in::percent, 2))},
-          {"simulations", text(fmt::format("{:.0f} ({:.0f} to {:.0f})", median, low, high))},
+          {"simulations", text(fmt::format("{:.0f}{}", median, range))},
           {"seconds", text(spread(chain.seconds, 1.0, 2))},
           {"success", text(rate_text(chain.success))}};
 }
@@ -57,6 +59,8 @@ std::string chains_page(const ChainsReport& report) {
   const auto& summaries = report.benchmark.summaries;
   const calib::ChainSummary& winner = report.benchmark.winner();
   const bool usual = winner.chain == summaries.front().chain;
+  const auto fits = static_cast<long>(report.benchmark.rows.size());
+  const std::size_t studies = report.benchmark.rows.size() / summaries.size();
   mstch::array chains;
   for (const calib::ChainSummary& chain : summaries)
     chains.emplace_back(chain_row(chain, &chain == &summaries.front()));
@@ -66,10 +70,9 @@ std::string chains_page(const ChainsReport& report) {
        {"sentence", text(fmt::format("{} needs the fewest simulations of those that succeed "
                                      "most often with the least error.",
                                      winner.chain))},
-       {"detail",
-        text(fmt::format("{} fits of {} studies of known truth. {}", report.benchmark.rows.size(),
-                         report.benchmark.rows.size() / summaries.size(),
-                         usual ? "It is the default." : "It is not the default."))},
+       {"detail", text(fmt::format("{} of {} of known truth. {}", count(fits, "fit"),
+                                   studies == 1 ? "1 study" : fmt::format("{} studies", studies),
+                                   usual ? "It is the default." : "It is not the default."))},
        {"chains", mstch::node{chains}},
        {"by_simulations",
         text(draw(chains_figure(report.benchmark, ChainCost::simulations, "bysimulations")))},

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "reports/figures/figures.hpp"
 #include "tests/reports/sound_page.hpp"
 
 namespace havers::reports {
@@ -53,8 +54,20 @@ TEST(ChainsPage, NamesTheWinnerAndDrawsErrorAgainstCost) {
   expect_sound(page);
   EXPECT_TRUE(contains(page, calib::all_chains().front().name + " needs the fewest simulations"));
   EXPECT_TRUE(contains(page, "It is the default."));
-  EXPECT_TRUE(contains(page, "1.2 (1.2 to 1.2)"));
+  EXPECT_TRUE(contains(page, "<td class=\"n\">1.2</td><td class=\"n\">300</td>"));
+  EXPECT_TRUE(contains(page, "7 fits of 1 study of known truth."));
   EXPECT_TRUE(contains(page, "bysimulations"));
+}
+
+// Its lines begin at the left and end at the bottom, where the names would stand.
+TEST(ChainsFigure, HasItsLegendOutside) {
+  std::vector<calib::ChainRow> rows;
+  for (const calib::Chain& chain : calib::all_chains())
+    rows.push_back(chain_row(chain.name, 0.0123, 300));
+  const auto benchmark = calib::summarise(std::move(rows));
+  const Figure figure = chains_figure(benchmark, ChainCost::simulations, "c");
+  EXPECT_FALSE(contains(figure.commands, "key inside"));
+  EXPECT_EQ(figure.height, 380 + 4 * 18);
 }
 
 TEST(CoveragePage, SaysWhichIntervalsHoldLessThanTheyPromise) {
