@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -119,9 +120,11 @@ void print_table(const std::vector<Section>& sections) {
   fmt::print("porosity [%]   +-    pores   window SD   scatter  section\n");
   for (const Section& section : sections) {
     const calib::SectionPorosity& found = section.measured.porosity;
+    const bool missing = calib::removes_joints(calib::pool_sections({found}));
     fmt::print("{:>12.3f}{:>7}{:>7}{:>12}{:>10}  {}\n", 100.0 * found.porosity,
                cell(100.0 * found.porosity_standard_error, 3), found.pore_count,
-               cell(found.window_sd, 4), cell(section.scatter, 3), found.file);
+               cell(found.window_sd, 4), missing ? "missing" : cell(section.scatter, 3),
+               found.file);
     for (const std::string& warning : found.warnings) fmt::print("  note: {}\n", warning);
     if (std::isfinite(found.density))
       fmt::print("  density of solid bone {:.0f} kg/m³, references {:.0f} kg/m³ about their line\n",
@@ -131,7 +134,7 @@ void print_table(const std::vector<Section>& sections) {
   if (sections.size() > 1)
     fmt::print("{:>12.3f}{:>7}{:>19}{:>10}  all, by area\n", 100.0 * mean.porosity,
                cell(100.0 * mean.porosity_standard_error, 3), cell(mean.window_sd, 4),
-               cell(calib::scatter_of(mean, {}), 3));
+               calib::removes_joints(mean) ? "missing" : cell(calib::scatter_of(mean, {}), 3));
   if (calib::removes_joints(mean))
     fmt::print(
         "  note: pores are larger than a window of one fibre: they take away {:.1f} % of the "

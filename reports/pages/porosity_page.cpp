@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/porosity/scatter_map.hpp"
 #include "reports/figures/figures.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/text/base64.hpp"
@@ -20,11 +21,19 @@ std::string with_sd(double mean, double sd, double unit) {
   return fmt::format("{} (SD {})", number(mean / unit, 3), number(sd / unit, 2));
 }
 
+// Of a section by itself: pores larger than a window take joints away instead (K5).
+std::string scatter_text(const calib::SectionPorosity& s, double scatter) {
+  const calib::SpecimenPorosity alone = calib::pool_sections({s});
+  if (!calib::removes_joints(alone)) return number(scatter, 3);
+  return fmt::format("– ({} missing)",
+                     quantity(calib::missing_joints(alone) / in::percent, "%", 3));
+}
+
 // One line of the table.
 mstch::map row(const std::string& name, const calib::SectionPorosity& s, double scatter) {
   return {{"file", text(name)},
           {"porosity", text(percent(s.porosity, s.porosity_standard_error))},
-          {"scatter", text(number(scatter, 3))},
+          {"scatter", text(scatter_text(s, scatter))},
           {"pores", text(std::to_string(s.pore_count))},
           {"density", text(number(s.pore_density * in::mm2, 3))},
           {"diameter", text(with_sd(s.mean_pore_diameter, s.pore_diameter_sd, in::um))},
@@ -105,7 +114,8 @@ std::string detail_of(const PorosityReport& report) {
   if (calib::removes_joints(mean))
     return fmt::format(
         "Pores are larger (a* = {} µm²) than the window of one fibre ({} µm²): they take {} of the "
-        "joints away rather than spread their strength.",
+        "joints away rather than spread their strength. a*: mean area of the pore that a random "
+        "point of pore lies in.",
         number(mean.pore_area_ratio / (in::um * in::um), 3),
         number(mean.window_area / (in::um * in::um), 3),
         quantity(calib::missing_joints(mean) / in::percent, "%", 3));

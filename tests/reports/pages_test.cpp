@@ -149,9 +149,16 @@ TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
   EXPECT_TRUE(contains(doubted, "%, 1 of them in doubt: see the warnings."));
   EXPECT_TRUE(contains(doubted, "<td class=\"n\">–</td>"));
 
-  report.mean.window_area = 1e-9;
-  report.mean.pore_area_ratio = 2e-9;
-  EXPECT_TRUE(contains(porosity_page(report), "of the joints away"));
+  for (calib::SectionPorosity& one : report.sections) {
+    one.window_area = 1e-9;
+    one.pore_area_ratio = 2e-9;
+  }
+  report.mean = calib::pool_sections(report.sections);
+  const std::string large = porosity_page(report);
+  EXPECT_TRUE(contains(large, "of the joints away"));
+  EXPECT_TRUE(contains(large, "a*: mean area of the pore that a random point"));
+  EXPECT_TRUE(contains(large, "– (4.80\u00a0% missing)"));
+  EXPECT_FALSE(contains(large, "0.410"));
 }
 
 sim::WorkPrecision work_precision_sample() {
