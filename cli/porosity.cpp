@@ -127,8 +127,11 @@ void print_table(const std::vector<Section>& sections) {
                found.file);
     for (const std::string& warning : found.warnings) fmt::print("  note: {}\n", warning);
     if (std::isfinite(found.density))
-      fmt::print("  density of solid bone {:.0f} kg/m³, references {:.0f} kg/m³ about their line\n",
-                 found.density, found.density_residual);
+      fmt::print(
+          "  density of solid bone {:.0f} kg/m³, {}\n", found.density,
+          std::isfinite(found.density_residual)
+              ? fmt::format("references {:.0f} kg/m³ about their line", found.density_residual)
+              : "two references: no check of their line");
   }
   const calib::SpecimenPorosity mean = mean_of(sections);
   if (sections.size() > 1)

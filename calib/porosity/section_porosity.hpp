@@ -52,7 +52,7 @@ struct SectionPorosity {
   std::vector<Zone> zones;
   double density = std::numeric_limits<double>::quiet_NaN();  ///< Of solid bone, by its grey
                                                               ///< level; NaN: unknown. [kg/m³]
-  double density_residual = 0.0;  ///< RMS of the references about the line. [kg/m³]
+  double density_residual = 0.0;  ///< RMS of the references about the line; NaN of two. [kg/m³]
   std::vector<std::string> warnings;
   bool doubtful = false;  ///< Whether a warning doubts the porosity itself.
 };

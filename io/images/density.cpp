@@ -42,7 +42,7 @@ void add_density(const cv::Mat& whole, const cv::Mat& bone_grey, const PoreMap& 
         section.file,
         fmt::format("solid bone has a density of {:.0f} kg/m³ by these materials", section.density),
         "give each grey level or rectangle the density of what it shows");
-  section.density_residual = std::sqrt(squares / n);
+  if (references.size() > 2) section.density_residual = std::sqrt(squares / n);
 }
 
 }  // namespace havers::images

@@ -73,10 +73,12 @@ Facts facts_of(const calib::SectionPorosity& s) {
     facts.emplace_back("Cracks", fmt::format("{}, {} mm², no part of the porosity", s.crack_count,
                                              number(s.crack_area / in::mm2, 3)));
   if (std::isfinite(s.density))
-    facts.emplace_back(
-        "Density of solid bone",
-        fmt::format("{} (references {} about their line)", quantity(s.density, "kg/m³", 4),
-                    quantity(s.density_residual, "kg/m³", 2)));
+    facts.emplace_back("Density of solid bone",
+                       fmt::format("{} ({})", quantity(s.density, "kg/m³", 4),
+                                   std::isfinite(s.density_residual)
+                                       ? fmt::format("references {} about their line",
+                                                     quantity(s.density_residual, "kg/m³", 2))
+                                       : "two references: no check of their line"));
   return facts;
 }
 

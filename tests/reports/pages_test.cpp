@@ -161,6 +161,20 @@ TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
   EXPECT_FALSE(contains(large, "0.410"));
 }
 
+TEST(PorosityPage, SaysThatTwoReferencesDoNotCheckTheirLine) {
+  auto section = test::fit_sample().study.specimens.front().sections.front();
+  section.density = 1900.0;
+  PorosityReport report{.sections = {section},
+                        .overlays = {test::tiny_png()},
+                        .scatter = {0.41},
+                        .histograms = {{}},
+                        .mean = calib::pool_sections({section})};
+  report.sections.front().density_residual = test::nan;
+  EXPECT_TRUE(contains(porosity_page(report), "(two references: no check of their line)"));
+  report.sections.front().density_residual = 14.0;
+  EXPECT_TRUE(contains(porosity_page(report), "(references 14\u00a0kg&#x2F;m³ about their line)"));
+}
+
 sim::WorkPrecision work_precision_sample() {
   const auto row = [](sim::BenchSetting setting, double error, int trusted) {
     sim::BenchRow made{.setting = setting, .runs = 1, .trusted = trusted};
