@@ -151,6 +151,7 @@ mstch::map specimen_content(const FitReport& report, std::size_t index) {
           {"figure", text(draw(specimen_figure(s, fmt::format("s{}", index))))},
           {"rows", mstch::node{comparison_rows(s)}},
           {"terms", section(term_rows(s))},
+          {"bounded", mstch::node{std::ranges::any_of(s.terms, &calib::TermResult::bound)}},
           {"failed", text(s.failed_simulations == 0 ? ""
                                                     : count(s.failed_simulations, "simulation") +
                                                           " of this specimen failed.")},

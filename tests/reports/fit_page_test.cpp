@@ -205,6 +205,14 @@ TEST(FitPage, NamesTheTermThatStandsForTheFailureStrainByWhatItIs) {
   EXPECT_TRUE(contains(page, "<th>ln strength (Pa)</th>"));
 }
 
+TEST(FitPage, SpeaksOfBoundsOnlyWhereATestWasStopped) {
+  auto sample = test::fit_sample();
+  sample.result.specimens.front().terms = {{.term = "strength"}};
+  EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), "is but a bound"));
+  sample.result.specimens.front().terms.front().bound = true;
+  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), "is but a bound"));
+}
+
 TEST(ComparisonPage, TellsMissingFilesFromChangedOnes) {
   const auto fit = test::fit_sample();
   const Provenance first{{"a.csv", "SHA-256 1"}, {"b.csv", "SHA-256 2"}};
