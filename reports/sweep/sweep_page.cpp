@@ -57,6 +57,10 @@ std::string coefficients_of(const calib::Law& law) {
     all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", name,
                        with_interval(value, value - half, value + half));
   }
+  constexpr double risk = 0.05;
+  if (law.lack_of_fit_p < risk)
+    all +=
+        ". The law does not fit: its intervals are those of a line that the points do not follow";
   return all;
 }
 

@@ -116,6 +116,15 @@ TEST(SweepPage, GivesEveryLawWithItsIntervals) {
   EXPECT_THAT(page, HasSubstr("ratio r\u00a0=\u00a03"));
 }
 
+TEST(SweepPage, SaysBesideTheIntervalsThatALawDoesNotFit) {
+  Case known;
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+              Not(HasSubstr("The law does not fit")));
+  known.result.laws.front().lack_of_fit_p = 0.001;
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+              HasSubstr("). The law does not fit: "));
+}
+
 TEST(SweepPage, TypesetsClaimsAndChancesThatAreNextToNothing) {
   Case known;
   known.result.findings.front().claim = "and grows with d (1.8e-6 d)";
