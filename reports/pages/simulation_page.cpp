@@ -164,8 +164,9 @@ Facts scene_facts(const SimulationReport& report) {
   const auto& [assembly, material, joints, loading, solver] = report.scene;
   return {
       {"Assembly",
-       fmt::format("{} layers of {} fibres, {} by {}, at {}, {} triangles a fibre", assembly.layers,
-                   assembly.fibres, setting(assembly.fibre_length / in::um, "µm"),
+       fmt::format("{} of {}, {} by {}, at {}, {} triangles a fibre",
+                   count(assembly.layers, "layer"), count(assembly.fibres, "fibre"),
+                   setting(assembly.fibre_length / in::um, "µm"),
                    setting(assembly.fibre_height / in::um, "µm"), degrees(assembly.orientation),
                    8 * assembly.refinement * assembly.refinement)},
       {"Material",

@@ -99,22 +99,20 @@ mstch::array finding_rows(const std::vector<FindingRow>& rows) {
 std::string findings_sentence(const std::vector<FindingRow>& rows) {
   std::map<std::string, std::set<FindingOutcome>> outcomes;
   for (const FindingRow& row : rows) outcomes[row.finding->id].insert(row.finding->outcome);
-  std::array<std::string, 3> names;  // holds, contradicted, mixed
-  std::array<int, 3> counts{};
+  std::array<std::string, 4> names;  // agree, disagree, undecided, one row so and another so
+  std::array<int, 4> counts{};
   for (const auto& [id, set] : outcomes) {
-    const bool one = set.size() == 1;
-    const std::size_t kind = one && set.contains(FindingOutcome::agrees)      ? 0
-                             : one && set.contains(FindingOutcome::disagrees) ? 1
-                                                                              : 2;
+    const std::size_t kind = set.size() == 1 ? static_cast<std::size_t>(*set.begin()) : 3;
     names.at(kind) += (names.at(kind).empty() ? "" : ", ") + id;
     ++counts.at(kind);
   }
   std::string sentence =
-      fmt::format("Of {}: ", count(static_cast<long>(outcomes.size()), "finding"));
-  const std::array<std::string_view, 3> say{"agree", "disagree", "are mixed or undecided"},
-      of_one{"agrees", "disagrees", "is mixed or undecided"};
+      fmt::format("Of {}{}: ", count(static_cast<long>(outcomes.size()), "finding"),
+                  rows.size() == outcomes.size() ? "" : fmt::format(" in {} rows", rows.size()));
+  const std::array<std::string_view, 4> say{"agree", "disagree", "are undecided", "differ by row"},
+      of_one{"agrees", "disagrees", "is undecided", "differs by row"};
   bool first = true;
-  for (std::size_t kind = 0; kind < 3; ++kind) {
+  for (std::size_t kind = 0; kind < counts.size(); ++kind) {
     if (counts.at(kind) == 0) continue;
     sentence += fmt::format("{}{} {} ({})", first ? "" : "; ", counts.at(kind),
                             counts.at(kind) == 1 ? of_one.at(kind) : say.at(kind), names.at(kind));

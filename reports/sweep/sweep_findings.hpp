@@ -20,7 +20,7 @@ std::vector<FindingRow> findings_of(const std::vector<SweepReport>& sweeps);
 mstch::array finding_rows(const std::vector<FindingRow>& rows);
 
 /// Which ids hold, their rows all agreeing; which are contradicted, all disagreeing; the rest is
-/// mixed or undecided. Precondition: there are rows.
+/// undecided or differs by row. Precondition: there are rows.
 std::string findings_sentence(const std::vector<FindingRow>& rows);
 
 }  // namespace havers::reports

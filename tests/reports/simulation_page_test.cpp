@@ -30,6 +30,14 @@ TEST(SimulationPage, PutsTheErrorBesideTheTime) {
   EXPECT_TRUE(contains(page, "time steps up to a strain of 3.978 × 10⁻⁶"));
 }
 
+TEST(SimulationPage, CountsOneLayerAndOneFibre) {
+  const auto assembly = small_assembly();
+  const auto simulation = test::simulation_sample(assembly);
+  sim::Scene scene;
+  scene.assembly.layers = scene.assembly.fibres = 1;
+  EXPECT_TRUE(contains(simulation_page({scene, assembly, simulation, {}}), "1 layer of 1 fibre,"));
+}
+
 TEST(SimulationPage, SaysWhatHalvingTheStepChangedOrThatItIsNotKnown) {
   const auto assembly = small_assembly();
   auto simulation = test::simulation_sample(assembly);

@@ -62,7 +62,15 @@ TEST(SweepPage, IsGreenOnlyWhereEveryFindingAgrees) {
               HasSubstr("verdict good"));
   known.result.findings.back().outcome = calib::FindingOutcome::undecided;
   EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
-              AllOf(HasSubstr("verdict mixed"), HasSubstr("1 is mixed or undecided (F7)")));
+              AllOf(HasSubstr("verdict mixed"), HasSubstr("Of 1 finding: 1 is undecided (F7)")));
+}
+
+TEST(SweepPage, SaysThatAFindingDiffersByRow) {
+  Case known;
+  known.result.findings.push_back(known.result.findings.front());
+  known.result.findings.back().outcome = calib::FindingOutcome::undecided;
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+              HasSubstr("Of 1 finding in 2 rows: 1 differs by row (F7)."));
 }
 
 TEST(SweepPage, IsRedWhereRunsDidNotBreakAndTellsWhich) {
