@@ -57,7 +57,7 @@ TEST(Sweep, ReadsWholeNumbersOfAnyBase) {
   test::write_text(folder / "small.toml", text);
   EXPECT_EQ(run_havers(folder, "sweep small.toml -o out").exit_code, 0);
   const auto result = nlohmann::json::parse(test::contents(folder / "out/result.json"));
-  EXPECT_EQ(result["sweeps"][0]["points"].back()["values"]["assembly.fibres"], 5);
+  EXPECT_EQ(result["sweeps"][0]["points"].back()["keys"]["assembly.fibres"], 5);
 }
 
 TEST(Sweep, PrintsMeansInTheirUnitAndDifferencesInPerCent) {
