@@ -112,6 +112,10 @@ void check_assembly(const AssemblyOptions& assembly, Checker& checker) {
                     assembly.fibre_length * 1e6, "at least fibre_height_um",
                     "a fibre is longer than it is high");
 
+  if (!std::isnormal(assembly.fibre_length * assembly.fibre_height))
+    checker.say("assembly.fibre_height_um", "makes fibres whose area leaves the range of numbers",
+                "check both sizes of a fibre");
+
   // The grid of fibres is as large as the box around the turned specimen.
   const double c = std::abs(std::cos(assembly.orientation)),
                s = std::abs(std::sin(assembly.orientation));
@@ -241,6 +245,11 @@ std::vector<Scene::Problem> Scene::problems() const {
   check_loading(loading, checker);
   check_solver(solver, checker);
   if (checker.found().empty() && !joints.thresholds.empty()) check_thresholds(*this, checker);
+  if (checker.found().empty() && solver.step &&
+      !(*solver.step * loading.strain_rate <= loading.max_strain))
+    checker.say("solver.step_s",
+                fmt::format("is {:g}: one step stretches beyond max_strain", *solver.step),
+                "shorten it, or leave it out, and the step is chosen");
   if (checker.found().empty()) check_number_of_steps(*this, checker);
   return checker.found();
 }

@@ -66,6 +66,8 @@ constexpr const char* instead_of_halving =
 // Relative defect of (M4) in time steps, and in the quasi-static limit, where pieces that swing by
 // a hundred times what the specimen stretches leave fewer digits to forces. [-]
 constexpr double largest_energy_defect = 1e-10, largest_energy_defect_of_events = 1e-9;
+// Of the strength, where slender fibres leave joint forces few digits. [-]
+constexpr double largest_rounding_error = 1e-4;
 // What a break may add to the energy stored, of that at the strength. [-]
 constexpr double largest_energy_gain = 1e-2;
 // Of the time to failure: a longer given step sees no more of the way than its end. [-]
@@ -97,6 +99,8 @@ std::string Simulation::why_not_trusted() const {
   if (!(energy_defect <=
         (regime == Regime::quasi_static ? largest_energy_defect_of_events : largest_energy_defect)))
     return "the energy balance does not close";
+  if (!(rounding_error <= largest_rounding_error))
+    return "rounding leaves the strength too few digits";
   if (without_contact_to_strength > 0)
     return "the contact of broken joints had no solution in an event before the strength";
   if (energy_gain > largest_energy_gain)
@@ -106,8 +110,13 @@ std::string Simulation::why_not_trusted() const {
 
 std::string Simulation::reservation() const {
   if (step_error) return "";
-  return fmt::format("the time step: {} was given, and its error is not known",
-                     step_in_words(step));
+  constexpr double worth_saying = 0.01;
+  const std::string loss =
+      numerical_loss < worth_saying
+          ? ""
+          : fmt::format("; steps took {:.0f} % of all energy", 100.0 * numerical_loss);
+  return fmt::format("the time step: {} was given, and its error is not known{}",
+                     step_in_words(step), loss);
 }
 
 StepError Simulation::error_beyond_accuracy() const {

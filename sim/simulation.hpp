@@ -89,8 +89,8 @@ struct Simulation {
   /// where the rest of an avalanche is left out. Section 6. [-]
   double end_fraction_used = 0.0;
 
-  /// What the last halving of a chosen step changed; 0 in the quasi-static limit, none where the
-  /// step was given.
+  /// What the last two halvings of a chosen step changed at most; 0 in the quasi-static limit, none
+  /// where the step was given.
   std::optional<StepError> step_error = StepError{};
   double leapt_strain = 0.0;    ///< What was stretched without steps, before the first break. [-]
   double step_accuracy = 0.0;   ///< Of both by a chosen step, as asked for. [-]
@@ -98,8 +98,11 @@ struct Simulation {
   long iterations = 0;          ///< Of the contact solver, all steps together.
   double energy_defect = 0.0;   ///< Largest relative defect of (M4) over the steps; quasi-static:
                                 ///< that of the last state. [-]
+  double numerical_loss = 0.0;  ///< Part of all energy that implicit Euler took: no bone's. [-]
   double energy_gain = 0.0;     ///< Quasi-static: the most that a break up to the strength added to
                                 ///< the energy stored, of that at the strength. [-]
+  double rounding_error = 0.0;  ///< Quasi-static: of the strength or its strain, as far as a solve
+                                ///< of the whole structure in that state shows it. [-]
   double worst_residual = 0.0;  ///< Largest (M11) over the steps. [-]
   double tolerance = 0.0;       ///< Of the residual, as asked for. [-]
   double worst_penetration = 0.0;  ///< Largest −g. [m]
@@ -117,7 +120,7 @@ struct Simulation {
   /// What a trusted run is to be trusted but for: a time step that was given, whose error nobody
   /// knows. A noun with what is to be said of it; empty where there is nothing.
   [[nodiscard]] std::string reservation() const;
-  /// What the last halving of a chosen step changed, where that is more than was asked for; else 0.
+  /// The step error, where that is more than was asked for; else 0.
   [[nodiscard]] StepError error_beyond_accuracy() const;
 };
 

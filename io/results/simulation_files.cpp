@@ -36,6 +36,8 @@ nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& s
       {"steps", simulation.steps},
       {"iterations", simulation.iterations},
       {"energy_defect", json_of(simulation.energy_defect)},
+      {"rounding_error", json_of(simulation.rounding_error)},
+      {"numerical_loss", json_of(simulation.numerical_loss)},
       {"energy_gain", json_of(simulation.energy_gain)},
       {"worst_residual", json_of(simulation.worst_residual)},
       {"worst_penetration_m", json_of(simulation.worst_penetration)},

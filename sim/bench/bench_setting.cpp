@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "sim/bench/watched_run.hpp"
 #include "sim/simulate.hpp"
 
@@ -78,7 +80,8 @@ Scene with_setting(const BenchSetting& setting, Scene scene) {
 
 double base_step(const Scene& scene) {
   if (choose_regime(scene).regime == Regime::quasi_static)
-    return 1e-2 * first_break_by_uniform_stress(scene) / scene.loading.strain_rate;
+    return 1e-2 * std::min(first_break_by_uniform_stress(scene), scene.loading.max_strain) /
+           scene.loading.strain_rate;
   return scene.solver.step.value_or(0.25 * scene.assembly.fibre_length /
                                     wave_speed(scene.material));
 }

@@ -47,8 +47,7 @@ Scene dynamic(double size, Scene scene) {
   const double first = first_break_by_uniform_stress(scene);
   scene.solver.regime = Regime::dynamic;
   scene.solver.step = h;
-  scene.loading.strain_rate =
-      (std::isfinite(first) ? first : scene.loading.max_strain) / (10.5 * h);
+  scene.loading.strain_rate = std::min(first, scene.loading.max_strain) / (10.5 * h);
   return scene;
 }
 

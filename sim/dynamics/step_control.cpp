@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/dynamics/time_stepping.hpp"
 #include "sim/joint/thresholds.hpp"
@@ -15,8 +16,13 @@ namespace havers::sim {
 namespace {
 
 constexpr int most_halvings = 10;
-// Of a third or later run. Two always run: their difference is the error.
-constexpr int most_steps = 4000;
+
+// Of a third or later run. Two always run: their difference is the error. A small wall, whose steps
+// cost less, takes more.
+double most_steps(const Simulation& run) {
+  constexpr double of_any = 4e3, of_all_joints = 1e6;
+  return std::max(of_any, of_all_joints / static_cast<double>(run.joints.size() + 1));
+}
 
 constexpr double never_compared = std::numeric_limits<double>::quiet_NaN();
 
@@ -24,7 +30,8 @@ std::string ground_of(const Simulation& run, double accuracy, const std::string&
   std::string halved;
   if (!std::isnan(run.step_error->failure_strain))
     halved = fmt::format(
-        ": halving to it changed the failure strain by {:.2g} % and the strength by {:.2g} %",
+        ": the last halvings to it, two at most, changed the failure strain by up to {:.2g} % and "
+        "the strength by up to {:.2g} %",
         100.0 * run.step_error->failure_strain, 100.0 * run.step_error->strength);
   if (run.step_error->largest() > accuracy)
     halved += fmt::format(", more than the {:g} % asked for", 100.0 * accuracy);
@@ -37,6 +44,13 @@ StepError error_of(const Simulation& finer, const Simulation& coarser) {
   if (!has_ended(finer)) return {never_compared, never_compared};
   return {std::abs(finer.failure_strain - coarser.failure_strain) / finer.failure_strain,
           std::abs(finer.strength - coarser.strength) / finer.strength};
+}
+
+// Of two halvings in turn, where there were two: one alone may change little by chance.
+StepError larger_of(const StepError& change, const StepError& before) {
+  if (std::isnan(change.failure_strain)) return change;
+  return {std::fmax(change.failure_strain, before.failure_strain),
+          std::fmax(change.strength, before.strength)};
 }
 
 // A watcher sees the answer last.
@@ -81,6 +95,7 @@ Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer) {
   Simulation run;
   run.failure_strain = run.strength = never_compared;
   std::string finer_failed;
+  StepError change{};  // by the last halving
   int agreed = 0;
   for (int halving = 0; halving <= most_halvings; ++halving, stepping.step *= 0.5) {
     Simulation finer = run_in_steps(scene, stepping, observer);
@@ -93,11 +108,12 @@ Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer) {
       show_again(scene, stepping, observer, run);
       break;
     }
-    finer.step_error = error_of(finer, run);  // run has twice the step
+    const StepError before = std::exchange(change, error_of(finer, run));  // run: twice the step
     run = std::move(finer);
-    agreed = run.step_error->largest() < 0.5 * scene.solver.step_accuracy ? agreed + 1 : 0;
+    run.step_error = larger_of(change, before);
+    agreed = change.largest() < 0.5 * scene.solver.step_accuracy ? agreed + 1 : 0;
     if (!has_ended(run) || agreed == 2) break;
-    if (!first && 2 * run.steps > most_steps) break;
+    if (!first && 2.0 * run.steps > most_steps(run)) break;
   }
   run.regime_ground = ground_of(run, scene.solver.step_accuracy, finer_failed);
   return run;

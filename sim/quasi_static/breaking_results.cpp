@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/joint/cohesive_cone.hpp"
 #include "sim/quasi_static/breaking_run.hpp"
 
 namespace havers::sim {
@@ -47,7 +48,25 @@ std::vector<JointOutcome> BreakingRun::outcomes() const {
 }
 
 VectorXd BreakingRun::displacements() const {
-  return strain_ * intact_->stretch(gaps()).displacements;
+  return strain_ * intact_->stretch(gaps(y_)).displacements;
+}
+
+void BreakingRun::take_note_of_strength(const Event& event) {
+  strongest_ = {event, force_, y_};
+}
+
+// What a run says of its strength, against the whole structure with the gaps it had there.
+double BreakingRun::missed_at_strength() const {
+  if (strongest_.gaps.size() == 0 || strongest_.force == 0.0) return 0.0;  // known
+  const UnitAnswer exact = intact_->stretch(gaps(strongest_.gaps));
+  double missed = std::abs(strongest_.force / exact.force - 1.0);
+  for (const std::size_t j : strongest_.next.joints) {
+    const double strain =
+        strain_at_cone(of_joint(exact.reactions, j), intact_law(joints_[j].threshold),
+                       scene_.material.young, noise_);
+    missed = std::max(missed, std::abs(strongest_.next.strain / strain - 1.0));
+  }
+  return missed;
 }
 
 // What events computed is checked against the refined answer, ½ qᵀKq = ½ (F W ε + r·u) too.
@@ -68,11 +87,12 @@ void BreakingRun::finish(Simulation& simulation) {
   const double elastic = intact_->energy(last.displacements);
   const bool bears = force_ != 0.0;
   const double work =
-      bears ? 0.5 * (last.force * intact_->assembly().width + last.reactions.dot(gaps())) : 0.0;
+      bears ? 0.5 * (last.force * intact_->assembly().width + last.reactions.dot(gaps(y_))) : 0.0;
   const double energy_scale = std::max(largest_energy_, std::abs(point().elastic));
   if (energy_scale > 0.0)
     simulation.energy_defect =
         scene_.material.young * strain_ * strain_ * std::abs(elastic - work) / energy_scale;
+  simulation.rounding_error = missed_at_strength();
   simulation.worst_residual =
       std::max({simulation.worst_residual, intact_->answer().residual, last.residual,
                 scale > 0.0 ? worst_residual_ / scale : 0.0,

@@ -235,7 +235,7 @@ void BreakingRun::see_all() {
 
 // The whole structure with the gaps.
 void BreakingRun::take_reference() {
-  reference_ = intact_->stretch(gaps());
+  reference_ = intact_->stretch(gaps(y_));
   y_at_reference_ = y_;
   reactions_ = reference_.reactions;
   y_seen_ = y_;
@@ -254,9 +254,11 @@ VectorXd BreakingRun::lacking() const {
   return reactions_(loose_.rows()) - (contact_.r0 + contact_.S * y_);
 }
 
-VectorXd BreakingRun::gaps() const {
+// Of all joints; loose ones that are beyond `of_loose` had not broken yet.
+VectorXd BreakingRun::gaps(const VectorXd& of_loose) const {
   VectorXd gaps = VectorXd::Zero(2 * static_cast<Index>(joints_.size()));
-  gaps(loose_.rows()) = y_;
+  for (Index i = 0; i < of_loose.size(); ++i)
+    gaps(loose_.rows()[static_cast<std::size_t>(i)]) = of_loose(i);
   return gaps;
 }
 

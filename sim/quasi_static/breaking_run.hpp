@@ -43,11 +43,14 @@ class BreakingRun {
   [[nodiscard]] Eigen::VectorXd displacements() const;
   /// Events so far whose contact found no solution.
   [[nodiscard]] int without_contact() const { return without_contact_; }
+  /// That the specimen is the strongest so far where it is stretched to this event.
+  void take_note_of_strength(const Event& event);
   /// Fills in the last row's joints and displacements, and the checks.
   void finish(Simulation& simulation);
 
  private:
   void take_note_of_penetration();
+  [[nodiscard]] double missed_at_strength() const;
   [[nodiscard]] double meets_cone_at(std::size_t joint, const Local& reaction) const;
   struct Glance {
     Eigen::VectorXd reactions;
@@ -66,7 +69,7 @@ class BreakingRun {
   [[nodiscard]] std::vector<char> apart();
   [[nodiscard]] bool severed() const;
   [[nodiscard]] bool bears_nothing() const;
-  [[nodiscard]] Eigen::VectorXd gaps() const;
+  [[nodiscard]] Eigen::VectorXd gaps(const Eigen::VectorXd& of_loose) const;
   [[nodiscard]] Eigen::VectorXd lacking() const;
   [[nodiscard]] Eigen::VectorXd all_reactions() const;
   [[nodiscard]] bool may_lose_digits() const;
@@ -86,6 +89,11 @@ class BreakingRun {
   double strain_ = 0.0;
   double dissipated_ = 0.0;      // [J/m]
   double largest_energy_ = 0.0;  // stored before an event, likewise
+  struct Strongest {
+    Event next;
+    double force = 0.0;
+    Eigen::VectorXd gaps;
+  } strongest_;
   int broken_ = 0;
   bool unsolved_ = false;  // the last event was taken back
   int without_contact_ = 0;

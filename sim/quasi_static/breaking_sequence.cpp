@@ -62,8 +62,10 @@ SimulationStatus follow_events(const Scene& scene, BreakingRun& run, const Obser
     const double stress = simulation.curve.back().stress_right;
     if (!std::isfinite(stress)) return SimulationStatus::not_finite;
     has_failed(simulation, end_fraction);  // takes note of the strength
-    if (stress >= simulation.strength)
+    if (stress >= simulation.strength) {
       simulation.without_contact_to_strength = run.without_contact();
+      run.take_note_of_strength(event);
+    }
     if (event.strain > scene.loading.max_strain) return SimulationStatus::strain_limit;
 
     if (!run.break_joints(event.joints)) return SimulationStatus::not_converged;
@@ -119,9 +121,13 @@ Simulation break_event_by_event(const Scene& scene,
   return simulation;
 }
 
+double missed_by(const Simulation& run) {
+  return std::max(run.worst_residual, run.rounding_error);
+}
+
 bool is_no_worse(const Simulation& a, const Simulation& b) {
   if (has_ended(a) != has_ended(b)) return has_ended(a);
-  return a.worst_residual <= b.worst_residual;
+  return missed_by(a) <= missed_by(b);
 }
 
 }  // namespace
@@ -129,7 +135,7 @@ bool is_no_worse(const Simulation& a, const Simulation& b) {
 Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
   const std::shared_ptr<const IntactStructure> intact = intact_structure(scene);
   Simulation quick = break_event_by_event(scene, intact, false, observer);
-  if ((has_ended(quick) && quick.worst_residual <= std::min(accurate, scene.solver.tolerance)) ||
+  if ((has_ended(quick) && missed_by(quick) <= std::min(accurate, scene.solver.tolerance)) ||
       quick.status == SimulationStatus::cancelled)
     return quick;
   Simulation careful = break_event_by_event(scene, intact, true, observer);

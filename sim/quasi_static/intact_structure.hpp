@@ -71,7 +71,8 @@ class IntactStructure {
   std::optional<SinglePrecisionFactor> single_;  // of the structure, where it needs a factor
   UnitAnswer answer_;
   bool stress_is_known_ = false;
-  Eigen::VectorXd lost_;  // forces of the uniform stress that a solve does not find [N/m]
+  Eigen::VectorXd lost_;     // forces of the uniform stress that a solve does not find [N/m]
+  double lost_force_ = 0.0;  // and of that at the end
   std::vector<std::vector<int>> joints_of_bodies_;
   mutable std::mutex mutex_;
   mutable std::map<int, SharedJump> jumps_;      // at each joint

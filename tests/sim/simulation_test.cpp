@@ -46,6 +46,9 @@ TEST(Simulation, IsNotTrustedUnlessItsChecksHold) {
   simulation.status = SimulationStatus::broken;
   simulation.worst_residual = 0.0;
   EXPECT_TRUE(simulation.trusted());
+  simulation.rounding_error = 2e-4;
+  EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("too few digits"));
+  simulation.rounding_error = 0.0;
   simulation.step_error = StepError{.strength = 0.025};
   EXPECT_TRUE(simulation.trusted());
   simulation.step_error = StepError{.strength = 0.035};
@@ -62,6 +65,8 @@ TEST(Simulation, IsTrustedButForAStepThatWasGiven) {
   simulation.step_error.reset();
   EXPECT_TRUE(simulation.trusted());
   EXPECT_EQ(simulation.reservation(), "the time step: 20 ns was given, and its error is not known");
+  simulation.numerical_loss = 0.48;
+  EXPECT_THAT(simulation.reservation(), HasSubstr("known; steps took 48 % of all energy"));
   EXPECT_EQ(simulation.error_beyond_accuracy().largest(), 0.0);
 }
 

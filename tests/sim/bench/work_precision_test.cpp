@@ -177,6 +177,12 @@ TEST(WorkPrecision, TellsWhereRunsWereStoppedFromThoseAlone) {
   EXPECT_EQ(row->stopped_at.median, row->reached.median);
 }
 
+TEST(BenchSetting, HasStepsWhereNothingBreaks) {
+  Scene scene = tiny(Regime::quasi_static);
+  scene.joints.head_tail = scene.joints.flank = 1e18;
+  EXPECT_LE(base_step(scene) * scene.loading.strain_rate, 1e-2 * scene.loading.max_strain);
+}
+
 TEST(BenchSetting, RefinesTheMeshAtTheLongestAndTheShortestStep) {
   const Scene scene = tiny(Regime::dynamic);
   double longest = 0.0, shortest = base_step(scene);
