@@ -57,9 +57,8 @@ TEST(Synthesize, RefusesFilesInThePlaceOfItsOwn) {
 
 TEST(Synthesize, RefusesPorosityThatASectionCannotHold) {
   const fs::path folder = test::folder_with_study();
-  test::write_text(folder / "study.toml", test::small_study() +
-                                              "sections = [\"s.png\"]\nporosity = 0.7\n"
-                                              "[synthesize]\nsection_pixels = 100\n");
+  test::write_text(folder / "study.toml",
+                   test::small_study() + "sections = [\"s.png\"]\nporosity = 0.7\n");
   const auto answer = run_havers(folder, "synthesize study.toml -o made");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_FALSE(fs::exists(folder / "made"));

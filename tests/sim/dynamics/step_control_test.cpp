@@ -42,15 +42,19 @@ TEST(StepLimit, EndsARunThatDoesNotBreakAndIsNotToBeTrusted) {
   EXPECT_THAT(run.why_not_trusted(), testing::HasSubstr("time steps were taken"));
 }
 
-// At 0 degrees the strength goes up and down by up to 2.8 % with every halving, and no end is seen.
+// At 0 degrees the strength goes up and down with every halving, and no end is seen: what is said
+// of that is right within a factor of three.
 TEST_P(StepControl, FindsTheAnswerOfMuchSmallerSteps) {
   const Scene scene = without_step(GetParam());
   const Simulation run = run_in_chosen_steps(scene, {});
-  ASSERT_LT(run.step_error.value().failure_strain, GetParam() == 0.0 ? 2e-3 : 0.5e-3);
-  ASSERT_LT(run.step_error.value().strength, GetParam() == 0.0 ? 3e-2 : 0.5e-3);
+  const StepError said = run.step_error.value();
   const Simulation finer = run_in_steps(scene, {.step = run.step / 4.0, .leap = true}, {});
-  EXPECT_NEAR(run.failure_strain / finer.failure_strain, 1.0, 2e-3);
-  EXPECT_NEAR(run.strength / finer.strength, 1.0, GetParam() == 0.0 ? 3e-2 : 2e-3);
+  const bool settles = GetParam() != 0.0;
+  ASSERT_LT(said.failure_strain, settles ? 0.5e-3 : 2e-3);
+  ASSERT_LT(said.strength, settles ? 0.5e-3 : 3e-2);
+  EXPECT_NEAR(run.failure_strain / finer.failure_strain, 1.0,
+              settles ? 2e-3 : 3.0 * said.failure_strain);
+  EXPECT_NEAR(run.strength / finer.strength, 1.0, settles ? 2e-3 : 3.0 * said.strength);
 }
 
 // Halvings once changed little by chance, far from the limit.
