@@ -222,7 +222,8 @@ void Refinement::take_step(ClockFit& fit, int clocks) {
 
 }  // namespace
 
-ClockFit refine_clocks(const ClockEvidence& evidence, double largest_rate_error, ClockFit fit) {
+ClockFit refine_clocks(const ClockEvidence& evidence, ClockFit fit) {
+  constexpr double largest_rate_error = 0.01;  // beyond it the clocks' rates are taken as equal
   Refinement refinement(evidence);
   refinement.refine(fit, 1);
   ClockFit with_rate = fit;

@@ -24,9 +24,8 @@ struct ClockEvidence {
 
 /// (X17) Machine's signal = spline of the logger's at the logger's time, so that no straight
 /// material is assumed; by Gauss and Newton over the spline, the offset and the rate, which is kept
-/// at 1 where its error would exceed `largest_rate_error`. `fit` is the first guess, a step off at
-/// most.
-ClockFit refine_clocks(const ClockEvidence& evidence, double largest_rate_error, ClockFit fit);
+/// at 1 where its error would exceed a hundredth. `fit` is the first guess, a step off at most.
+ClockFit refine_clocks(const ClockEvidence& evidence, ClockFit fit);
 
 /// Sets the curves of the figure: the whole records, and what the spline leaves of the machine's.
 void draw_clocks(ClockEvidence evidence, const Signal& machine, const Signal& logger,

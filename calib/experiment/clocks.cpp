@@ -19,6 +19,10 @@ constexpr std::size_t fewest_rows = 20;
 constexpr double smallest_overlap = 0.5;  // of the shorter record
 // Slack and seating may move one signal and not the other: what a toe could reach is not compared.
 constexpr double above_toe = 0.15;  // of the range
+// What counts as a match (X18).
+constexpr double smallest_correlation = 0.7;  // of the rates, at the best offset
+constexpr double closest_rival = 0.95;  // correlation elsewhere that leaves it open, of the best
+constexpr double largest_shift = 0.05;  // of the range, that the offset's error may move
 
 double correlation(std::span<const double> a, std::span<const double> b) {
   if (a.empty()) return 0.0;
@@ -82,10 +86,10 @@ double correlation_at(const SignalRates& machine, const SignalRates& logger, con
 }
 
 // (X18)
-std::string doubt(const ClockFit& fit, const ClockOptions& options, double shift) {
-  if (fit.correlation < options.smallest_correlation)
+std::string doubt(const ClockFit& fit, double shift) {
+  if (fit.correlation < smallest_correlation)
     return fmt::format("the rates of the two signals correlate by {:.2f} at best", fit.correlation);
-  if (!(shift <= options.largest_shift))
+  if (!(shift <= largest_shift))
     return fmt::format("the offset is known to ± {:.2g} s only", fit.offset_standard_error);
   return {};
 }
@@ -139,45 +143,43 @@ void set_lag(const ClockEvidence& evidence, double difference, ClockFit& fit) {
 }
 
 // The offset at which the rates correlate best; why there is none in `problem`.
-double best_difference(const SignalRates& machine, const SignalRates& logger,
-                       const ClockOptions& options, ClockFit& fit) {
+double best_difference(const SignalRates& machine, const SignalRates& logger, ClockFit& fit) {
   const Correlogram lags = correlate(machine.value, logger.value);
   const auto best =
       static_cast<std::size_t>(std::ranges::max_element(lags.value) - lags.value.begin());
   fit.correlation = lags.value[best];
-  fit.problem = doubt(fit, options, 0.0);
-  if (fit.problem.empty() && rival_of(lags.value, best) > options.closest_rival * fit.correlation)
+  fit.problem = doubt(fit, 0.0);
+  if (fit.problem.empty() && rival_of(lags.value, best) > closest_rival * fit.correlation)
     fit.problem = "several offsets fit alike";
   const auto lag = static_cast<double>(lags.first + static_cast<std::ptrdiff_t>(best));
   return machine.start + lag * machine.step - logger.start;
 }
 
-std::string match(const Signal& machine, const Signal& logger, const ClockOptions& options,
-                  ClockFit& fit) {
+std::string match(const Signal& machine, const Signal& logger, ClockFit& fit) {
   if (machine.time.size() < fewest_rows || logger.time.size() < fewest_rows)
     return "there are too few rows";
   const double step = std::max(telling_step(machine), telling_step(logger));
   const SignalRates a = rates_of(machine, step), b = rates_of(logger, step);
   if (a.value.size() < fewest_rows || b.value.size() < fewest_rows)
     return "one of the records is too short for the steps of the other";
-  const double difference = best_difference(a, b, options, fit);
+  const double difference = best_difference(a, b, fit);
   if (!fit.problem.empty()) return fit.problem;
   ClockEvidence evidence{
       .machine = machine, .logger = logger, .broke = {}, .step = step, .lowest = above_toe};
   evidence.broke = cut_at_break(difference, b, evidence);
   set_lag(evidence, difference, fit);
-  fit = refine_clocks(evidence, options.largest_rate_error, fit);
+  fit = refine_clocks(evidence, fit);
   draw_clocks(evidence, machine, logger, fit);
   fit.correlation = correlation_at(a, b, fit);
   const double fastest = std::ranges::max(a.value) / extent_of(evidence.machine.value);
-  return doubt(fit, options, fit.offset_standard_error * fastest);
+  return doubt(fit, fit.offset_standard_error * fastest);
 }
 
 }  // namespace
 
-ClockFit fit_clocks(const Signal& machine, const Signal& logger, const ClockOptions& options) {
+ClockFit fit_clocks(const Signal& machine, const Signal& logger) {
   ClockFit fit;
-  const std::string why = match(machine, logger, options, fit);
+  const std::string why = match(machine, logger, fit);
   fit.problem = why.empty() ? "" : "the signals do not determine the two clocks: " + why;
   return fit;
 }

@@ -12,15 +12,6 @@ struct Signal {
   std::span<const double> time, value;
 };
 
-/// What counts as a match (X18).
-struct ClockOptions {
-  double smallest_correlation = 0.7;  ///< Of the rates, at the best offset. [-]
-  double closest_rival =
-      0.95;  ///< Correlation elsewhere that leaves it open, part of the best. [-]
-  double largest_rate_error = 0.01;  ///< Beyond it the clocks' rates are taken as equal. [-]
-  double largest_shift = 0.05;       ///< What the offset's error may move, part of the range. [-]
-};
-
 /// A signal of the figure, in parts of the range of the record it is compared with.
 struct ClockTrace {
   std::vector<double> time;  ///< [s]
@@ -47,6 +38,6 @@ struct ClockFit {
 };
 
 /// Estimates offset and rate from signals that rise and fall together: loading, holds, the break.
-ClockFit fit_clocks(const Signal& machine, const Signal& logger, const ClockOptions& options = {});
+ClockFit fit_clocks(const Signal& machine, const Signal& logger);
 
 }  // namespace havers::calib

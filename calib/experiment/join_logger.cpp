@@ -150,7 +150,7 @@ void list_repairs(const RawTest& logger, RawTest& test) {
 }  // namespace
 
 JoinedTest join_logger(const RawTest& machine, const RawTest& recorded,
-                       const ReductionOptions& options, const ClockOptions& clock_options) {
+                       const ReductionOptions& options) {
   JoinedTest joined{.test = cleaned(machine, options), .clocks = {}, .problems = {}};
   RawTest& test = joined.test;
   const RawTest logger = cleaned(recorded, options);
@@ -164,7 +164,7 @@ JoinedTest join_logger(const RawTest& machine, const RawTest& recorded,
         "to join a logger, the test needs time and force, the logger time and a gauge");
     return joined;
   }
-  joined.clocks = fit_clocks({test.time, load}, {logger.time, signal}, clock_options);
+  joined.clocks = fit_clocks({test.time, load}, {logger.time, signal});
   if (!joined.clocks.problem.empty()) {
     joined.problems.push_back(joined.clocks.problem);
     return joined;

@@ -22,6 +22,6 @@ struct JoinedTest {
 /// by the logger's (X19). Both records are cleaned before, and a load that is written negative is
 /// turned (X11), (X12), (X22); the joined test lists it.
 JoinedTest join_logger(const RawTest& machine, const RawTest& recorded,
-                       const ReductionOptions& options, const ClockOptions& clock_options = {});
+                       const ReductionOptions& options);
 
 }  // namespace havers::calib
