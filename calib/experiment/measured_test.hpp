@@ -14,8 +14,6 @@ struct ReductionOptions {
   double window_low = 0.1;     ///< Modulus window, lower end, part of the strength. [-]
   double window_high = 0.4;    ///< Modulus window, upper end, part of the strength. [-]
   double straightness = 0.03;  ///< Slopes of the window's halves may differ by this part (X5). [-]
-  double standard_low = 5e-4;  ///< Window of ISO 527-1, for curves without a straight part. [-]
-  double standard_high = 25e-4;  ///< Its upper end. [-]
   bool remove_toe = true;  ///< Shift the strain so that the modulus line passes through the origin.
   bool cut_after_break = true;  ///< Drop the rows after the specimen has parted.
   double break_part =

@@ -15,6 +15,8 @@ constexpr std::size_t fewest_half_window = 5;  // of a half window whose slope i
 constexpr double narrowing_step = 0.1;         // part of the window's stress range
 constexpr double fewest_remaining = 0.3;  // a window shorter than this part shows no straight line
 constexpr double yielded = 0.5;           // slope ratio of the halves that only yielding explains
+// Strains of the window of ISO 527-1, for curves without a straight part.
+constexpr double standard_low = 5e-4, standard_high = 25e-4;
 
 // (X4) Points that err alike are fewer, and what few scatter about a line is itself uncertain: the
 // variance of Student's t.
@@ -99,10 +101,10 @@ Window straight_window(const Curve& curve, double strength, const ReductionOptio
 
 // (X6) The line of ISO 527-1, where it can be one: the curve spans its window, and the line meets
 // the strain axis within half the window's length of zero, which that of a yielded curve does not.
-bool fit_standard(const Curve& curve, const ReductionOptions& options, ModulusFit& fit) {
+bool fit_standard(const Curve& curve, ModulusFit& fit) {
   std::vector<double> x, y;
   for (std::size_t i = 0; i < curve.strain.size(); ++i) {
-    if (curve.strain[i] < options.standard_low || curve.strain[i] > options.standard_high) continue;
+    if (curve.strain[i] < standard_low || curve.strain[i] > standard_high) continue;
     if (x.empty()) fit.window.first = i;
     fit.window.last = i + 1;
     x.push_back(curve.strain[i]);
@@ -110,9 +112,9 @@ bool fit_standard(const Curve& curve, const ReductionOptions& options, ModulusFi
   }
   const Line plain = with_true_error(fit_plain_line(x, y), x, y);
   const Line robust = fit_robust_line(x, y);
-  const bool spanned = curve.strain.back() >= options.standard_high;
+  const bool spanned = curve.strain.back() >= standard_high;
   if (!spanned || x.size() < 2 * fewest_half_window || plain.slope <= 0.0) return false;
-  const double half = 0.5 * (options.standard_high - options.standard_low);
+  const double half = 0.5 * (standard_high - standard_low);
   if (std::abs(plain.intercept / plain.slope) > half) return false;
   fit.line = plain;
   // Two ways to draw a line through a bend differ by more than the noise: that is its uncertainty.
@@ -138,21 +140,20 @@ void steepen(const Curve& curve, RowRange window, Line& line) {
   line.slope_standard_error *= factor;
 }
 
-void fall_back(const Curve& curve, const Window& window, const ReductionOptions& options,
-               ModulusFit& fit) {
+void fall_back(const Curve& curve, const Window& window, ModulusFit& fit) {
   const std::string complaint = fmt::format(
       "the curve has no straight part between {:.4g} and {:.4g} MPa (its slope goes from {:.4g} "
       "to {:.4g} GPa)",
       window.low * 1e-6, window.high * 1e-6, window.bend.lower.slope * 1e-9,
       window.bend.upper.slope * 1e-9);
   ModulusFit standard;
-  if (fit_standard(curve, options, standard)) {
+  if (fit_standard(curve, standard)) {
     fit.line = standard.line;
     fit.window = standard.window;
     fit.warnings.push_back(fmt::format(
         "{}: the modulus is the least-squares slope between {:.3g} and {:.3g} % strain, as in "
         "ISO 527-1, and its standard error the difference to the robust slope there",
-        complaint, options.standard_low * 100, options.standard_high * 100));
+        complaint, standard_low * 100, standard_high * 100));
   } else {
     fit.warnings.push_back(complaint + ": the modulus is a mean slope");
   }
@@ -170,7 +171,7 @@ ModulusFit fit_modulus(std::span<const double> strain, std::span<const double> s
   if (window.straight)
     steepen(curve, fit.window, fit.line);
   else
-    fall_back(curve, window, options, fit);
+    fall_back(curve, window, fit);
   const double low = window.low / strength, high = window.high / strength;
   if (low > options.window_low + 1e-9 || high < options.window_high - 1e-9)
     fit.corrections.push_back(
