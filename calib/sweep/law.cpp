@@ -6,13 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 namespace havers::calib {
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 template <auto Free, class T>
 std::unique_ptr<T, decltype(Free)> owned(T* pointer) {
@@ -77,8 +74,7 @@ double least_squares(const Rows& rows, Law& law) {
 // (W2)
 void test_lack_of_fit(const SweepPlan& plan, const std::vector<SweepPoint>& points,
                       const std::vector<SweepRun>& runs, Law& law) {
-  double pure = 0.0, lack = 0.0;
-  double within = 0.0, levels = 0.0;
+  double pure = 0.0, lack = 0.0, within = 0.0, levels = 0.0;
   for (const std::size_t point : law.points) {
     const Statistics mean = statistics_of(values_of(runs, point, law.request.response));
     if (mean.n == 0) continue;
@@ -88,10 +84,8 @@ void test_lack_of_fit(const SweepPlan& plan, const std::vector<SweepPoint>& poin
     lack += n * deviation * deviation;
     within += n - 1.0;
     levels += 1.0;
-    law.worst_deviation = std::max(law.worst_deviation, std::abs(deviation));
   }
   const double freedom = levels - static_cast<double>(law.coefficients.size());
-  law.lack_of_fit = law.lack_of_fit_p = unknown;
   if (freedom < 1.0 || within < 1.0 || !(pure > 0.0)) return;
   law.lack_of_fit = (lack / freedom) / (pure / within);
   law.lack_of_fit_p = gsl_cdf_fdist_Q(law.lack_of_fit, freedom, within);

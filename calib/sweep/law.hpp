@@ -32,9 +32,8 @@ struct Law {
   std::vector<std::size_t> points;
 
   // Lack of fit (W2): the points' means around the law against the runs around their means.
-  double lack_of_fit = none;     ///< F; NaN where it cannot be tested. [-]
-  double lack_of_fit_p = none;   ///< Its probability if the law held. [-]
-  double worst_deviation = 0.0;  ///< Largest |mean of a point − law|. SI units.
+  double lack_of_fit = none;    ///< F; NaN where it cannot be tested. [-]
+  double lack_of_fit_p = none;  ///< Its probability if the law held. [-]
 
   [[nodiscard]] double value(const SweepPoint& point, const SweepPlan& plan) const;
 };
