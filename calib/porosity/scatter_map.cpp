@@ -10,50 +10,39 @@ namespace {
 
 constexpr double largest_scatter = 1.99;  // d < 2: no joint may start broken.
 
-// Weights of sum 1 from bone areas; equal ones where an area is unknown.
-std::vector<double> area_weights(const std::vector<const SectionPorosity*>& sections) {
-  std::vector<double> weights;
-  weights.reserve(sections.size());
-  for (const SectionPorosity* section : sections) weights.push_back(section->bone_area);
-  const bool known = std::all_of(weights.begin(), weights.end(), [](double w) { return w > 0.0; });
-  if (!known) std::fill(weights.begin(), weights.end(), 1.0);
-  double sum = 0.0;
-  for (const double weight : weights) sum += weight;
-  for (double& weight : weights) weight /= sum;
-  return weights;
-}
+// What a section says, and the bone area by which that counts.
+struct Share {
+  double value, error, weight;
+};
 
 struct Pooled {
   double mean = 0.0;
   double standard_error = 0.0;
 };
 
-// Weighted mean. Its standard error is the larger of what the sections differ by and what each of
-// them says of itself: few sections may agree by chance.
-Pooled pool(const std::vector<double>& values, const std::vector<double>& errors,
-            const std::vector<double>& weights) {
-  const auto n = static_cast<double>(values.size());
+// Mean weighted by area, equally where an area is unknown. Its standard error is the larger of what
+// the sections differ by and what each of them says of itself: few sections may agree by chance.
+Pooled pool(std::vector<Share> shares) {
+  const bool known = std::ranges::all_of(shares, [](const Share& one) { return one.weight > 0.0; });
+  double area = 0.0, within = 0.0, between = 0.0;
+  for (Share& one : shares) area += one.weight = known ? one.weight : 1.0;
   Pooled pooled;
-  for (std::size_t i = 0; i < values.size(); ++i) pooled.mean += weights[i] * values[i];
-  double within = 0.0, between = 0.0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    within += std::pow(weights[i] * errors[i], 2);
-    between += std::pow(weights[i] * (values[i] - pooled.mean), 2);
+  for (Share& one : shares) pooled.mean += (one.weight /= area) * one.value;
+  for (const Share& one : shares) {
+    within += std::pow(one.weight * one.error, 2);
+    between += std::pow(one.weight * (one.value - pooled.mean), 2);
   }
+  const auto n = static_cast<double>(shares.size());
   if (n > 1.0) between *= n / (n - 1.0);
   pooled.standard_error = std::sqrt(std::max(within, between));
   return pooled;
 }
 
 void pool_porosity(const std::vector<SectionPorosity>& sections, SpecimenPorosity& specimen) {
-  std::vector<const SectionPorosity*> all;
-  std::vector<double> values, errors;
-  for (const SectionPorosity& section : sections) {
-    all.push_back(&section);
-    values.push_back(section.porosity);
-    errors.push_back(section.porosity_standard_error);
-  }
-  const Pooled pooled = pool(values, errors, area_weights(all));
+  std::vector<Share> shares;
+  for (const SectionPorosity& section : sections)
+    shares.push_back({section.porosity, section.porosity_standard_error, section.bone_area});
+  const Pooled pooled = pool(shares);
   specimen.porosity = pooled.mean;
   specimen.porosity_standard_error = pooled.standard_error;
 }
@@ -61,21 +50,20 @@ void pool_porosity(const std::vector<SectionPorosity>& sections, SpecimenPorosit
 // (K1): the variance over the windows of all sections together, so that sections of different
 // porosity widen it.
 void pool_window_sd(const std::vector<SectionPorosity>& sections, SpecimenPorosity& specimen) {
-  std::vector<const SectionPorosity*> known;
-  std::vector<double> variances, errors;
+  std::vector<Share> shares;
   for (const SectionPorosity& section : sections) {
     if (!std::isfinite(section.window_sd)) continue;
-    known.push_back(&section);
-    variances.push_back(std::pow(section.window_sd, 2) +
-                        std::pow(section.porosity - specimen.porosity, 2));
-    errors.push_back(2.0 * section.window_sd * section.window_sd_standard_error);
+    const double variance =
+        std::pow(section.window_sd, 2) + std::pow(section.porosity - specimen.porosity, 2);
+    shares.push_back(
+        {variance, 2.0 * section.window_sd * section.window_sd_standard_error, section.bone_area});
   }
-  if (known.empty()) {
+  if (shares.empty()) {
     specimen.window_sd = std::numeric_limits<double>::quiet_NaN();
     specimen.window_sd_standard_error = specimen.window_sd;
     return;
   }
-  const Pooled variance = pool(variances, errors, area_weights(known));
+  const Pooled variance = pool(shares);
   specimen.window_sd = std::sqrt(variance.mean);
   if (specimen.window_sd > 0.0)
     specimen.window_sd_standard_error = variance.standard_error / (2.0 * specimen.window_sd);
