@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -19,43 +20,34 @@ namespace {
 constexpr std::size_t order = 4, knots = 13, spline = knots + order - 2;  // cubic
 constexpr double slope_steps = 5.0;
 
-struct SplineFreed {
-  void operator()(gsl_bspline_workspace* w) const { gsl_bspline_free(w); }
-  void operator()(gsl_vector* v) const { gsl_vector_free(v); }
-  void operator()(gsl_matrix* m) const { gsl_matrix_free(m); }
-};
-
 // Cubic B-splines on [0, 1], with knots that lie closer towards 0, where a toe bends the curve.
 class Splines {
  public:
-  Splines()
-      : work_(gsl_bspline_alloc(order, knots)),
-        values_(gsl_vector_alloc(spline)),
-        slopes_(gsl_matrix_alloc(spline, 2)) {
-    const std::unique_ptr<gsl_vector, SplineFreed> places(gsl_vector_alloc(knots));
-    for (std::size_t i = 0; i < knots; ++i) {
-      const double part = static_cast<double>(i) / (knots - 1);
-      gsl_vector_set(places.get(), i, part * part);
-    }
-    gsl_bspline_knots(places.get(), work_.get());
+  Splines() {
+    std::array<double, knots> places{};
+    for (std::size_t i = 0; i < knots; ++i)
+      places.at(i) = std::pow(static_cast<double>(i) / (knots - 1), 2);
+    const auto view = gsl_vector_view_array(places.data(), knots);
+    gsl_bspline_knots(&view.vector, work_.get());
   }
 
   Eigen::VectorXd at(double x) {
-    gsl_bspline_eval(std::clamp(x, 0.0, 1.0), values_.get(), work_.get());
-    return Eigen::Map<const Eigen::VectorXd>(values_->data, spline);
+    Eigen::VectorXd values(spline);
+    auto view = gsl_vector_view_array(values.data(), spline);
+    gsl_bspline_eval(std::clamp(x, 0.0, 1.0), &view.vector, work_.get());
+    return values;
   }
 
   Eigen::VectorXd slope_at(double x) {
-    gsl_bspline_deriv_eval(std::clamp(x, 0.0, 1.0), 1, slopes_.get(), work_.get());
-    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>> both(
-        slopes_->data, spline, 2);
+    Eigen::Matrix<double, spline, 2, Eigen::RowMajor> both;  // values, slopes
+    auto view = gsl_matrix_view_array(both.data(), spline, 2);
+    gsl_bspline_deriv_eval(std::clamp(x, 0.0, 1.0), 1, &view.matrix, work_.get());
     return both.col(1);
   }
 
  private:
-  std::unique_ptr<gsl_bspline_workspace, SplineFreed> work_;
-  std::unique_ptr<gsl_vector, SplineFreed> values_;
-  std::unique_ptr<gsl_matrix, SplineFreed> slopes_;
+  std::unique_ptr<gsl_bspline_workspace, decltype(&gsl_bspline_free)> work_{
+      gsl_bspline_alloc(order, knots), gsl_bspline_free};
 };
 
 struct ValueRange {

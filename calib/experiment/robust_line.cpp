@@ -4,6 +4,7 @@
 #include <gsl/gsl_multifit.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <memory>
@@ -11,14 +12,6 @@
 
 namespace havers::calib {
 namespace {
-
-struct Freed {
-  void operator()(gsl_matrix* m) const { gsl_matrix_free(m); }
-  void operator()(gsl_vector* v) const { gsl_vector_free(v); }
-  void operator()(gsl_multifit_robust_workspace* w) const { gsl_multifit_robust_free(w); }
-};
-template <typename T>
-using Gsl = std::unique_ptr<T, Freed>;
 
 // Stress is 1e8 and strain 1e-3: the fit works on x and y mapped to [0, 1].
 struct Range {
@@ -51,23 +44,25 @@ Line fit_all(std::span<const double> x, std::span<const double> y,
   if (ry.extent <= 0.0) return {.intercept = ry.low, .fitted = true};
 
   gsl_set_error_handler_off();  // a fit that stops at its last iteration is still an answer
-  const Gsl<gsl_matrix> design(gsl_matrix_alloc(x.size(), 2));
-  const Gsl<gsl_matrix> covariance(gsl_matrix_alloc(2, 2));
-  const Gsl<gsl_vector> values(gsl_vector_alloc(x.size()));
-  const Gsl<gsl_vector> answer(gsl_vector_alloc(2));
-  const Gsl<gsl_multifit_robust_workspace> work(gsl_multifit_robust_alloc(weighting, x.size(), 2));
+  std::vector<double> design, values;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    gsl_matrix_set(design.get(), i, 0, 1.0);
-    gsl_matrix_set(design.get(), i, 1, (x[i] - rx.low) / rx.extent);
-    gsl_vector_set(values.get(), i, (y[i] - ry.low) / ry.extent);
+    design.insert(design.end(), {1.0, (x[i] - rx.low) / rx.extent});
+    values.push_back((y[i] - ry.low) / ry.extent);
   }
-  gsl_multifit_robust(design.get(), values.get(), answer.get(), covariance.get(), work.get());
+  std::array<double, 2> answer{};
+  std::array<double, 4> covariance{};
+  const auto all_x = gsl_matrix_view_array(design.data(), x.size(), 2);
+  const auto all_y = gsl_vector_view_array(values.data(), x.size());
+  auto c = gsl_vector_view_array(answer.data(), 2);
+  auto of_c = gsl_matrix_view_array(covariance.data(), 2, 2);
+  const std::unique_ptr<gsl_multifit_robust_workspace, decltype(&gsl_multifit_robust_free)> work(
+      gsl_multifit_robust_alloc(weighting, x.size(), 2), gsl_multifit_robust_free);
+  gsl_multifit_robust(&all_x.matrix, &all_y.vector, &c.vector, &of_c.matrix, work.get());
 
   Line line{.fitted = true};
-  line.slope = gsl_vector_get(answer.get(), 1) * ry.extent / rx.extent;
-  line.slope_standard_error =
-      std::sqrt(std::max(0.0, gsl_matrix_get(covariance.get(), 1, 1))) * ry.extent / rx.extent;
-  line.intercept = ry.low + gsl_vector_get(answer.get(), 0) * ry.extent - line.slope * rx.low;
+  line.slope = answer[1] * ry.extent / rx.extent;
+  line.slope_standard_error = std::sqrt(std::max(0.0, covariance[3])) * ry.extent / rx.extent;
+  line.intercept = ry.low + answer[0] * ry.extent - line.slope * rx.low;
   return line;
 }
 

@@ -6,15 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
 
 namespace havers::calib {
 namespace {
-
-template <auto Free, class T>
-std::unique_ptr<T, decltype(Free)> owned(T* pointer) {
-  return {pointer, Free};
-}
 
 // The columns of the terms at a point, and the constant.
 std::vector<double> row_of(const LawRequest& request, const SweepPlan& plan,
@@ -29,9 +25,8 @@ std::vector<double> row_of(const LawRequest& request, const SweepPlan& plan,
 }
 
 struct Rows {
-  std::vector<std::vector<double>> x;
+  std::vector<double> x;  // row by row
   std::vector<double> y;
-  std::vector<std::size_t> point;
 };
 
 Rows rows_of(const Law& law, const SweepPlan& plan, const std::vector<SweepPoint>& points,
@@ -39,35 +34,31 @@ Rows rows_of(const Law& law, const SweepPlan& plan, const std::vector<SweepPoint
   Rows rows;
   for (const std::size_t point : law.points)
     for (const double value : values_of(runs, point, law.request.response)) {
-      rows.x.push_back(row_of(law.request, plan, points[point]));
+      std::ranges::copy(row_of(law.request, plan, points[point]), std::back_inserter(rows.x));
       rows.y.push_back(value);
-      rows.point.push_back(point);
     }
   return rows;
 }
 
 // (W1), by GSL's singular value decomposition with balanced columns. Returns the residual sum of
 // squares.
-double least_squares(const Rows& rows, Law& law) {
-  const std::size_t n = rows.y.size(), k = rows.x.front().size();
-  const auto x = owned<gsl_matrix_free>(gsl_matrix_alloc(n, k));
-  const auto y = owned<gsl_vector_free>(gsl_vector_alloc(n));
-  const auto c = owned<gsl_vector_free>(gsl_vector_alloc(k));
-  const auto covariance = owned<gsl_matrix_free>(gsl_matrix_alloc(k, k));
-  const auto work = owned<gsl_multifit_linear_free>(gsl_multifit_linear_alloc(n, k));
-  for (std::size_t i = 0; i < n; ++i) {
-    gsl_vector_set(y.get(), i, rows.y[i]);
-    for (std::size_t j = 0; j < k; ++j) gsl_matrix_set(x.get(), i, j, rows.x[i][j]);
-  }
+double least_squares(Rows rows, Law& law) {
+  const std::size_t n = rows.y.size(), k = law.request.terms.size() + 1;
+  std::vector<double> covariance(k * k);
+  law.coefficients.resize(k);
+  const auto x = gsl_matrix_view_array(rows.x.data(), n, k);
+  const auto y = gsl_vector_view_array(rows.y.data(), n);
+  auto c = gsl_vector_view_array(law.coefficients.data(), k);
+  auto of_c = gsl_matrix_view_array(covariance.data(), k, k);
+  const std::unique_ptr<gsl_multifit_linear_workspace, decltype(&gsl_multifit_linear_free)> work(
+      gsl_multifit_linear_alloc(n, k), gsl_multifit_linear_free);
   double squares = 0.0;
   std::size_t rank = 0;
-  gsl_multifit_linear_tsvd(x.get(), y.get(), 1e-10, c.get(), covariance.get(), &squares, &rank,
+  gsl_multifit_linear_tsvd(&x.matrix, &y.vector, 1e-10, &c.vector, &of_c.matrix, &squares, &rank,
                            work.get());
   if (rank < k) law.status = LawStatus::terms_do_not_vary;
-  for (std::size_t j = 0; j < k; ++j) {
-    law.coefficients.push_back(gsl_vector_get(c.get(), j));
-    law.standard_errors.push_back(std::sqrt(gsl_matrix_get(covariance.get(), j, j)));
-  }
+  for (std::size_t j = 0; j < k; ++j)
+    law.standard_errors.push_back(std::sqrt(covariance[j * k + j]));
   return squares;
 }
 
