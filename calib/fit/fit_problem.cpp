@@ -34,14 +34,10 @@ void follow_fall(const std::vector<std::string>& terms, sim::Scene& scene) {
 
 sim::Scene scene_at(const FitProblem& problem, const Point& point, std::size_t specimen) {
   PorosityOptions laws = problem.study.porosity;
-  bool new_laws = false;
-  for (const auto& unknown : problem.unknowns) new_laws = new_laws || unknown.info->of_porosity;
-  for (const auto& unknown : problem.unknowns)
-    if (unknown.info->of_porosity)
-      apply(laws, unknown.info->name,
-            value_at(problem.unknowns, point, *unknown.info, specimen).value());
-  const SpecimenModel model =
-      new_laws ? model_of(problem.study, specimen, laws) : problem.models[specimen];
+  for (const auto& info : all_parameters())
+    if (const auto value = value_at(problem.unknowns, point, info, specimen))
+      apply(laws, info.name, *value);
+  const SpecimenModel model = model_of(problem.study, specimen, laws);
   sim::Scene scene = model.scene;
   for (const auto& info : all_parameters())
     if (const auto value = value_at(problem.unknowns, point, info, specimen))
