@@ -8,22 +8,11 @@
 namespace havers::calib {
 namespace {
 
-// The scatter that sections or porosity give; NaN where they cannot.
-void set_scatter(SpecimenModel& model, const Specimen& specimen, const PorosityOptions& options) {
-  SpecimenPorosity porosity{.window_sd = std::numeric_limits<double>::quiet_NaN()};
-  if (specimen.porosity) porosity.porosity = *specimen.porosity;
-  if (!specimen.sections.empty()) porosity = pool_sections(specimen.sections);
-  const bool known = specimen.porosity || !specimen.sections.empty();
-  const double scatter =
-      known ? scatter_of(porosity, options) : std::numeric_limits<double>::quiet_NaN();
-  if (!std::isfinite(scatter)) return;  // the study's model has one
-  if (options.to_scatter == ToScatter::window && removes_joints(porosity)) {
-    model.scene.joints.missing = missing_joints(porosity);
-    return;
-  }
-  model.scene.joints.scatter = scatter;
-  const double error = scatter_standard_error(porosity, options);
-  model.scatter_standard_error = std::isfinite(error) ? error : 0.0;
+// NaN where neither sections nor the study tell it.
+SpecimenPorosity porosity_of(const Specimen& specimen) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (!specimen.sections.empty()) return pool_sections(specimen.sections);
+  return {.porosity = specimen.porosity.value_or(unknown), .window_sd = unknown};
 }
 
 }  // namespace
@@ -38,12 +27,19 @@ SpecimenModel model_of(const Study& study, std::size_t s, const PorosityOptions&
   model.scene.assembly.orientation = specimen.orientation;
   if (specimen.test.strain_rate > 0.0) model.scene.loading.strain_rate = specimen.test.strain_rate;
 
-  model.porosity = std::numeric_limits<double>::quiet_NaN();
-  if (specimen.porosity) model.porosity = *specimen.porosity;
-  if (!specimen.sections.empty()) model.porosity = pool_sections(specimen.sections).porosity;
-  if (std::isfinite(model.porosity))
-    model.modulus_factor = modulus_factor({.porosity = model.porosity}, laws);
-  set_scatter(model, specimen, laws);
+  const SpecimenPorosity porosity = porosity_of(specimen);
+  model.porosity = porosity.porosity;
+  if (!std::isfinite(porosity.porosity)) return model;
+  model.modulus_factor = modulus_factor(porosity, laws);
+  const double scatter = scatter_of(porosity, laws);
+  if (!std::isfinite(scatter)) return model;  // the study's model has one
+  if (laws.to_scatter == ToScatter::window && removes_joints(porosity)) {
+    model.scene.joints.missing = missing_joints(porosity);
+  } else {
+    model.scene.joints.scatter = scatter;
+    const double error = scatter_standard_error(porosity, laws);
+    model.scatter_standard_error = std::isfinite(error) ? error : 0.0;
+  }
   return model;
 }
 
