@@ -107,7 +107,6 @@ Simulation simulate(const Scene& scene, const Observer& observer) {
   simulation.regime_ground = choice.ground + simulation.regime_ground;
   simulation.tolerance = scene.solver.tolerance;
   simulation.step_accuracy = scene.solver.step_accuracy;
-  summarise(simulation);
   // Pieces that press on each other may still bear something.
   if (simulation.strength == 0.0 && has_ended(simulation) && is_severed(scene))
     simulation.status = SimulationStatus::severed;

@@ -118,6 +118,7 @@ Simulation break_event_by_event(const Scene& scene,
   run.finish(simulation);
   simulation.energy_gain = energy_gain(simulation.curve);
   simulation.left_out = left_out_in_the_limit(scene, *intact, simulation);
+  summarise(simulation);
   return simulation;
 }
 
