@@ -50,7 +50,6 @@ TEST(Scene, IsSoundByDefault) {
   EXPECT_TRUE(Scene{}.problems().empty());
 }
 
-// A box around a long row that is turned holds the square of its fibres.
 TEST(Scene, RefusesAStepThatLeadsNowhere) {
   Scene scene;
   scene.loading.strain_rate = 1e-3;
@@ -110,6 +109,7 @@ TEST(Scene, CountsStepsToTheGivenThresholds) {
   EXPECT_TRUE(scene.problems().empty());
 }
 
+// A box around a long row that is turned holds the square of its fibres.
 TEST(Scene, RefusesAGridThatIsMuchLargerThanTheSpecimen) {
   Scene scene;
   scene.assembly.layers = 1;

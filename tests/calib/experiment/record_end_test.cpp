@@ -14,6 +14,7 @@ namespace havers::calib {
 namespace {
 
 using test::detail_of;
+using test::expect_the_truth;
 using test::record;
 using test::reduced;
 using test::TensileTruth;
@@ -47,9 +48,7 @@ RawTest unloaded(double speed, double to_part) {
 }
 
 void expect_the_specimen(const MeasuredTest& test, double tolerance) {
-  EXPECT_NEAR(test.modulus, the_bar.young, tolerance * the_bar.young);
-  EXPECT_NEAR(test.strength, the_bar.strength, tolerance * the_bar.strength);
-  EXPECT_NEAR(test.failure_strain, the_bar.failure_strain(), tolerance * the_bar.failure_strain());
+  expect_the_truth(test, the_bar, tolerance);
   EXPECT_NEAR(test.max_force, the_bar.strength * the_bar.area(),
               tolerance * the_bar.strength * the_bar.area());
 }
