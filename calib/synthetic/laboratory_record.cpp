@@ -28,8 +28,7 @@ double strain_of_specimen(double gauge, double toe) {
   return toe > 0.0 ? gauge + toe * std::expm1(-gauge / toe) : gauge;
 }
 
-// The inverse of (Y1): a contraction with the factor exp(-gauge/toe), so that it ends wherever it
-// starts above 0.
+// The inverse of (Y1) by Newton's method, from above: (Y1) is convex, so that no step goes too far.
 double strain_of_gauge(double specimen, double toe) {
   if (toe <= 0.0 || specimen <= 0.0) return std::max(specimen, 0.0);
   double gauge = specimen + toe;
