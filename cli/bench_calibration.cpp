@@ -88,7 +88,7 @@ int bench_calibration(const BenchArguments& arguments, const CommonOptions& comm
   output.write("result.json", io::json_text(result));
   output.write("chains.csv", io::chains_csv(benchmark));
   const bool page = reports::available() && !benchmark.summaries.empty();
-  if (page) output.write("report.html", reports::chains_page({benchmark, page_facts(provenance)}));
+  if (page) output.write("report.html", reports::chains_page(benchmark, page_facts(provenance)));
   answer(common, &output, result, page ? "report.html" : "result.json",
          [&] { print_chains(benchmark); });
   const bool usual_wins =
@@ -109,7 +109,7 @@ int bench_coverage(const BenchArguments& arguments, const CommonOptions& common)
   output.write("result.json", io::json_text(result));
   output.write("coverage.csv", io::coverage_csv(coverage));
   if (reports::available())
-    output.write("report.html", reports::coverage_page({coverage, page_facts(provenance)}));
+    output.write("report.html", reports::coverage_page(coverage, page_facts(provenance)));
   answer(common, &output, result, page_or("result.json"), [&] { print_coverage(coverage); });
   return coverage.holds() && coverage.complete ? done : answer_is_no;
 }

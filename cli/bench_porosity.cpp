@@ -49,7 +49,7 @@ int bench_porosity(const BenchArguments& arguments, const CommonOptions& common)
   output.write("result.json", io::json_text(result));
   output.write("porosity.csv", io::methods_csv(comparison));
   if (reports::available())
-    output.write("report.html", reports::methods_page({comparison, page_facts(provenance)}));
+    output.write("report.html", reports::methods_page(comparison, page_facts(provenance)));
   answer(common, &output, result, page_or("result.json"), [&] { print_methods(comparison); });
   return comparison.good() && !interrupted() ? done : answer_is_no;
 }

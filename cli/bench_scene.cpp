@@ -81,7 +81,7 @@ int bench_scene(const BenchArguments& arguments, const CommonOptions& common) {
   if (reports::available()) {
     output.write("work_precision.svg", reports::work_precision_svg(study));
     output.write("report.html",
-                 reports::work_precision_page({file.scene, study, page_facts(provenance)}));
+                 reports::work_precision_page(file.scene, study, page_facts(provenance)));
   }
   answer(common, &output, result, page_or("result.json"), [&] { print_summary(study); });
   return study.complete && reference_is_trusted(study) ? done : answer_is_no;

@@ -44,7 +44,7 @@ int bench_stability(const BenchArguments& arguments, const CommonOptions& common
   output.write("result.json", io::json_text(result));
   output.write("stability.csv", io::stability_csv(results));
   if (reports::available())
-    output.write("report.html", reports::stability_page({results, page_facts(provenance)}));
+    output.write("report.html", reports::stability_page(results, page_facts(provenance)));
   answer(common, &output, result, page_or("result.json"), [&] { print_summary(results); });
   const bool good = std::ranges::all_of(results, &sim::StabilityResult::as_it_must);
   return good && !interrupted() ? done : answer_is_no;

@@ -14,39 +14,16 @@
 
 namespace havers::reports {
 
-struct WorkPrecisionReport {
-  const sim::Scene& scene;
-  const sim::WorkPrecision& study;
-  Provenance provenance;
-};
-
-struct StabilityReport {
-  const std::vector<sim::StabilityResult>& results;
-  Provenance provenance;
-};
-
-struct MethodsReport {
-  const calib::MethodComparison& comparison;
-  Provenance provenance;
-};
-
-struct ChainsReport {
-  const calib::ChainBenchmark& benchmark;  ///< Complete.
-  Provenance provenance;
-};
-
-struct CoverageReport {
-  const calib::Coverage& coverage;
-  Provenance provenance;
-};
-
 /// Errors of joint forces and failure strain against CPU time, both on logarithmic axes. SVG.
 std::string work_precision_svg(const sim::WorkPrecision& study);
 
-std::string work_precision_page(const WorkPrecisionReport& report);
-std::string stability_page(const StabilityReport& report);
-std::string methods_page(const MethodsReport& report);
-std::string chains_page(const ChainsReport& report);
-std::string coverage_page(const CoverageReport& report);
+std::string work_precision_page(const sim::Scene& scene, const sim::WorkPrecision& study,
+                                const Provenance& provenance);
+std::string stability_page(const std::vector<sim::StabilityResult>& results,
+                           const Provenance& provenance);
+std::string methods_page(const calib::MethodComparison& comparison, const Provenance& provenance);
+/// Precondition: the benchmark is complete.
+std::string chains_page(const calib::ChainBenchmark& benchmark, const Provenance& provenance);
+std::string coverage_page(const calib::Coverage& coverage, const Provenance& provenance);
 
 }  // namespace havers::reports

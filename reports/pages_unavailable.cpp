@@ -40,19 +40,22 @@ std::string porosity_page(const PorosityReport& /*report*/) {
 std::string work_precision_svg(const sim::WorkPrecision& /*study*/) {
   return how_to_get_pages();
 }
-std::string work_precision_page(const WorkPrecisionReport& /*report*/) {
+std::string work_precision_page(const sim::Scene& /*scene*/, const sim::WorkPrecision& /*study*/,
+                                const Provenance& /*facts*/) {
   return how_to_get_pages();
 }
-std::string stability_page(const StabilityReport& /*report*/) {
+std::string stability_page(const std::vector<sim::StabilityResult>& /*results*/,
+                           const Provenance& /*facts*/) {
   return how_to_get_pages();
 }
-std::string methods_page(const MethodsReport& /*report*/) {
+std::string methods_page(const calib::MethodComparison& /*comparison*/,
+                         const Provenance& /*facts*/) {
   return how_to_get_pages();
 }
-std::string chains_page(const ChainsReport& /*report*/) {
+std::string chains_page(const calib::ChainBenchmark& /*benchmark*/, const Provenance& /*facts*/) {
   return how_to_get_pages();
 }
-std::string coverage_page(const CoverageReport& /*report*/) {
+std::string coverage_page(const calib::Coverage& /*coverage*/, const Provenance& /*facts*/) {
   return how_to_get_pages();
 }
 std::string comparison_page(const std::vector<FitReport>& /*reports*/) {

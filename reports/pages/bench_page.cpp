@@ -90,8 +90,8 @@ mstch::map stability_row(const sim::StabilityResult& result) {
 
 }  // namespace
 
-std::string work_precision_page(const WorkPrecisionReport& report) {
-  const sim::WorkPrecision& study = report.study;
+std::string work_precision_page(const sim::Scene& scene, const sim::WorkPrecision& study,
+                                const Provenance& provenance) {
   mstch::array rows;
   for (const sim::BenchRow& row : study.rows)
     rows.emplace_back(work_row(row, rows.empty(), study.time_limit));
@@ -100,7 +100,7 @@ std::string work_precision_page(const WorkPrecisionReport& report) {
       {{"sentence", text(typeset(summary(study)))},
        {"detail",
         text(fmt::format("{} × {} fibres, {}. Errors are relative to {}, of the same seed: {}.{}",
-                         report.scene.assembly.fibres, report.scene.assembly.layers,
+                         scene.assembly.fibres, scene.assembly.layers,
                          count(static_cast<long>(study.seeds.size()), "seed"),
                          study.reference_ground, setting_text(study.reference),
                          study.closed_form
@@ -113,21 +113,21 @@ std::string work_precision_page(const WorkPrecisionReport& report) {
        {"cheapest", mstch::node{cheapest_rows(study)}},
        {"omissions", text(study.omissions ? typeset(explain(*study.omissions)) : "")},
        {"rows", mstch::node{rows}}},
-      report.provenance);
+      provenance);
 }
 
-std::string stability_page(const StabilityReport& report) {
+std::string stability_page(const std::vector<sim::StabilityResult>& results,
+                           const Provenance& provenance) {
   mstch::array rows;
-  for (const sim::StabilityResult& result : report.results)
-    rows.emplace_back(stability_row(result));
-  const bool good = std::ranges::all_of(report.results, &sim::StabilityResult::as_it_must);
+  for (const sim::StabilityResult& result : results) rows.emplace_back(stability_row(result));
+  const bool good = std::ranges::all_of(results, &sim::StabilityResult::as_it_must);
   return render_page("havers bench: stiff and extreme scenes", "stability",
-                     {{"sentence", text(sim::summary(report.results))},
+                     {{"sentence", text(sim::summary(results))},
                       {"detail", text("h c/L is the time step over L/c, the time that a wave takes "
                                       "along a fibre.")},
                       {"grade", text(good ? "good" : "bad")},
                       {"rows", mstch::node{rows}}},
-                     report.provenance);
+                     provenance);
 }
 
 }  // namespace havers::reports

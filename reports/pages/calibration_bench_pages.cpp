@@ -55,12 +55,12 @@ std::string what_shares_say(const std::set<calib::IntervalWidth>& widths) {
 
 }  // namespace
 
-std::string chains_page(const ChainsReport& report) {
-  const auto& summaries = report.benchmark.summaries;
-  const calib::ChainSummary& winner = report.benchmark.winner();
+std::string chains_page(const calib::ChainBenchmark& benchmark, const Provenance& provenance) {
+  const auto& summaries = benchmark.summaries;
+  const calib::ChainSummary& winner = benchmark.winner();
   const bool usual = winner.chain == summaries.front().chain;
-  const auto fits = static_cast<long>(report.benchmark.rows.size());
-  const std::size_t studies = report.benchmark.rows.size() / summaries.size();
+  const auto fits = static_cast<long>(benchmark.rows.size());
+  const std::size_t studies = benchmark.rows.size() / summaries.size();
   mstch::array chains;
   for (const calib::ChainSummary& chain : summaries)
     chains.emplace_back(chain_row(chain, &chain == &summaries.front()));
@@ -75,14 +75,12 @@ std::string chains_page(const ChainsReport& report) {
                                    usual ? "It is the default." : "It is not the default."))},
        {"chains", mstch::node{chains}},
        {"by_simulations",
-        text(draw(chains_figure(report.benchmark, ChainCost::simulations, "bysimulations")))},
-       {"by_seconds",
-        text(draw(chains_figure(report.benchmark, ChainCost::seconds, "byseconds")))}},
-      report.provenance);
+        text(draw(chains_figure(benchmark, ChainCost::simulations, "bysimulations")))},
+       {"by_seconds", text(draw(chains_figure(benchmark, ChainCost::seconds, "byseconds")))}},
+      provenance);
 }
 
-std::string coverage_page(const CoverageReport& report) {
-  const calib::Coverage& coverage = report.coverage;
+std::string coverage_page(const calib::Coverage& coverage, const Provenance& provenance) {
   mstch::array rows;
   int inside = 0, informed = 0;
   std::set<calib::IntervalWidth> widths;
@@ -104,7 +102,7 @@ std::string coverage_page(const CoverageReport& report) {
                                      number(all.part / in::percent, 3), informed))},
        {"detail", text(what_shares_say(widths))},
        {"rows", mstch::node{rows}}},
-      report.provenance);
+      provenance);
 }
 
 }  // namespace havers::reports

@@ -29,8 +29,7 @@ mstch::map hardship_row(const calib::HardshipSummary& hardship) {
 
 }  // namespace
 
-std::string methods_page(const MethodsReport& report) {
-  const calib::MethodComparison& comparison = report.comparison;
+std::string methods_page(const calib::MethodComparison& comparison, const Provenance& provenance) {
   const calib::MethodSummary& ours = comparison.methods.back();
   mstch::array methods, hardships;
   for (const calib::MethodSummary& method : comparison.methods)
@@ -48,7 +47,7 @@ std::string methods_page(const MethodsReport& report) {
        {"figure", text(draw(methods_figure(comparison, "methods")))},
        {"methods", mstch::node{methods}},
        {"hardships", mstch::node{hardships}}},
-      report.provenance);
+      provenance);
 }
 
 }  // namespace havers::reports

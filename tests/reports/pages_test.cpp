@@ -196,7 +196,7 @@ sim::WorkPrecision work_precision_sample() {
 TEST(WorkPrecisionPage, WritesNumbersAsAReaderDoes) {
   const sim::WorkPrecision study = work_precision_sample();
   const sim::Scene scene;
-  const std::string page = work_precision_page({scene, study, {{"seed", "1"}}});
+  const std::string page = work_precision_page(scene, study, {{"seed", "1"}});
   expect_sound(page);
   EXPECT_TRUE(contains(page, "Gauss-Seidel 10⁻⁸, h = 20 ns, 8 triangles a fibre"));
   EXPECT_TRUE(contains(page, "h = 10 ps"));
@@ -211,7 +211,7 @@ TEST(WorkPrecisionPage, ShowsFailureStrainsWhereNoForcesOfTheIntactSpecimenAre) 
   sim::WorkPrecision study = work_precision_sample();
   for (sim::BenchRow& row : study.rows)
     row.errors.bonded_forces.median = std::numeric_limits<double>::quiet_NaN();
-  const std::string page = work_precision_page({{}, study, {}});
+  const std::string page = work_precision_page({}, study, {});
   EXPECT_TRUE(contains(page, "Relative error of failure strain"));
   EXPECT_FALSE(contains(page, "Relative error of joint forces"));
 }
@@ -219,9 +219,9 @@ TEST(WorkPrecisionPage, ShowsFailureStrainsWhereNoForcesOfTheIntactSpecimenAre) 
 TEST(WorkPrecisionPage, SaysWhatForcesBeforeTheFirstBreakAreComparedWith) {
   sim::WorkPrecision study = work_precision_sample();
   const std::string_view words = "before the first break are relative to their closed form";
-  EXPECT_FALSE(contains(work_precision_page({{}, study, {}}), words));
+  EXPECT_FALSE(contains(work_precision_page({}, study, {}), words));
   study.closed_form = true;
-  EXPECT_TRUE(contains(work_precision_page({{}, study, {}}), words));
+  EXPECT_TRUE(contains(work_precision_page({}, study, {}), words));
 }
 
 // Pieces of the thin lines in both panels, of rows with these settings.
@@ -254,16 +254,16 @@ TEST(WorkPrecisionFigure, JoinsTheStepsOfOneSolverToleranceAndMesh) {
 
 TEST(WorkPrecisionPage, IsNotGreenWithoutAReference) {
   sim::WorkPrecision study = work_precision_sample();
-  EXPECT_TRUE(contains(work_precision_page({{}, study, {}}), "verdict good"));
+  EXPECT_TRUE(contains(work_precision_page({}, study, {}), "verdict good"));
   study.rows.front().trusted = 0;
-  EXPECT_TRUE(contains(work_precision_page({{}, study, {}}), "verdict bad"));
+  EXPECT_TRUE(contains(work_precision_page({}, study, {}), "verdict bad"));
 }
 
 TEST(WorkPrecisionPage, IsNotGreenWhereNothingComesNearTheReference) {
   sim::WorkPrecision study = work_precision_sample();
   study.cheapest.front().row = {};
   study.rows[1].errors.failure_strain = {0.0005, 0.0001, 0.0042, 1};
-  const std::string page = work_precision_page({{}, study, {}});
+  const std::string page = work_precision_page({}, study, {});
   EXPECT_TRUE(contains(page, "verdict mixed"));
   EXPECT_TRUE(
       contains(page, "0.1 % for every seed; the nearest comes to 0.42 %: active set, h = 20 ns, "));
@@ -276,7 +276,7 @@ TEST(WorkPrecisionPage, SaysHowFarRunsCameThatWereStopped) {
   stopped.out_of_time = 1;
   stopped.reached = {0.004, 0.0021, 0.004};  // of all seeds
   stopped.stopped_at = {0.0021, 0.0021, 0.0021};
-  EXPECT_TRUE(contains(work_precision_page({{}, study, {}}),
+  EXPECT_TRUE(contains(work_precision_page({}, study, {}),
                        "1 of 1 stopped after 20.0\u00a0s, at a strain of 0.210\u00a0%"));
 }
 
