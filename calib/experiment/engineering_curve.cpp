@@ -44,6 +44,7 @@ void take_crosshead(const RawTest& raw, double machine_compliance, EngineeringCu
     const double machine = corrected ? machine_compliance * raw.force[i] : 0.0;
     curve.strain.push_back((raw.extension[i] - machine) / *raw.gauge_length);
   }
+  curve.machine_in_strain = !corrected;
   if (corrected)
     curve.corrections.push_back(
         {"machine compliance",

@@ -10,9 +10,10 @@ namespace havers::calib {
 
 /// Stress against strain before any correction, or why there is none.
 struct EngineeringCurve {
-  std::vector<double> strain;  ///< [-]
-  std::vector<double> stress;  ///< [Pa]
-  double area = 0.0;           ///< 0 where unknown. [m²]
+  std::vector<double> strain;      ///< [-]
+  std::vector<double> stress;      ///< [Pa]
+  double area = 0.0;               ///< 0 where unknown. [m²]
+  bool machine_in_strain = false;  ///< The crosshead's, nothing taken off for the machine.
   std::vector<Correction> corrections;
   std::vector<std::string> warnings;
   std::vector<std::string> problems;

@@ -43,8 +43,10 @@ struct MeasuredTest {
   double strength_standard_error = 0.0;  ///< The noise of the stress (X7). [Pa]
   double failure_strain = 0.0;           ///< Corrected strain at the strength. [-]
   bool load_turned =
-      false;          ///< The load was recorded negative, as a machine may count tension (X22).
-  bool broke = true;  ///< false: it was stopped or unloaded; both are lower bounds (X20).
+      false;  ///< The load was recorded negative, as a machine may count tension (X22).
+  bool machine_in_strain =
+      false;                 ///< Strain of the crosshead, nothing taken off for the machine (X2).
+  bool broke = true;         ///< false: it was stopped or unloaded; both are lower bounds (X20).
   double strain_rate = 0.0;  ///< Median over the loading; 0 where time was not recorded. [1/s]
   double energy_to_failure = 0.0;  ///< ∫ σ dε up to the strength (X15). [J/m³]
   double linearity = 1.0;  ///< Strength / (modulus · failure strain): 1 when linear to failure. [-]

@@ -122,6 +122,7 @@ MeasuredTest uncorrected(RawTest& raw, EngineeringCurve curve) {
   test.stress = std::move(curve.stress);
   test.time = std::move(raw.time);
   test.area = curve.area;
+  test.machine_in_strain = curve.machine_in_strain;
   test.corrections = raw.corrections;
   append(test.corrections, curve.corrections);
   test.warnings = raw.warnings;

@@ -6,6 +6,7 @@
 #include "calib/fit/answer.hpp"
 #include "calib/fit/answer_checks.hpp"
 #include "calib/fit/model_checks.hpp"
+#include "calib/fit/parameter_checks.hpp"
 
 namespace havers::calib {
 namespace {
@@ -79,46 +80,6 @@ Check check_starts(const FitProblem& problem, const Answer& answer) {
           fmt::format("{} of {} starts came to the same point.", same_cost, ends.size())};
 }
 
-Check check_bounds(const CalibrationResult& result) {
-  std::vector<std::string> names;
-  for (const auto& parameter : result.parameters)
-    if (parameter.at_bound)
-      names.push_back(fmt::format("{} = {:.4g} of [{:.4g}, {:.4g}]", parameter.name,
-                                  parameter.value, parameter.bounds[0], parameter.bounds[1]));
-  if (names.empty())
-    return {"inside bounds", Outcome::pass, "No fitted parameter lies at a bound."};
-  return {"inside bounds", Outcome::fail,
-          fmt::format("At a bound: {}. Widen calibrate.bounds if the value beyond makes sense; if "
-                      "not, the model does not describe these specimens.",
-                      fmt::join(names, ", "))};
-}
-
-// What an unknown that was left out is in the answer, by its value there.
-std::string where_left(const Unknown& unknown, double position) {
-  const char* const ground = at_bound(unknown, position) ? ", a bound"
-                             : position != unknown.start ? ""
-                             : unknown.info->of_porosity ? ", the value of [porosity]"
-                                                         : ", the value of [model]";
-  return fmt::format("{:.4g}{}", value_in_unit(unknown, position), ground);
-}
-
-Check check_identifiable(const FitProblem& problem, const Answer& answer) {
-  if (answer.left.empty())
-    return {"identifiable", Outcome::pass, "The specimens inform every parameter asked for."};
-  std::string text;
-  for (const auto& [index, because] : answer.left) {
-    const Unknown& unknown = problem.unknowns[static_cast<std::size_t>(index)];
-    text += fmt::format("{} is left out: {}. It stays at {}. ", unknown.label, because,
-                        where_left(unknown, answer.best.point[index]));
-  }
-  const bool asked = !problem.study.calibrate.automatic, none_fitted = answer.active.empty();
-  return {"identifiable", asked || none_fitted ? Outcome::warn : Outcome::pass,
-          text + "What is left out has no interval; specimens at another orientation may tell it." +
-              (asked && !none_fitted
-                   ? " The intervals of the others hold wherever the specimens allow it to be."
-                   : "")};
-}
-
 // Where there is no answer, nothing of it passes.
 void leave_unchecked(std::vector<Check>& checks, const char* because) {
   for (Check& check : checks)
@@ -161,6 +122,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_starts(problem, answer));
   checks.push_back(check_bounds(result));
   checks.push_back(check_identifiable(problem, answer));
+  checks.push_back(check_strain(problem, answer));
   checks.push_back(check_orientations(problem, answer));
   checks.push_back(check_specimen_spread(problem, answer));
   checks.back().text += weibull_sentence(result, one_sided_orientations(problem, answer.best));

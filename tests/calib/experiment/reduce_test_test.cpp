@@ -181,6 +181,9 @@ TEST(ReduceTest, UsesTheCrossheadWhereThereIsNoGaugeAndWarns) {
   const MeasuredTest test = reduced(raw);
   EXPECT_NEAR(test.modulus, truth.young, 1e-6 * truth.young);
   EXPECT_NE(test.warnings.at(0).find("compliance of the machine"), std::string::npos);
+  EXPECT_TRUE(test.machine_in_strain);
+  EXPECT_FALSE(reduced(raw, {.machine_compliance = 1e-9}).machine_in_strain);
+  EXPECT_FALSE(reduced(record(truth)).machine_in_strain);
 }
 
 TEST(ReduceTest, UsesTheMachinesStressWhereForceOrAreaIsUnknown) {

@@ -47,6 +47,21 @@ TEST(Verdict, SaysThatTwoSpecimensDoNotShowTheirSpread) {
             Outcome::warn);
 }
 
+// A crosshead's strain has the machine in it, which no residual shows.
+TEST(Verdict, WarnsOfAModulusWithTheMachineInIt) {
+  auto study = test::synthetic_study(test::three_orientations);
+  const auto check = [&] { return check_of(test::fit(study), "strain of bone alone"); };
+  EXPECT_EQ(check().outcome, Outcome::pass);
+  study.specimens[1].test.machine_in_strain = true;
+  EXPECT_EQ(check().outcome, Outcome::warn);
+  EXPECT_THAT(check().text, testing::StartsWith("The strain of S2 is the crosshead's"));
+  EXPECT_THAT(check().text, testing::HasSubstr("machine_compliance_mm_per_kN"));
+  study.specimens[1].use = Use::validate;
+  EXPECT_EQ(check().outcome, Outcome::pass);
+  study.calibrate.parameters = {"head_tail_MPa"};
+  EXPECT_FALSE(check().done);
+}
+
 TEST(Verdict, SaysThatAHeldOutSpecimenIsOff) {
   auto study = test::synthetic_study(test::three_orientations);
   study.specimens[0].use = Use::validate;

@@ -1,0 +1,18 @@
+// Whether the parameters are what they are called, and known: inside their bounds, informed by the
+// specimens, and of bone alone.
+#pragma once
+
+#include "calib/fit/answer.hpp"
+
+namespace havers::calib {
+
+/// No fitted parameter lies at a bound.
+Check check_bounds(const CalibrationResult& result);
+
+/// The specimens inform every parameter asked for (F10).
+Check check_identifiable(const FitProblem& problem, const Answer& answer);
+
+/// No modulus that is fitted has the machine's compliance in it (X2).
+Check check_strain(const FitProblem& problem, const Answer& answer);
+
+}  // namespace havers::calib
