@@ -89,16 +89,19 @@ std::string combination(const Unknown& unknown, const Unknown& partner, double c
                      coefficient);
 }
 
-std::string reason(const FitProblem& problem, const Point& at, const Active& active,
-                   const Differences& slopes, Eigen::Index k) {
-  const auto& unknowns = problem.unknowns;
+// Column k of the active unknowns, and why it is left out.
+LeftUnknown left_unknown(const FitProblem& problem, const Point& at, const Active& active,
+                         const Differences& slopes, Eigen::Index k) {
+  const auto index_of = [&](Eigen::Index column) {
+    return active[static_cast<std::size_t>(column)];
+  };
   const auto unknown_of = [&](Eigen::Index column) -> const Unknown& {
-    return unknowns[static_cast<std::size_t>(active[static_cast<std::size_t>(column)])];
+    return problem.unknowns[static_cast<std::size_t>(index_of(column))];
   };
   const Unknown& unknown = unknown_of(k);
   const Eigen::VectorXd slope = slopes.jacobian.col(k);
   const Column alone = split(slopes.jacobian, slopes.variance, k, {});
-  if (!informs(unknown, alone)) return no_effect(problem, unknown, alone);
+  if (!informs(unknown, alone)) return {index_of(k), no_effect(problem, unknown, alone)};
 
   Eigen::Index partner = -1;
   double likeness = 0.0;
@@ -110,13 +113,15 @@ std::string reason(const FitProblem& problem, const Point& at, const Active& act
     likeness = cosine;
     partner = j;
   }
-  if (partner < 0) return no_effect(problem, unknown, alone);
+  if (partner < 0) return {index_of(k), no_effect(problem, unknown, alone)};
   const auto& other = slopes.jacobian.col(partner);
   // Columns that are parallel to rounding cannot be told apart by any accuracy of these tests.
   const bool parallel = likeness > (1.0 - 1e-9) * slope.norm();
-  return (parallel ? "structurally unidentifiable: " : "practically unidentifiable: ") +
-         combination(unknown, unknown_of(partner), slope.dot(other) / other.squaredNorm(),
-                     at[active[static_cast<std::size_t>(k)]]);
+  return {index_of(k),
+          (parallel ? "structurally unidentifiable: " : "practically unidentifiable: ") +
+              combination(unknown, unknown_of(partner), slope.dot(other) / other.squaredNorm(),
+                          at[index_of(k)]),
+          index_of(partner)};
 }
 
 void erase_column(Eigen::MatrixXd& matrix, Eigen::Index k) {
@@ -151,7 +156,7 @@ std::vector<LeftUnknown> uninformed(const FitProblem& problem, const Point& at, 
   Differences rest = slopes;
   std::vector<LeftUnknown> left;
   for (Eigen::Index k = 0; (k = last_uninformed(problem, active, rest)) >= 0;) {
-    left.push_back({active[static_cast<std::size_t>(k)], reason(problem, at, active, rest, k)});
+    left.push_back(left_unknown(problem, at, active, rest, k));
     active.erase(active.begin() + k);
     erase_column(rest.jacobian, k);
     erase_column(rest.variance, k);

@@ -11,6 +11,8 @@ namespace havers::calib {
 struct LeftUnknown {
   Eigen::Index unknown = 0;
   std::string because;  ///< Half a sentence, after "left out because".
+  /// The unknown with which only a combination is determined; −1 where nothing changes with it.
+  Eigen::Index partner = -1;
 };
 
 /// Unknowns that the residuals' slopes do not inform (F10), the last of the documentation's order

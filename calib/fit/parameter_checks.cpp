@@ -3,11 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace havers::calib {
 namespace {
+
+const Unknown& unknown_at(const FitProblem& problem, Eigen::Index k) {
+  return problem.unknowns[static_cast<std::size_t>(k)];
+}
 
 // What an unknown that was left out is in the answer, by its value there.
 std::string where_left(const Unknown& unknown, double position) {
@@ -16,6 +21,23 @@ std::string where_left(const Unknown& unknown, double position) {
                              : unknown.info->of_porosity ? ", the value of [porosity]"
                                                          : ", the value of [model]";
   return fmt::format("{:.4g}{}", value_in_unit(unknown, position), ground);
+}
+
+// Another angle tells no scatter where angles differ already: with each, d goes as σ₁.
+std::string what_may_tell(const FitProblem& problem, const std::vector<LeftUnknown>& left) {
+  std::set<double> orientations;
+  for (const std::size_t s : problem.fitted)
+    orientations.insert(problem.study.specimens[s].orientation);
+  const auto is_scatter = [&](const LeftUnknown& one) {
+    return orientations.size() > 1 && unknown_at(problem, one.unknown).info->name == "scatter";
+  };
+  std::string text;
+  if (!std::ranges::all_of(left, is_scatter))
+    text = "specimens at another orientation may tell it.";
+  if (std::ranges::any_of(left, is_scatter))
+    text += text.empty() ? "sections (porosity) may tell it."
+                         : " Sections (porosity) may tell scatter.";
+  return text;
 }
 
 }  // namespace
@@ -37,24 +59,29 @@ Check check_bounds(const CalibrationResult& result) {
 Check check_identifiable(const FitProblem& problem, const Answer& answer) {
   if (answer.left.empty())
     return {"identifiable", Outcome::pass, "The specimens inform every parameter asked for."};
-  std::string text;
-  for (const auto& [index, because] : answer.left) {
-    const Unknown& unknown = problem.unknowns[static_cast<std::size_t>(index)];
-    text += fmt::format("{} is left out: {}. It stays at {}. ", unknown.label, because,
-                        where_left(unknown, answer.best.point[index]));
-  }
   const bool asked = !problem.study.calibrate.automatic, none_fitted = answer.active.empty();
-  return {"identifiable", asked || none_fitted ? Outcome::warn : Outcome::pass,
-          text + "What is left out has no interval; specimens at another orientation may tell it." +
-              (asked && !none_fitted
-                   ? " The intervals of the others hold wherever the specimens allow it to be."
-                   : "")};
+  std::string text;
+  bool conditional = false;
+  for (const LeftUnknown& one : answer.left) {
+    const Unknown& unknown = unknown_at(problem, one.unknown);
+    text += fmt::format("{} is left out: {}. It stays at {}. ", unknown.label, one.because,
+                        where_left(unknown, answer.best.point[one.unknown]));
+    if (asked || !std::ranges::count(answer.active, one.partner)) continue;
+    conditional = true;
+    text += fmt::format("The interval of {} holds for that value only. ",
+                        unknown_at(problem, one.partner).label);
+  }
+  text += "What is left out has no interval; " + what_may_tell(problem, answer.left);
+  if (asked && !none_fitted)
+    text += " The intervals of the others hold wherever the specimens allow it to be.";
+  return {"identifiable", asked || none_fitted || conditional ? Outcome::warn : Outcome::pass,
+          text};
 }
 
 Check check_strain(const FitProblem& problem, const Answer& answer) {
   constexpr const char* name = "strain of bone alone";
   const auto is_modulus = [&](Eigen::Index k) {
-    return problem.unknowns[static_cast<std::size_t>(k)].info->name == "young_GPa";
+    return unknown_at(problem, k).info->name == "young_GPa";
   };
   if (std::ranges::none_of(answer.active, is_modulus))
     return {name, Outcome::pass, "Not checked: young_GPa is not fitted.", false};

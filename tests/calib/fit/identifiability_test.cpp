@@ -150,6 +150,22 @@ TEST(Identifiability, TriesEverythingWhenAutomaticAndKeepsWhatIsInformed) {
   EXPECT_TRUE(test::parameter_of(result, "ratio").identifiable);
   EXPECT_FALSE(test::parameter_of(result, "scatter").identifiable);
   EXPECT_TRUE(result.trusted());
+  // At another scatter the threshold has another interval, and further angles change nothing.
+  const Check check = test::check_of(result, "identifiable");
+  EXPECT_EQ(check.outcome, Outcome::warn);
+  EXPECT_TRUE(test::says(check, "The interval of head_tail_MPa holds for that value only."));
+  EXPECT_TRUE(test::says(check, "has no interval; sections (porosity) may tell it.")) << check.text;
+}
+
+TEST(Identifiability, WarnsOfNothingWhenAutomaticLeavesOutWhatChangesNothing) {
+  auto study = test::synthetic_study({0.0});
+  study.calibrate.automatic = true;
+  study.porosity.to_scatter = ToScatter::linear;
+  for (auto& specimen : study.specimens) specimen.porosity = 0.02;
+  const Check check =
+      test::check_of(calibrate_with(test::ClosedForm{}.simulator(), study), "identifiable");
+  EXPECT_EQ(check.outcome, Outcome::pass) << check.text;
+  EXPECT_TRUE(test::says(check, "has no interval; specimens at another orientation may tell it."));
 }
 
 }  // namespace
