@@ -53,9 +53,9 @@ std::vector<std::string> directions_of(const FitProblem& problem, const Answer& 
     svd.matrixV().col(i).cwiseAbs().maxCoeff(&largest);
     const double scale = svd.matrixV()(largest, i);
     const Eigen::VectorXd direction = svd.matrixV().col(i) / scale;
-    sentences.push_back(
-        fmt::format("{} is known to ± {:.2g} %.", product(problem, answer, direction),
-                    100.0 * std::expm1(1.0 / (svd.singularValues()[i] * std::abs(scale)))));
+    sentences.push_back(fmt::format(
+        "{} is known to ± {:.2g} % (one standard error).", product(problem, answer, direction),
+        100.0 * std::expm1(1.0 / (svd.singularValues()[i] * std::abs(scale)))));
   }
   return sentences;
 }

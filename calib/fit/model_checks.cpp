@@ -9,7 +9,6 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <tuple>
 
 #include "calib/fit/specimen_effect.hpp"
 
@@ -19,15 +18,9 @@ namespace {
 // A curve this much less straight than the model's was bent by something that the model does not
 // have.
 constexpr double bent = 0.90, slightly_bent = 0.97;
-constexpr double significance = 0.01;
 
 Check nothing_compared(const char* check) {
   return {check, Outcome::fail, "No simulation to compare with: nothing can be said."};
-}
-
-// No test is good enough for a smaller one.
-std::string chance_text(double p) {
-  return p < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p);
 }
 
 /// What the specimens of one orientation tell of a landmark.
@@ -104,6 +97,11 @@ std::string percent_text(double part) {
   return percent < 99.5 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.0f} %", percent);
 }
 
+// No test is good enough for a smaller one.
+std::string chance_text(double p) {
+  return p < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p);
+}
+
 Check check_brittle(const FitProblem& problem, const Answer& answer) {
   if (answer.best.predictions.empty()) return nothing_compared("brittle");
   double measured = 0.0, simulated = 0.0, variance = 0.0;
@@ -168,89 +166,6 @@ Check check_orientations(const FitProblem& problem, const Answer& answer) {
   return {name, Outcome::pass,
           fmt::format("Residuals do not differ between orientations (modulus: {}, strength: {}).",
                       words(stiffness), words(breaking))};
-}
-
-namespace {
-
-// (F9) without a specimen effect: what the residuals would be if specimens were alike.
-std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer) {
-  if (answer.best.failed || answer.weights.sd.empty()) return "";
-  const auto one_sided = one_sided_orientations(problem, answer.best);
-  double sum = 0.0, terms = 0.0;
-  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
-    const std::size_t s = problem.fitted[f];
-    const Landmarks alike =
-        (answer.weights.sd[s].square() - answer.weights.specimen.square()).sqrt();
-    const auto& prediction = answer.best.predictions[f];
-    auto told = tells(prediction, problem.targets[s]);
-    if (one_sided.contains(problem.study.specimens[s].orientation)) told[strength] = false;
-    sum += told.select(difference(prediction, problem.targets[s]) / alike, 0.0).square().sum();
-    terms += static_cast<double>(told.count());
-  }
-  const double freedom = terms - static_cast<double>(answer.active.size());
-  if (freedom < 1.0) return "";
-  const double chance = gsl_cdf_chisq_Q(sum, freedom);
-  return fmt::format(" Were they alike, χ² would be {:.3g} on {:g} degrees of freedom ({}){}.", sum,
-                     freedom, chance_text(chance),
-                     chance < significance && !answer.active.empty()
-                         ? ": they are not, which widens the intervals and rejects nothing"
-                         : "");
-}
-
-/// Of which landmarks the specimens' differences are told, and of which they cannot be (F9).
-struct SpreadWords {
-  std::vector<std::string> told;
-  std::string untold;
-};
-
-SpreadWords spread_words(const FitProblem& problem, const Answer& answer) {
-  SpreadWords words;
-  for (const auto& [q, one, many] :
-       {std::tuple(modulus, "modulus", "moduli"), std::tuple(strength, "strength", "strengths")}) {
-    const auto counts = [&, q = q](std::size_t s) { return problem.targets[s].present[q]; };
-    if (std::ranges::none_of(problem.fitted, counts)) continue;
-    if (answer.slopes.failed || answer.uncertainty.freedom[q] >= least_freedom) {
-      words.told.push_back(fmt::format("{} in {}", percent_text(answer.weights.specimen[q]), one));
-      continue;
-    }
-    const double count = residuals_told(problem, answer.best)[q];
-    words.untold += fmt::format(
-        " {:g} {} for {:.2g} parameters: whether specimens differ in {} cannot be told, and the "
-        "intervals do not include it.",
-        count, many, count - answer.uncertainty.freedom[q], one);
-  }
-  return words;
-}
-
-}  // namespace
-
-Check check_specimen_spread(const FitProblem& problem, const Answer& answer) {
-  constexpr const char* name = "spread between specimens";
-  if (problem.fitted.size() < 3)
-    return {name, Outcome::warn,
-            "Fewer than three specimens: how much they differ beyond noise cannot be told, and the "
-            "intervals do not include it. Test more."};
-  const Landmarks& part = answer.weights.specimen;
-  const auto [told, untold] = spread_words(problem, answer);
-  const auto rest = untold + chi_squared_sentence(problem, answer);
-  if (told.empty() && untold.empty())
-    return {name, Outcome::pass, "Not checked: neither modulus nor strength is compared.", false};
-  if (told.empty()) return {name, Outcome::warn, rest.substr(1)};
-  const auto text = fmt::format(
-      "Specimens differ by {} (standard deviations) beyond noise, scatter and the model's own "
-      "randomness",
-      fmt::join(told, " and "));
-  const double most = std::max(part[modulus], part[strength]);
-  if (most > 0.5)
-    return {name, Outcome::fail,
-            text + ": no model of one bone describes them. Are tests, sizes or angles exchanged?" +
-                rest};
-  if (most > 0.3)
-    return {name, Outcome::warn,
-            text + ": are they of one kind?" +
-                (answer.active.empty() ? "" : " The intervals include it.") + rest};
-  return {name, untold.empty() ? Outcome::pass : Outcome::warn,
-          text + "; the intervals include it." + rest};
 }
 
 Check check_validation(const CalibrationResult& result, bool all_fitted) {

@@ -10,6 +10,12 @@ namespace havers::calib {
 /// "2.6 %", "280 %": a part in plain digits.
 std::string percent_text(double part);
 
+/// "p = 0.03", "p < 1e-6": the probability of a test.
+std::string chance_text(double p);
+
+/// Tests less likely than this reject what they test. [-]
+inline constexpr double significance = 0.01;
+
 /// The measured curves are as straight up to the break as the model's (F13).
 Check check_brittle(const FitProblem& problem, const Answer& answer);
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "calib/fit/model_checks.hpp"
+
 namespace havers::calib {
 namespace {
 
@@ -40,6 +42,26 @@ std::string what_may_tell(const FitProblem& problem, const std::vector<LeftUnkno
   return text;
 }
 
+// What few degrees of freedom leave of an unknown that is informed (F10).
+std::string wide_intervals(const FitProblem& problem, const CalibrationResult& result) {
+  std::string text;
+  for (std::size_t k = 0; k < result.parameters.size(); ++k) {
+    const CalibratedParameter& parameter = result.parameters[k];
+    if (!parameter.identifiable) continue;
+    const Unknown& unknown = problem.unknowns[k];
+    const auto position = [&](double value) {
+      return std::clamp(to_search(*unknown.info, value), unknown.lower, unknown.upper);
+    };
+    const auto [low, high] = parameter.interval_95;
+    const double part = (position(high) - position(low)) / unknown.range();
+    if (part > 0.5)
+      text += fmt::format(
+          " The 95 % interval of {} covers {} of the range of its bounds, which tell much of it.",
+          parameter.name, percent_text(part));
+  }
+  return text;
+}
+
 }  // namespace
 
 Check check_bounds(const CalibrationResult& result) {
@@ -56,7 +78,10 @@ Check check_bounds(const CalibrationResult& result) {
                       fmt::join(names, ", "))};
 }
 
-Check check_identifiable(const FitProblem& problem, const Answer& answer) {
+Check check_identifiable(const FitProblem& problem, const Answer& answer,
+                         const CalibrationResult& result) {
+  const std::string wide = wide_intervals(problem, result);
+  if (answer.left.empty() && !wide.empty()) return {"identifiable", Outcome::warn, wide.substr(1)};
   if (answer.left.empty())
     return {"identifiable", Outcome::pass, "The specimens inform every parameter asked for."};
   const bool asked = !problem.study.calibrate.automatic, none_fitted = answer.active.empty();
@@ -74,8 +99,8 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer) {
   text += "What is left out has no interval; " + what_may_tell(problem, answer.left);
   if (asked && !none_fitted)
     text += " The intervals of the others hold wherever the specimens allow it to be.";
-  return {"identifiable", asked || none_fitted || conditional ? Outcome::warn : Outcome::pass,
-          text};
+  const bool doubted = asked || none_fitted || conditional || !wide.empty();
+  return {"identifiable", doubted ? Outcome::warn : Outcome::pass, text + wide};
 }
 
 Check check_strain(const FitProblem& problem, const Answer& answer) {

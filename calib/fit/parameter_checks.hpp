@@ -9,8 +9,9 @@ namespace havers::calib {
 /// No fitted parameter lies at a bound.
 Check check_bounds(const CalibrationResult& result);
 
-/// The specimens inform every parameter asked for (F10).
-Check check_identifiable(const FitProblem& problem, const Answer& answer);
+/// The specimens inform every parameter asked for (F10), and no interval has most of its bounds.
+Check check_identifiable(const FitProblem& problem, const Answer& answer,
+                         const CalibrationResult& result);
 
 /// No modulus that is fitted has the machine's compliance in it (X2).
 Check check_strain(const FitProblem& problem, const Answer& answer);

@@ -121,7 +121,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_convergence(answer, result.cost));
   checks.push_back(check_starts(problem, answer));
   checks.push_back(check_bounds(result));
-  checks.push_back(check_identifiable(problem, answer));
+  checks.push_back(check_identifiable(problem, answer, result));
   checks.push_back(check_strain(problem, answer));
   checks.push_back(check_orientations(problem, answer));
   checks.push_back(check_specimen_spread(problem, answer));

@@ -42,9 +42,29 @@ TEST(Verdict, SaysThatAsManyParametersAsStrengthsLeaveNoSpread) {
   EXPECT_FALSE(check_specimen_spread(problem, {}).done);
 }
 
-TEST(Verdict, SaysThatTwoSpecimensDoNotShowTheirSpread) {
-  EXPECT_EQ(check_of(test::fit(test::synthetic_study({0.0})), "spread between specimens").outcome,
-            Outcome::warn);
+// One difference each tells the spread that makes the intervals, and hardly tells it.
+TEST(Verdict, SaysThatTwoSpecimensHardlyShowTheirSpread) {
+  auto study = test::synthetic_study({0.0}, {.specimen_effect = 0.2});
+  study.calibrate.bounds["head_tail_MPa"] = {20.0, 200.0};
+  const auto result = test::fit(study);
+  EXPECT_GT(result.specimen_effect[strength], 0.01);
+  const auto check = check_of(result, "spread between specimens");
+  EXPECT_EQ(check.outcome, Outcome::warn);
+  EXPECT_TRUE(says(check, "the intervals include it, as far as so few tell it.")) << check.text;
+  EXPECT_THAT(check.text, testing::EndsWith(" Test more."));
+  const auto identifiable = check_of(result, "identifiable");
+  EXPECT_EQ(identifiable.outcome, Outcome::warn);
+  EXPECT_TRUE(says(identifiable, "The 95 % interval of head_tail_MPa covers "))
+      << identifiable.text;
+}
+
+TEST(Verdict, WarnsOfAnIntervalThatCoversMostOfItsBounds) {
+  auto study = test::synthetic_study({0.0}, {.specimen_effect = 0.2});
+  study.calibrate.parameters = {"head_tail_MPa"};
+  study.calibrate.bounds["head_tail_MPa"] = {20.0, 200.0};
+  const auto check = check_of(test::fit(study), "identifiable");
+  EXPECT_EQ(check.outcome, Outcome::warn);
+  EXPECT_THAT(check.text, testing::StartsWith("The 95 % interval of head_tail_MPa covers "));
 }
 
 // A crosshead's strain has the machine in it, which no residual shows.
