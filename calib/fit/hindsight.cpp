@@ -43,11 +43,8 @@ std::string product(const FitProblem& problem, const Answer& answer,
 // (F20) Singular vectors of the Jacobian, scaled so that the largest exponent is 1.
 std::vector<std::string> directions_of(const FitProblem& problem, const Answer& answer) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(answer.slopes.jacobian, Eigen::ComputeThinV);
-  std::vector<std::string> sentences{
-      fmt::format("The specimens determine {} of {} directions; the best is known {:.3g} times "
-                  "better than the worst.",
-                  svd.rank(), svd.singularValues().size(),
-                  svd.singularValues()[0] / svd.singularValues().tail<1>()[0])};
+  std::vector<std::string> sentences{fmt::format("The specimens determine {} of {} directions.",
+                                                 svd.rank(), svd.singularValues().size())};
   for (Index i = 0; i < svd.singularValues().size(); ++i) {
     Index largest = 0;
     svd.matrixV().col(i).cwiseAbs().maxCoeff(&largest);
