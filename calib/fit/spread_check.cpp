@@ -3,6 +3,7 @@
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -12,6 +13,15 @@
 
 namespace havers::calib {
 namespace {
+
+// Which strengths χ² is without.
+std::string left_out_text(const std::set<double>& one_sided) {
+  if (one_sided.empty()) return "";
+  std::vector<double> degrees;
+  for (const double orientation : one_sided) degrees.push_back(orientation / degree);
+  return fmt::format("; strengths at {:.4g} deg are left out of it, as tests were stopped there",
+                     fmt::join(degrees, ", "));
+}
 
 // (F9) without a specimen effect: what the residuals would be if specimens were alike.
 std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer) {
@@ -31,11 +41,12 @@ std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer
   const double freedom = terms - static_cast<double>(answer.active.size());
   if (freedom < 1.0) return "";
   const double chance = gsl_cdf_chisq_Q(sum, freedom);
-  return fmt::format(" Were they alike, χ² would be {:.3g} on {:g} degrees of freedom ({}){}.", sum,
-                     freedom, chance_text(chance),
+  return fmt::format(" Were they alike, χ² would be {:.3g} on {:g} degrees of freedom ({}){}{}.",
+                     sum, freedom, chance_text(chance),
                      chance < significance && !answer.active.empty()
                          ? ": they are not, which widens the intervals and rejects nothing"
-                         : "");
+                         : "",
+                     left_out_text(one_sided));
 }
 
 /// Of which landmarks the specimens' differences are told, and of which they cannot be (F9).

@@ -108,5 +108,14 @@ TEST(Bound, LeavesNoCheckToSpecimensThatBroke) {
   EXPECT_TRUE(result.trusted());
 }
 
+TEST(Bound, SaysWhichStrengthsChiSquaredIsWithout) {
+  Study study = stopped_at_the_mean({0.0, 0.0, 0.0, 90.0, 90.0, 90.0}, 1);
+  study.calibrate.parameters = {"young_GPa", "head_tail_MPa"};
+  study.calibrate.terms = {"modulus", "strength"};
+  const auto check = test::check_of(test::fit(study, {.noise = 0.0}), "spread between specimens");
+  EXPECT_TRUE(test::says(check, "; strengths at 0, 90 deg are left out of it, as tests were"))
+      << check.text;
+}
+
 }  // namespace
 }  // namespace havers::calib
