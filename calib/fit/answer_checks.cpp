@@ -30,6 +30,23 @@ const char* open_side(const CalibratedParameter& parameter) {
   return nullptr;
 }
 
+// A draw of few specimens may lack those that tell a parameter, which the slopes do not know.
+std::string wider_bootstraps(const FitProblem& problem, const CalibrationResult& result) {
+  std::vector<std::string> wider;
+  for (std::size_t k = 0; k < result.parameters.size(); ++k) {
+    const CalibratedParameter& parameter = result.parameters[k];
+    const ParameterInfo& info = *problem.unknowns[k].info;
+    const double part = width(info, parameter.bootstrap_95) / width(info, parameter.interval_95);
+    if (std::isfinite(part) && part > 1.5)
+      wider.push_back(fmt::format("{} ({:.2g} times as wide)", parameter.name, part));
+  }
+  if (wider.empty()) return "";
+  return fmt::format(
+      " The bootstrap over specimens gives wider ones: {}; where few tell one, draws may lack "
+      "them.",
+      fmt::join(wider, ", "));
+}
+
 // "1.40", or "0.95 to 1.40".
 std::string times_text(double least, double most) {
   const std::string low = fmt::format("{:.2f}", least), high = fmt::format("{:.2f}", most);
@@ -160,15 +177,17 @@ Check check_intervals(const FitProblem& problem, const CalibrationResult& result
     if (part < 0.5 || part > 2.0)
       differ.push_back(fmt::format("{} ({:.2g} times as wide)", parameter.name, part));
   }
+  const std::string wider = wider_bootstraps(problem, result);
   if (compared == 0 && differ.empty())
-    return {name, Outcome::pass, "Not checked: no profile was asked for or could be had.", false};
+    return {name, Outcome::pass, "Not checked: no profile was asked for or could be had." + wider,
+            false};
   if (differ.empty())
     return {name, Outcome::pass,
-            fmt::format("Profile likelihood gives intervals {} times as wide as the slopes do.",
-                        times_text(least, most))};
+            fmt::format("Profile likelihood gives intervals {} times as wide as the slopes do.{}",
+                        times_text(least, most), wider)};
   return {name, Outcome::warn,
-          fmt::format("Profile likelihood gives other intervals: {}. Believe the wider one.",
-                      fmt::join(differ, ", "))};
+          fmt::format("Profile likelihood gives other intervals: {}. Believe the wider one.{}",
+                      fmt::join(differ, ", "), wider)};
 }
 
 Check check_plain_law(const FitProblem& problem, const Answer& answer) {

@@ -22,7 +22,8 @@ Check check_influence(const CalibrationResult& result);
 /// Parameters are told apart: no correlation above 0.9 in size.
 Check check_correlation(const CalibrationResult& result);
 
-/// Wald's and the profile's intervals are about as wide, and end on the same sides.
+/// Wald's and the profile's intervals are about as wide, and end on the same sides; says where the
+/// bootstrap's are wider.
 Check check_intervals(const FitProblem& problem, const CalibrationResult& result);
 
 /// The model describes the strengths better than laws without fibres (F19).

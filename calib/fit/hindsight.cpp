@@ -87,9 +87,11 @@ void set_intervals(const FitProblem& problem, const Answer& answer, const Resamp
     }
     parameter.bootstrap_missing = resampling.missing;
     if (!resampling.missing.empty()) continue;
-    const double centre = answer.best.point[answer.active[i]];
-    parameter.bootstrap_95 = {from_search(*unknown.info, centre + resampling.lower[k]),
-                              from_search(*unknown.info, centre + resampling.upper[k])};
+    const auto end = [&](double shift) {
+      const double at = answer.best.point[answer.active[i]] + shift;
+      return value_in_unit(unknown, std::clamp(at, unknown.lower, unknown.upper));
+    };
+    parameter.bootstrap_95 = {end(resampling.lower[k]), end(resampling.upper[k])};
   }
 }
 

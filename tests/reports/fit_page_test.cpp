@@ -57,6 +57,7 @@ TEST(FitPage, BreaksTheLinesOfReasonsInTheTableOfIntervals) {
   sample.result.parameters.front().bootstrap_missing = "3 specimens are too few to draw from";
   const std::string page = fit_page({sample.study, sample.result, {}, {}});
   EXPECT_TRUE(contains(page, "<td class=\"n said\">– (3 specimens are too few"));
+  EXPECT_TRUE(contains(page, "Six specimens are too few to draw from"));
   EXPECT_TRUE(contains(page, "td.said { white-space: normal; }"));
 }
 

@@ -111,6 +111,25 @@ TEST(Verdict, ComparesAHeldOutSpecimenByTheTermsThereAre) {
   EXPECT_TRUE(says(useless, "S1 (nothing to compare)")) << useless.text;
 }
 
+// One step from the answer knows no bounds, and every third strength of a draw may be missing.
+TEST(Verdict, SaysWhereTheBootstrapIsWiderAndKeepsItInsideTheBounds) {
+  auto study = test::synthetic_study(test::three_orientations, {.specimen_effect = 0.1});
+  study.calibrate.bounds["ratio"] = {1.5, 2.5};
+  auto result = test::fit(study);
+  const auto ratio = test::parameter_of(result, "ratio");
+  ASSERT_TRUE(ratio.bootstrap_missing.empty()) << ratio.bootstrap_missing;
+  EXPECT_GE(ratio.bootstrap_95[0], 1.5);
+  EXPECT_LE(ratio.bootstrap_95[1], 2.5);
+  EXPECT_TRUE(ratio.bootstrap_95[0] == 1.5 || ratio.bootstrap_95[1] == 2.5);
+
+  const FitProblem problem = make_problem(study);
+  auto& young = result.parameters.front();
+  young.bootstrap_95 = young.interval_95;
+  EXPECT_FALSE(says(check_intervals(problem, result), "young_GPa ("));
+  young.bootstrap_95[1] *= young.interval_95[1] / young.interval_95[0];
+  EXPECT_TRUE(says(check_intervals(problem, result), "young_GPa (2 times as wide)"));
+}
+
 TEST(Verdict, NamesEverySpecimenThatAloneDeterminesAParameter) {
   CalibrationResult result;
   result.fitted = {"young_GPa", "ratio"};
