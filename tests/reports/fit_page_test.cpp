@@ -174,6 +174,8 @@ TEST(FitPage, SaysWhyAnIntervalReachesBeyondItsProfile) {
   const std::string said = "The curves hold r = 1.5";
   sample.result.parameters.back() = {.name = "ratio", .unit = "", .value = 1.5};
   EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), said));
+  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}),
+                       "drawn straight and taken for a parabola between its points"));
   sample.result.parameters.back().left_out_because = "nothing changes with it";
   EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), said));
   sample.study.calibrate.automatic = true;
