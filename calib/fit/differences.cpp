@@ -56,17 +56,21 @@ void set_column(const FitProblem& problem, const Weights& weights, const Move& m
 
 }  // namespace
 
+std::vector<Point> moved_points(const std::vector<Unknown>& unknowns, const Point& at,
+                                const Active& active, double step) {
+  std::vector<Point> points;
+  for (const Eigen::Index k : active)
+    for (const double side : {-step, step}) {
+      Point moved = at;
+      moved[k] += side;
+      points.push_back(inside_bounds(unknowns, moved));
+    }
+  return points;
+}
+
 Differences differentiate(Trail& trail, Evaluation at, const Active& active, double step) {
   const auto& problem = trail.problem();
-  std::vector<Point> points;
-  for (const Eigen::Index k : active) {
-    Point moved = at.point;
-    moved[k] = at.point[k] - step;
-    points.push_back(inside_bounds(problem.unknowns, moved));
-    moved[k] = at.point[k] + step;
-    points.push_back(inside_bounds(problem.unknowns, moved));
-  }
-  const auto evaluations = trail.evaluate(points);
+  const auto evaluations = trail.evaluate(moved_points(problem.unknowns, at.point, active, step));
 
   Differences result;
   const auto columns = static_cast<Eigen::Index>(active.size());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "calib/fit/trail.hpp"
 
@@ -19,6 +20,11 @@ struct Differences {
   /// Sum of the variances, and what it would be with seeds of their own at every point.
   double paired = 0.0, independent = 0.0;
 };
+
+/// The points of central differences: each active unknown in turn a step down, and up; cut at the
+/// bounds.
+std::vector<Point> moved_points(const std::vector<Unknown>& unknowns, const Point& at,
+                                const Active& active, double step);
 
 /// @param at    a copy: the trail's best point, where the slopes are often asked for, may change
 ///              while they are made.

@@ -18,14 +18,9 @@ Eigen::MatrixXd specimen_slopes(SimulationBatch& batch, const FitProblem& proble
     unknown.specimens.assign(has ? 1 : 0, 0);
   }
 
-  std::vector<Point> points;
-  for (const Index k : answer.active)
-    for (const double side : {-slope_step, slope_step}) {
-      Point moved = answer.best.point;
-      moved[k] += side;
-      points.push_back(inside_bounds(problem.unknowns, moved));
-    }
-  const auto found = predict(one, batch, points, answer.replicates);
+  const auto found = predict(
+      one, batch, moved_points(problem.unknowns, answer.best.point, answer.active, slope_step),
+      answer.replicates);
   Eigen::MatrixXd slopes(landmark_count, static_cast<Index>(answer.active.size()));
   for (std::size_t i = 0; i < answer.active.size(); ++i) {
     const auto &low = found[2 * i], &high = found[2 * i + 1];
