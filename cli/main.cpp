@@ -1,5 +1,6 @@
 // havers: the one program. Parses, calls, prints.
 #include <fmt/core.h>
+#include <gsl/gsl_errno.h>
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
@@ -149,6 +150,7 @@ int when_printed(int exit_code) {
 
 int main(int argc, char** argv) {
   havers::sim::keep_freed_memory();
+  gsl_set_error_handler_off();  // an inverse that is not found is NaN and said, no abort
   try {
     return havers::cli::when_printed(havers::cli::program(argc, argv));
   } catch (...) {  // not even the command line could be read: out of memory

@@ -112,7 +112,8 @@ void check_assembly(const AssemblyOptions& assembly, Checker& checker) {
                     assembly.fibre_length * 1e6, "at least fibre_height_um",
                     "a fibre is longer than it is high");
 
-  if (!std::isnormal(assembly.fibre_length * assembly.fibre_height))
+  if (is_positive(assembly.fibre_length) && is_positive(assembly.fibre_height) &&
+      !std::isnormal(assembly.fibre_length * assembly.fibre_height))
     checker.say("assembly.fibre_height_um", "makes fibres whose area leaves the range of numbers",
                 "check both sizes of a fibre");
 

@@ -63,7 +63,7 @@ TEST(Simulate, IsTrustedButForAStepThatWasGiven) {
   EXPECT_EQ(answer.exit_code, 0);
   EXPECT_TRUE(
       answer.out.starts_with("to be trusted but for the time step: 20 ns was given, and its "
-                             "error is not known; after a break"))
+                             "error is not known; steps took 50 % of all energy; after a break"))
       << answer.out;
 }
 

@@ -114,20 +114,20 @@ calib::Coverage coverage_of(int held, int all) {
 TEST(CoveragePage, SaysThatItWasStopped) {
   calib::Coverage coverage = coverage_of(95, 100);
   coverage.complete = false;
-  const std::string page = coverage_page({coverage, {}});
+  const std::string page = coverage_page(coverage, {});
   EXPECT_TRUE(contains(page, "verdict mixed"));
   EXPECT_TRUE(contains(page, "Stopped before all studies were fitted. 95.0 % of"));
 }
 
 TEST(CoveragePage, CallsNoRowAsPromisedWhoseIntervalLeavesOut95) {
-  const std::string page = coverage_page({coverage_of(90, 100), {}});
+  const std::string page = coverage_page(coverage_of(90, 100), {});
   EXPECT_TRUE(contains(page, "90.0 (82.6 to 94.5)")) << page;
   EXPECT_TRUE(contains(page, "<td>perhaps too narrow</td>"));
   EXPECT_TRUE(contains(page, "verdict good"));
 }
 
 TEST(CoveragePage, SaysWhereStudiesAreTooFewToTell) {
-  const std::string page = coverage_page({coverage_of(1, 1), {}});
+  const std::string page = coverage_page(coverage_of(1, 1), {});
   EXPECT_TRUE(contains(page, "<td>too few to tell</td>"));
   EXPECT_FALSE(contains(page, "<td>as promised</td>"));
   EXPECT_TRUE(contains(page, "Too few studies to tell the shares from 95 %."));

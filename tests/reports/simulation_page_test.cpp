@@ -45,8 +45,10 @@ TEST(SimulationPage, SaysWhatHalvingTheStepChangedOrThatItIsNotKnown) {
   simulation.step_error = {.failure_strain = 6.5e-4, .strength = 0.022};
   const auto page = [&] { return simulation_page({sim::Scene{}, assembly, simulation, {}}); };
   EXPECT_TRUE(contains(page(),
-                       "changed the failure strain by 0.065\u00a0% and the strength by "
-                       "2.2\u00a0%."));
+                       "changed the failure strain by up to 0.065\u00a0% and the strength by up "
+                       "to 2.2\u00a0%."));
+  simulation.numerical_loss = 0.48;
+  EXPECT_TRUE(contains(page(), "Implicit Euler took 48\u00a0% of all energy."));
   simulation.step_error.reset();
   EXPECT_TRUE(contains(page(), "The error of the time step is not known."));
   simulation.regime = sim::Regime::quasi_static;

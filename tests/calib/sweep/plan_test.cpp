@@ -73,7 +73,7 @@ TEST(Plan, EveryComplaintIsMade) {
   EXPECT_THAT(unequal.problems(), ElementsAre(Complains("seeds", "is 0, must be 1 or more"),
                                               Complains("keys", "b has 2 values and a has 1")));
   const SweepPlan turned{.sampling = Sampling::sobol, .keys = {{"a", {"2", "1"}}}, .points = 0};
-  EXPECT_THAT(turned.problems(), ElementsAre(Complains("points", "is 0, must be 1 or more"),
+  EXPECT_THAT(turned.problems(), ElementsAre(Complains("points", "is 0, must be from 1 to 100000"),
                                              Complains("keys", "no lower and upper bound")));
   EXPECT_THAT(SweepPlan{}.problems(), ElementsAre(Complains("keys", "names no keys to vary")));
 }
