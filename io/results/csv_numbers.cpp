@@ -10,6 +10,7 @@
 
 #include "io/input_error.hpp"
 #include "io/machine/csv_rows.hpp"
+#include "io/machine/excerpt.hpp"
 #include "io/read_text.hpp"
 
 namespace havers::io {
