@@ -68,6 +68,7 @@ std::vector<Point> moved_points(const std::vector<Unknown>& unknowns, const Poin
   return points;
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a copy, as the header says
 Differences differentiate(Trail& trail, Evaluation at, const Active& active, double step) {
   const auto& problem = trail.problem();
   const auto evaluations = trail.evaluate(moved_points(problem.unknowns, at.point, active, step));

@@ -91,7 +91,7 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer,
     const Unknown& unknown = unknown_at(problem, one.unknown);
     text += fmt::format("{} is left out: {}. It stays at {}. ", unknown.label, one.because,
                         where_left(unknown, answer.best.point[one.unknown]));
-    if (asked || !std::ranges::count(answer.active, one.partner)) continue;
+    if (asked || std::ranges::count(answer.active, one.partner) == 0) continue;
     conditional = true;
     text += fmt::format("The interval of {} holds for that value only. ",
                         unknown_at(problem, one.partner).label);

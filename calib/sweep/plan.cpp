@@ -102,8 +102,8 @@ std::vector<SweepPlan::Problem> SweepPlan::problems() const {
   };
   if (keys.empty()) complain("keys", "names no keys to vary");
   if (seeds < 1) complain("seeds", fmt::format("is {}, must be 1 or more", seeds));
-  if (is_sample(sampling) && (points < 1 || points > most_points))
-    complain("points", fmt::format("is {}, must be from 1 to {}", points, most_points));
+  if (is_sample(sampling) && (points < 1 || points > most_sample_points))
+    complain("points", fmt::format("is {}, must be from 1 to {}", points, most_sample_points));
   if (sampling == Sampling::sobol && keys.size() > 40)
     complain("keys", "has more keys than the 40 dimensions of the Sobol sequence");
   for (const SweepKey& key : keys) {

@@ -20,7 +20,7 @@ struct SweepKey {
 /// The number that a TOML value is; NaN when it is none.
 double number_in(const std::string& value);
 
-constexpr int most_points = 100'000;  ///< Of a sample.
+constexpr int most_sample_points = 100'000;  ///< Of a sample.
 
 struct SweepPlan {
   Sampling sampling = Sampling::grid;
