@@ -18,6 +18,7 @@ namespace {
 std::string left_out_text(const std::set<double>& one_sided) {
   if (one_sided.empty()) return "";
   std::vector<double> degrees;
+  degrees.reserve(one_sided.size());
   for (const double orientation : one_sided) degrees.push_back(orientation / degree);
   return fmt::format("; strengths at {:.4g} deg are left out of it, as tests were stopped there",
                      fmt::join(degrees, ", "));

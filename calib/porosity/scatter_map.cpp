@@ -40,6 +40,7 @@ Pooled pool(std::vector<Share> shares) {
 
 void pool_porosity(const std::vector<SectionPorosity>& sections, SpecimenPorosity& specimen) {
   std::vector<Share> shares;
+  shares.reserve(sections.size());
   for (const SectionPorosity& section : sections)
     shares.push_back({section.porosity, section.porosity_standard_error, section.bone_area});
   const Pooled pooled = pool(shares);
