@@ -246,11 +246,6 @@ std::vector<Scene::Problem> Scene::problems() const {
   check_loading(loading, checker);
   check_solver(solver, checker);
   if (checker.found().empty() && !joints.thresholds.empty()) check_thresholds(*this, checker);
-  if (checker.found().empty() && solver.step &&
-      !(*solver.step * loading.strain_rate <= loading.max_strain))
-    checker.say("solver.step_s",
-                fmt::format("is {:g}: one step stretches beyond max_strain", *solver.step),
-                "shorten it, or leave it out, and the step is chosen");
   if (checker.found().empty()) check_number_of_steps(*this, checker);
   return checker.found();
 }
