@@ -35,8 +35,7 @@ std::optional<double> pixel_size_of(const std::filesystem::path& image,
         image.string(),
         fmt::format("a pixel size of {:g} µm is outside 0.1 to 200 µm", *given * 1e6),
         "pixel_size_um is the side of one pixel in µm; if it is meant, add --any-pixel-size (in a "
-        "study "
-        "any_pixel_size = true in [sections])");
+        "study any_pixel_size = true in [sections])");
   const std::optional<double> own = tagged_pixel_size(image);
   if (given && own && std::abs(*given / *own - 1.0) > 0.01)
     warnings.push_back(
