@@ -22,11 +22,6 @@ std::string_view kind(const toml::node& node) {
   return node.is_table() ? "a table" : "a date or time";
 }
 
-std::string join(const std::string& path, std::string_view name) {
-  if (path.empty() || name.empty()) return path + std::string(name);
-  return fmt::format("{}.{}", path, name);
-}
-
 // What a dotted key names, or the innermost table on the way that is there.
 const toml::node& innermost(const toml::table& table, std::string_view key) {
   const toml::node* node = &table;
@@ -46,8 +41,13 @@ std::filesystem::path beside(const std::filesystem::path& file, const std::strin
 
 }  // namespace
 
+std::string dotted(const std::string& path, std::string_view name) {
+  if (path.empty() || name.empty()) return path + std::string(name);
+  return fmt::format("{}.{}", path, name);
+}
+
 std::string TableReader::full(std::string_view name) const {
-  return join(path_, name);
+  return dotted(path_, name);
 }
 
 bool TableReader::has(std::string_view name) const {
@@ -241,11 +241,13 @@ std::vector<TableReader::List> TableReader::lists(std::string_view name) {
   const toml::node* node = ask(name);
   std::vector<List> all;
   if (node == nullptr) return all;
-  if (!node->is_table()) wrong_type(name, *node, "a table");
-  if (!node->is_table()) return all;
+  if (!node->is_table()) {
+    wrong_type(name, *node, "a table");
+    return all;
+  }
   for (auto&& [key, item] : *node->as_table()) {
     all.emplace_back(key.str(), std::vector<std::string>{});
-    if (!item.is_array()) wrong_type(join(std::string(name), key.str()), item, "a list");
+    if (!item.is_array()) wrong_type(dotted(std::string(name), key.str()), item, "a list");
     if (!item.is_array()) continue;
     for (const toml::node& value : *item.as_array()) {
       std::ostringstream text;
@@ -259,54 +261,6 @@ std::vector<TableReader::List> TableReader::lists(std::string_view name) {
     }
   }
   return all;
-}
-
-ConfigFile::ConfigFile(std::filesystem::path file, const Overrides& overrides)
-    : file_(std::move(file)), top_(std::make_unique<toml::table>(parse_toml(file_, overrides))) {}
-
-ConfigFile::~ConfigFile() = default;
-
-TableReader ConfigFile::top() {
-  return {*this, top_.get(), ""};
-}
-
-std::string ConfigFile::where(const toml::node& node, const std::string& key) const {
-  const toml::source_region& source = node.source();
-  if (is_override(node)) return fmt::format("{}{}", override_mark, key);
-  if (&node == top_.get() || source.begin.line == 0)
-    return fmt::format("{}: {}", file_.string(), key);
-  return fmt::format("{}:{}: {}", file_.string(), source.begin.line, key);
-}
-
-std::vector<Problem> ConfigFile::problems() {
-  std::vector<std::pair<const toml::table*, std::string>> open{{top_.get(), ""}};
-  for (std::size_t i = 0; i < open.size(); ++i) {
-    const auto [table, path] = open[i];
-    const auto& known = asked_[path];
-    for (auto&& [key, node] : *table) {
-      const std::string name = join(path, key.str());
-      if (!known.contains(key.str()))
-        complain({where(node, name), "is not a known key", nearest_or_all(key.str(), known)});
-      else if (!asked_.contains(name))
-        continue;  // a value, judged where it was read
-      else if (const toml::table* inner = node.as_table())
-        open.emplace_back(inner, name);
-      else if (const toml::array* list = node.as_array())
-        for (const toml::node& item : *list)
-          if (const toml::table* one = item.as_table()) open.emplace_back(one, name);
-    }
-  }
-  return std::move(problems_);
-}
-
-// One mistake may stand in the way of many keys.
-void ConfigFile::complain(Problem problem) {
-  const auto same = [&](const Problem& other) { return to_string(other) == to_string(problem); };
-  if (std::ranges::none_of(problems_, same)) problems_.push_back(std::move(problem));
-}
-
-void ConfigFile::finish() {
-  if (std::vector<Problem> all = problems(); !all.empty()) throw InputError(std::move(all));
 }
 
 }  // namespace havers::io

@@ -29,6 +29,9 @@ namespace havers::io {
 
 class ConfigFile;
 
+/// "model.joints" for "model" and "joints"; either may be empty.
+std::string dotted(const std::string& path, std::string_view name);
+
 /// One table of a file. `key` leaves the value as it is, and answers false, when the key is absent
 /// or wrong; what is wrong is collected in the file.
 class TableReader {

@@ -69,6 +69,23 @@ TEST(SimulateDynamic, TiesAFibreAloneByGaussSeidelToo) {
     EXPECT_NEAR(swept.curve[i].stress_left, direct.curve[i].stress_left, 1e-6 * direct.strength);
 }
 
+// What gives the held nodes their velocity at once is no stress, however short the step: the bar
+// bears about ρ c v.
+TEST(SimulateDynamic, StartsFromRestWithTheStressOfAWave) {
+  for (const double step : {1e-10, 1e-12}) {
+    Scene scene = test::dynamic_scene(0.0, step);
+    scene.assembly.layers = scene.assembly.fibres = 1;
+    scene.loading.start = Start::rest;
+    scene.loading.strain_rate = 1e4;
+    scene.loading.max_strain = 2e-4;
+    const double wave = scene.material.density * wave_speed(scene.material) *
+                        scene.loading.strain_rate * scene.assembly.fibre_length;
+    const Simulation run = simulate(scene);
+    EXPECT_GT(run.strength, 0.5 * wave) << step;
+    EXPECT_LT(run.strength, 2.0 * wave) << step;
+  }
+}
+
 // The path of joints that break together goes up beyond λ = 1000 before it comes back.
 TEST(SimulateDynamic, FollowsAPathThatTurnsBackLate) {
   Scene scene = test::small_scene(15.0, 14, 14);
