@@ -49,15 +49,14 @@ std::string grade_of(const sim::Simulation& s) {
 
 std::string step_error_of(const sim::Simulation& s) {
   if (s.regime == sim::Regime::quasi_static) return "";
-  const std::string loss = fmt::format(" Implicit Euler took {} of all energy.",
-                                       quantity(s.numerical_loss / in::percent, "%", 2));
   if (!s.step_error || std::isnan(s.step_error->failure_strain))
-    return loss + " The error of the time step is not known.";
+    return " The error of the time step is not known.";
   return fmt::format(
-      "{} The last halvings of the time step, two at most, changed the failure strain by up to {} "
-      "and the strength by up to {}.",
-      loss, quantity(s.step_error->failure_strain / in::percent, "%", 2),
-      quantity(s.step_error->strength / in::percent, "%", 2));
+      " The last halvings of the time step, two at most, changed the failure strain by up to {} "
+      "and the strength by up to {}. Implicit Euler took {} of all energy.",
+      quantity(s.step_error->failure_strain / in::percent, "%", 2),
+      quantity(s.step_error->strength / in::percent, "%", 2),
+      quantity(s.numerical_loss / in::percent, "%", 2));
 }
 
 // A time never stands without the error it was bought with.
