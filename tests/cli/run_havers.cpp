@@ -29,6 +29,10 @@ fs::path own_folder() {
   return folder;
 }
 
+bool reads_images() {
+  return run_havers(own_folder(), "--version").out.find("images OFF") == std::string::npos;
+}
+
 void write_text(const fs::path& file, const std::string& text) {
   std::ofstream(file) << text;
 }

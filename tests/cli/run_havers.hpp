@@ -16,6 +16,9 @@ struct Answer {
 /// Runs `havers ARGUMENTS` through a shell, with `folder` as the working folder.
 Answer run_havers(const std::filesystem::path& folder, const std::string& arguments);
 
+/// Whether the program was built with OpenCV.
+bool reads_images();
+
 /// A new, empty folder of the running test's own.
 std::filesystem::path own_folder();
 

@@ -56,13 +56,13 @@ TEST(Synthesize, RefusesFilesInThePlaceOfItsOwn) {
 }
 
 TEST(Synthesize, RefusesPorosityThatASectionCannotHold) {
+  if (!test::reads_images()) GTEST_SKIP() << "this build reads no images";
   const fs::path folder = test::folder_with_study();
   test::write_text(folder / "study.toml",
                    test::small_study() + "sections = [\"s.png\"]\nporosity = 0.7\n");
   const auto answer = run_havers(folder, "synthesize study.toml -o made");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_FALSE(fs::exists(folder / "made"));
-  if (answer.err.find("reads no images") != std::string::npos) GTEST_SKIP() << answer.err;
   EXPECT_THAT(answer.err, HasSubstr("has porosity 0.7, of which"));
 }
 
