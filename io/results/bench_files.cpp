@@ -112,6 +112,7 @@ nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPreci
     cheapest.push_back(
         {{"quantity", entry.quantity},
          {"error_below", entry.target},
+         {"reference_error", json_of(entry.reference_error)},
          {"setting", entry.row ? nlohmann::json(to_string(study.rows[*entry.row].setting))
                                : nlohmann::json()}});
   return {{"complete", study.complete},

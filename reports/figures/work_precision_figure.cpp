@@ -71,7 +71,9 @@ class ErrorPanel {
       add_lines(series);
       add_points(series);
     }
-    return plots_.empty() ? std::string() : data_ + plots_ + "\n";
+    if (const double error = (study_.reference_errors.*error_).high; error > 0.0)
+      plots_ += fmt::format(", {:.4g} with lines dt 2 lc rgb grey notitle", drawn(error));
+    return data_.empty() ? std::string() : data_ + plots_ + "\n";
   }
 
  private:

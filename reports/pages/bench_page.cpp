@@ -61,15 +61,22 @@ mstch::map work_row(const sim::BenchRow& row, bool reference, double time_limit)
           {"iterations", text(whole(row.iterations.median))}};
 }
 
+std::string setting_text(const sim::CheapestSetting& cheapest, const sim::BenchRow* row) {
+  if (row != nullptr) return setting_text(row->setting);
+  if (cheapest.reference_error <= cheapest.target) return "no setting reaches it";
+  if (std::isnan(cheapest.reference_error))
+    return "cannot be told: what the reference may err by is not known";
+  return "cannot be told: the reference may err by " + error_text(cheapest.reference_error);
+}
+
 mstch::array cheapest_rows(const sim::WorkPrecision& study) {
   mstch::array rows;
   for (const sim::CheapestSetting& cheapest : study.cheapest) {
     const sim::BenchRow* row = cheapest.row ? &study.rows[*cheapest.row] : nullptr;
-    rows.emplace_back(
-        mstch::map{{"quantity", text(cheapest.quantity)},
-                   {"target", text(fmt::format("{:g}", cheapest.target))},
-                   {"setting", text(row ? setting_text(row->setting) : "no setting reaches it")},
-                   {"cpu", text(row ? number(row->cpu.median, 3) : "–")}});
+    rows.emplace_back(mstch::map{{"quantity", text(cheapest.quantity)},
+                                 {"target", text(fmt::format("{:g}", cheapest.target))},
+                                 {"setting", text(setting_text(cheapest, row))},
+                                 {"cpu", text(row ? number(row->cpu.median, 3) : "–")}});
   }
   return rows;
 }
@@ -111,6 +118,8 @@ std::string work_precision_page(const sim::Scene& scene, const sim::WorkPrecisio
        {"figure", text(work_precision_svg(study))},
        {"strain", text(quantity(study.bonded_strain / in::percent, "%", 3))},
        {"cheapest", mstch::node{cheapest_rows(study)}},
+       {"twice",
+        text(study.reference.step ? typeset(sim::step_in_words(2.0 * *study.reference.step)) : "")},
        {"omissions", text(study.omissions ? typeset(explain(*study.omissions)) : "")},
        {"rows", mstch::node{rows}}},
       provenance);

@@ -39,8 +39,9 @@ struct BenchRow {
 
 /// The setting of least CPU time whose error is below a target for every seed.
 struct CheapestSetting {
-  std::string quantity;                 ///< "joint forces", "strength", "failure strain"
+  std::string quantity;                 ///< "strength", "failure strain", ...
   double target = 0.0;                  ///< [-]
+  double reference_error = 0.0;         ///< Of this quantity; above the target none is named. [-]
   std::optional<std::size_t> row = {};  ///< None: no setting reaches it.
 };
 
@@ -61,12 +62,15 @@ struct WorkPrecision {
   bool complete = false;  ///< false: stopped before the last run.
   BenchSetting reference;
   std::string reference_ground;  ///< What the errors are measured against, in a sentence.
-  double bonded_strain = 0.0;    ///< Where forces before any seed's first break are compared. [-]
+  /// What the reference itself may err by: its change from a step twice as long, as errors are of
+  /// first order in h. Zero in the limit, and where `closed_form`.
+  BenchErrors reference_errors;
+  double bonded_strain = 0.0;  ///< Where forces before any seed's first break are compared. [-]
   /// Whether those are compared with their closed form instead of with the reference's.
   bool closed_form = false;
   double time_limit = 0.0;  ///< Wall time of a run, but for the reference's. [s]
   std::vector<std::uint64_t> seeds;
-  std::vector<BenchRow> rows;  ///< The first is the reference.
+  std::vector<BenchRow> rows;  ///< The first is the reference; one, in time, has twice its step.
   std::vector<CheapestSetting> cheapest;
   /// None where a run of either kind is not to be trusted, or was stopped before it had forces.
   std::optional<Omissions> omissions;

@@ -269,6 +269,13 @@ TEST(WorkPrecisionPage, IsNotGreenWhereNothingComesNearTheReference) {
       contains(page, "0.1 % for every seed; the nearest comes to 0.42 %: active set, h = 20 ns, "));
 }
 
+TEST(WorkPrecisionPage, NamesNoSettingForWhatTheReferenceIsNotKnownTo) {
+  sim::WorkPrecision study = work_precision_sample();
+  study.cheapest.front() = {.target = 1e-3, .reference_error = 0.0096};
+  EXPECT_TRUE(contains(work_precision_page({}, study, {}),
+                       "cannot be told: the reference may err by 0.0096"));
+}
+
 TEST(WorkPrecisionPage, SaysHowFarRunsCameThatWereStopped) {
   sim::WorkPrecision study = work_precision_sample();
   study.time_limit = 20.0;

@@ -23,7 +23,7 @@ Scene tiny(Regime regime) {
 TEST(WorkPrecision, FindsTheReferenceWithoutErrorAndTheDirectSolverExactBeforeTheFirstBreak) {
   const WorkPrecision study = compare_settings(tiny(Regime::dynamic), {.seeds = 2});
   EXPECT_TRUE(study.complete);
-  EXPECT_EQ(study.rows.size(), bench_settings(tiny(Regime::dynamic)).size() + 1);
+  EXPECT_EQ(study.rows.size(), bench_settings(tiny(Regime::dynamic)).size() + 2);
   const BenchRow& reference = study.rows.front();
   EXPECT_LT(reference.errors.bonded_forces.high, 1e-9);  // against the closed form
   EXPECT_TRUE(study.closed_form);
@@ -68,7 +68,7 @@ TEST(WorkPrecision, TakesTheCostOfOmissionsFromRunsNotFromSteps) {
 
 TEST(WorkPrecision, NamesTheCheapestSettingThatReachesATarget) {
   const WorkPrecision study = compare_settings(tiny(Regime::quasi_static), {.seeds = 3});
-  ASSERT_EQ(study.cheapest.size(), 9U);
+  ASSERT_EQ(study.cheapest.size(), 12U);
   for (const CheapestSetting& cheapest : study.cheapest) {
     if (!cheapest.row) continue;
     const BenchRow& row = study.rows[*cheapest.row];
@@ -110,6 +110,21 @@ TEST(WorkPrecision, TakesForItsReferenceTheFinestRun) {
   EXPECT_EQ(summary(study), "The reference is not to be trusted: 0 of 1 runs ended well.");
 }
 
+// A run of twice its step tells what the reference's own error is about.
+TEST(WorkPrecision, NamesNothingForWhatItsReferenceIsNotKnownTo) {
+  const WorkPrecision study = compare_settings(tiny(Regime::dynamic), {.seeds = 1});
+  const auto twice = std::ranges::find_if(study.rows, [&](const BenchRow& row) {
+    return row.setting.step && *row.setting.step == 2.0 * *study.reference.step;
+  });
+  ASSERT_NE(twice, study.rows.end());
+  EXPECT_EQ(study.reference_errors.strength.high, twice->errors.strength.high);
+  EXPECT_GT(study.reference_errors.strength.high, 1e-4);
+  for (const CheapestSetting& cheapest : study.cheapest)
+    if (cheapest.reference_error > cheapest.target) {
+      EXPECT_FALSE(cheapest.row) << cheapest.quantity << " " << cheapest.target;
+    }
+}
+
 TEST(WorkPrecision, EndsWhenAskedTo) {
   int asked = 0;
   const WorkPrecision study =
@@ -140,6 +155,10 @@ TEST(WorkPrecision, NamesTheNearestWhereNothingReachesTheTarget) {
                                  "strain to 0.1 % for every seed; the nearest comes to 0.42 %: " +
                                  to_string(study.rows[2].setting)))
       << summary(study);
+  study.reference_errors.failure_strain.high = 0.0096;
+  EXPECT_EQ(summary(study),
+            "The reference's own failure strain may err by 0.96 %, which a step twice as long "
+            "changes it by: which setting gives it to 0.1 % cannot be told.");
 }
 
 TEST(WorkPrecision, ComparesForcesBeforeAnySeedBreaks) {
