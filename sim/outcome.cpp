@@ -1,6 +1,10 @@
 #include "sim/outcome.hpp"
 
+#include <gsl/gsl_fit.h>
+
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -43,6 +47,44 @@ std::optional<double> stress_at(const std::vector<CurvePoint>& curve, double str
   return (1.0 - w) * before.stress_right + w * next->stress_right;
 }
 
+double largest_mean_stress(std::span<const double> strain, std::span<const double> stress,
+                           double span) {
+  assert(span > 0.0);
+  std::vector<double> area{0.0};  // under the curve up to each row
+  for (std::size_t i = 1; i < strain.size(); ++i)
+    area.push_back(area.back() + 0.5 * (stress[i] + stress[i - 1]) * (strain[i] - strain[i - 1]));
+  double largest = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 1, left = 0; i < strain.size(); ++i) {
+    const double begin = strain[i] - span;
+    if (begin < strain.front()) continue;
+    while (strain[left + 1] <= begin) ++left;
+    const double part = (begin - strain[left]) / (strain[left + 1] - strain[left]);
+    const double height = stress[left] + part * (stress[left + 1] - stress[left]);
+    const double before = area[left] + 0.5 * (stress[left] + height) * (begin - strain[left]);
+    largest = std::fmax(largest, (area[i] - before) / span);
+  }
+  return largest;
+}
+
+namespace {
+
+// By least squares between a tenth and half of this strain: neither a constant viscous stress nor
+// the start is part of it.
+double slope_up_to(double end, const std::vector<CurvePoint>& curve) {
+  constexpr std::size_t points = 41;
+  std::array<double, points> strains{}, stresses{};
+  for (std::size_t i = 0; i < points; ++i) {
+    strains.at(i) = end * (0.1 + 0.01 * static_cast<double>(i));
+    stresses.at(i) = stress_at(curve, strains.at(i)).value_or(0.0);
+  }
+  double offset = 0.0, slope = 0.0, c00 = 0.0, c01 = 0.0, c11 = 0.0, squares = 0.0;
+  gsl_fit_linear(strains.data(), 1, stresses.data(), 1, points, &offset, &slope, &c00, &c01, &c11,
+                 &squares);
+  return slope;
+}
+
+}  // namespace
+
 void summarise(Simulation& simulation) {
   const std::vector<CurvePoint>& curve = simulation.curve;
   if (curve.empty()) return;
@@ -56,7 +98,7 @@ void summarise(Simulation& simulation) {
       simulation.first_break_strain = joint.broken_at_strain;
   const double end = std::isnan(simulation.first_break_strain) ? curve.back().strain
                                                                : simulation.first_break_strain;
-  simulation.modulus = end > 0.0 ? stress_at(curve, 0.5 * end).value_or(0.0) / (0.5 * end) : 0.0;
+  simulation.modulus = end > 0.0 ? slope_up_to(end, curve) : 0.0;
 }
 
 }  // namespace havers::sim

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/simulation.hpp"
@@ -22,6 +23,12 @@ bool has_ended(const Simulation& run);
 /// Stress at the right side where the curve first reaches a strain, linear from row to row and from
 /// the origin to the first; none beyond the largest strain. [Pa]
 std::optional<double> stress_at(const std::vector<CurvePoint>& curve, double strain);
+
+/// Largest mean of the stress over a stretch of strain that ends at a row; NaN where the curve is
+/// shorter. Strains rise. [Pa]
+/// @param span  length of the stretch, > 0. [-]
+double largest_mean_stress(std::span<const double> strain, std::span<const double> stress,
+                           double span);
 
 /// Strength, failure strain, modulus, first break and counts from the curve and the joints.
 void summarise(Simulation& simulation);

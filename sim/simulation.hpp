@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,9 +81,12 @@ struct Simulation {
   std::vector<JointOutcome> joints;  ///< In the order of Assembly::joints.
   Eigen::VectorXd displacements;  ///< Of the last row, x and y of every node of the assembly. [m]
 
-  double strength = 0.0;            ///< Largest stress at the right side. [Pa]
-  double failure_strain = 0.0;      ///< Strain there. [-]
-  double modulus = 0.0;             ///< Secant at half the first break's strain. [Pa]
+  double strength = 0.0;  ///< Largest stress at the right side. [Pa]
+  /// Largest mean of the stress over the time W/c of a wave through the specimen, as breaks set
+  /// waves free that no machine sees; NaN in the limit, and where the run was shorter. [Pa]
+  double strength_over_a_wave = std::numeric_limits<double>::quiet_NaN();
+  double failure_strain = 0.0;      ///< Strain of the strength. [-]
+  double modulus = 0.0;             ///< Slope from 0.1 to 0.5 of the first break's strain. [Pa]
   double first_break_strain = 0.0;  ///< NaN when nothing broke. [-]
   int broken_joints = 0;  ///< Of the last row: what an avalanche breaks thereafter is not counted.
   /// Part of the strength down to which the run was followed: the scene's `end_fraction`, or more

@@ -1,9 +1,9 @@
 #include "calib/fit/confirmation.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <map>
 
+#include "sim/outcome.hpp"
 #include "sim/simulate.hpp"
 
 namespace havers::calib {
@@ -43,25 +43,6 @@ std::vector<RunPair> pairs_of(const FitProblem& problem, const Answer& answer) {
 
 }  // namespace
 
-double largest_mean_stress(const Response& response, double span) {
-  assert(span > 0.0);
-  const auto &strain = response.strain, &stress = response.stress;
-  std::vector<double> area{0.0};  // under the curve up to each row
-  for (std::size_t i = 1; i < strain.size(); ++i)
-    area.push_back(area.back() + 0.5 * (stress[i] + stress[i - 1]) * (strain[i] - strain[i - 1]));
-  double largest = 0.0;
-  for (std::size_t i = 1, left = 0; i < strain.size(); ++i) {
-    const double begin = strain[i] - span;
-    if (begin < strain.front()) continue;
-    while (strain[left + 1] <= begin) ++left;
-    const double part = (begin - strain[left]) / (strain[left + 1] - strain[left]);
-    const double height = stress[left] + part * (stress[left + 1] - stress[left]);
-    const double before = area[left] + 0.5 * (stress[left] + height) * (begin - strain[left]);
-    largest = std::max(largest, (area[i] - before) / span);
-  }
-  return largest;
-}
-
 std::vector<Confirmation> confirm_in_time(SimulationBatch& batch, const FitProblem& problem,
                                           const Answer& answer) {
   const std::vector<RunPair> pairs = pairs_of(problem, answer);
@@ -77,7 +58,8 @@ std::vector<Confirmation> confirm_in_time(SimulationBatch& batch, const FitProbl
     one.failed = limit[i].failed || in_time[i].failed;
     if (one.failed) continue;
     one.strength_limit = limit[i].strength;
-    one.strength_in_time = largest_mean_stress(in_time[i], pairs[i].transit);
+    one.strength_in_time =
+        sim::largest_mean_stress(in_time[i].strain, in_time[i].stress, pairs[i].transit);
     one.peak_in_time = in_time[i].strength;
     one.failure_strain_limit = limit[i].failure_strain;
     one.failure_strain_in_time = in_time[i].failure_strain;

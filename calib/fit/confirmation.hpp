@@ -11,8 +11,4 @@ namespace havers::calib {
 std::vector<Confirmation> confirm_in_time(SimulationBatch& batch, const FitProblem& problem,
                                           const Answer& answer);
 
-/// Largest mean of the stress over a stretch of strain that ends at a row. Strains rise.
-/// @param span  length of the stretch, > 0. [-]
-double largest_mean_stress(const Response& response, double span);
-
 }  // namespace havers::calib

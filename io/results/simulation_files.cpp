@@ -26,6 +26,7 @@ nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& s
       {"step_error", json_of(error.failure_strain)},
       {"step_error_of_strength", json_of(error.strength)},
       {"strength_Pa", json_of(simulation.strength)},
+      {"strength_over_a_wave_Pa", json_of(simulation.strength_over_a_wave)},
       {"failure_strain",
        json_of(simulation.status == sim::SimulationStatus::broken ? simulation.failure_strain
                                                                   : NAN)},  // not reached

@@ -105,7 +105,7 @@ std::string steps_of(const sim::Simulation& s) {
 Facts key_numbers(const SimulationReport& report) {
   const sim::Simulation& s = report.simulation;
   const bool dynamic = s.regime == sim::Regime::dynamic;
-  return {
+  Facts facts{
       {has_no_bounds(s) ? "Strength" : "Strength, at least", quantity(s.strength / in::MPa, "MPa")},
       {"Failure strain", failure_strain_of(report)},
       {"Modulus", quantity(s.modulus / in::GPa, "GPa")},
@@ -115,6 +115,10 @@ Facts key_numbers(const SimulationReport& report) {
        fmt::format("{}: {}", dynamic ? "dynamic" : "quasi-static", typeset(s.regime_ground))},
       {dynamic ? "Time steps" : "Events", steps_of(s)},
       {"Contact iterations", std::to_string(s.iterations)}};
+  if (!std::isnan(s.strength_over_a_wave))
+    facts.insert(facts.begin() + 1, {"Largest mean stress over the time of a wave",
+                                     quantity(s.strength_over_a_wave / in::MPa, "MPa")});
+  return facts;
 }
 
 // Under the figure of the assembly: when it looked so.

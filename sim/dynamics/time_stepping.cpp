@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "sim/dynamics/dynamic_run.hpp"
 #include "sim/dynamics/step_control.hpp"
 #include "sim/outcome.hpp"
@@ -69,6 +71,14 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
   simulation.dropped = assembly.dropped;
   simulation.left_out = left_out_in_time(scene, simulation);
   summarise(simulation);
+  std::vector<double> strain, stress;
+  for (const CurvePoint& point : simulation.curve) {
+    strain.push_back(point.strain);
+    stress.push_back(point.stress_right);
+  }
+  const double transit = assembly.width / wave_speed(scene.material);
+  simulation.strength_over_a_wave =
+      largest_mean_stress(strain, stress, scene.loading.strain_rate * transit);
   return simulation;
 }
 

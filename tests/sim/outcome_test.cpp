@@ -48,7 +48,7 @@ TEST(Summarise, ReadsTheCurveAndTheJoints) {
   EXPECT_EQ(simulation.failure_strain, 0.002);
   EXPECT_EQ(simulation.first_break_strain, 0.002);
   EXPECT_EQ(simulation.broken_joints, 2);
-  EXPECT_DOUBLE_EQ(simulation.modulus, 13e9);  // secant at half the first break's strain
+  EXPECT_DOUBLE_EQ(simulation.modulus, 13e9);
 }
 
 TEST(Summarise, TakesTheWholeCurveWhenNothingBroke) {
@@ -57,6 +57,23 @@ TEST(Summarise, TakesTheWholeCurveWhenNothingBroke) {
   summarise(simulation);
   EXPECT_TRUE(std::isnan(simulation.first_break_strain));
   EXPECT_DOUBLE_EQ(simulation.modulus, 10e9);
+}
+
+// A viscous stress, constant from the first step on, is none of it.
+TEST(Summarise, TakesTheModulusFromTheSlope) {
+  Simulation simulation =
+      run_with({row(0.0, 0.0, 0.0), row(1e-5, 10.13e6, 0.0), row(0.004, 62e6, 0.0)});
+  summarise(simulation);
+  EXPECT_NEAR(simulation.modulus, 13e9, 1.0);
+}
+
+// A straight curve to σ = 1 with a wave of height 3 on its last tenth: the mean over two tenths.
+TEST(LargestMeanStress, IsThatOverAStretchOfStrain) {
+  const std::vector<double> strain{0.0, 0.9, 0.9 + 1e-12, 1.0}, stress{1.0, 1.0, 3.0, 3.0};
+  EXPECT_NEAR(largest_mean_stress(strain, stress, 0.2), 2.0, 1e-9);
+  EXPECT_NEAR(largest_mean_stress(strain, stress, 0.1), 3.0, 1e-9);
+  EXPECT_NEAR(largest_mean_stress(strain, stress, 1.0), 1.2, 1e-9);
+  EXPECT_TRUE(std::isnan(largest_mean_stress(strain, stress, 1.5))) << "longer than the curve";
 }
 
 TEST(StressAt, FollowsTheCurveFromTheOriginToWhereItFirstReachesAStrain) {

@@ -11,15 +11,6 @@
 namespace havers::calib {
 namespace {
 
-// A straight curve to σ = 1 with a wave of height 3 on its last tenth: the mean over two tenths.
-TEST(Confirmation, AveragesWavesOverAStretchOfStrain) {
-  const Response response{.strain = {0.0, 0.9, 0.9 + 1e-12, 1.0}, .stress = {1.0, 1.0, 3.0, 3.0}};
-  EXPECT_NEAR(largest_mean_stress(response, 0.2), 2.0, 1e-9);
-  EXPECT_NEAR(largest_mean_stress(response, 0.1), 3.0, 1e-9);
-  EXPECT_NEAR(largest_mean_stress(response, 1.0), 1.2, 1e-9);
-  EXPECT_EQ(largest_mean_stress(response, 1.5), 0.0) << "longer than the curve";
-}
-
 TEST(Confirmation, SaysHowMuchTheLimitDiffersFromTimeStepsAtEachOrientation) {
   Study study = known_study(three_orientations(), 3).study;
   study.calibrate.seed = 1;
