@@ -42,11 +42,25 @@ void write_names(const fs::path& folder, const std::set<std::string>& names) {
   io::write_file(folder / own_names, fmt::format("{}\n", fmt::join(names, "\n")));
 }
 
-void refuse_to_replace(const fs::path& folder, const std::string& name,
-                       const std::set<std::string>& own) {
-  if (fs::exists(folder / name) && !own.contains(name))
-    throw io::InputError((folder / name).string(), "was not written by a run of havers and stays",
-                         "give another folder after -o");
+// A link that leads nowhere is there too.
+bool is_in_the_way(const fs::path& folder, const std::string& name,
+                   const std::set<std::string>& own) {
+  return fs::exists(fs::symlink_status(folder / name)) && !own.contains(name);
+}
+
+[[noreturn]] void refuse_to_replace(const fs::path& file, const std::string& hint) {
+  throw io::InputError(file.string(), "was not written by a run of havers and stays", hint);
+}
+
+// What took long to compute is not lost with its place: it gets a folder of its own in the target.
+fs::path set_apart(const fs::path& staging, const fs::path& folder,
+                   const std::set<std::string>& staged) {
+  write_names(staging, staged);
+  fs::path apart = folder / "results";
+  for (int number = 2; fs::exists(fs::symlink_status(apart)); ++number)
+    apart = folder / fmt::format("results_{}", number);
+  fs::rename(staging, apart);
+  return apart;
 }
 
 bool holds_something(const fs::path& folder) {
@@ -79,14 +93,18 @@ int lock(const fs::path& staging) {
 }
 
 void refuse_to_overwrite(const fs::path& folder, bool force) {
-  if (!fs::exists(folder)) return;
+  if (!fs::exists(fs::symlink_status(folder))) return;
+  if (!fs::exists(folder))
+    throw io::InputError(folder.string(), "is a link that leads nowhere",
+                         "give another folder after -o");
   if (!fs::is_directory(folder))
     throw io::InputError(folder.string(), "is a file, not a folder",
                          "give another folder after -o");
   if (!force && holds_something(folder))
     throw io::InputError(folder.string(), "is not empty",
                          "give another folder, or --force to replace the run in it");
-  refuse_to_replace(folder, last_name, names_of_runs(folder));
+  if (is_in_the_way(folder, last_name, names_of_runs(folder)))
+    refuse_to_replace(folder / last_name, "give another folder after -o");
 }
 
 }  // namespace
@@ -147,7 +165,10 @@ void OutputFolder::publish(Earlier earlier) {
   std::set<std::string> staged, own = names_of_runs(folder_);
   for (const auto& entry : fs::directory_iterator(staging_))
     staged.insert(entry.path().filename().string());
-  for (const std::string& name : staged) refuse_to_replace(folder_, name, own);
+  for (const std::string& name : staged)
+    if (is_in_the_way(folder_, name, own))
+      refuse_to_replace(folder_ / name, "this run's results are in " +
+                                            set_apart(staging_, folder_, staged).string());
   const std::set<std::string> old = own;
   own.insert(staged.begin(), staged.end());
   write_names(folder_, own);

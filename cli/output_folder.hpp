@@ -47,7 +47,8 @@ class OutputFolder {
   /// What earlier runs put into the target.
   enum class Earlier { goes, stays };
   /// Moves all staged files to the target.
-  /// @throws InputError when a file of that name is there that no run has written
+  /// @throws InputError when a file of that name is there that no run has written: all are in a
+  /// folder `results` of the target then
   void publish(Earlier earlier = Earlier::goes);
 
  private:

@@ -95,16 +95,31 @@ TEST(OutputFolder, KeepsWhatNoRunHasWritten) {
   EXPECT_EQ(test::contents(folder / "scene.toml"), test::small_scene());
   EXPECT_EQ(test::contents(folder / "curves/mine.csv"), "mine");
 
-  for (const std::string mine : {"result.json", "curve.csv"}) {
-    fs::create_directories(folder / "other");
-    test::write_text(folder / "other" / mine, "mine");
-    const auto refused = run_havers(folder, "simulate scene.toml -o other --force");
+  fs::create_directories(folder / "other");
+  test::write_text(folder / "other/result.json", "mine");
+  const auto refused = run_havers(folder, "simulate scene.toml -o other --force");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("result.json"));
+  EXPECT_EQ(entries(folder / "other"), 1U);
+  EXPECT_EQ(test::contents(folder / "other/result.json"), "mine");
+}
+
+// Which files a run leaves is known at its end alone.
+TEST(OutputFolder, SetsResultsApartFromAFileInTheirWay) {
+  const fs::path folder = test::folder_with_scene();
+  fs::create_directories(folder / "out");
+  test::write_text(folder / "out/curve.csv", "mine");
+  for (const std::string apart : {"out/results", "out/results_2"}) {
+    const auto refused = run_havers(folder, "simulate scene.toml -o out --force");
     EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_THAT(refused.err, HasSubstr(mine));
-    EXPECT_EQ(entries(folder / "other"), 1U);
-    EXPECT_EQ(test::contents(folder / "other" / mine), "mine");
-    fs::remove_all(folder / "other");
+    EXPECT_THAT(refused.err, HasSubstr("curve.csv: was not written by a run of havers and stays "));
+    EXPECT_THAT(refused.err, HasSubstr("results are in " + (folder / apart).string() + ")"));
+    EXPECT_TRUE(fs::exists(folder / apart / "result.json"));
+    EXPECT_TRUE(fs::exists(folder / apart / "curve.csv"));
   }
+  EXPECT_EQ(test::contents(folder / "out/curve.csv"), "mine");
+  EXPECT_EQ(entries(folder / "out"), 3U);
+  EXPECT_EQ(run_havers(folder, "simulate scene.toml -o out/results --force").exit_code, 0);
 }
 
 // A folder may be a disk of its own: what is staged is staged in it.
@@ -159,6 +174,9 @@ TEST(OutputFolder, CannotBeAFile) {
   const auto answer = run_havers(folder, "simulate scene.toml -o scene.toml --force");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_EQ(test::contents(folder / "scene.toml"), test::small_scene());
+  fs::create_symlink("nowhere", folder / "link");
+  EXPECT_THAT(run_havers(folder, "simulate scene.toml -o link").err,
+              HasSubstr("link: is a link that leads nowhere (give another folder"));
 }
 
 }  // namespace
