@@ -81,6 +81,7 @@ void reduce(const io::SpecimenFiles& files, const calib::ReductionOptions& optio
 
 void measure(const std::filesystem::path& section, const io::SectionOptions& options,
              Outcome& outcome) {
+  if (!std::filesystem::is_regular_file(section)) return;  // as with tests
   try {
     for (io::SectionMeasurement& measured : io::measure_sections(section, options)) {
       for (const std::string& warning : measured.porosity.warnings)
@@ -93,13 +94,24 @@ void measure(const std::filesystem::path& section, const io::SectionOptions& opt
   }
 }
 
+// Whether the study's own mistakes leave its sections what they are measured with.
+bool can_be_measured(const io::SpecimenFiles& files, const io::StudyFile& study) {
+  const sim::AssemblyOptions& fibres = study.study.model.assembly;
+  return (!files.pixel_size || *files.pixel_size > 0.0) &&
+         (!files.mask || std::filesystem::is_regular_file(*files.mask)) &&
+         study.sections.rim >= 0.0 && study.sections.crack_slenderness >= 0.0 &&
+         fibres.fibre_length > 0.0 && fibres.fibre_height > 0.0;
+}
+
+// Of a study that is not sound the files are looked at too: they may have problems of their own.
 Outcome load_specimen(const calib::Specimen& declared, const io::SpecimenFiles& files,
-                      const io::StudyFile& study) {
+                      const io::StudyFile& study, bool sound) {
   Outcome outcome;
   outcome.specimen = declared;
   read_specimen(files, study.reduction, outcome);
-  if (outcome.problems.empty() && outcome.rejections.empty())
+  if (sound && outcome.problems.empty() && outcome.rejections.empty())
     reduce(files, study.reduction, outcome);
+  if (!can_be_measured(files, study)) return outcome;
   io::SectionOptions options = study.sections;
   options.pixel_size = files.pixel_size;
   options.mask = files.mask;
@@ -251,10 +263,7 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   const bool sound = problems.empty();
   std::vector<Outcome> outcomes(read.specimens.size());
   tbb::parallel_for(std::size_t{0}, outcomes.size(), [&](std::size_t i) {
-    if (sound)
-      outcomes[i] = load_specimen(read.study.specimens[i], read.specimens[i], read);
-    else  // its tests may have problems too
-      read_specimen(read.specimens[i], read.reduction, outcomes[i]);
+    outcomes[i] = load_specimen(read.study.specimens[i], read.specimens[i], read, sound);
   });
 
   for (const Outcome& outcome : outcomes) collect(problems, outcome.problems);

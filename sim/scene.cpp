@@ -208,7 +208,7 @@ void check_number_of_steps(const Scene& scene, Checker& checker) {
         "start = \"uniform\" with leave_out = true leaps to the first break");
 }
 
-// Needs a scene that is otherwise sound: it lays the assembly to count its joints.
+// Needs an assembly that is sound: it lays it to count its joints.
 void check_thresholds(const Scene& scene, Checker& checker) {
   const std::vector<Threshold>& given = scene.joints.thresholds;
   const std::size_t joints = build_assembly(scene.assembly, scene.loading.lateral).joints.size();
@@ -241,11 +241,12 @@ bool some_are_missing(const JointOptions& joints) {
 std::vector<Scene::Problem> Scene::problems() const {
   Checker checker;
   check_assembly(assembly, checker);
+  const bool can_be_laid = checker.found().empty();
   check_material(material, checker);
   check_joints(joints, checker);
+  if (can_be_laid && !joints.thresholds.empty()) check_thresholds(*this, checker);
   check_loading(loading, checker);
   check_solver(solver, checker);
-  if (checker.found().empty() && !joints.thresholds.empty()) check_thresholds(*this, checker);
   if (checker.found().empty()) check_number_of_steps(*this, checker);
   return checker.found();
 }

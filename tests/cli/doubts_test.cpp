@@ -172,20 +172,22 @@ TEST(Check, SaysWhichSearchHasNothingToDo) {
   EXPECT_EQ(noted(two, "local=bobyqa"), "no problems in this study\n");
 }
 
-// Of the study, of a test, and of a logger, though the study's own would end the reading.
+// Of the study, of a test, of a logger and of a section, though the study's own would end the
+// reading.
 TEST(Check, TellsTheProblemsOfAllStagesAtOnce) {
   const fs::path folder = own_folder();
   test::write_text(folder / "B0.csv", "");
   test::write_text(folder / "gauge.csv", "not a test\n");
   test::write_text(folder / "study.toml",
                    replaced_once(test::small_study(), "test = \"B0.csv\"\n",
-                                 "test = \"B0.csv\"\ngauge = \"gauge.csv\"\nwidht_mm = 4\n"));
+                                 "test = \"B0.csv\"\ngauge = \"gauge.csv\"\nwidht_mm = 4\n"
+                                 "sections = [\"gauge.csv\", \"none.png\"]\n"));
   const auto answer = run_havers(folder, "check study.toml");
   EXPECT_EQ(answer.exit_code, 2);
   for (const char* words : {"specimen.widht_mm: is not a known key", "B90.csv, which is not there",
-                            "B0.csv: ", "gauge.csv: "})
+                            "B0.csv: ", "gauge.csv: ", "none.png, which is not there"})
     EXPECT_THAT(answer.err, HasSubstr(words));
-  EXPECT_EQ(std::ranges::count(answer.err, '\n'), 4) << answer.err;
+  EXPECT_EQ(std::ranges::count(answer.err, '\n'), 6) << answer.err;
 }
 
 TEST(Import, TakesOneOfSeveralSpecimensByNameOrNumber) {

@@ -114,6 +114,9 @@ TEST(Scene, ComplainsOfGivenThresholdsThatDoNotFitItsJoints) {
               testing::ElementsAre(
                   "joints.thresholds_file gives joint 1 f_N = 0 and f_T = 1 N/m, must be f_N "
                   "above 0 and f_T 0 or more, or both 0 for a joint that is missing"));
+  scene.joints.thresholds.resize(1);
+  scene.joints.scatter = 3.0;  // its joints can be counted all the same
+  EXPECT_THAT(problems_of(scene), testing::SizeIs(2));
 }
 
 }  // namespace
