@@ -10,7 +10,6 @@
 #include "io/config/file_kind.hpp"
 #include "io/input_error.hpp"
 #include "io/results/result_files.hpp"
-#include "io/snapshots/snapshots.hpp"
 #include "io/sweep/read_sweep.hpp"
 #include "sim/dynamics/step_control.hpp"
 
@@ -40,8 +39,7 @@ Findings look_at(const std::filesystem::path& file, const io::Overrides& overrid
         findings.warnings = io::read_sweep(file, overrides).warnings;
         break;
       case io::FileKind::scene:
-        io::SceneFile read = io::read_scene(file, overrides);
-        const io::SnapshotRecorder can_be_made(read.snapshots);
+        io::SceneFile read = io::read_scene(file, overrides, io::Snapshots::written);
         findings.warnings = std::move(read.warnings);
         if (const std::string doubt = sim::doubt_about_steps(read.scene); !doubt.empty())
           findings.warnings.push_back(doubt);

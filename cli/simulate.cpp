@@ -142,7 +142,7 @@ void print_summary(const sim::Scene& scene, const sim::Simulation& run, double w
 
 int run_simulate(const SimulateArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
-  io::SceneFile file = io::read_scene(arguments.scene, common.set);
+  io::SceneFile file = io::read_scene(arguments.scene, common.set, io::Snapshots::written);
   Digests inputs = digests_of(file.inputs);
   if (common.seed) file.scene.joints.seed = *common.seed;
   if (common.seed && !file.scene.joints.thresholds.empty())

@@ -4,10 +4,12 @@
 
 #include "io/config/file_kind.hpp"
 #include "io/config/scene_tables.hpp"
+#include "io/snapshots/snapshots.hpp"
 
 namespace havers::io {
 
-SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrides) {
+SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrides,
+                     Snapshots snapshots) {
   ConfigFile config(file, overrides);
   TableReader top = config.top();
   require_kind(FileKind::scene, top, file);
@@ -17,6 +19,9 @@ SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrid
   TableReader output = top.table("output");
   output.key("snapshots", read.snapshots);
   output.require(read.snapshots >= 0, "snapshots", read.snapshots, "0 or more");
+  if (read.snapshots > 0 && snapshots == Snapshots::written && !snapshots_available())
+    output.complain("snapshots", "this build writes no snapshots for ParaView",
+                    "apt-get install libvtk9-dev and build again, or set output.snapshots = 0");
 
   if (TableReader joints = top.table("joints"); joints.has("thresholds_file"))
     for (const char* const key : {"seed", "scatter", "distribution", "missing"})

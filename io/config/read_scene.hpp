@@ -20,9 +20,13 @@ struct SceneFile {
   std::vector<std::string> warnings{};          ///< A sentence for each key that changes nothing.
 };
 
+/// Whether a reader of the scene writes the snapshots that it asks for, and so needs VTK.
+enum class Snapshots { ignored, written };
+
 /// Reads a scene. Paths in it are relative to its folder.
 /// @throws InputError with every problem: unknown keys (with the nearest known one), wrong types,
 /// impossible values, missing files.
-SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrides = {});
+SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrides = {},
+                     Snapshots snapshots = Snapshots::ignored);
 
 }  // namespace havers::io

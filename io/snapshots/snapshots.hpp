@@ -23,7 +23,6 @@ struct Snapshot {
 /// row, and k doubles whenever twice as many are held as asked for.
 class SnapshotRecorder {
  public:
-  /// @throws InputError when snapshots are asked for and VTK is not built in.
   explicit SnapshotRecorder(int count);
 
   /// To be called for every row that a run shows, in order. A row of an earlier time begins another

@@ -153,5 +153,15 @@ TEST(Simulate, ExitsOneWhenTheRunIsNotToBeTrusted) {
   EXPECT_TRUE(answer.out.starts_with("NOT to be trusted: ")) << answer.out;
 }
 
+TEST(Simulate, AndCheckNameTheLineOfSnapshotsThatCannotBeWritten) {
+  const auto folder = test::folder_with_scene();
+  if (run_havers(folder, "--version").out.find("VTK snapshots OFF") == std::string::npos)
+    GTEST_SKIP() << "this build writes snapshots";
+  test::write_text(folder / "film.toml", "[output]\nsnapshots = 3\n" + test::small_scene());
+  for (const char* command : {"simulate film.toml -o out", "check film.toml"})
+    EXPECT_THAT(run_havers(folder, command).err,
+                testing::StartsWith("havers: film.toml:2: output.snapshots: this build writes no"));
+}
+
 }  // namespace
 }  // namespace havers
