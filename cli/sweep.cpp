@@ -50,7 +50,8 @@ std::vector<Done> read_all(const SweepArguments& arguments, const CommonOptions&
   std::set<std::string> stems;
   for (const fs::path& file : arguments.files) {
     if (!stems.insert(file.stem().string()).second)
-      problems.push_back({file.string(), "has the name of another sweep", "rename one"});
+      problems.push_back({file.string(), "has the file name of another sweep",
+                          "rename one: its results are in a folder of that name"});
     try {
       io::SweepFile read = io::read_sweep(file, common.set, common.seed);
       for (const std::string& warning : read.warnings)

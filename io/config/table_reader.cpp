@@ -247,8 +247,12 @@ std::vector<TableReader::List> TableReader::lists(std::string_view name) {
   }
   for (auto&& [key, item] : *node->as_table()) {
     all.emplace_back(key.str(), std::vector<std::string>{});
-    if (!item.is_array()) wrong_type(dotted(std::string(name), key.str()), item, "a list");
-    if (!item.is_array()) continue;
+    if (!item.is_array()) {
+      complain(
+          dotted(std::string(name), key.str()), fmt::format("is {}, must be a list", kind(item)),
+          item.is_table() ? "quote a key with dots, as in \"joints.scatter\" = [0.2, 0.4]" : "");
+      continue;
+    }
     for (const toml::node& value : *item.as_array()) {
       std::ostringstream text;
       if (value.is_floating_point())  // the shortest that reads back the same

@@ -163,10 +163,11 @@ calib::SweepPoint read_point(SweepFile& read, Overrides overrides,
   return point;
 }
 
-// What is wrong with a point's value is said of the sweep's key.
+// What is wrong with a point's value, or with a table that its key names, is said of the sweep's
+// key.
 Problem of_sweep(Problem problem, const std::filesystem::path& file, const calib::SweepPlan& plan) {
   for (const calib::SweepKey& key : plan.keys)
-    if (problem.where == std::string(override_mark) + key.name)
+    if (fmt::format("{}{}.", override_mark, key.name).starts_with(problem.where + "."))
       problem.where = fmt::format("{}: sweep.keys.\"{}\"", file.string(), key.name);
   return problem;
 }

@@ -104,6 +104,21 @@ TEST(ReadSweep, NamesAnImpossibleValueOnceAndByTheSweepsKey) {
               ElementsAre(HasSubstr("s.toml: sweep.keys.\"joints.scatter\"")));
 }
 
+// A table that no scene of a sweep has, and a key without its quotes.
+TEST(ReadSweep, BlamesTheSweepsKeysForTheirTables) {
+  const ScratchFolder folder;
+  const auto complaints = [&](const std::string& key) {
+    const auto file = folder.write("s.toml", "[sweep.keys]\n" + key + "\n");
+    return complaints_of(folder, [&] { read_sweep(file); });
+  };
+  EXPECT_THAT(
+      complaints("\"output.snapshots\" = [1, 2]"),
+      ElementsAre(HasSubstr("s.toml: sweep.keys.\"output.snapshots\": is not a known key")));
+  EXPECT_THAT(complaints("joints.scatter = [0.2, 0.4]"),
+              testing::Contains("s.toml:2: sweep.keys.joints: is a table, must be a list (quote a "
+                                "key with dots, as in \"joints.scatter\" = [0.2, 0.4])"));
+}
+
 TEST(ReadSweep, NamesUnknownKeysAndQuestionsAboutWhatDoesNotVary) {
   const ScratchFolder folder;
   const auto file = folder.write("s.toml",
