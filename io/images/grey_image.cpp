@@ -4,9 +4,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <string>
+#include <system_error>
 #include <vector>
 
 #include "io/images/cut_off.hpp"
@@ -18,11 +23,14 @@ namespace havers::images {
 namespace {
 
 void check_file(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file))
+  std::error_code error;
+  if (std::filesystem::status(file, error).type() == std::filesystem::file_type::not_found)
     throw io::InputError(file.string(), "there is no such file",
                          "check the path; a study's are relative to its folder");
-  if (std::filesystem::is_directory(file))
+  if (std::filesystem::is_directory(file, error))
     throw io::InputError(file.string(), "is a folder, not an image", "name the images in it");
+  if (!std::ifstream(file))
+    throw io::InputError(file.string(), std::string("cannot be read: ") + std::strerror(errno));
   if (std::filesystem::file_size(file) == 0)
     throw io::InputError(file.string(), "is an empty file", "export the image again");
 }

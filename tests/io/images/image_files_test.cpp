@@ -110,6 +110,14 @@ TEST(ImageFile, ThatIsMissingIsNamed) {
       "its folder)");
 }
 
+// As one is without the right to read it, which root always has.
+TEST(ImageFile, ThatCannotBeOpenedIsNamed) {
+  const auto file = write_text("loop.png", "");
+  std::filesystem::remove(file);
+  std::filesystem::create_symlink("loop.png", file);
+  expect_contains(complaint(file), "loop.png: cannot be read: ");
+}
+
 TEST(ImageFile, ThatIsAFolderIsNamed) {
   expect_contains(complaint(std::filesystem::temp_directory_path()), "is a folder, not an image");
 }
