@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/command.hpp"
 #include "cli/load_study.hpp"
@@ -22,7 +23,7 @@ constexpr const char* check_examples =
     "  havers check data_samples/paper/R5_rates.toml\n";
 
 struct Findings {
-  io::FileKind kind = io::FileKind::scene;
+  std::optional<io::FileKind> kind;  // none: the file cannot be read
   std::vector<io::Problem> problems;
   std::vector<std::string> warnings;
 };
@@ -31,7 +32,7 @@ Findings look_at(const std::filesystem::path& file, const io::Overrides& overrid
   Findings findings;
   try {
     findings.kind = io::kind_of_file(file, overrides);
-    switch (findings.kind) {
+    switch (*findings.kind) {
       case io::FileKind::study:
         findings.warnings = load_study(file, overrides).all_notes();
         break;
@@ -54,14 +55,16 @@ void print_json(const std::filesystem::path& file, const Findings& findings) {
   nlohmann::json problems = nlohmann::json::array();
   for (const io::Problem& problem : findings.problems)
     problems.push_back({{"where", problem.where}, {"what", problem.what}, {"hint", problem.hint}});
-  const nlohmann::json all{{"file", file.string()},
-                           {"kind", io::name_of(findings.kind)},
-                           {"problems", problems},
-                           {"warnings", findings.warnings}};
+  const nlohmann::json all{
+      {"file", file.string()},
+      {"kind", findings.kind ? nlohmann::json(io::name_of(*findings.kind)) : nlohmann::json()},
+      {"problems", problems},
+      {"warnings", findings.warnings}};
   fmt::print("{}", io::json_text(all));
 }
 
 int run_check(const std::filesystem::path& file, const CommonOptions& common) {
+  refuse_seed(common, "havers check runs nothing");
   const Findings findings = look_at(file, common.set);
   if (common.json) {
     print_json(file, findings);
@@ -69,7 +72,7 @@ int run_check(const std::filesystem::path& file, const CommonOptions& common) {
   }
   if (!findings.problems.empty()) throw io::InputError(findings.problems);
   for (const std::string& warning : findings.warnings) fmt::print("note: {}\n", warning);
-  fmt::print("no problems in this {}\n", io::name_of(findings.kind));
+  fmt::print("no problems in this {}\n", io::name_of(*findings.kind));
   return done;
 }
 

@@ -82,7 +82,7 @@ TEST(Usage, SettingsThatSetNothingAreRefused) {
     EXPECT_TRUE(answer.err.starts_with("havers: --set joints.scatter=0.4: sets nothing: "))
         << arguments << answer.err;
   }
-  for (const char* arguments : {"porosity a.png", "report out", "import a.csv"})
+  for (const char* arguments : {"porosity a.png", "report out", "import a.csv", "check a.toml"})
     EXPECT_TRUE(run_havers(folder, std::string(arguments) + " --seed 3")
                     .err.starts_with("havers: --seed 3: sets nothing: "))
         << arguments;
@@ -272,14 +272,17 @@ TEST(Check, TakesForAStudyWhatFitTakesForOne) {
   }
 }
 
-TEST(Check, SaysThatAFileIsNotTomlBeforeItsKind) {
+TEST(Check, DoesNotKnowTheKindOfAFileThatCannotBeRead) {
   const auto folder = own_folder();
   test::write_text(folder / "study.toml", "[study]\nname = = 2\n");
-  const auto answer = run_havers(folder, "check study.toml --json");
-  EXPECT_EQ(answer.exit_code, 2);
-  const auto json = nlohmann::json::parse(answer.out);
-  EXPECT_EQ(json.at("kind"), "scene");
-  EXPECT_EQ(json.at("problems").size(), 1U);
+  test::write_text(folder / "empty.toml", "");
+  for (const std::string file : {"study.toml", "empty.toml", "none.toml"}) {
+    const auto answer = run_havers(folder, "check --json " + file);
+    EXPECT_EQ(answer.exit_code, 2);
+    const auto json = nlohmann::json::parse(answer.out);
+    EXPECT_TRUE(json.at("kind").is_null()) << json.dump();
+    EXPECT_EQ(json.at("problems").size(), 1U);
+  }
 }
 
 TEST(Check, TellsAStudyFromASceneAndReportsAllItsFiles) {
