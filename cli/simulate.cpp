@@ -63,7 +63,7 @@ void write_results(const OutputFolder& output, const io::SceneFile& file,
                                            provenance.wall_seconds,
                                            file.inputs.front().filename().string()}));
   }
-  output.write("result.json", io::json_text(io::simulation_json(scene, simulation, provenance)));
+  output.write("result.json", io::json_text(io::simulation_json(file, simulation, provenance)));
 }
 
 // No time without its error. The runs of longer steps were timed too.
@@ -166,8 +166,7 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
   snapshots.finish(simulation);
   const io::Provenance provenance = provenance_of(common, std::move(inputs), watch);
   write_results(output, file, simulation, snapshots, provenance);
-  answer(common, &output, io::simulation_json(file.scene, simulation, provenance),
-         page_or("result.json"),
+  answer(common, &output, io::simulation_json(file, simulation, provenance), page_or("result.json"),
          [&] { print_summary(file.scene, simulation, provenance.wall_seconds, common.verbose); });
   if (simulation.status == sim::SimulationStatus::cancelled)
     note(common,

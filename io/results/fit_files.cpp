@@ -75,6 +75,7 @@ nlohmann::json calibration_json(const calib::Study& study, const calib::Calibrat
   json["status_text"] = calib::explain(result.status);
   json["trusted"] = result.trusted();
   json["wall_s"] = provenance.wall_seconds;
+  json["scene"] = scene_json(result.scene);
   json["study"] = json_of(question);
   json["provenance"] = provenance_object(provenance);
   return json;

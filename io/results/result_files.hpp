@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calib/fit/calibration.hpp"
+#include "io/config/read_scene.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/machine/read_test.hpp"
 #include "io/results/sha256.hpp"
@@ -33,7 +34,7 @@ struct Provenance {
 nlohmann::json provenance_object(Provenance provenance);
 
 /// The objects of result.json and of --json.
-nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& simulation,
+nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& simulation,
                                const Provenance& provenance);
 nlohmann::json calibration_json(const calib::Study& study, const calib::CalibrationResult& result,
                                 const Provenance& provenance);
@@ -42,8 +43,8 @@ nlohmann::json porosity_json(const calib::SectionPorosity& section, double scatt
 
 /// `porosity --json` of several sections: their mean, pooled.
 nlohmann::json mean_porosity_json(const calib::SpecimenPorosity& mean);
-/// A scene in the keys of a scene file. Thresholds given joint by joint are named as the file
-/// joints.csv.
+/// A scene in the keys of a scene file, what depends on others filled in. Thresholds given joint by
+/// joint are named as the file joints.csv.
 nlohmann::json scene_json(const sim::Scene& scene);
 /// The same as a scene file. read_scene gives the same scene back, to the last bit where its values
 /// came from keys, else to one rounding.

@@ -5,19 +5,28 @@
 #include "io/results/result_keys.hpp"
 
 namespace havers::io {
+namespace {
 
-nlohmann::json scene_json(const sim::Scene& scene) {
-  sim::Scene copy =
-      scene;  // keys are declared once, for reading and writing, and so ask for a mutable one
-  nlohmann::json json = json_of(copy);
+// A copy, as keys are declared once, for reading and writing.
+nlohmann::json tables_of_scene(sim::Scene scene) {
+  nlohmann::json json = json_of(scene);
   // A scene cannot hold thresholds joint by joint; the joints.csv beside the result does.
   if (!scene.joints.thresholds.empty()) json["joints"]["thresholds_file"] = "joints.csv";
   return json;
 }
 
-// JSON's numbers, texts and truth values are TOML's as well.
+}  // namespace
+
+nlohmann::json scene_json(const sim::Scene& scene) {
+  nlohmann::json json = tables_of_scene(scene);
+  json["joints"]["reinforced_boundary"] = sim::reinforced_boundary(scene);
+  return json;
+}
+
+// JSON's numbers, texts and truth values are TOML's as well. What was not set stays so:
+// reinforced_boundary goes with the angle, which --set may turn.
 std::string scene_toml(const sim::Scene& scene) {
-  const nlohmann::json tables = scene_json(scene);
+  const nlohmann::json tables = tables_of_scene(scene);
   std::string text;
   for (const auto& [table, keys] : tables.items()) {
     text += fmt::format("[{}]\n", table);

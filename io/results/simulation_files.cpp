@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -10,10 +11,10 @@
 
 namespace havers::io {
 
-nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& simulation,
+nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& simulation,
                                const Provenance& provenance) {
-  sim::Scene used = scene;
-  used.joints.reinforced_boundary = sim::reinforced_boundary(scene);
+  nlohmann::json scene = scene_json(file.scene);
+  scene["output"]["snapshots"] = file.snapshots;
   const sim::StepError error = simulation.step_error.value_or(sim::StepError{NAN, NAN});
   std::vector<sim::LeftOut> left_out = simulation.left_out;
   return {
@@ -33,6 +34,8 @@ nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& s
       {"modulus_Pa", json_of(simulation.modulus)},
       {"first_break_strain", json_of(simulation.first_break_strain)},
       {"broken_joints", simulation.broken_joints},
+      {"missing_joints",
+       std::ranges::count_if(simulation.joints, sim::is_missing, &sim::JointOutcome::threshold)},
       {"end_fraction_used", json_of(simulation.end_fraction_used)},
       {"steps", simulation.steps},
       {"iterations", simulation.iterations},
@@ -44,7 +47,7 @@ nlohmann::json simulation_json(const sim::Scene& scene, const sim::Simulation& s
       {"worst_penetration_m", json_of(simulation.worst_penetration)},
       {"wall_s", json_of(provenance.wall_seconds)},
       {"left_out", json_of(left_out)},
-      {"scene", scene_json(used)},
+      {"scene", scene},
       {"provenance", provenance_object(provenance)},
   };
 }

@@ -120,6 +120,7 @@ TEST(CalibrationJson, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(json["failed_simulations"], 12);
   EXPECT_EQ(json["wall_s"], 4.5);
   EXPECT_EQ(json["scene"]["material"]["young_GPa"], 13.1234);
+  EXPECT_EQ(json["scene"]["joints"]["reinforced_boundary"], true);  // the default at 0°, filled in
 }
 
 TEST(CalibrationJson, SpellsStatusesAndOutcomes) {

@@ -97,6 +97,7 @@ TEST(SceneJson, UsesTheKeysAndUnitsOfASceneFile) {
   EXPECT_EQ(json["loading"]["lateral"], "periodic");
   EXPECT_EQ(json["solver"]["regime"], "auto");
   EXPECT_FALSE(json["solver"].contains("step_s"));  // omitted: chosen, and said
+  EXPECT_EQ(json["joints"]["reinforced_boundary"], true);
 }
 
 TEST(SceneJson, NamesTheFileOfThresholdsThatWereGivenJointByJoint) {

@@ -96,6 +96,7 @@ TEST(SimulationJson, HoldsTheKeysOfTheContract) {
   sim::Simulation simulation =
       test::simulation_sample(build_assembly(scene.assembly, scene.loading.lateral));
   simulation.first_break_strain = test::nan;
+  simulation.joints.front() = {.threshold = {0.0, 0.0}, .broken = true};
   simulation.worst_penetration = std::numeric_limits<double>::infinity();
   Provenance provenance;
   provenance.command = "havers simulate s.toml -o r";
@@ -103,8 +104,8 @@ TEST(SimulationJson, HoldsTheKeysOfTheContract) {
   provenance.wall_seconds = 1.5;
   provenance.cpu_seconds = 2.5;
 
-  const nlohmann::json json =
-      nlohmann::json::parse(simulation_json(scene, simulation, provenance).dump());
+  const nlohmann::json json = nlohmann::json::parse(
+      simulation_json({.scene = scene, .snapshots = 2}, simulation, provenance).dump());
   EXPECT_EQ(json["status"], "broken");
   EXPECT_EQ(json["trusted"], true);
   EXPECT_EQ(json["strength_Pa"], 38.9e6);
@@ -112,6 +113,7 @@ TEST(SimulationJson, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(json["modulus_Pa"], 13e9);
   EXPECT_TRUE(json["first_break_strain"].is_null());
   EXPECT_EQ(json["broken_joints"], simulation.broken_joints);
+  EXPECT_EQ(json["missing_joints"], 1);
   EXPECT_EQ(json["end_fraction_used"], 0.3);
   EXPECT_EQ(json["steps"], 400);
   EXPECT_EQ(json["energy_defect"], 3.2e-14);
@@ -126,6 +128,7 @@ TEST(SimulationJson, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(json["left_out"][0]["why"], "none were asked for");
   EXPECT_EQ(json["scene"]["assembly"]["layers"], 4);
   EXPECT_EQ(json["scene"]["joints"]["reinforced_boundary"], true);  // the default at 0°, filled in
+  EXPECT_EQ(json["scene"]["output"]["snapshots"], 2);
   EXPECT_EQ(json["provenance"]["havers"], version());
   EXPECT_EQ(json["provenance"]["compiler"], compiler_version());
   EXPECT_EQ(json["provenance"]["command"], "havers simulate s.toml -o r");
