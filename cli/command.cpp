@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "cli/number_check.hpp"
 #include "cli/output_folder.hpp"
@@ -71,6 +72,13 @@ void note(const CommonOptions& common, const std::string& sentence) {
 
 std::string cell(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
+}
+
+nlohmann::json json_of_files(const std::string& name, nlohmann::json entries, std::size_t files) {
+  nlohmann::json json =
+      files == 1 && entries.size() == 1 ? entries.front() : nlohmann::json::object();
+  json[name] = std::move(entries);
+  return json;
 }
 
 std::string page_or(const std::string& file) {

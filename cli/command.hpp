@@ -1,6 +1,7 @@
 // What the commands of havers have in common.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -70,6 +71,10 @@ void note(const CommonOptions& common, const std::string& sentence);
 
 /// A number of a table on stdout; a dash for what is not known.
 std::string cell(double value, int decimals);
+
+/// The object of --json of a command that takes several files: `entries` as `name`, and where one
+/// file was asked for and has one entry, its keys beside them.
+nlohmann::json json_of_files(const std::string& name, nlohmann::json entries, std::size_t files);
 
 class OutputFolder;
 

@@ -42,6 +42,14 @@ struct Imported {
   calib::Reduction reduction;
 };
 
+// What all files gave, those that could not be read among them.
+struct ImportFindings {
+  std::vector<Imported> tests;
+  std::vector<io::Problem> problems;
+  std::vector<std::filesystem::path> read;
+  nlohmann::json entries = nlohmann::json::array();  // an object a test, or a file's error
+};
+
 void give_size(std::optional<double>& size, const std::optional<double>& given_mm) {
   if (given_mm) size = 1e-3 * *given_mm;
 }
@@ -100,11 +108,20 @@ void collect(const std::vector<Imported>& tests, std::vector<io::Problem>& probl
   }
 }
 
+nlohmann::json clocks_json(const calib::ClockFit& clocks) {
+  return {{"offset_s", clocks.offset - clocks.rate * clocks.reference},
+          {"rate", clocks.rate},
+          {"rate_fitted", clocks.rate_fitted},
+          {"rate_standard_error", clocks.rate_standard_error},
+          {"reference_s", clocks.reference},
+          {"machine_time_at_reference_s", clocks.offset},
+          {"machine_time_standard_error_s", clocks.offset_standard_error},
+          {"correlation", clocks.correlation}};
+}
+
 // Files that can be read are shown even when others cannot.
-std::vector<Imported> import_all(const ImportArguments& arguments,
-                                 const io::ImportSettings& settings,
-                                 std::vector<io::Problem>& problems) {
-  std::vector<Imported> all;
+ImportFindings import_all(const ImportArguments& arguments, const io::ImportSettings& settings) {
+  ImportFindings found;
   for (const auto& path : arguments.files) {
     try {
       std::vector<Imported> tests;
@@ -112,13 +129,19 @@ std::vector<Imported> import_all(const ImportArguments& arguments,
         tests.push_back(import_joined(settings, arguments));
       else
         tests = import_tests(path, settings);
-      collect(tests, problems);
-      std::ranges::move(tests, std::back_inserter(all));
+      collect(tests, found.problems);
+      for (const Imported& test : tests) {
+        found.entries.push_back(io::import_json(test.file, test.reduction));
+        if (test.clocks) found.entries.back()["clocks"] = clocks_json(*test.clocks);
+      }
+      std::ranges::move(tests, std::back_inserter(found.tests));
+      found.read.push_back(path);
     } catch (const io::InputError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+      found.entries.push_back({{"file", path.string()}, {"error", error.what()}});
+      found.problems.insert(found.problems.end(), error.problems().begin(), error.problems().end());
     }
   }
-  return all;
+  return found;
 }
 
 void print_columns(const io::TestFile& file) {
@@ -135,44 +158,21 @@ void print_test(const Imported& imported) {
   const calib::MeasuredTest& test = imported.reduction.test;
   if (!test.strain.empty()) {
     fmt::print(
-        "  strength {}{:.3f} +- {:.3f} MPa at a strain of {:.4f} %{}\n",
-        test.broke ? "" : "at least ", 1e-6 * test.strength, 1e-6 * test.strength_standard_error,
+        "  strength {}{:.3f} +- {} MPa at a strain of {:.4f} %{}\n", test.broke ? "" : "at least ",
+        1e-6 * test.strength, cell(1e-6 * test.strength_standard_error, 3),
         100.0 * test.failure_strain,
         test.max_force > 0.0 && test.area > 0.0
             ? fmt::format(", largest force {:.2f} N on {:.4f} mm2", test.max_force, 1e6 * test.area)
             : "");
     fmt::print("  energy to failure {:.4f} MJ/m3{}\n", 1e-6 * test.energy_to_failure,
                test.time.empty() ? "" : fmt::format(", strain rate {:.4g} 1/s", test.strain_rate));
-    fmt::print("  modulus {:.3f} +- {:.3f} GPa between strains of {:.4f} and {:.4f} %\n",
-               1e-9 * test.modulus, 1e-9 * test.modulus_standard_error, 100.0 * test.window_low,
-               100.0 * test.window_high);
+    fmt::print("  modulus {:.3f} +- {} GPa between strains of {:.4f} and {:.4f} %\n",
+               1e-9 * test.modulus, cell(1e-9 * test.modulus_standard_error, 3),
+               100.0 * test.window_low, 100.0 * test.window_high);
   }
   for (const calib::Correction& correction : test.corrections)
     fmt::print("  corrected: {}: {}\n", correction.what, correction.detail);
   for (const std::string& warning : test.warnings) fmt::print("  note: {}\n", warning);
-}
-
-nlohmann::json clocks_json(const calib::ClockFit& clocks) {
-  return {{"offset_s", clocks.offset - clocks.rate * clocks.reference},
-          {"rate", clocks.rate},
-          {"rate_fitted", clocks.rate_fitted},
-          {"rate_standard_error", clocks.rate_standard_error},
-          {"reference_s", clocks.reference},
-          {"machine_time_at_reference_s", clocks.offset},
-          {"machine_time_standard_error_s", clocks.offset_standard_error},
-          {"correlation", clocks.correlation}};
-}
-
-// Every test in "files"; what is said of a single one is beside it too.
-nlohmann::json json_of(const std::vector<Imported>& tests) {
-  nlohmann::json all = nlohmann::json::array();
-  for (const Imported& test : tests) {
-    all.push_back(io::import_json(test.file, test.reduction));
-    if (test.clocks) all.back()["clocks"] = clocks_json(*test.clocks);
-  }
-  nlohmann::json json = all.size() == 1 ? all.front() : nlohmann::json::object();
-  json["files"] = std::move(all);
-  return json;
 }
 
 // One figure per file; per specimen, with its number, where a file holds several.
@@ -206,14 +206,11 @@ void write_figures(const OutputFolder& output, const std::vector<Imported>& test
 }
 
 void write_results(const OutputFolder& output, const ImportArguments& arguments,
-                   const std::vector<Imported>& tests, const CommonOptions& common,
-                   const Stopwatch& watch) {
-  output.write("import.json", io::json_text(json_of(tests)));
-  std::vector<std::filesystem::path> inputs = arguments.files;
-  if (arguments.gauge) inputs.push_back(*arguments.gauge);
-  std::erase_if(inputs, [](const auto& file) { return !std::filesystem::exists(file); });
+                   ImportFindings& found, const CommonOptions& common, const Stopwatch& watch) {
+  if (arguments.gauge) found.read.push_back(*arguments.gauge);
   if (reports::available())
-    write_figures(output, tests, page_facts(provenance_of(common, digests_of(inputs), watch)));
+    write_figures(output, found.tests,
+                  page_facts(provenance_of(common, digests_of(found.read), watch)));
   else
     note(common, "no figures and no page: this build makes none (havers --version)");
 }
@@ -228,14 +225,15 @@ int run_import(const ImportArguments& arguments, const CommonOptions& common) {
     throw io::InputError("--gauge", "is the second file of one test", "import the others alone");
   std::optional<OutputFolder> output;  // refused before anything is read
   if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force);
-  std::vector<io::Problem> problems;
-  const std::vector<Imported> tests = import_all(arguments, settings, problems);
-  if (tests.empty()) output.reset();
-  if (output) write_results(*output, arguments, tests, common, watch);
-  answer(common, output ? &*output : nullptr, json_of(tests), page_or("import.json"), [&] {
-    for (const Imported& test : tests) print_test(test);
+  ImportFindings found = import_all(arguments, settings);
+  const nlohmann::json json = json_of_files("files", found.entries, arguments.files.size());
+  if (found.tests.empty()) output.reset();
+  if (output) output->write("import.json", io::json_text(json));
+  if (output) write_results(*output, arguments, found, common, watch);
+  answer(common, output ? &*output : nullptr, json, page_or("import.json"), [&] {
+    for (const Imported& test : found.tests) print_test(test);
   });
-  if (!problems.empty()) throw io::InputError(std::move(problems));
+  if (!found.problems.empty()) throw io::InputError(std::move(found.problems));
   return done;
 }
 

@@ -51,6 +51,14 @@ struct MeasuredFile {
   std::vector<io::Problem> problems;
 };
 
+// What all images gave, those that could not be measured among them.
+struct PorosityFindings {
+  std::vector<Section> sections;
+  std::vector<io::Problem> problems;
+  std::vector<std::filesystem::path> read;
+  nlohmann::json entries = nlohmann::json::array();  // an object a section, or an image's error
+};
+
 // GREY=DENSITY or X,Y,WIDTH,HEIGHT=DENSITY.
 io::DensityReference reference_of(const std::string& text) {
   io::DensityReference known;
@@ -82,7 +90,8 @@ io::SectionOptions options_of(const PorosityArguments& arguments) {
   return options;
 }
 
-std::vector<Section> measure_all(const PorosityArguments& arguments) {
+// Images that can be measured are shown even when others cannot.
+PorosityFindings measure_all(const PorosityArguments& arguments) {
   const io::SectionOptions options = options_of(arguments);
   std::vector<MeasuredFile> outcomes(arguments.images.size());
   tbb::parallel_for(std::size_t{0}, outcomes.size(), [&](std::size_t i) {
@@ -92,21 +101,26 @@ std::vector<Section> measure_all(const PorosityArguments& arguments) {
       outcomes[i].problems = error.problems();
     }
   });
-  std::vector<Section> sections;
-  std::vector<io::Problem> problems;
+  PorosityFindings found;
   std::set<std::filesystem::path> seen;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    problems.insert(problems.end(), outcomes[i].problems.begin(), outcomes[i].problems.end());
-    if (!outcomes[i].problems.empty()) continue;
-    const bool fresh = seen.insert(std::filesystem::canonical(arguments.images[i])).second;
+    const std::filesystem::path& image = arguments.images[i];
+    if (const auto& problems = outcomes[i].problems; !problems.empty()) {
+      found.entries.push_back(
+          {{"file", image.string()}, {"error", io::InputError(problems).what()}});
+      found.problems.insert(found.problems.end(), problems.begin(), problems.end());
+      continue;
+    }
+    found.read.push_back(image);
+    const bool fresh = seen.insert(std::filesystem::canonical(image)).second;
     for (io::SectionMeasurement& measured : outcomes[i].sections) {
       if (!fresh) measured.porosity.warnings.emplace_back("is listed again: it counts twice");
       const double scatter = calib::scatter_of(calib::pool_sections({measured.porosity}), {});
-      sections.push_back({arguments.images[i], std::move(measured), scatter});
+      found.entries.push_back(io::porosity_json(measured.porosity, scatter));
+      found.sections.push_back({image, std::move(measured), scatter});
     }
   }
-  if (!problems.empty()) throw io::InputError(std::move(problems));
-  return sections;
+  return found;
 }
 
 calib::SpecimenPorosity mean_of(const std::vector<Section>& sections) {
@@ -145,23 +159,11 @@ void print_table(const std::vector<Section>& sections) {
         100.0 * calib::missing_joints(mean));
 }
 
-// Every section in "sections"; what is said of a single one is beside it too.
-nlohmann::json json_of(const std::vector<Section>& sections) {
-  nlohmann::json all = nlohmann::json::array();
-  for (const Section& section : sections)
-    all.push_back(io::porosity_json(section.measured.porosity, section.scatter));
-  nlohmann::json json = all.size() == 1 ? all.front() : nlohmann::json::object();
-  json["sections"] = std::move(all);
-  json["mean"] = io::mean_porosity_json(mean_of(sections));
-  return json;
-}
-
-void write_page(const OutputFolder& output, const PorosityArguments& arguments,
-                const std::vector<Section>& sections, const CommonOptions& common,
-                const Stopwatch& watch) {
+void write_page(const OutputFolder& output, const PorosityFindings& found,
+                const CommonOptions& common, const Stopwatch& watch) {
   reports::PorosityReport page;
   std::set<std::string> used;
-  for (const Section& section : sections) {
+  for (const Section& section : found.sections) {
     const auto& overlay = section.measured.overlay_png;
     const std::string name = name_of_its_own(section.image.stem().string(), used);
     output.write(name + "_overlay.png", {overlay.begin(), overlay.end()});
@@ -170,9 +172,8 @@ void write_page(const OutputFolder& output, const PorosityArguments& arguments,
     page.scatter.push_back(section.scatter);
     page.histograms.push_back(section.measured.histogram);
   }
-  page.mean = mean_of(sections);
-  page.provenance = page_facts(provenance_of(common, digests_of(arguments.images), watch));
-  output.write("porosity.json", io::json_text(json_of(sections)));
+  page.mean = mean_of(found.sections);
+  page.provenance = page_facts(provenance_of(common, digests_of(found.read), watch));
   if (reports::available()) output.write("report.html", reports::porosity_page(page));
 }
 
@@ -181,10 +182,18 @@ int run_porosity(const PorosityArguments& arguments, const CommonOptions& common
   refuse_settings(common, "havers porosity reads no study");
   std::optional<OutputFolder> output;  // refused before anything is measured
   if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force);
-  const std::vector<Section> sections = measure_all(arguments);
-  if (output) write_page(*output, arguments, sections, common, watch);
-  answer(common, output ? &*output : nullptr, json_of(sections), page_or("porosity.json"),
-         [&] { print_table(sections); });
+  PorosityFindings found = measure_all(arguments);
+  nlohmann::json json = json_of_files("sections", found.entries, arguments.images.size());
+  if (found.sections.empty())
+    output.reset();
+  else
+    json["mean"] = io::mean_porosity_json(mean_of(found.sections));
+  if (output) output->write("porosity.json", io::json_text(json));
+  if (output) write_page(*output, found, common, watch);
+  answer(common, output ? &*output : nullptr, json, page_or("porosity.json"), [&] {
+    if (!found.sections.empty()) print_table(found.sections);
+  });
+  if (!found.problems.empty()) throw io::InputError(std::move(found.problems));
   return done;
 }
 

@@ -38,17 +38,40 @@ TEST(Import, GivesBackWhatSynthesizePutIn) {
   }
 }
 
-// "files" holds every test, however many; what a single one has stands beside it.
+// "files" holds every file, read or not; where one was asked for, what it has stands beside it.
 TEST(Import, AnswersInOneShapeForAnyNumberOfFiles) {
   const fs::path folder = folder_with_tests();
-  for (const std::string files : {"none.csv", "made/B0.csv", "made/B0.csv none.csv"}) {
-    const auto json = nlohmann::json::parse(run_havers(folder, "import " + files + " --json").out);
-    const std::size_t readable = files == "none.csv" ? 0 : 1;
-    ASSERT_EQ(json.at("files").size(), readable) << files;
-    if (readable == 1) {
-      EXPECT_EQ(json["files"][0]["strength_Pa"], json["strength_Pa"]);
-    }
-  }
+  const auto json = [&](const std::string& files) {
+    return nlohmann::json::parse(run_havers(folder, "import " + files + " --json").out);
+  };
+  const auto missing = json("none.csv"), one = json("made/B0.csv");
+  EXPECT_THAT(missing["files"][0]["error"].get<std::string>(),
+              testing::StartsWith("none.csv: there is no such file"));
+  EXPECT_EQ(missing["error"], missing["files"][0]["error"]);
+  ASSERT_EQ(one.at("files").size(), 1U);
+  EXPECT_EQ(one["files"][0]["strength_Pa"], one["strength_Pa"]);
+  const auto both = json("none.csv made/B0.csv");
+  EXPECT_EQ(both.size(), 1U) << both.dump();
+  EXPECT_EQ(both["files"], nlohmann::json({missing["files"][0], one["files"][0]}));
+}
+
+TEST(Porosity, ShowsTheReadableImagesAndNamesTheOthers) {
+  if (!test::reads_images()) GTEST_SKIP() << "this build reads no images";
+  const fs::path folder = own_folder();
+  const std::string both = "porosity none.png " HAVERS_SOURCE_DIR
+                           "/data_samples/bone_bars/A1_section.png --pixel-size-um 2";
+  const auto answer = run_havers(folder, both);
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.out, HasSubstr("A1_section.png"));
+  EXPECT_THAT(answer.err, testing::StartsWith("havers: none.png: there is no such file"));
+  const auto json = nlohmann::json::parse(run_havers(folder, both + " --json -o out").out);
+  EXPECT_FALSE(json.contains("porosity"));
+  ASSERT_EQ(json["sections"].size(), 2U);
+  EXPECT_THAT(json["sections"][0]["error"].get<std::string>(), HasSubstr("no such file"));
+  EXPECT_EQ(json["sections"][1]["porosity"], json["mean"]["porosity"]);
+  EXPECT_EQ(nlohmann::json::parse(test::contents(folder / "out/porosity.json")), json);
+  const auto none = nlohmann::json::parse(run_havers(folder, "porosity none.png --json").out);
+  EXPECT_EQ(none["error"], json["sections"][0]["error"]);
 }
 
 TEST(Import, ShowsTheReadableFilesAndNamesTheOthers) {
@@ -213,6 +236,18 @@ TEST(Porosity, HasADashForWhatIsNotKnown) {
   const auto answer = run_havers(
       own_folder(), "porosity " HAVERS_SOURCE_DIR "/data_samples/bone_bars/A1_section.png");
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, testing::Not(HasSubstr("nan")));
+}
+
+// Whose squares leave the range of numbers.
+TEST(Import, HasADashForWhatIsNotKnown) {
+  const fs::path folder = own_folder();
+  std::string table = "Width,4,mm\nThickness,2,mm\n\nTime (s),Load (N),Strain\n";
+  for (int i = 0; i <= 400; ++i)
+    table += fmt::format("{},{}.{}e200,{:.6f}\n", i, 2 * i, i % 7, 2e-5 * i);
+  test::write_text(folder / "huge.csv", table + "401,0,0\n");
+  const auto answer = run_havers(folder, "import huge.csv");
+  EXPECT_THAT(answer.out, HasSubstr("+- - GPa"));
   EXPECT_THAT(answer.out, testing::Not(HasSubstr("nan")));
 }
 
