@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "calib/fit/answer.hpp"
 
@@ -25,8 +26,9 @@ Check check_orientations(const FitProblem& problem, const Answer& answer);
 /// How much the specimens differ beyond noise and the model's own randomness (F9).
 Check check_specimen_spread(const FitProblem& problem, const Answer& answer);
 
-/// Specimens kept for validation lie where the fitted ones say.
-Check check_validation(const CalibrationResult& result, bool all_fitted);
+/// Specimens kept for validation lie where the fitted ones say (F24).
+/// @param left_out  parameters asked for by name that were not fitted
+Check check_validation(const CalibrationResult& result, const std::vector<std::string>& left_out);
 
 /// The simulations break, so that there is a strength to compare.
 Check check_censored(const FitProblem& problem, const Answer& answer);

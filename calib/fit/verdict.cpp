@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "calib/fit/answer.hpp"
 #include "calib/fit/answer_checks.hpp"
@@ -94,6 +96,15 @@ void leave_all_unchecked(std::vector<Check>& checks, const char* because) {
       check = {check.check, Outcome::pass, fmt::format("Not checked: {}.", because), false};
 }
 
+// What "auto" leaves out nobody asked for: the study knows its value.
+std::vector<std::string> missed(const FitProblem& problem, const Answer& answer) {
+  std::vector<std::string> labels;
+  if (problem.study.calibrate.automatic) return labels;
+  for (const LeftUnknown& left : answer.left)
+    labels.push_back(problem.unknowns[static_cast<std::size_t>(left.unknown)].label);
+  return labels;
+}
+
 Check check_failures(const CalibrationResult& result, long distinct) {
   const double share =
       distinct > 0 ? static_cast<double>(result.failed_simulations) / static_cast<double>(distinct)
@@ -132,8 +143,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_influence(result));
   checks.push_back(check_randomness(result));
   checks.push_back(check_confirmation(result));
-  checks.push_back(
-      check_validation(result, problem.study.calibrate.automatic || answer.left.empty()));
+  checks.push_back(check_validation(result, missed(problem, answer)));
   checks.push_back(check_censored(problem, answer));
   if (answer.best.failed)
     leave_unchecked(checks, "there is no answer");

@@ -89,13 +89,28 @@ TEST(Verdict, SaysThatAHeldOutSpecimenIsOff) {
   EXPECT_EQ(check_of(fitted, "held-out specimens").outcome, Outcome::pass);
   EXPECT_FALSE(says(check_of(fitted, "held-out specimens"), "Not checked"));
   EXPECT_TRUE(says(check_of(fitted, "confirmed in time"), "Not checked: "));
-  EXPECT_TRUE(says(check_validation({}, true), "Not checked: "));
-  EXPECT_FALSE(check_validation({}, true).done);
+  EXPECT_TRUE(says(check_validation({}, {}), "Not checked: "));
+  EXPECT_FALSE(check_validation({}, {}).done);
   EXPECT_TRUE(check_of(fitted, "held-out specimens").done);
   study.specimens[0].test = test::straight_test(14e9, 90e6);
   const auto check = check_of(test::fit(study), "held-out specimens");
   EXPECT_EQ(check.outcome, Outcome::fail);
   EXPECT_TRUE(says(check, "S1"));
+}
+
+// Along the fibres the ratio shows nothing; at 45 degrees the study's value of it does not predict.
+TEST(Verdict, FailsAHeldOutSpecimenWhateverIsLeftOut) {
+  auto study = test::synthetic_study({0.0, 45.0});
+  for (const std::size_t s : {2U, 3U}) study.specimens[s].use = Use::validate;
+  const auto result = test::fit(study);
+  ASSERT_FALSE(test::parameter_of(result, "ratio").identifiable);
+  const auto check = check_of(result, "held-out specimens");
+  EXPECT_EQ(check.outcome, Outcome::fail);
+  EXPECT_FALSE(result.trusted());
+  EXPECT_TRUE(says(check, "off by more than three standard deviations: S3 (")) << check.text;
+  EXPECT_TRUE(says(check, "because what is left out (ratio) has another value")) << check.text;
+  study.calibrate.automatic = true;  // what that leaves out the study knows
+  EXPECT_TRUE(says(check_of(test::fit(study), "held-out specimens"), "do not carry over"));
 }
 
 TEST(Verdict, ComparesAHeldOutSpecimenByTheTermsThereAre) {
