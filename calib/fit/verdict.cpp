@@ -9,6 +9,7 @@
 #include "calib/fit/answer_checks.hpp"
 #include "calib/fit/model_checks.hpp"
 #include "calib/fit/parameter_checks.hpp"
+#include "calib/fit/porosity_check.hpp"
 
 namespace havers::calib {
 namespace {
@@ -135,6 +136,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_identifiable(problem, answer, result));
   checks.push_back(check_strain(problem, answer));
   checks.push_back(check_orientations(problem, answer));
+  checks.push_back(check_porosity(problem, answer));
   checks.push_back(check_specimen_spread(problem, answer));
   checks.back().text += weibull_sentence(result, one_sided_orientations(problem, answer.best));
   checks.push_back(check_plain_law(problem, answer));
