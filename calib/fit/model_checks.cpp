@@ -93,6 +93,49 @@ std::optional<double> chance(const FitProblem& problem, const Answer& answer, Ei
   return gsl_cdf_fdist_Q(squares / between, between, within);
 }
 
+bool is_fitted(const FitProblem& problem, const Answer& answer, std::string_view parameter) {
+  return std::ranges::any_of(answer.active, [&](Eigen::Index k) {
+    return problem.unknowns[static_cast<std::size_t>(k)].info->name == parameter;
+  });
+}
+
+// Whether a fitted parameter moves the strengths; so, for all that is known, where slopes failed.
+bool strengths_are_fitted(const FitProblem& problem, const Answer& answer) {
+  if (answer.active.empty()) return false;
+  if (answer.slopes.failed) return true;
+  double squares = 0.0;
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f)
+    squares += answer.slopes.jacobian.row(landmark_count * static_cast<Eigen::Index>(f) + strength)
+                   .squaredNorm();
+  return squares > 0.0;
+}
+
+// Residuals that no parameter could move differ from nothing, perhaps all by the same.
+std::string modulus_off(const FitProblem& problem, const Answer& answer, double p) {
+  if (is_fitted(problem, answer, "young_GPa"))
+    return fmt::format(
+        "The modulus differs between orientations more than specimens do ({}); fibres of one "
+        "modulus, bonded, do not. Set [calibrate.level] young_GPa = \"orientation\".",
+        chance_text(p));
+  return fmt::format(
+      "The moduli are off the model's by more than specimens differ ({}), and young_GPa is not "
+      "fitted: add it to calibrate.parameters, or give its value in [model.material].",
+      chance_text(p));
+}
+
+std::string strength_off(const FitProblem& problem, const Answer& answer, double p) {
+  if (strengths_are_fitted(problem, answer))
+    return fmt::format(
+        "The strength's residuals differ between orientations more than specimens do ({}): the "
+        "model is rejected as it stands. See which orientation is off.",
+        chance_text(p));
+  return fmt::format(
+      "The strengths are off the model's by more than specimens differ ({}), and no fitted "
+      "parameter moves them: add head_tail_MPa to calibrate.parameters, or give its value in "
+      "[model.joints].",
+      chance_text(p));
+}
+
 }  // namespace
 
 std::string percent_text(double part) {
@@ -152,17 +195,9 @@ Check check_orientations(const FitProblem& problem, const Answer& answer) {
                        "the weaker specimens broke."),
             false};
   if (stiffness && *stiffness < significance)
-    return {name, Outcome::fail,
-            fmt::format(
-                "The modulus differs between orientations more than specimens do ({}); fibres of "
-                "one modulus, bonded, do not. Set [calibrate.level] young_GPa = \"orientation\".",
-                chance_text(*stiffness))};
+    return {name, Outcome::fail, modulus_off(problem, answer, *stiffness)};
   if (breaking && *breaking < significance)
-    return {
-        name, Outcome::fail,
-        fmt::format("The strength's residuals differ between orientations more than specimens do "
-                    "({}): the model is rejected as it stands. See which orientation is off.",
-                    chance_text(*breaking))};
+    return {name, Outcome::fail, strength_off(problem, answer, *breaking)};
   const auto words = [](const std::optional<double>& p) {
     return p ? fmt::format("p = {:.2f}", *p) : std::string("too few to tell");
   };

@@ -1,6 +1,10 @@
 // What the verdict says of single specimens, of their spread and of those held out.
 #include <gmock/gmock.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "calib/fit/answer.hpp"
 #include "calib/fit/answer_checks.hpp"
 #include "calib/fit/calibrate.hpp"
@@ -65,6 +69,25 @@ TEST(Verdict, WarnsOfAnIntervalThatCoversMostOfItsBounds) {
   const auto check = check_of(test::fit(study), "identifiable");
   EXPECT_EQ(check.outcome, Outcome::warn);
   EXPECT_THAT(check.text, testing::StartsWith("The 95 % interval of head_tail_MPa covers "));
+}
+
+// Residuals that no parameter could move have no level to be given.
+TEST(Verdict, AsksForTheParameterThatWouldMoveWhatIsOff) {
+  auto study = test::synthetic_study(test::three_orientations);
+  const auto off = [&](std::vector<std::string> parameters) {
+    study.calibrate.parameters = std::move(parameters);
+    return check_of(test::fit(study), "residuals unstructured");
+  };
+  for (const auto& without_modulus :
+       {std::vector<std::string>{"head_tail_MPa", "ratio"}, std::vector<std::string>{"poisson"}}) {
+    const auto check = off(without_modulus);
+    EXPECT_EQ(check.outcome, Outcome::fail);
+    EXPECT_FALSE(says(check, "calibrate.level")) << check.text;
+    EXPECT_TRUE(says(check, "young_GPa is not fitted: add it")) << check.text;
+  }
+  const auto strengths = off({"young_GPa"});
+  EXPECT_EQ(strengths.outcome, Outcome::fail);
+  EXPECT_TRUE(says(strengths, "add head_tail_MPa")) << strengths.text;
 }
 
 // A crosshead's strain has the machine in it, which no residual shows.
