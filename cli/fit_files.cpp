@@ -49,6 +49,20 @@ void write_page(const OutputFolder& output, const LoadedStudy& loaded,
                                   provenance.wall_seconds, tests}));
 }
 
+// One scene is one specimen: which, a comment says.
+std::string scene_file(const calib::CalibrationResult& result) {
+  std::string whose = "# The model of the study: no specimen was fitted.\n";
+  if (!result.scene_of.empty())
+    whose = fmt::format(
+        "# The fitted model as specimen {} has it, the first of those fitted: orientation, "
+        "scatter\n"
+        "# or missing joints, strain rate and, where porosity acts on it, modulus are that\n"
+        "# specimen's, and the seed is that of its first replicate alone (replicates.csv has "
+        "all).\n",
+        nlohmann::json(result.scene_of).dump());  // no character of it ends the comment
+  return whose + io::scene_toml(result.scene);
+}
+
 }  // namespace
 
 void write_fit(const OutputFolder& output, const LoadedStudy& loaded,
@@ -62,7 +76,7 @@ void write_fit(const OutputFolder& output, const LoadedStudy& loaded,
   for (const auto& [id, images] : loaded.overlays)
     for (std::size_t i = 0; i < images.size(); ++i)
       output.write(overlay_file(id, i), {images[i].begin(), images[i].end()});
-  output.write("scene.toml", io::scene_toml(result.scene));
+  output.write("scene.toml", scene_file(result));
   if (reports::available()) write_page(output, loaded, result, provenance);
   output.write("result.json",
                io::json_text(io::calibration_json(loaded.study, result, provenance)));

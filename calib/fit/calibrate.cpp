@@ -266,9 +266,11 @@ CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
   CalibrationResult result{.stages = answer.stages, .scene = study.model, .cost = answer.best.cost};
   result.parameters = parameters_of(problem, answer);
   result.specimens = specimens_of(problem, batch, answer);
-  if (!problem.fitted.empty())
-    result.scene =
-        replicate_scenes(problem, answer.best.point, std::ranges::min(problem.fitted), 1).front();
+  if (!problem.fitted.empty()) {
+    const std::size_t first = std::ranges::min(problem.fitted);
+    result.scene = replicate_scenes(problem, answer.best.point, first, 1).front();
+    result.scene_of = study.specimens[first].id;
+  }
   if (answer.status != CalibrationStatus::all_failed)
     result.cost = cost_of(result.specimens, answer.best.cost);
   std::ranges::copy(answer.weights.specimen, result.specimen_effect.begin());

@@ -187,8 +187,11 @@ struct CalibrationResult {
   Randomness randomness{};
   std::vector<Confirmation> confirmations{};
   std::vector<NextTest> next_tests{};
-  sim::Scene scene;   ///< The calibrated model, ready to simulate.
-  double cost = 0.0;  ///< ½ Σ residual² at the optimum. [-]
+  /// The calibrated model, ready to simulate: what differs between specimens is as the first that
+  /// was fitted has it, the seed that of its first replicate.
+  sim::Scene scene;
+  std::string scene_of{};  ///< That specimen's id; empty where none could be fitted.
+  double cost = 0.0;       ///< ½ Σ residual² at the optimum. [-]
   /// Standard deviation between specimens beyond noise and the model's own randomness, of each
   /// landmark (F9). [-]
   std::array<double, landmark_count> specimen_effect{};

@@ -68,6 +68,8 @@ TEST(SampleStudy, FindsTheTruthAgainAndIsTrusted) {
   const auto refused = run_havers(folder, "report out --set study.name=other");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("--set study.name=other: sets nothing"));
+  EXPECT_THAT(test::contents(folder / "out/scene.toml"),
+              testing::StartsWith("# The fitted model as specimen \"A1\" has it, the first of"));
   EXPECT_EQ(run_havers(folder, "simulate out/scene.toml -o again").exit_code, 0);
 }
 
