@@ -68,17 +68,28 @@ void find_strength(const RawTest& raw, MeasuredTest& test) {
     test.warnings.push_back(std::move(jump));
 }
 
+// Why no line goes through the rows of the window: they are too few, or all of one strain.
+std::string without_line(const MeasuredTest& test, RowRange window,
+                         const ReductionOptions& options) {
+  const double low = options.window_low * test.strength * MPa;
+  const double high = options.window_high * test.strength * MPa;
+  if (window.rows() >= 3)
+    return fmt::format(
+        "the stress does not grow with the strain, which is {:.4g} % in all {} rows between {:.4g} "
+        "and {:.4g} MPa: the gauge did not record, or another column is the strain",
+        test.strain[window.first] * percent, window.rows(), low, high);
+  return fmt::format(
+      "too few rows between {:.4g} and {:.4g} MPa for a modulus: "
+      "reduction.window_low and window_high put these at {:g} and {:g} of the "
+      "strength",
+      low, high, options.window_low, options.window_high);
+}
+
 std::string take_modulus(MeasuredTest& test, const ReductionOptions& options, ModulusFit& fit) {
   const std::size_t loading = row_of_strength(test) + 1;
   fit = fit_modulus(std::span(test.strain).first(loading), std::span(test.stress).first(loading),
                     test.strength, options);
-  if (!fit.line.fitted)
-    return fmt::format(
-        "too few rows between {:.4g} and {:.4g} MPa for a modulus: "
-        "reduction.window_low and window_high put these at {:g} and {:g} of the "
-        "strength",
-        options.window_low * test.strength * MPa, options.window_high * test.strength * MPa,
-        options.window_low, options.window_high);
+  if (!fit.line.fitted) return without_line(test, fit.window, options);
   if (fit.line.slope <= 0.0) return "the stress does not grow with the strain";
   test.modulus = fit.line.slope;
   test.modulus_standard_error = fit.line.slope_standard_error;

@@ -254,6 +254,13 @@ TEST(ReduceTest, SaysWhyATestCannotBeReduced) {
   raw = good;
   for (double& strain : raw.strain) strain = -strain;
   EXPECT_EQ(problem_of(raw), "the stress does not grow with the strain");
+
+  raw = good;
+  std::ranges::fill(raw.strain, 0.0);
+  const std::string flat = problem_of(raw);
+  EXPECT_TRUE(flat.starts_with("the stress does not grow with the strain, which is 0 % in all "))
+      << flat;
+  EXPECT_TRUE(flat.ends_with("the gauge did not record, or another column is the strain")) << flat;
 }
 
 TEST(ReduceTest, SaysWhenThereAreTooFewRows) {
