@@ -41,7 +41,26 @@ std::optional<SeenBreak> find_break(const Signal& signal, const BreakSearch& sea
   const double before = signal.time[jump.first], after = signal.time[jump.last];
   return SeenBreak{.time = 0.5 * (before + after),
                    .standard_error = (after - before) / std::sqrt(12.0),
-                   .rows_before = jump.first + 1};
+                   .rows_before = jump.first + 1,
+                   .first_after = jump.last};
+}
+
+std::optional<SeenBreak> find_plain_break(const Signal& signal, double window) {
+  constexpr double most_of_it = 0.5, another = 0.2;  // of the range
+  const auto [low, high] = std::ranges::minmax(signal.value);
+  const double start = signal.time.front(), extent = high - low;
+  const auto seen = find_break(
+      signal,
+      {.window = window, .from = start, .to = signal.time.back(), .least = most_of_it * extent});
+  if (!seen) return std::nullopt;
+  const double before = signal.value[seen->rows_before - 1];
+  const bool for_good = std::ranges::all_of(
+      signal.value.subspan(seen->first_after),
+      [&](double value) { return std::abs(value - before) > 0.5 * most_of_it * extent; });
+  const double end = signal.time[seen->rows_before - 1] - 2.0 * window;
+  const bool only =
+      !find_break(signal, {.window = window, .from = start, .to = end, .least = another * extent});
+  return for_good && only ? seen : std::nullopt;
 }
 
 }  // namespace havers::calib

@@ -12,6 +12,7 @@ struct SeenBreak {
   double time = 0.0;            ///< Middle of the two. [s]
   double standard_error = 0.0;  ///< Of any instant between them. [s]
   std::size_t rows_before = 0;  ///< Rows up to the first of the two.
+  std::size_t first_after = 0;  ///< Row of the second.
 };
 
 /// Rows at times in [from, to] [s], and the least change within `window` [s] that counts.
@@ -21,5 +22,9 @@ struct BreakSearch {
 
 /// The largest change that lasts; nothing where none counts.
 std::optional<SeenBreak> find_break(const Signal& signal, const BreakSearch& search);
+
+/// One that nobody takes for anything else: a change by half of the range within `window` [s], for
+/// good, and none before it by a fifth.
+std::optional<SeenBreak> find_plain_break(const Signal& signal, double window);
 
 }  // namespace havers::calib

@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "calib/experiment/channel_noise.hpp"
 #include "calib/experiment/clock_break.hpp"
 #include "calib/experiment/clock_refinement.hpp"
+#include "calib/experiment/robust_line.hpp"
 #include "calib/experiment/signal_rates.hpp"
 
 namespace havers::calib {
@@ -85,13 +89,19 @@ double correlation_at(const SignalRates& machine, const SignalRates& logger, con
   return correlation(a, b);
 }
 
+constexpr const char* what_helps =
+    "; record some rows after the break with both, or a hold on the way, or export both signals in "
+    "one file";
+
 // (X18)
-std::string doubt(const ClockFit& fit, double shift) {
-  if (fit.correlation < smallest_correlation)
-    return fmt::format("the rates of the two signals correlate by {:.2f} at best", fit.correlation);
-  if (!(shift <= largest_shift))
-    return fmt::format("the offset is known to ± {:.2g} s only", fit.offset_standard_error);
-  return {};
+std::string doubt_of_rates(const ClockFit& fit) {
+  if (fit.correlation >= smallest_correlation) return {};
+  return fmt::format("the rates of the two signals correlate by {:.2f} at best", fit.correlation);
+}
+
+std::string doubt_of_offset(const ClockFit& fit, double shift) {
+  if (shift <= largest_shift) return {};
+  return fmt::format("the offset is known to ± {:.2g} s only", fit.offset_standard_error);
 }
 
 constexpr double smallest_jump = 0.2;  // of the range
@@ -106,10 +116,23 @@ double least_jump(const Signal& logger, const SignalRates& rates, double step) {
       std::max(noises * noise_of(logger.value), changes * step * std::ranges::max(rates.value)));
 }
 
+// Keeps the rows up to the break in both records.
+std::optional<CommonBreak> cut_at(const SeenBreak& seen, const SeenBreak& logged,
+                                  ClockEvidence& evidence) {
+  if (std::min(seen.rows_before, logged.rows_before) < fewest_rows) return std::nullopt;
+  const auto cut = [](Signal& signal, std::size_t rows) {
+    signal = {signal.time.first(rows), signal.value.first(rows)};
+  };
+  cut(evidence.machine, seen.rows_before);
+  cut(evidence.logger, logged.rows_before);
+  return CommonBreak{seen.time, logged.time,
+                     std::hypot(seen.standard_error, logged.standard_error)};
+}
+
 // The break in both records, where the logger's is about where the machine's lets expect it.
 std::optional<CommonBreak> cut_at_break(double difference, const SignalRates& logger_rates,
                                         ClockEvidence& evidence) {
-  Signal &machine = evidence.machine, &logger = evidence.logger;
+  const Signal &machine = evidence.machine, &logger = evidence.logger;
   constexpr double near = 5.0;  // steps
   const double step = evidence.step;
   const auto seen = find_break(machine, {.window = step,
@@ -122,12 +145,40 @@ std::optional<CommonBreak> cut_at_break(double difference, const SignalRates& lo
                                           .from = about - near * step,
                                           .to = about + near * step,
                                           .least = least_jump(logger, logger_rates, step)});
-  if (!logged || std::min(seen->rows_before, logged->rows_before) < fewest_rows)
-    return std::nullopt;
-  machine = {machine.time.first(seen->rows_before), machine.value.first(seen->rows_before)};
-  logger = {logger.time.first(logged->rows_before), logger.value.first(logged->rows_before)};
-  return CommonBreak{seen->time, logged->time,
-                     std::hypot(seen->standard_error, logged->standard_error)};
+  return logged ? cut_at(*seen, *logged, evidence) : std::nullopt;
+}
+
+// Whether the break took both signals back to where they came from: the line of their rows before
+// it goes through what they show after. A gauge that was lost did that while the load went on.
+bool fell_alike(const ClockEvidence& before, const SeenBreak& seen, const SeenBreak& logged,
+                const Signal& machine, const Signal& logger) {
+  const double difference = seen.time - logged.time;
+  std::vector<double> load, strain;
+  for (std::size_t i = 0; i < before.machine.time.size(); ++i) {
+    const double at = before.machine.time[i] - difference;
+    if (at < before.logger.time.front() || at > before.logger.time.back()) continue;
+    load.push_back(before.machine.value[i]);
+    strain.push_back(value_at(before.logger, at));
+  }
+  const Line line = fit_robust_line(strain, load);
+  const auto after = [](const Signal& signal, const SeenBreak& broke) {
+    const auto values = signal.value.subspan(broke.first_after);
+    return median({values.begin(), values.end()});
+  };
+  const double expected = line.intercept + line.slope * after(logger, logged);
+  const double shown = after(machine, seen);
+  return line.fitted && std::abs(expected - shown) <= above_toe * extent_of(machine.value);
+}
+
+// Where steady loading is all there is before it, the break alone tells the offset, if it is plain
+// in both records.
+std::optional<CommonBreak> cut_at_plain_break(ClockEvidence& evidence) {
+  const Signal machine = evidence.machine, logger = evidence.logger;
+  const auto seen = find_plain_break(machine, evidence.step);
+  const auto logged = find_plain_break(logger, evidence.step);
+  if (!seen || !logged) return std::nullopt;
+  const auto common = cut_at(*seen, *logged, evidence);
+  return common && fell_alike(evidence, *seen, *logged, machine, logger) ? common : std::nullopt;
 }
 
 // The offset in whole steps at the middle of what both saw, or at the break.
@@ -148,31 +199,57 @@ double best_difference(const SignalRates& machine, const SignalRates& logger, Cl
   const auto best =
       static_cast<std::size_t>(std::ranges::max_element(lags.value) - lags.value.begin());
   fit.correlation = lags.value[best];
-  fit.problem = doubt(fit, 0.0);
+  fit.problem = doubt_of_rates(fit);
   if (fit.problem.empty() && rival_of(lags.value, best) > closest_rival * fit.correlation)
     fit.problem = "several offsets fit alike";
   const auto lag = static_cast<double>(lags.first + static_cast<std::ptrdiff_t>(best));
   return machine.start + lag * machine.step - logger.start;
 }
 
+// The whole records, and their rates over the steps that both can tell.
+struct ClockRecords {
+  Signal machine, logger;
+  double step;
+  SignalRates machine_rates = rates_of(machine, step), logger_rates = rates_of(logger, step);
+};
+
+// From the lag, or the break, to the least squares.
+ClockFit fit_from(double difference, const ClockEvidence& evidence, const ClockRecords& whole) {
+  ClockFit fit;
+  set_lag(evidence, difference, fit);
+  fit = refine_clocks(evidence, fit);
+  draw_clocks(evidence, whole.machine, whole.logger, fit);
+  fit.correlation = correlation_at(whole.machine_rates, whole.logger_rates, fit);
+  return fit;
+}
+
+// By the rates; why not, else.
+std::string match_rates(const ClockRecords& whole, ClockEvidence evidence, ClockFit& fit) {
+  const double difference = best_difference(whole.machine_rates, whole.logger_rates, fit);
+  if (!fit.problem.empty()) return fit.problem;
+  evidence.broke = cut_at_break(difference, whole.logger_rates, evidence);
+  fit = fit_from(difference, evidence, whole);
+  return doubt_of_rates(fit);
+}
+
 std::string match(const Signal& machine, const Signal& logger, ClockFit& fit) {
   if (machine.time.size() < fewest_rows || logger.time.size() < fewest_rows)
     return "there are too few rows";
-  const double step = std::max(telling_step(machine), telling_step(logger));
-  const SignalRates a = rates_of(machine, step), b = rates_of(logger, step);
-  if (a.value.size() < fewest_rows || b.value.size() < fewest_rows)
+  const ClockRecords whole{machine, logger, std::max(telling_step(machine), telling_step(logger))};
+  if (std::min(whole.machine_rates.value.size(), whole.logger_rates.value.size()) < fewest_rows)
     return "one of the records is too short for the steps of the other";
-  const double difference = best_difference(a, b, fit);
-  if (!fit.problem.empty()) return fit.problem;
   ClockEvidence evidence{
-      .machine = machine, .logger = logger, .broke = {}, .step = step, .lowest = above_toe};
-  evidence.broke = cut_at_break(difference, b, evidence);
-  set_lag(evidence, difference, fit);
-  fit = refine_clocks(evidence, fit);
-  draw_clocks(evidence, machine, logger, fit);
-  fit.correlation = correlation_at(a, b, fit);
-  const double fastest = std::ranges::max(a.value) / extent_of(evidence.machine.value);
-  return doubt(fit, fit.offset_standard_error * fastest);
+      .machine = machine, .logger = logger, .broke = {}, .step = whole.step, .lowest = above_toe};
+  std::string why = match_rates(whole, evidence, fit);
+  if (!why.empty()) {
+    const auto broke = evidence.broke = cut_at_plain_break(evidence);
+    if (!broke) return why + what_helps;
+    fit = fit_from(broke->machine_time - broke->logger_time, evidence, whole);
+  }
+  const double fastest =
+      std::ranges::max(whole.machine_rates.value) / extent_of(evidence.machine.value);
+  why = doubt_of_offset(fit, fit.offset_standard_error * fastest);
+  return why.empty() ? why : why + what_helps;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 #include <utility>
 
 #include "calib/experiment/join_logger.hpp"
@@ -123,6 +124,39 @@ TEST(Clocks, RefusesCyclesThatFitAnywhere) {
     logger.strain.push_back(std::sin(0.1 * i + 1.0));
   }
   EXPECT_NE(fitted(machine, logger).problem.find("several offsets fit alike"), std::string::npos);
+}
+
+// Steady loading and a break in the last rows: nothing but the break tells the clocks. A gauge that
+// was lost on the way falls as suddenly, and not to where the load's line meets zero.
+TEST(Clocks, TakeTheBreakWhereItIsPlainInBothAndNoLostGaugeForIt) {
+  const Clocks truth;
+  const auto records = [&](double lost_at, unsigned seed) {
+    RawTest machine = machine_record(seed), logger = logger_record(truth, seed, 0.0, 60.4);
+    for (std::size_t i = 0; i < machine.time.size(); ++i)
+      machine.force[i] +=
+          young * area *
+          ((machine.time[i] < 60.0 ? machine.time[i] / 13e3 : 0.0) - strain_at(machine.time[i]));
+    for (std::size_t i = 0; i < logger.time.size(); ++i) {
+      const double time = truth.offset + truth.rate * logger.time[i];
+      logger.strain[i] += (time < lost_at ? time / 13e3 : 0.0) - strain_at(time);
+    }
+    const auto rows = std::ranges::upper_bound(machine.time, 60.4) - machine.time.begin();
+    machine.time.resize(static_cast<std::size_t>(rows));
+    machine.force.resize(machine.time.size());
+    return std::pair{machine, logger};
+  };
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const auto [machine, logger] = records(60.0, seed);
+    const ClockFit fit = fitted(machine, logger);
+    ASSERT_EQ(fit.problem, "") << seed;
+    EXPECT_FALSE(fit.rate_fitted);
+    EXPECT_NEAR(fit.offset, truth.offset + truth.rate * fit.reference, 0.5 * (0.1 + 0.073)) << seed;
+    EXPECT_NEAR(fit.offset_standard_error, std::hypot(0.1, 0.073) / std::sqrt(12.0), 0.01);
+  }
+  const auto [machine, lost] = records(36.0, 1);
+  const std::string problem = fitted(machine, lost).problem;
+  EXPECT_NE(problem.find("do not determine the two clocks"), std::string::npos) << problem;
+  EXPECT_NE(problem.find("; record some rows after the break with both"), std::string::npos);
 }
 
 TEST(JoinLogger, GivesTheTestTheLoggersStrain) {
