@@ -123,6 +123,8 @@ void show(const Comparison& comparison, const FindingRequest& request, Finding& 
   finding.value = comparison.value;
   finding.low = comparison.low;
   finding.high = comparison.high;
+  if (finding.high - finding.low <= rounding * std::abs(finding.value))
+    finding.low = finding.high = finding.value;
   const bool of_means = request.test == FindingTest::above || request.test == FindingTest::below;
   if (!of_means || !is_share(request.response) || std::isnan(comparison.low)) return;
   finding.low = std::max(finding.low, 0.0);

@@ -150,6 +150,15 @@ TEST(Finding, AboveAndBelowCompareTheMeanWithTheMargin) {
   EXPECT_EQ(found(FindingTest::below, 0.0, 1.0, 100.1).outcome, FindingOutcome::undecided);
 }
 
+TEST(Finding, TakesRoundingForNoInterval) {
+  const KnownSweep known({{"x", {"0"}}}, 20,
+                         [](const SweepPoint&, int k) { return 13.0 + 1e-14 * deviation(k); });
+  FindingRequest request{.test = FindingTest::above, .margin = 1.0};
+  const Finding finding = judge(request, known.plan, known.points, known.runs).front();
+  EXPECT_EQ(finding.low, finding.value);
+  EXPECT_EQ(finding.high, finding.value);
+}
+
 TEST(Finding, OfAShareShowsNoIntervalBeyondWhatAShareCanBe) {
   const KnownSweep known({{"x", {"0", "1"}}}, 2, [](const SweepPoint& p, int k) {
     return p.numbers[0] < 0.5 ? 0.2 * k : 1.0 - 0.2 * k;
