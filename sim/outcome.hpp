@@ -1,6 +1,7 @@
 // What both regimes do alike: the start and the end of a simulation.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -8,6 +9,11 @@
 #include "sim/simulation.hpp"
 
 namespace havers::sim {
+
+/// The larger; not a number where one of them is none, as no later row makes up for that.
+inline double worse(double a, double b) {
+  return a < b || std::isnan(b) ? b : a;
+}
 
 /// All joints with their thresholds, intact but for those that are missing.
 std::vector<JointOutcome> initial_outcomes(const std::vector<Threshold>& thresholds);

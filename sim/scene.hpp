@@ -99,7 +99,7 @@ struct SolverOptions {
   double step_accuracy = 1e-3;  ///< Of failure strain and strength by the chosen step. [-]
   ContactMethod contact = ContactMethod::automatic;
   double tolerance = 1e-8;     ///< Largest relative residual (M11). [-]
-  int max_iterations = 10000;  ///< Of a contact solver in one step.
+  int max_iterations = 10000;  ///< Sweeps of Gauss-Seidel in one step.
   bool leave_out = true;       ///< false: nothing is left out (section 7), for comparison.
 };
 

@@ -156,8 +156,9 @@ Assembly build_assembly(const AssemblyOptions& options, Lateral lateral) {
   HalfFibres halves = clipped_half_fibres(options, assembly.dropped);
   add_bodies(halves, options.refinement, assembly);
   add_joints(options, halves, assembly);
-  find_sides(halves, 100.0 * geometric_tolerance(options), assembly);
-  if (lateral == Lateral::periodic) add_ties(halves, assembly);
+  const double tolerance = 100.0 * geometric_tolerance(options);
+  find_sides(halves, tolerance, assembly);
+  if (lateral == Lateral::periodic) add_ties(halves, tolerance, assembly);
   return assembly;
 }
 

@@ -37,7 +37,8 @@ HalfFibres clipped_half_fibres(const AssemblyOptions& options, int& dropped);
 void add_joints(const AssemblyOptions& options, const HalfFibres& halves, Assembly& assembly);
 
 /// Ties between facing points of top and bottom. Section 5.
-void add_ties(const HalfFibres& halves, Assembly& assembly);
+/// @param tolerance  how far from the side an edge may lie. [m]
+void add_ties(const HalfFibres& halves, double tolerance, Assembly& assembly);
 
 /// Lengths below this are rounding, not geometry. [m]
 double geometric_tolerance(const AssemblyOptions& options);

@@ -41,8 +41,8 @@ struct OuterEdge {
   double from, to;         // x [m]
 };
 
-std::vector<OuterEdge> outer_edges(const HalfFibres& halves, const Assembly& assembly, double y) {
-  const double tolerance = 1e-9 * assembly.height;
+std::vector<OuterEdge> outer_edges(const HalfFibres& halves, const Assembly& assembly, double y,
+                                   double tolerance) {
   std::vector<OuterEdge> edges;
   for (const auto& [place, half] : halves) {
     for (std::size_t i = 0; i < half.polygon.size(); ++i) {
@@ -95,9 +95,9 @@ void add_joints(const AssemblyOptions& options, const HalfFibres& halves, Assemb
   }
 }
 
-void add_ties(const HalfFibres& halves, Assembly& assembly) {
-  const std::vector<OuterEdge> top = outer_edges(halves, assembly, assembly.height);
-  const std::vector<OuterEdge> bottom = outer_edges(halves, assembly, 0.0);
+void add_ties(const HalfFibres& halves, double tolerance, Assembly& assembly) {
+  const std::vector<OuterEdge> top = outer_edges(halves, assembly, assembly.height, tolerance);
+  const std::vector<OuterEdge> bottom = outer_edges(halves, assembly, 0.0, tolerance);
   const auto length = [](const OuterEdge& edge) { return edge.to - edge.from; };
   for (std::size_t t = 0, b = 0; t < top.size() && b < bottom.size();) {
     const double from = std::max(top[t].from, bottom[b].from),

@@ -117,6 +117,7 @@ void add_geometries(Scenes& scenes) {
   add_free("free sides at 30°", wall(4, 3, 30.0));
   add_free("one fibre with free sides", wall(1, 1));
   add_free("a chain of hinges at 90° with free sides", wall(1, 2, 90.0));
+  add_free("columns of hinges at 90° with free sides", wall(5, 18, 90.0));
 }
 
 void add_strengths(Scenes& scenes) {

@@ -17,14 +17,16 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-constexpr double no_limit = std::numeric_limits<double>::infinity();
+constexpr double no_limit = 1e9;  // [s]
 
 // The finest run: steps of a 64th of the longest, and of a quarter of those that runs have chosen.
 BenchSetting reference_setting(const Scene& scene, const std::vector<WatchedRun>& chosen) {
   BenchSetting reference = direct_setting(scene);
   if (reference.regime == Regime::quasi_static) return without_omissions(reference);
   double step = base_step(scene) / 64.0;
-  for (const WatchedRun& run : chosen) step = std::min(step, run.simulation.step / 4.0);
+  for (const WatchedRun& run : chosen)
+    if (run.simulation.step > 0.0)  // one that is severed is answered in the limit
+      step = std::min(step, run.simulation.step / 4.0);
   reference.step = step;
   return reference;
 }

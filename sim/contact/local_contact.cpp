@@ -116,7 +116,7 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
                                       LocalContactResult best) {
   double least = best.converged ? law_residual_of(problem, best.y) : nearly_met;
   best.converged = best.converged && least <= nearly_met;
-  least = std::min(least, nearly_met);
+  least = std::min(nearly_met, least);  // of what is no number too
   int spent = best.iterations;
   for (const double part : springs) {
     const double stiffness = part * problem.S.diagonal().maxCoeff();
@@ -129,7 +129,7 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
       if (!result.converged) break;
       const double residual = law_residual_of(problem, result.y);
       held.r0 = problem.r0 - stiffness * result.y;
-      if (residual > least) continue;
+      if (!(residual <= least)) continue;
       least = residual;
       best = result;
     }

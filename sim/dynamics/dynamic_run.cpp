@@ -127,7 +127,7 @@ bool DynamicRun::advance() {
   prepare();
   const JointStepResult result = solver_->solve(step_);
   iterations_ += result.iterations;
-  worst_residual_ = std::max(worst_residual_, result.residual);
+  worst_residual_ = worse(worst_residual_, result.residual);
   if (!result.converged && result.displacements.allFinite()) return false;
   const Motion before = motion_;
   move(result);

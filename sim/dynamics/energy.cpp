@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/outcome.hpp"
+
 namespace havers::sim {
 namespace {
 
@@ -37,7 +39,7 @@ void EnergyBalance::add(const Step& step, const Motion& before, const Motion& af
   numerical += numerical_step;
   largest_ =
       std::max({largest_, kinetic + elastic, std::abs(external), std::abs(step.external_work)});
-  if (largest_ > 0.0) relative_defect = std::max(relative_defect, std::abs(defect) / largest_);
+  if (largest_ > 0.0) relative_defect = worse(relative_defect, std::abs(defect) / largest_);
 }
 
 }  // namespace havers::sim

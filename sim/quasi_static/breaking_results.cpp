@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/joint/cohesive_cone.hpp"
+#include "sim/outcome.hpp"
 #include "sim/quasi_static/breaking_run.hpp"
 
 namespace havers::sim {
@@ -76,7 +77,7 @@ void BreakingRun::finish(Simulation& simulation) {
     refine();
     if (y_ != y_at_reference_) take_reference();
     force_ = force;
-    worst_residual_ = std::max(worst_residual_, law_missed(contact_, borne_, y_));
+    worst_residual_ = worse(worst_residual_, law_missed(contact_, borne_, y_));
   }
   const UnitAnswer& last = reference_;
   reactions_ = last.reactions;
@@ -93,10 +94,10 @@ void BreakingRun::finish(Simulation& simulation) {
     simulation.energy_defect =
         scene_.material.young * strain_ * strain_ * std::abs(elastic - work) / energy_scale;
   simulation.rounding_error = missed_at_strength();
-  simulation.worst_residual =
-      std::max({simulation.worst_residual, intact_->answer().residual, last.residual,
-                scale > 0.0 ? worst_residual_ / scale : 0.0,
-                bears ? std::abs(last.force - force_) / intact_->answer().force : 0.0});
+  for (const double residual :
+       {intact_->answer().residual, last.residual, scale > 0.0 ? worst_residual_ / scale : 0.0,
+        bears ? std::abs(last.force - force_) / intact_->answer().force : 0.0})
+    simulation.worst_residual = worse(simulation.worst_residual, residual);
   simulation.iterations = iterations_;
   simulation.events_without_contact = without_contact_;
 }

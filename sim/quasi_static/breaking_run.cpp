@@ -192,7 +192,7 @@ bool BreakingRun::settle() {
       refine();
   }
   joint_work_ = borne_.dot(y_);
-  worst_residual_ = std::max(worst_residual_, law_missed(contact_, borne_, y_));
+  worst_residual_ = worse(worst_residual_, law_missed(contact_, borne_, y_));
   if (in_two || (hardly_bears && bears_nothing())) force_ = joint_work_ = 0.0;
   return result.converged && std::abs(force_) <= too_much * intact_force;
 }

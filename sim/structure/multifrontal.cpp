@@ -91,8 +91,11 @@ class Fronts {
 template <class Scalar>
 VectorXd factorise(const ElementMatrices& A, const EliminationTree& tree, const Pivots& asked,
                    const PanelStore<Scalar>& store) {
+  const auto multipliers = std::span(tree.place).last(static_cast<std::size_t>(A.multipliers));
   VectorXd sign = VectorXd::Ones(A.size), inverse_pivots(A.size);
-  sign(std::span(tree.place).last(static_cast<std::size_t>(A.multipliers))).setConstant(-1.0);
+  VectorXd least = VectorXd::Constant(A.size, asked.least_stiffness);
+  sign(multipliers).setConstant(-1.0);
+  least(multipliers).setConstant(asked.least);
   Fronts<Scalar> fronts(tree, A);
   for (const Panel& panel : tree.panels) {
     auto of_panel = [&](VectorXd& all) { return all.segment(panel.first, panel.columns).array(); };
@@ -112,7 +115,7 @@ VectorXd factorise(const ElementMatrices& A, const EliminationTree& tree, const 
                                        panel.columns);
     }
     const auto pivots = inverse.inverse();
-    if (!(pivots * signs > (signs < 0.0).template cast<double>() * asked.least).all()) return {};
+    if (!(pivots * signs > of_panel(least)).all()) return {};
   }
   return inverse_pivots;
 }

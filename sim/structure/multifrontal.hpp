@@ -12,6 +12,7 @@ namespace havers::sim {
 struct Pivots {
   double least = 0.0;  ///< Of a row of N; a smaller one is rounding, N is not independent.
   double added = 0.0;  ///< To the diagonal of K.
+  double least_stiffness = 0.0;  ///< Of a row of K; a smaller one is rounding, of a mechanism.
 };
 
 /// Where panels are while they are worked on, in single or double precision.
@@ -24,7 +25,7 @@ struct PanelStore {
 
 /// L D Lᵀ = P A Pᵀ; a panel is complete when its children have handed on what they take from it.
 /// Panels that share their values are found once.
-/// @return 1/D; empty: K is not positive definite or a pivot of N too small
+/// @return 1/D; empty: a pivot is too small
 template <class Scalar>
 Eigen::VectorXd factorise(const ElementMatrices& A, const EliminationTree& tree,
                           const Pivots& asked, const PanelStore<Scalar>& store);

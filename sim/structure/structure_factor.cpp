@@ -22,6 +22,9 @@ constexpr double most_hold = 1e-9;  // of a mechanism, part of the largest stiff
 // down to 1e-14 where slivers at angles of 1e-6 degrees nearly leave it no say, and below 2e-15
 // where what it says follows from the others.
 constexpr double least_pivot = 5e-15;
+// Likewise of a mechanism, by the largest stiffness: rounding left 3e-16 to 1e-15 in columns of
+// fibres that hang on each other by hinges.
+constexpr double least_stiffness = 5e-15;
 constexpr double least_in_single_precision = 1e-5;  // likewise
 // Part of the stiffness that inertia is, below which single precision holds no loose body.
 constexpr double least_inertia = 1e-5;
@@ -244,7 +247,7 @@ void Structure::factorise(Precision precision) {
   if (bodies_->shared() &&
       std::ranges::count(layout_.held, Held::fully) == std::ssize(layout_.held))
     share_values(*tree, sum);
-  Pivots pivots{least_pivot / stiffness_, 0.0};
+  Pivots pivots{least_pivot / stiffness_, 0.0, least_stiffness * stiffness_};
   const bool slides = std::ranges::count(layout_.held, Held::normal) > 0;
   const bool has_inertia = std::ranges::all_of(bodies_->classes(), [](const BodyClass& group) {
     return group.op.inertia_part > least_inertia;

@@ -67,6 +67,12 @@ TEST(Summarise, TakesTheModulusFromTheSlope) {
   EXPECT_NEAR(simulation.modulus, 13e9, 1.0);
 }
 
+TEST(Worse, ForgetsNoNumberThatIsNone) {
+  EXPECT_EQ(worse(1.0, 2.0), 2.0);
+  EXPECT_EQ(worse(2.0, 1.0), 2.0);
+  EXPECT_TRUE(std::isnan(worse(worse(1.0, std::nan("")), 2.0)));
+}
+
 // A straight curve to σ = 1 with a wave of height 3 on its last tenth: the mean over two tenths.
 TEST(LargestMeanStress, IsThatOverAStretchOfStrain) {
   const std::vector<double> strain{0.0, 0.9, 0.9 + 1e-12, 1.0}, stress{1.0, 1.0, 3.0, 3.0};

@@ -63,6 +63,12 @@ TEST(Scene, RefusesAStepThatLeadsNowhere) {
   EXPECT_TRUE(scene.problems().empty());
 }
 
+TEST(Scene, RefusesARateWhoseTimesAreNoNumbers) {
+  Scene scene;
+  scene.loading.strain_rate = 1e-320;
+  EXPECT_FALSE(scene.problems().empty());
+}
+
 TEST(Scene, RefusesFibresOfNoArea) {
   Scene scene;
   scene.assembly.fibre_length = scene.assembly.fibre_height = 1e-160;

@@ -266,6 +266,16 @@ TEST(Assembly, FillsThePlaceOfSliversAlikeInAllUnits) {
   }
 }
 
+// Edges a little off a side lie on it by rounding alone, however high the specimen is.
+TEST(Ties, LieOnTheSidesOfAHighSpecimenToo) {
+  const auto ties = [](int layers) {
+    return build_assembly({.layers = layers, .fibres = 2, .orientation = 2e-5 * test::degree},
+                          Lateral::periodic)
+        .ties.size();
+  };
+  EXPECT_EQ(ties(5000), ties(1000));
+}
+
 TEST(Assembly, CanBeOneFibre) {
   const Assembly assembly = build_assembly({.layers = 1, .fibres = 1}, Lateral::periodic);
   EXPECT_EQ(assembly.bodies.size(), 1U);

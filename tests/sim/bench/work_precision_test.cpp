@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/simulate.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace havers::sim {
@@ -123,6 +124,16 @@ TEST(WorkPrecision, NamesNothingForWhatItsReferenceIsNotKnownTo) {
     if (cheapest.reference_error > cheapest.target) {
       EXPECT_FALSE(cheapest.row) << cheapest.quantity << " " << cheapest.target;
     }
+}
+
+// A specimen that missing joints sever is answered in the limit, without steps.
+TEST(WorkPrecision, TakesNoStepFromASpecimenThatIsSevered) {
+  Scene scene = tiny(Regime::dynamic);
+  scene.solver.step.reset();
+  scene.joints.missing = 0.55;
+  while (simulate(scene).status != SimulationStatus::severed) ++scene.joints.seed;
+  const WorkPrecision study = compare_settings(scene, {.seeds = 1});
+  EXPECT_GT(study.reference.step.value(), 0.0);
 }
 
 TEST(WorkPrecision, EndsWhenAskedTo) {

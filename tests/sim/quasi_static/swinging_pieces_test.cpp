@@ -71,6 +71,17 @@ TEST(SwingingPieces, DoNotHideThatAMissingJointBearsNothing) {
   }
 }
 
+// What columns that hang on hinges resist bending with is rounding, which factors took for a
+// stiffness where it was positive.
+TEST(SwingingPieces, AreNoStiffnessWhereColumnsHangOnHinges) {
+  for (const int fibres : {7, 9, 11, 18}) {
+    const Scene scene = test::small_scene(90.0, 5, fibres);
+    const Simulation simulation = simulate(scene);
+    EXPECT_TRUE(simulation.trusted()) << fibres << ": " << simulation.why_not_trusted();
+    EXPECT_NEAR(simulation.modulus / scene.material.young, 1.0, 1e-9) << fibres;
+  }
+}
+
 // A fibre on its last joint turns between neighbours that hardly rub: its equations have no digits
 // left, and springs that let go of it leave a force of 1e-9.
 TEST(SwingingPieces, AreHeldByTheirNeighboursWithNextToNoFriction) {
