@@ -88,6 +88,9 @@ using BenchObserver = std::function<bool(const std::string& next)>;
 WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
                                const BenchObserver& observer = {});
 
+/// For every quantity and target, from the rows and what the reference may err by.
+std::vector<CheapestSetting> cheapest_settings(const WorkPrecision& study);
+
 /// Whether all runs that errors are measured against are to be trusted.
 inline bool reference_is_trusted(const WorkPrecision& study) {
   return !study.rows.empty() && study.rows.front().trusted == study.rows.front().runs;

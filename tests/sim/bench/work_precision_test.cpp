@@ -147,6 +147,20 @@ TEST(WorkPrecision, EndsWhenAskedTo) {
   EXPECT_EQ(summary(study), "Stopped before every setting was run.");
 }
 
+TEST(WorkPrecision, NamesNothingBeforeItKnowsItsReferencesError) {
+  const WorkPrecision study =
+      compare_settings(tiny(Regime::dynamic), {.seeds = 1}, [](const std::string& next) {
+        return next.find("h = 125 ps") == std::string::npos;  // before that of twice its step
+      });
+  EXPECT_FALSE(study.complete);
+  EXPECT_GT(study.rows.size(), 1U);
+  for (const CheapestSetting& cheapest : study.cheapest)
+    if (cheapest.quantity == "strength") {
+      EXPECT_TRUE(std::isnan(cheapest.reference_error));
+      EXPECT_FALSE(cheapest.row);
+    }
+}
+
 TEST(WorkPrecision, SaysUpToWhereOmissionsAreComparedWithRunsThatWereStopped) {
   EXPECT_EQ(explain(Omissions{{.step = 2e-8}, 1.3e-13, 5.2, 0.00214}),
             "With nothing left out runs were stopped at the time limit. Until a strain of 0.214 % "
