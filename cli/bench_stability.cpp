@@ -21,7 +21,7 @@ std::vector<sim::StabilityResult> run_all(const CommonOptions& common) {
   for (const sim::StabilityScene& scene : sim::stability_scenes()) {
     if (interrupted()) break;
     if (line.due()) line.show(scene.name);
-    results.push_back(sim::run_stability_scene(scene, [] { return !interrupted(); }));
+    results.push_back(sim::run_stability_scene(scene, interrupted));
   }
   return results;
 }

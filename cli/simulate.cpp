@@ -38,11 +38,11 @@ std::string progress_text(const sim::Progress& progress) {
 sim::Simulation watched_run(const sim::Scene& scene, io::SnapshotRecorder& snapshots,
                             const CommonOptions& common) {
   ProgressLine line(common);
-  return sim::simulate(scene, [&](const sim::Progress& progress) {
+  const auto show = [&](const sim::Progress& progress) {
     if (line.due()) line.show(progress_text(progress));
     snapshots.record(progress);
-    return !interrupted();
-  });
+  };
+  return sim::simulate(scene, show, interrupted);
 }
 
 void write_results(const OutputFolder& output, const io::SceneFile& file,

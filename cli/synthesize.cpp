@@ -152,7 +152,7 @@ Made make_specimen(const fs::path& study, const OutputFolder& output, const io::
   model.scene.joints.seed = seed;
 
   Made made{.specimen = specimen, .scene = model.scene, .simulation = {}};
-  made.simulation = sim::simulate(made.scene, [](const sim::Progress&) { return !interrupted(); });
+  made.simulation = sim::simulate(made.scene, {}, interrupted);
   if (!calib::is_test(made.simulation)) return made;  // nothing to record
   calib::RawTest record = calib::record_test(made.simulation, bar, laboratory, seed);
   record.specimen_id = specimen.id;

@@ -188,15 +188,22 @@ void check_solver(const SolverOptions& solver, Checker& checker) {
                   "at least 1");
 }
 
-// To the strain σ₁/E, about where the specimen fails. A chosen step leaps over most of it, or is at
+// A step must not be longer than the test. To the strain σ₁/E, about where the specimen fails, they
+// must not be too many. A chosen step leaps over most of it, or is at
 // most the first.
-void check_number_of_steps(const Scene& scene, Checker& checker) {
+void check_steps(const Scene& scene, Checker& checker) {
   const bool given = scene.solver.step.has_value();
   if ((!given && may_leap(scene)) || choose_regime(scene).regime == Regime::quasi_static) return;
   const double step = given ? *scene.solver.step : first_step(scene);
+  const double of_one = scene.loading.strain_rate * step;
+  if (of_one > scene.loading.max_strain)
+    checker.say("solver.step_s",
+                fmt::format("is {:g}: one step is a strain of {:.2g}, and the test ends at {:g}",
+                            step, of_one, scene.loading.max_strain),
+                "leave step_s out, and the step is chosen");
   const double strain =
       std::min(scene.loading.max_strain, head_tail_strength(scene) / scene.material.young);
-  const double steps = strain / (scene.loading.strain_rate * step);
+  const double steps = strain / of_one;
   if (steps <= most_steps_of_a_run) return;
   if (given)
     checker.say(
@@ -251,7 +258,7 @@ std::vector<Scene::Problem> Scene::problems() const {
   if (can_be_laid && !joints.thresholds.empty()) check_thresholds(*this, checker);
   check_loading(loading, checker);
   check_solver(solver, checker);
-  if (checker.found().empty()) check_number_of_steps(*this, checker);
+  if (checker.found().empty()) check_steps(*this, checker);
   return checker.found();
 }
 

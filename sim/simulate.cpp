@@ -94,7 +94,7 @@ std::vector<LeftOut> left_out_by_choice(const Scene& scene, const Simulation& si
 
 }  // namespace
 
-Simulation simulate(const Scene& scene, const Observer& observer) {
+Simulation simulate(const Scene& scene, const Observer& observer, const StopAsked& stop_asked) {
   assert(scene.problems().empty());
   RegimeChoice choice = choose_regime(scene);
   if (choice.regime == Regime::dynamic && is_severed(scene)) {
@@ -102,8 +102,8 @@ Simulation simulate(const Scene& scene, const Observer& observer) {
     choice.ground += ", but missing joints sever the specimen, and the limit says so at once";
   }
   Simulation simulation = choice.regime == Regime::quasi_static
-                              ? simulate_quasi_static(scene, observer)
-                              : simulate_dynamic(scene, observer);
+                              ? simulate_quasi_static(scene, observer, stop_asked)
+                              : simulate_dynamic(scene, observer, stop_asked);
   simulation.regime_ground = choice.ground + simulation.regime_ground;
   simulation.tolerance = scene.solver.tolerance;
   simulation.step_accuracy = scene.solver.step_accuracy;

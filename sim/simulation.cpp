@@ -109,14 +109,21 @@ std::string Simulation::why_not_trusted() const {
 }
 
 std::string Simulation::reservation() const {
-  if (step_error) return "";
   constexpr double worth_saying = 0.01;
-  const std::string loss =
-      numerical_loss < worth_saying
-          ? ""
-          : fmt::format("; steps took {:.0f} % of all energy", 100.0 * numerical_loss);
-  return fmt::format("the time step: {} was given, and its error is not known{}",
-                     step_in_words(step), loss);
+  std::vector<std::string> reservations;
+  if (!step_error)
+    reservations.push_back(fmt::format("the time step: {} was given, and its error is not known",
+                                       step_in_words(step)));
+  if (!step_error && numerical_loss >= worth_saying)
+    reservations.push_back(
+        fmt::format("steps took {:.0f} % of all energy", 100.0 * numerical_loss));
+  const double ringing = strength / strength_over_a_wave - 1.0;
+  if (ringing >= worth_saying)
+    reservations.push_back(
+        fmt::format("the strength: waves that ring, which steps and meshes change, raise it by "
+                    "{:.2g} % above the mean over the time of one, {:.4g} MPa",
+                    100.0 * ringing, 1e-6 * strength_over_a_wave));
+  return fmt::format("{}", fmt::join(reservations, "; "));
 }
 
 StepError Simulation::error_beyond_accuracy() const {

@@ -11,6 +11,7 @@
 
 #include "sim/assembly/assembly.hpp"
 #include "sim/scene.hpp"
+#include "sim/stop_asked.hpp"
 
 namespace havers::sim {
 
@@ -23,7 +24,7 @@ enum class SimulationStatus {
   not_determined,  ///< More than one set of joint forces bears the intact specimen's load.
   not_converged,   ///< A step or a break has no answer that was found.
   not_finite,      ///< A number left the range of doubles.
-  cancelled,       ///< The observer asked to stop.
+  cancelled,       ///< Somebody asked to stop.
 };
 
 /// The status as one word, as written to result.json, and as a sentence.
@@ -122,7 +123,8 @@ struct Simulation {
   /// known, stands behind a semicolon.
   [[nodiscard]] std::string why_not_trusted() const;
   /// What a trusted run is to be trusted but for: a time step that was given, whose error nobody
-  /// knows. A noun with what is to be said of it; empty where there is nothing.
+  /// knows; waves in the strength. Nouns with what is to be said of them, semicolons between; empty
+  /// where there is nothing.
   [[nodiscard]] std::string reservation() const;
   /// The step error, where that is more than was asked for; else 0.
   [[nodiscard]] StepError error_beyond_accuracy() const;
@@ -141,12 +143,13 @@ struct Progress {
   std::function<Eigen::VectorXd()> displacements;
 };
 
-/// Called after each step or break; returning false stops the run (status `cancelled`). Where a run
-/// is done again, with a shorter step or more care, rows are seen again, from no later one.
-/// Watching changes nothing.
-using Observer = std::function<bool(const Progress&)>;
+/// Called after each step or break. Where a run is done again, with a shorter step or more care,
+/// rows are seen again, from no later one. Watching changes nothing.
+using Observer = std::function<void(const Progress&)>;
 
-/// Runs a scene. Precondition: scene.problems() is empty.
-Simulation simulate(const Scene& scene, const Observer& observer = {});
+/// Runs a scene, until it ends or is stopped (status `cancelled`). Precondition: scene.problems()
+/// is empty.
+Simulation simulate(const Scene& scene, const Observer& observer = {},
+                    const StopAsked& stop_asked = {});
 
 }  // namespace havers::sim

@@ -219,7 +219,7 @@ using CalibrationObserver = std::function<bool(const CalibrationProgress&)>;
 /// asked inside the simulations, by all threads; true ends them, and the fit as `cancelled`.
 CalibrationResult calibrate(const Study& study, EvaluationStore* store = nullptr,
                             const CalibrationObserver& observer = {},
-                            const std::function<bool()>& stop_asked = {});
+                            const sim::StopAsked& stop_asked = {});
 
 /// How many of a study's unknowns ask for new simulations when they move from its start. Least
 /// squares find the others, whatever the study's local search.

@@ -39,19 +39,15 @@ std::optional<Response> response_of(const sim::Simulation& run) {
   return response;
 }
 
-sim::Observer stopped_by(const std::function<bool()>& stop_asked) {
-  if (!stop_asked) return {};
-  return [stop_asked](const sim::Progress&) { return !stop_asked(); };
-}
-
-Simulator fibre_model(const std::function<bool()>& stop_asked) {
-  return {
-      .run = [observer = stopped_by(stop_asked)](
-                 const sim::Scene& scene) { return response_of(sim::simulate(scene, observer)); },
-      .quasi_static =
-          [](const sim::Scene& scene) {
-            return sim::choose_regime(scene).regime == sim::Regime::quasi_static;
-          }};
+Simulator fibre_model(const sim::StopAsked& stop_asked) {
+  return {.run =
+              [stop_asked](const sim::Scene& scene) {
+                return response_of(sim::simulate(scene, {}, stop_asked));
+              },
+          .quasi_static =
+              [](const sim::Scene& scene) {
+                return sim::choose_regime(scene).regime == sim::Regime::quasi_static;
+              }};
 }
 
 std::size_t costly_unknowns(const Study& study) {
@@ -63,8 +59,7 @@ std::size_t costly_unknowns(const Study& study) {
 }
 
 CalibrationResult calibrate(const Study& study, EvaluationStore* store,
-                            const CalibrationObserver& observer,
-                            const std::function<bool()>& stop_asked) {
+                            const CalibrationObserver& observer, const sim::StopAsked& stop_asked) {
   return calibrate_with(fibre_model(stop_asked), study, store, observer);
 }
 

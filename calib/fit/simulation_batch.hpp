@@ -19,12 +19,8 @@ struct Simulator {
   std::function<bool(const sim::Scene&)> quasi_static;  ///< Whether (F3) holds for a scene.
 };
 
-/// havers' own simulator. `stop_asked` is asked after each step or break of every run, by all
-/// threads; true ends the run. Empty: nothing stops it.
-Simulator fibre_model(const std::function<bool()>& stop_asked = {});
-
-/// What stops a run of it.
-sim::Observer stopped_by(const std::function<bool()>& stop_asked);
+/// havers' own simulator. All threads ask whether to stop.
+Simulator fibre_model(const sim::StopAsked& stop_asked = {});
 
 /// What is kept of a run of it: nothing where it was cancelled.
 std::optional<Response> response_of(const sim::Simulation& run);

@@ -19,8 +19,7 @@ constexpr std::size_t chunk = 32;
 // The fibre model, which leaves the pattern of every scene's broken joints in a map.
 class PatternedModel {
  public:
-  explicit PatternedModel(const std::function<bool()>& stop_asked)
-      : observer_(stopped_by(stop_asked)) {}
+  explicit PatternedModel(sim::StopAsked stop_asked) : stop_asked_(std::move(stop_asked)) {}
 
   Simulator simulator() {
     return {.run = [this](const sim::Scene& scene) { return run(scene); },
@@ -33,7 +32,7 @@ class PatternedModel {
 
  private:
   std::optional<Response> run(const sim::Scene& scene) {
-    const sim::Simulation simulation = sim::simulate(scene, observer_);
+    const sim::Simulation simulation = sim::simulate(scene, {}, stop_asked_);
     const Pattern pattern =
         pattern_of(sim::build_assembly(scene.assembly, scene.loading.lateral), simulation.joints);
     const std::scoped_lock lock(mutex_);
@@ -41,7 +40,7 @@ class PatternedModel {
     return response_of(simulation);
   }
 
-  sim::Observer observer_;
+  sim::StopAsked stop_asked_;
   std::mutex mutex_;
   std::map<std::string, Pattern> patterns_;
 };
@@ -50,7 +49,7 @@ class PatternedModel {
 class Runner {
  public:
   Runner(const Sweep& sweep, EvaluationStore* store, int threads, const SweepObserver& observer,
-         const std::function<bool()>& stop_asked)
+         const sim::StopAsked& stop_asked)
       : sweep_(sweep),
         observer_(observer),
         model_(stop_asked),
@@ -146,7 +145,7 @@ sim::Scene scale_above(const sim::Scene& scene, const PointSummary& below) {
 }
 
 SweepResult run_sweep(const Sweep& sweep, EvaluationStore* store, int threads,
-                      const SweepObserver& observer, const std::function<bool()>& stop_asked) {
+                      const SweepObserver& observer, const sim::StopAsked& stop_asked) {
   SweepResult result;
   result.points = sweep.points;
   Runner runner(sweep, store, threads, observer, stop_asked);

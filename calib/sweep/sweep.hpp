@@ -60,7 +60,7 @@ using SweepObserver = std::function<bool(std::size_t done, std::size_t all)>;
 /// `cancelled`.
 /// Precondition: the plan has no problems and no scene has any.
 SweepResult run_sweep(const Sweep& sweep, EvaluationStore* store, int threads,
-                      const SweepObserver& observer, const std::function<bool()>& stop_asked = {});
+                      const SweepObserver& observer, const sim::StopAsked& stop_asked = {});
 
 /// The scene of the scale above (W7): what held a whole assembly is now one of its joints.
 sim::Scene scale_above(const sim::Scene& scene, const PointSummary& below);

@@ -93,8 +93,7 @@ std::string summary(const std::vector<StabilityResult>& results) {
   return fmt::format("{} of {} scenes solved or refused as they must be.", good, results.size());
 }
 
-StabilityResult run_stability_scene(const StabilityScene& scene,
-                                    const std::function<bool()>& keep_going) {
+StabilityResult run_stability_scene(const StabilityScene& scene, const StopAsked& stop_asked) {
   StabilityResult result{.name = scene.name};
   const std::vector<Scene::Problem> problems = scene.scene.problems();
   if (!problems.empty()) {
@@ -103,7 +102,7 @@ StabilityResult run_stability_scene(const StabilityScene& scene,
     result.as_it_must = scene.refused;
     return result;
   }
-  const WatchedRun watched = watch(scene.scene, {}, keep_going);
+  const WatchedRun watched = watch(scene.scene, {}, stop_asked);
   const Simulation& run = watched.simulation;
   const bool finite = all_finite(run);
   result.wall = watched.wall;

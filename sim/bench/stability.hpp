@@ -43,8 +43,7 @@ struct StabilityResult {
   double wall = 0.0;           ///< [s]
 };
 
-StabilityResult run_stability_scene(const StabilityScene& scene,
-                                    const std::function<bool()>& keep_going = {});
+StabilityResult run_stability_scene(const StabilityScene& scene, const StopAsked& stop_asked = {});
 
 /// How many did what they must, in a sentence.
 std::string summary(const std::vector<StabilityResult>& results);

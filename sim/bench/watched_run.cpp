@@ -82,18 +82,21 @@ VectorXd bonded_forces_in_limit(const Scene& scene, double strain) {
 
 }  // namespace
 
-WatchedRun watch(const Scene& scene, const WatchOptions& options, const KeepGoing& keep_going) {
+WatchedRun watch(const Scene& scene, const WatchOptions& options, const StopAsked& stop_asked) {
   using Clock = std::chrono::steady_clock;
   WatchedRun run;
   Watcher watcher(options.bonded_strain, run);
   const auto begin = Clock::now();
   const std::clock_t cpu = std::clock();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-  run.simulation = simulate(scene, [&](const Progress& progress) {
-    watcher.record(progress);
-    run.out_of_time = seconds() > options.time_limit;
-    return !run.out_of_time && (!keep_going || keep_going());
-  });
+  bool out_of_time = false;
+  run.simulation = simulate(
+      scene, [&](const Progress& progress) { watcher.record(progress); },
+      [&] {
+        out_of_time = seconds() > options.time_limit;
+        return out_of_time || stop_is_asked(stop_asked);
+      });
+  run.out_of_time = out_of_time;
   run.wall = seconds();
   run.cpu = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
   if (run.simulation.regime == Regime::quasi_static)

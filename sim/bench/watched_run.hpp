@@ -2,15 +2,11 @@
 // cost.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "sim/simulation.hpp"
 
 namespace havers::sim {
-
-/// Called between rows; returning false stops everything.
-using KeepGoing = std::function<bool()>;
 
 /// Forces are R_N and R_T of every joint.
 struct WatchedRun {
@@ -28,7 +24,7 @@ struct WatchOptions {
   double time_limit = 60.0;    ///< Wall time. [s]
 };
 
-WatchedRun watch(const Scene& scene, const WatchOptions& options, const KeepGoing& keep_going);
+WatchedRun watch(const Scene& scene, const WatchOptions& options, const StopAsked& stop_asked);
 
 /// Joints that break in the reference's order before the two runs part.
 std::size_t same_breaks(const WatchedRun& run, const WatchedRun& reference);

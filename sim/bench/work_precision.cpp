@@ -168,14 +168,14 @@ class Bench {
     std::vector<WatchedRun> runs;
     for (const std::uint64_t seed : study_.seeds) {
       const std::string next = fmt::format("{}, seed {}", to_string(setting), seed);
-      const auto keep_going = [&] {
+      const auto stop_asked = [&] {
         stopped_ = stopped_ || (observer_ && !observer_(next));
-        return !stopped_;
+        return stopped_;
       };
-      if (!keep_going()) return runs;
+      if (stop_asked()) return runs;
       Scene scene = with_setting(setting, scene_);
       scene.joints.seed = seed;
-      runs.push_back(watch(scene, {study_.bonded_strain, time_limit}, keep_going));
+      runs.push_back(watch(scene, {study_.bonded_strain, time_limit}, stop_asked));
     }
     return runs;
   }

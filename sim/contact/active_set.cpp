@@ -100,7 +100,8 @@ bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded
                        {},
                        {},
                        below_inertia,
-                       step.force_scale / std::sqrt(static_cast<double>(step.laws.size()))};
+                       step.force_scale / std::sqrt(static_cast<double>(step.laws.size())),
+                       step.stop_asked};
   std::vector<JointState> states;
   for (const int joint : loose_.joints()) {
     contact.laws.push_back(step.laws[static_cast<std::size_t>(joint)]);
@@ -152,7 +153,7 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
   JointStepResult result;
   long iterations = 0;
   const auto unless_solved = [&](const auto& solve) {
-    if (result.converged) return;
+    if (result.converged || stop_is_asked(step.stop_asked)) return;
     result = solve();
     iterations += result.iterations;
   };
@@ -218,7 +219,7 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effor
         response = &loose_response;
       }
       overloaded = violated(step, response->reactions, result);
-      result.converged = leaving(step, result) <= most_leave;
+      result.converged = leaving(step, result) <= most_leave && !stop_is_asked(step.stop_asked);
     } while (result.converged && !overloaded.empty());
     result.iterations += response->solves;
     result.displacements = std::move(response->displacements);

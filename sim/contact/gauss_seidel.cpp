@@ -40,7 +40,9 @@ JointStepResult GaussSeidelSolver::solve(const JointStep& step) {
   };
   for (measure(); !result.converged && result.iterations < max_sweeps_; ++result.iterations) {
     sweeps_.sweep(step);
-    if (result.iterations % sweeps_between_checks == sweeps_between_checks - 1) measure();
+    if (result.iterations % sweeps_between_checks != sweeps_between_checks - 1) continue;
+    measure();
+    if (stop_is_asked(step.stop_asked)) break;
   }
   measure();
   result.tie_forces = sweeps_.tie_forces();

@@ -223,6 +223,7 @@ LocalContactResult follow_homotopy(StateSystem& system, const Homotopy& added, S
     back = {course.lambda, next.joint, system.states()[next.joint]};
     system.set(next.joint, next.to);
     known = {std::move(branch.y), std::move(branch.r)};
+    if (stop_is_asked(system.problem().stop_asked)) break;
   }
   result.states = system.states();
   return result;

@@ -24,6 +24,7 @@ struct JointStep {
   Eigen::VectorXd reactions;       ///< Of the last step. [N/m]
   Eigen::VectorXd tie_forces;      ///< Likewise; empty before the first. [N/m]
   double force_scale = 0.0;        ///< Largest norm of the reactions so far. [N/m]
+  StopAsked stop_asked{};          ///< A solver that is stopped has not converged.
 };
 
 struct JointStepResult {

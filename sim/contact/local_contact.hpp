@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/joint/cohesive_cone.hpp"
+#include "sim/stop_asked.hpp"
 
 namespace havers::sim {
 
@@ -37,6 +38,8 @@ struct LocalContact {
   /// What forces err by is compared to r₀, but to no less than this: where nothing bears, r₀ is
   /// rounding. [N/m]
   double force_scale = 0.0;
+  /// Asked on every path; a search that is stopped has not converged.
+  StopAsked stop_asked{};
 
   /// Of a gap; that of a body that hangs on one joint costs nothing, but for rounding. [N/m²]
   [[nodiscard]] double stiffness(Eigen::Index row) const {

@@ -109,7 +109,9 @@ int SetSearch::look_for_states(const JointStep& step, int patience, bool far,
   const double relaxation = far ? over_relaxed : 1.0;
   const double least = far ? negligible * sweeps_.reactions().lpNorm<Eigen::Infinity>() : 0.0;
   int quiet = 0, sweep = 0;
-  for (; sweep < patience * most_sweeps && quiet < patience * quiet_sweeps; ++sweep)
+  for (; sweep < patience * most_sweeps && quiet < patience * quiet_sweeps &&
+         !stop_is_asked(step.stop_asked);
+       ++sweep)
     quiet = sweeps_.sweep(step, relaxation, least) ? 0 : quiet + 1;
   states = sweeps_.states();
   return sweep;
@@ -155,7 +157,7 @@ JointStepResult SetSearch::solve(const JointStep& step, bool nearest) {
   sweeps_.start(step, step.reactions, step.tie_forces);
   int patience = nearest ? patience_for_nearest : 1;
   const int most_sets = sets_from_answers + (nearest ? 0 : sets_from_sweeps);
-  for (int set = 0; set < most_sets; ++set) {
+  for (int set = 0; set < most_sets && !stop_is_asked(step.stop_asked); ++set) {
     const bool by_sweeps_alone = set < sets_by_sweeps_alone;
     const bool far = by_sweeps_alone && !nearest;
     result.iterations += look_for_states(step, patience, far, result.states);

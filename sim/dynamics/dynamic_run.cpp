@@ -24,7 +24,8 @@ std::unique_ptr<JointSolver> make_solver(const SolverOptions& options, const Bod
 
 }  // namespace
 
-DynamicRun::DynamicRun(const Scene& scene, const Assembly& assembly, double step)
+DynamicRun::DynamicRun(const Scene& scene, const Assembly& assembly, double step,
+                       const StopAsked& stop_asked)
     : scene_(scene),
       assembly_(assembly),
       h_(step),
@@ -46,6 +47,7 @@ DynamicRun::DynamicRun(const Scene& scene, const Assembly& assembly, double step
 
   joints_ = initial_outcomes(draw_thresholds(scene_, assembly_));
   step_.gaps = step_.held_at = step_.reactions = slope_ = VectorXd::Zero(rows);
+  step_.stop_asked = stop_asked;
   step_.states.assign(joints_.size(), JointState::stick);
   step_.broken.assign(joints_.size(), 0);
   step_.laws.reserve(joints_.size());

@@ -14,12 +14,13 @@ namespace havers::sim {
 class DynamicRun {
  public:
   /// @param step  h [s]
-  DynamicRun(const Scene& scene, const Assembly& assembly, double step);
+  DynamicRun(const Scene& scene, const Assembly& assembly, double step,
+             const StopAsked& stop_asked = {});
 
-  /// One step on; false when the joints' problem was not solved.
+  /// One step on; false when the joints' problem was not solved, or its solver was stopped.
   bool advance();
-  /// After two steps of uniform motion, whose reactions change linearly: on to one step before the
-  /// first break. Returns the strain leapt over. [-]
+  /// After two or more steps of uniform motion, whose reactions change linearly: on to one step
+  /// before the first break. Returns the strain leapt over. [-]
   double leap();
 
   [[nodiscard]] CurvePoint point() const;

@@ -54,11 +54,12 @@ StepError larger_of(const StepError& change, const StepError& before) {
 }
 
 // A watcher sees the answer last.
-void show_again(const Scene& scene, Stepping stepping, const Observer& observer, Simulation& run) {
+void show_again(const Scene& scene, Stepping stepping, const Observer& observer,
+                const StopAsked& stop_asked, Simulation& run) {
   if (!observer) return;
   const StepError error = *run.step_error;
   stepping.step = run.step;
-  run = run_in_steps(scene, stepping, observer);
+  run = run_in_steps(scene, stepping, observer, stop_asked);
   run.step_error = has_ended(run) ? error : StepError{never_compared, never_compared};
 }
 
@@ -90,26 +91,31 @@ std::string doubt_about_steps(const Scene& scene) {
       100.0 * followed);
 }
 
-Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer) {
+Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer,
+                               const StopAsked& stop_asked) {
   Stepping stepping{.step = first_step(scene), .leap = may_leap(scene)};
   Simulation run;
   run.failure_strain = run.strength = never_compared;
   std::string finer_failed;
-  StepError change{};  // by the last halving
-  int agreed = 0;
+  StepError change{};                  // by the last halving
+  int agreed = 0, without_answer = 0;  // in a row
   for (int halving = 0; halving <= most_halvings; ++halving, stepping.step *= 0.5) {
-    Simulation finer = run_in_steps(scene, stepping, observer);
+    Simulation finer = run_in_steps(scene, stepping, observer, stop_asked);
     const bool first = !has_ended(run);
     // Long steps may have no answer where friction is strong; short ones do.
     if (first && finer.status == SimulationStatus::not_converged && halving < most_halvings)
       continue;
     if (!first && !has_ended(finer) && finer.status != SimulationStatus::cancelled) {
-      finer_failed = fmt::format("; a run of half of it has no answer: {}", explain(finer.status));
-      show_again(scene, stepping, observer, run);
+      // Where friction is strong a length between two that have answers may have none.
+      if (++without_answer == 1 && halving < most_halvings) continue;
+      finer_failed =
+          fmt::format("; runs of shorter ones have no answer: {}", explain(finer.status));
+      show_again(scene, stepping, observer, stop_asked, run);
       break;
     }
     const StepError before = std::exchange(change, error_of(finer, run));  // run: twice the step
     run = std::move(finer);
+    without_answer = 0;
     run.step_error = larger_of(change, before);
     agreed = change.largest() < 0.5 * scene.solver.step_accuracy ? agreed + 1 : 0;
     if (!has_ended(run) || agreed == 2) break;

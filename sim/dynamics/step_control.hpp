@@ -22,8 +22,10 @@ std::string doubt_about_steps(const Scene& scene);
 /// Runs a scene with first_step and ever half of it, until two halvings in turn have changed the
 /// failure strain and the strength by less than half of `step_accuracy`: implicit Euler is of first
 /// order, so what is left is about the last change. Ends as well where a further run would be too
-/// long. The last run that came to its end is the answer, or the one that was cancelled;
-/// `step_error` and `regime_ground` say what its last two halvings changed at most.
-Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer);
+/// long, or where two lengths in turn have no answer. The last run that came to its end is the
+/// answer, or the one that was cancelled; `step_error` and `regime_ground` say what its last two
+/// halvings changed at most.
+Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer = {},
+                               const StopAsked& stop_asked = {});
 
 }  // namespace havers::sim

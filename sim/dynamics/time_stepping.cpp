@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <vector>
 
 #include "sim/dynamics/dynamic_run.hpp"
@@ -25,32 +26,38 @@ std::vector<LeftOut> left_out_in_time(const Scene& scene, const Simulation& simu
 
 // From step to step, until the run ends.
 SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepping& stepping,
-                                const Observer& observer, Simulation& simulation) {
+                                const Observer& observer, const StopAsked& stop_asked,
+                                Simulation& simulation) {
   constexpr double but_for_rounding = 1.0 - 1e-9;
   const double end = but_for_rounding * scene.loading.max_strain;
   simulation.curve.push_back(run.point());
   while (simulation.curve.back().strain < end) {
     const bool solved = run.advance();
     if (!run.finite()) return SimulationStatus::not_finite;
+    if (!solved && stop_is_asked(stop_asked)) return SimulationStatus::cancelled;
     if (!solved)
       return run.determined() ? SimulationStatus::not_converged : SimulationStatus::not_determined;
     simulation.curve.push_back(run.point());
-    if (observer &&
-        !observer({simulation.curve.back(), simulation.curve.size() - 1,
-                   [&run] { return run.outcomes(); }, [&run] { return run.displacements(); }}))
-      return SimulationStatus::cancelled;
+    if (observer)
+      observer({simulation.curve.back(), simulation.curve.size() - 1,
+                [&run] { return run.outcomes(); }, [&run] { return run.displacements(); }});
+    if (stop_is_asked(stop_asked)) return SimulationStatus::cancelled;
     if (has_failed(simulation, simulation.end_fraction_used)) return SimulationStatus::broken;
     if (run.steps() == stepping.most) return SimulationStatus::step_limit;
-    if (stepping.leap && run.steps() == 2) simulation.leapt_strain = run.leap();
+    // Steps may be so short that rounding looks like acceleration in the first of them.
+    const bool may_leap = stepping.leap && simulation.leapt_strain == 0.0;
+    if (may_leap && run.steps() > 1 && std::has_single_bit(static_cast<unsigned>(run.steps())))
+      simulation.leapt_strain = run.leap();
   }
   return SimulationStatus::strain_limit;
 }
 
 }  // namespace
 
-Simulation simulate_dynamic(const Scene& scene, const Observer& observer) {
-  if (!scene.solver.step) return run_in_chosen_steps(scene, observer);
-  Simulation run = run_in_steps(scene, {*scene.solver.step}, observer);
+Simulation simulate_dynamic(const Scene& scene, const Observer& observer,
+                            const StopAsked& stop_asked) {
+  if (!scene.solver.step) return run_in_chosen_steps(scene, observer, stop_asked);
+  Simulation run = run_in_steps(scene, {*scene.solver.step}, observer, stop_asked);
   run.step_error.reset();
   run.regime_ground = fmt::format(
       "; the step of {} is given, and its error is not known: a run without step_s chooses its own "
@@ -59,14 +66,15 @@ Simulation simulate_dynamic(const Scene& scene, const Observer& observer) {
   return run;
 }
 
-Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Observer& observer) {
+Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Observer& observer,
+                        const StopAsked& stop_asked) {
   const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
   Simulation simulation;
   simulation.regime = Regime::dynamic;
   simulation.step = stepping.step;
   simulation.end_fraction_used = scene.loading.end_fraction;
-  DynamicRun run(scene, assembly, simulation.step);
-  simulation.status = follow_in_time(scene, run, stepping, observer, simulation);
+  DynamicRun run(scene, assembly, simulation.step, stop_asked);
+  simulation.status = follow_in_time(scene, run, stepping, observer, stop_asked, simulation);
   run.finish(simulation);
   simulation.dropped = assembly.dropped;
   simulation.left_out = left_out_in_time(scene, simulation);

@@ -16,10 +16,12 @@ struct Stepping {
   int most = most_steps_of_a_run;  ///< After so many it ends, broken or not.
 };
 
-Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Observer& observer);
+Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Observer& observer = {},
+                        const StopAsked& stop_asked = {});
 
 /// Runs a scene by its own time step, or by one that is halved until the failure strain stands
 /// (step_control.hpp).
-Simulation simulate_dynamic(const Scene& scene, const Observer& observer);
+Simulation simulate_dynamic(const Scene& scene, const Observer& observer = {},
+                            const StopAsked& stop_asked = {});
 
 }  // namespace havers::sim

@@ -34,7 +34,7 @@ constexpr double hardly_stored = 1e-3;  // of the work of a force: then the forc
 }  // namespace
 
 BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact,
-                         bool careful)
+                         bool careful, const StopAsked& stop_asked)
     : scene_(scene),
       careful_(careful),
       glances_(!careful && scene.solver.leave_out),
@@ -47,6 +47,7 @@ BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructu
       noise_(1e-10 * intact_->answer().reactions.lpNorm<Eigen::Infinity>()) {
   const auto joints = static_cast<double>(std::max<std::size_t>(1, joints_.size()));
   contact_.force_scale = reactions_.norm() / std::sqrt(joints);
+  contact_.stop_asked = stop_asked;
 }
 
 bool BreakingRun::take_missing() {
@@ -169,6 +170,7 @@ bool BreakingRun::settle() {
   LocalContactResult result = release(known);
   iterations_ += result.iterations;
   result = or_better(std::move(result));
+  if (!result.converged && stop_is_asked(contact_.stop_asked)) return false;
   if (!result.converged) {  // an answer without contact, counted and reported, instead of none
     ++without_contact_;
     contact_.apart.assign(loose_.size(), 1);

@@ -20,10 +20,11 @@ class BreakingRun {
  public:
   /// @param careful  refines every answer: influences of joints on each other have few digits
   /// where cracks are wide
-  BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact, bool careful);
+  BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact, bool careful,
+              const StopAsked& stop_asked = {});
 
   /// Takes away the joints that are missing from the start; false when no answer without them was
-  /// found.
+  /// found, or the search was stopped.
   bool take_missing();
   /// Joints that meet their cones together, and the strain at which they do.
   struct Event {
@@ -34,7 +35,7 @@ class BreakingRun {
   /// Stretches on to a strain, never back; joints that slide rub while it grows.
   void stretch(double strain);
   /// Breaks joints, at the strain there is, and settles what is left; false when its contact has no
-  /// solution that is found: then none has broken.
+  /// solution that is found, or the search was stopped: then none has broken.
   bool break_joints(const std::vector<std::size_t>& breaking);
 
   [[nodiscard]] CurvePoint point() const;

@@ -44,15 +44,9 @@ double energy_gain(const std::vector<CurvePoint>& curve) {
   return gain_to_strength > 0.0 ? gain_to_strength / curve[strongest].elastic : 0.0;
 }
 
-bool goes_on(const Observer& observer, const BreakingRun& run, const Simulation& simulation) {
-  return !observer ||
-         observer({simulation.curve.back(), simulation.curve.size() - 1,
-                   [&] { return run.outcomes(); }, [&] { return run.displacements(); }});
-}
-
 // From break to break, until the run ends.
 SimulationStatus follow_events(const Scene& scene, BreakingRun& run, const Observer& observer,
-                               Simulation& simulation) {
+                               const StopAsked& stop_asked, Simulation& simulation) {
   const double end_fraction = simulation.end_fraction_used;
   simulation.curve.push_back(run.point());
   for (;;) {
@@ -68,10 +62,15 @@ SimulationStatus follow_events(const Scene& scene, BreakingRun& run, const Obser
     }
     if (event.strain > scene.loading.max_strain) return SimulationStatus::strain_limit;
 
-    if (!run.break_joints(event.joints)) return SimulationStatus::not_converged;
+    const bool solved = run.break_joints(event.joints);
+    if (!solved && !stop_is_asked(stop_asked)) return SimulationStatus::not_converged;
+    if (!solved) return SimulationStatus::cancelled;
     simulation.curve.push_back(run.point());
     ++simulation.steps;
-    if (!goes_on(observer, run, simulation)) return SimulationStatus::cancelled;
+    if (observer)
+      observer({simulation.curve.back(), simulation.curve.size() - 1,
+                [&] { return run.outcomes(); }, [&] { return run.displacements(); }});
+    if (stop_is_asked(stop_asked)) return SimulationStatus::cancelled;
     if (has_failed(simulation, end_fraction)) return SimulationStatus::broken;
   }
 }
@@ -103,7 +102,7 @@ std::vector<LeftOut> left_out_in_the_limit(const Scene& scene, const IntactStruc
 
 Simulation break_event_by_event(const Scene& scene,
                                 const std::shared_ptr<const IntactStructure>& intact, bool careful,
-                                const Observer& observer) {
+                                const Observer& observer, const StopAsked& stop_asked) {
   Simulation simulation;
   simulation.regime = Regime::quasi_static;
   simulation.end_fraction_used = end_fraction_used(scene);
@@ -112,9 +111,12 @@ Simulation break_event_by_event(const Scene& scene,
     simulation.status = SimulationStatus::not_determined;
     return simulation;
   }
-  BreakingRun run(scene, intact, careful);
-  if (!run.take_missing()) return simulation;
-  simulation.status = follow_events(scene, run, observer, simulation);
+  BreakingRun run(scene, intact, careful, stop_asked);
+  if (!run.take_missing()) {
+    if (stop_is_asked(stop_asked)) simulation.status = SimulationStatus::cancelled;
+    return simulation;
+  }
+  simulation.status = follow_events(scene, run, observer, stop_asked, simulation);
   run.finish(simulation);
   simulation.energy_gain = energy_gain(simulation.curve);
   simulation.left_out = left_out_in_the_limit(scene, *intact, simulation);
@@ -133,17 +135,18 @@ bool is_no_worse(const Simulation& a, const Simulation& b) {
 
 }  // namespace
 
-Simulation simulate_quasi_static(const Scene& scene, const Observer& observer) {
+Simulation simulate_quasi_static(const Scene& scene, const Observer& observer,
+                                 const StopAsked& stop_asked) {
   const std::shared_ptr<const IntactStructure> intact = intact_structure(scene);
-  Simulation quick = break_event_by_event(scene, intact, false, observer);
+  Simulation quick = break_event_by_event(scene, intact, false, observer, stop_asked);
   if ((has_ended(quick) && missed_by(quick) <= std::min(accurate, scene.solver.tolerance)) ||
       quick.status == SimulationStatus::cancelled)
     return quick;
-  Simulation careful = break_event_by_event(scene, intact, true, observer);
+  Simulation careful = break_event_by_event(scene, intact, true, observer, stop_asked);
   // Where a piece hangs on next to nothing either may miss an answer that the other finds.
   if (is_no_worse(careful, quick) || careful.status == SimulationStatus::cancelled) return careful;
   // A watcher sees the answer last.
-  return observer ? break_event_by_event(scene, intact, false, observer) : quick;
+  return observer ? break_event_by_event(scene, intact, false, observer, stop_asked) : quick;
 }
 
 }  // namespace havers::sim

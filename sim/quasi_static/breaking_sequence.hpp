@@ -13,6 +13,7 @@ namespace havers::sim {
 double end_fraction_used(const Scene& scene);
 
 /// Runs a scene in the limit of a vanishing strain rate.
-Simulation simulate_quasi_static(const Scene& scene, const Observer& observer);
+Simulation simulate_quasi_static(const Scene& scene, const Observer& observer = {},
+                                 const StopAsked& stop_asked = {});
 
 }  // namespace havers::sim

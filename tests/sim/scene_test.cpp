@@ -63,6 +63,21 @@ TEST(Scene, RefusesAStepThatLeadsNowhere) {
   EXPECT_TRUE(scene.problems().empty());
 }
 
+TEST(Scene, RefusesAStepLongerThanTheTest) {
+  Scene scene;
+  scene.loading.strain_rate = 1e3;
+  scene.loading.max_strain = 0.05;
+  scene.solver.step = 4.9e-5;
+  EXPECT_TRUE(scene.problems().empty());
+  scene.solver.step = 1e-3;
+  ASSERT_EQ(scene.problems().size(), 1U);
+  EXPECT_EQ(scene.problems().front().key, "solver.step_s");
+  EXPECT_EQ(scene.problems().front().what,
+            "is 0.001: one step is a strain of 1, and the test ends at 0.05");
+  scene.solver.regime = Regime::quasi_static;
+  EXPECT_TRUE(scene.problems().empty()) << "which takes no steps";
+}
+
 TEST(Scene, RefusesARateWhoseTimesAreNoNumbers) {
   Scene scene;
   scene.loading.strain_rate = 1e-320;

@@ -8,6 +8,7 @@
 #include "sim/joint/thresholds.hpp"
 #include "sim/quasi_static/breaking_sequence.hpp"
 #include "sim/simulation.hpp"
+#include "tests/support/broken_joints.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace havers::sim {
@@ -151,14 +152,35 @@ TEST(Simulate, SaysWhenANumberLeftItsRange) {
   EXPECT_FALSE(simulation.trusted());
 }
 
-TEST(Simulate, StopsWhenTheObserverAsksForIt) {
-  for (const Scene& scene : {test::small_scene(), test::dynamic_scene()}) {
-    int calls = 0;
-    const Simulation simulation = simulate(scene, [&](const Progress&) { return ++calls < 2; });
-    EXPECT_EQ(simulation.status, SimulationStatus::cancelled);
-    EXPECT_FALSE(simulation.trusted());
-    EXPECT_EQ(calls, 2);
-    EXPECT_EQ(simulation.steps, 2);
+// Wherever it is: between two rows or, where sets and paths are looked for, within one.
+TEST(Simulate, StopsWhenAskedToWithTheRowsItHas) {
+  Scene jammed = test::small_scene(2.0, 4, 3);
+  jammed.joints.scatter = 1.0;
+  jammed.joints.seed = 8;
+  Scene swept = test::dynamic_scene();
+  swept.solver.contact = ContactMethod::gauss_seidel;
+  for (const Scene& scene : {jammed, test::dynamic_scene(), swept}) {
+    int asked = 0;
+    const Simulation whole = simulate(scene, {}, [&asked] { return ++asked < 0; });
+    ASSERT_GT(asked, whole.steps);
+    const int times = asked;
+    for (int stop = 1; stop <= times; stop += 1 + times / 50) {
+      asked = 0;
+      std::size_t rows = 1;  // and a row at the strain of the next break, in the limit
+      const Simulation run = simulate(
+          scene, [&rows](const Progress& progress) { rows = progress.row + 1; },
+          [&] { return ++asked >= stop; });
+      EXPECT_EQ(run.status, SimulationStatus::cancelled) << stop;
+      EXPECT_FALSE(run.trusted());
+      EXPECT_LE(asked, stop + 20);
+      ASSERT_LE(rows, run.curve.size());
+      EXPECT_LE(run.curve.size(), rows + 1);
+      EXPECT_NEAR(run.curve.back().stress_right, whole.curve[run.curve.size() - 1].stress_right,
+                  1e-9 * whole.strength);
+      EXPECT_EQ(test::broken_joints(run.joints).size(),
+                static_cast<std::size_t>(run.curve.back().broken_joints));
+      EXPECT_TRUE(run.displacements.allFinite());
+    }
   }
 }
 
@@ -169,7 +191,6 @@ TEST(Simulate, IsTheSameWatchedOrNot) {
     const Simulation watched = simulate(scene, [&](const Progress& progress) {
       EXPECT_TRUE(progress.displacements().allFinite());
       rows.push_back(progress.row);
-      return true;
     });
     ASSERT_EQ(alone.curve.size(), watched.curve.size());
     EXPECT_EQ(alone.strength, watched.strength);
@@ -190,10 +211,9 @@ TEST(Simulate, ShowsTheObserverDisplacementsOfEveryNode) {
       const Eigen::VectorXd displacements = progress.displacements();
       EXPECT_EQ(displacements.size(), dofs);
       EXPECT_EQ(progress.joints().size(), assembly.joints.size());
-      if (displacements.size() != dofs) return false;
+      if (displacements.size() != dofs) return;
       EXPECT_NEAR(displacements(2 * assembly.right.front()), progress.point.strain * assembly.width,
                   1e-12 * assembly.width);
-      return true;
     });
     EXPECT_EQ(simulation.displacements.size(), dofs);
   }

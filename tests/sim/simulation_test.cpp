@@ -70,6 +70,23 @@ TEST(Simulation, IsTrustedButForAStepThatWasGiven) {
   EXPECT_EQ(simulation.error_beyond_accuracy().largest(), 0.0);
 }
 
+TEST(Simulation, IsTrustedButForWavesInItsStrength) {
+  Simulation simulation;
+  simulation.status = SimulationStatus::broken;
+  simulation.strength = 50e6;
+  EXPECT_EQ(simulation.reservation(), "") << "in the limit there are none";
+  simulation.strength_over_a_wave = 49.9e6;
+  EXPECT_EQ(simulation.reservation(), "");
+  simulation.strength_over_a_wave = 48e6;
+  EXPECT_TRUE(simulation.trusted());
+  EXPECT_EQ(simulation.reservation(),
+            "the strength: waves that ring, which steps and meshes change, raise it by 4.2 % above "
+            "the mean over the time of one, 48 MPa");
+  simulation.step = 2e-8;
+  simulation.step_error.reset();
+  EXPECT_THAT(simulation.reservation(), HasSubstr("is not known; the strength: waves"));
+}
+
 TEST(Simulation, KnowsWhatAChosenStepLeavesBeyondTheAccuracyAskedFor) {
   Simulation simulation;
   simulation.step_accuracy = 1e-3;

@@ -120,10 +120,12 @@ TEST_P(FirstEvents, AreThoseOfTheEnumeratedStates) {
   scene.loading.end_fraction = 0.0;
   const FullStatics statics(scene);
   std::vector<Watched> events;
-  const Simulation run = simulate(scene, [&](const Progress& progress) {
-    events.push_back({progress.point, progress.joints()});
-    return events.size() < 3;
-  });
+  const Simulation run = simulate(
+      scene,
+      [&](const Progress& progress) {
+        events.push_back({progress.point, progress.joints()});
+      },
+      [&] { return events.size() == 3; });
   ASSERT_FALSE(events.empty());
   for (std::size_t e = 0; e < events.size(); ++e) {
     const Watched& now = events[e];

@@ -51,9 +51,7 @@ TEST_P(SameRun, InTheQuasiStaticLimitAsFarAsItGoes) {
     scene.solver.leave_out = false;
     std::vector<std::size_t> by_then;
     const Simulation all = simulate(scene, [&](const Progress& progress) {
-      if (progress.row + 1 > quick.curve.size()) return true;
-      by_then = test::broken_joints(progress.joints());
-      return true;
+      if (progress.row < quick.curve.size()) by_then = test::broken_joints(progress.joints());
     });
     EXPECT_LT(quick.curve.size(), all.curve.size());
     EXPECT_EQ(test::broken_joints(quick.joints), by_then);

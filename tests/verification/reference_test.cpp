@@ -105,7 +105,6 @@ TEST_P(QuasiStaticReference, BreaksTheSameTwoJointsFirst) {
         broken[j] = 1;
         breaks.push_back(row_of[j]);
       }
-    return true;
   });
   std::size_t same = 0;
   while (same < std::min(breaks.size(), events["row"].size()) &&

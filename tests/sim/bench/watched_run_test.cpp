@@ -64,7 +64,6 @@ TEST(WatchedRun, ShowsTheBreaksOfTheRunThatCountsWhereItIsDoneAgain) {
   simulate(scene, [&](const Progress& progress) {
     runs += progress.row <= last ? 1 : 0;
     last = progress.row;
-    return true;
   });
   ASSERT_GT(runs, 1);
   const WatchedRun run = watch(scene, {}, {});
@@ -103,7 +102,7 @@ TEST(WatchedRun, StopsAtTheTimeLimitAndWhenAskedTo) {
   const WatchedRun late = watch(test::dynamic_scene(), {.time_limit = 0.0}, {});
   EXPECT_TRUE(late.out_of_time);
   EXPECT_EQ(late.simulation.status, SimulationStatus::cancelled);
-  const WatchedRun stopped = watch(test::dynamic_scene(), {}, [] { return false; });
+  const WatchedRun stopped = watch(test::dynamic_scene(), {}, [] { return true; });
   EXPECT_FALSE(stopped.out_of_time);
   EXPECT_EQ(stopped.simulation.status, SimulationStatus::cancelled);
 }

@@ -105,6 +105,16 @@ TEST_P(EveryJointSolver, HoldsAllJointsUnderALittleStrain) {
   }
 }
 
+TEST_P(EveryJointSolver, StopsWhenAskedTo) {
+  JointStep step = stretch(0.01);
+  const long whole = solver->solve(step).iterations;
+  solver = std::get<0>(GetParam()).make(bodies);
+  step.stop_asked = [] { return true; };
+  const JointStepResult stopped = solver->solve(step);
+  EXPECT_FALSE(stopped.converged);
+  EXPECT_LT(stopped.iterations, whole);
+}
+
 TEST_P(EveryJointSolver, OpensAndSlidesWhatIsOverloaded) {
   const JointStep step = stretch(0.01);
   const JointStepResult result = solver->solve(step);

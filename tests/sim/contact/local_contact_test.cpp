@@ -83,6 +83,20 @@ TEST(LocalContact, StartedFromItsAnswerTakesOneSet) {
   EXPECT_EQ(again.y, first.y);
 }
 
+// On the first of its paths: a problem that none of the first sets solves.
+TEST(LocalContact, StopsWhenAskedTo) {
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    LocalContact problem = test::random_contact(12, 20.0, seed);
+    const States start(12, JointState::stick);
+    const int whole = solve_local_contact(problem, start).iterations;
+    problem.stop_asked = [] { return true; };
+    const auto stopped = solve_local_contact(problem, start);
+    EXPECT_LE(stopped.iterations, 5) << seed;
+    EXPECT_EQ(stopped.converged, whole <= 3) << seed;
+    EXPECT_EQ(stopped.y.size(), 24);
+  }
+}
+
 TEST(StateOf, LeavesAStateOnlyWhenItsConditionFails) {
   const JointLaw law{1.0, 0.5};
   const Local none(0.0, 0.0);

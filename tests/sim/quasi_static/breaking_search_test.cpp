@@ -14,8 +14,10 @@ namespace {
 
 // The fourth joint to break, and the strain at which it does.
 std::pair<std::size_t, double> fourth_break(const Scene& scene) {
-  const Simulation simulation =
-      simulate_quasi_static(scene, [](const Progress& now) { return now.point.broken_joints < 4; });
+  int broken = 0;
+  const Simulation simulation = simulate_quasi_static(
+      scene, [&](const Progress& now) { broken = now.point.broken_joints; },
+      [&] { return broken >= 4; });
   std::pair<std::size_t, double> last{0, 0.0};
   for (const std::size_t j : test::broken_joints(simulation.joints))
     if (const double at = simulation.joints[j].broken_at_strain; at > last.second) last = {j, at};

@@ -126,7 +126,6 @@ TEST(SwingingPieces, EndInTheLastRowWhereAnEventIsNotSolved) {
     const Simulation simulation = simulate(scene, [&](const Progress& progress) {
       last = progress.joints();
       strain = progress.point.strain;
-      return true;
     });
     if (simulation.status != SimulationStatus::not_converged || last.empty()) continue;
     ++unsolved;
@@ -269,7 +268,6 @@ TEST(SwingingPieces, AreWatchedLastAsTheyAreAnswered) {
       done_again += progress.row < row ? 1 : 0;
       row = progress.row;
       stress = progress.point.stress_right;
-      return true;
     });
     // Where it does not break, the row at the strain limit is nobody's break.
     const std::size_t breaks_end =
