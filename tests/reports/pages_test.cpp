@@ -1,9 +1,8 @@
+// Pages of tests and sections, and of several fits.
+#include "reports/pages.hpp"
+
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <limits>
-
-#include "reports/bench_pages.hpp"
 #include "tests/reports/sound_page.hpp"
 
 namespace havers::reports {
@@ -143,7 +142,7 @@ TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
   EXPECT_FALSE(contains(page, "in doubt"));
 
   report.sections[1].doubtful = true;
-  report.sections[1].mean_pore_diameter = std::numeric_limits<double>::quiet_NaN();
+  report.sections[1].mean_pore_diameter = test::nan;
   const std::string doubted = porosity_page(report);
   EXPECT_TRUE(contains(doubted, "verdict mixed"));
   EXPECT_TRUE(contains(doubted, "%, 1 of them in doubt: see the warnings."));
@@ -173,118 +172,6 @@ TEST(PorosityPage, SaysThatTwoReferencesDoNotCheckTheirLine) {
   EXPECT_TRUE(contains(porosity_page(report), "(two references: no check of their line)"));
   report.sections.front().density_residual = 14.0;
   EXPECT_TRUE(contains(porosity_page(report), "(references 14\u00a0kg&#x2F;m³ about their line)"));
-}
-
-sim::WorkPrecision work_precision_sample() {
-  const auto row = [](sim::BenchSetting setting, double error, int trusted) {
-    sim::BenchRow made{.setting = setting, .runs = 1, .trusted = trusted};
-    made.wall = made.cpu = {0.2, 0.1, 0.3};
-    made.errors = {.bonded_forces = {error, error, error, 1},
-                   .failure_strain = {error, 0.5 * error, 2.0 * error, 1}};
-    made.steps = made.iterations = {1'234'567.0, 0.0, 0.0};
-    return made;
-  };
-  const sim::BenchSetting reference{.step = 1e-11};
-  sim::WorkPrecision study{.complete = true, .reference = reference};
-  study.rows = {row(reference, 0.0, 1), row({.step = 2e-8}, 3e-6, 1),
-                row({.contact = sim::ContactMethod::gauss_seidel, .step = 2e-8}, 3e-5, 0)};
-  study.cheapest = {{.quantity = "failure strain", .target = 1e-3, .row = 1}};
-  study.omissions = sim::Omissions{{.step = 2e-8}, 1.3e-13, 1.7};
-  return study;
-}
-
-TEST(WorkPrecisionPage, WritesNumbersAsAReaderDoes) {
-  const sim::WorkPrecision study = work_precision_sample();
-  const sim::Scene scene;
-  const std::string page = work_precision_page(scene, study, {{"seed", "1"}});
-  expect_sound(page);
-  EXPECT_TRUE(contains(page, "Gauss-Seidel 10⁻⁸, h = 20 ns, 8 triangles a fibre"));
-  EXPECT_TRUE(contains(page, "h = 10 ps"));
-  EXPECT_TRUE(contains(page, "3.0 × 10⁻⁶ (1.5 × 10⁻⁶ to 6.0 × 10⁻⁶)"));
-  EXPECT_TRUE(contains(page, ">1234567<"));
-  EXPECT_TRUE(contains(page, "differs by 1.3 × 10⁻¹³ at most and takes 1.7 times the CPU time"));
-  EXPECT_TRUE(contains(page, "1 of 1 not to be trusted"));
-  EXPECT_FALSE(contains(page, "e-0"));
-}
-
-TEST(WorkPrecisionPage, ShowsFailureStrainsWhereNoForcesOfTheIntactSpecimenAre) {
-  sim::WorkPrecision study = work_precision_sample();
-  for (sim::BenchRow& row : study.rows)
-    row.errors.bonded_forces.median = std::numeric_limits<double>::quiet_NaN();
-  const std::string page = work_precision_page({}, study, {});
-  EXPECT_TRUE(contains(page, "Relative error of failure strain"));
-  EXPECT_FALSE(contains(page, "Relative error of joint forces"));
-}
-
-TEST(WorkPrecisionPage, SaysWhatForcesBeforeTheFirstBreakAreComparedWith) {
-  sim::WorkPrecision study = work_precision_sample();
-  const std::string_view words = "before the first break are relative to their closed form";
-  EXPECT_FALSE(contains(work_precision_page({}, study, {}), words));
-  study.closed_form = true;
-  EXPECT_TRUE(contains(work_precision_page({}, study, {}), words));
-}
-
-// Pieces of the thin lines in both panels, of rows with these settings.
-long pieces_of_lines(const std::vector<sim::BenchSetting>& settings) {
-  sim::WorkPrecision study = work_precision_sample();
-  const sim::BenchRow row = study.rows[1];
-  study.rows.resize(1);
-  for (const sim::BenchSetting& setting : settings) {
-    study.rows.push_back(row);
-    const double cpu = 0.1 * static_cast<double>(study.rows.size());
-    study.rows.back().setting = setting;
-    study.rows.back().cpu = {cpu, cpu, cpu};
-  }
-  const std::string svg = work_precision_svg(study), line = "stroke-width=\"0.80\"";
-  long pieces = 0;
-  for (std::size_t at = svg.find(line); at != std::string::npos; at = svg.find(line, at + 1))
-    pieces += std::ranges::count(svg.substr(at, svg.find("</g>", at) - at), 'L');
-  return pieces;
-}
-
-TEST(WorkPrecisionFigure, JoinsTheStepsOfOneSolverToleranceAndMesh) {
-  const auto sweeps = [](double tolerance, double step) {
-    return sim::BenchSetting{
-        .contact = sim::ContactMethod::gauss_seidel, .tolerance = tolerance, .step = step};
-  };
-  EXPECT_EQ(pieces_of_lines({{.step = 2e-8}, {.step = 5e-9}}), 2);
-  EXPECT_EQ(pieces_of_lines({{.step = 2e-8}, {}}), 0) << "a chosen step is none of them";
-  EXPECT_EQ(pieces_of_lines({sweeps(1e-4, 2e-8), sweeps(1e-4, 5e-9), sweeps(1e-6, 2e-8)}), 2);
-}
-
-TEST(WorkPrecisionPage, IsNotGreenWithoutAReference) {
-  sim::WorkPrecision study = work_precision_sample();
-  EXPECT_TRUE(contains(work_precision_page({}, study, {}), "verdict good"));
-  study.rows.front().trusted = 0;
-  EXPECT_TRUE(contains(work_precision_page({}, study, {}), "verdict bad"));
-}
-
-TEST(WorkPrecisionPage, IsNotGreenWhereNothingComesNearTheReference) {
-  sim::WorkPrecision study = work_precision_sample();
-  study.cheapest.front().row = {};
-  study.rows[1].errors.failure_strain = {0.0005, 0.0001, 0.0042, 1};
-  const std::string page = work_precision_page({}, study, {});
-  EXPECT_TRUE(contains(page, "verdict mixed"));
-  EXPECT_TRUE(
-      contains(page, "0.1 % for every seed; the nearest comes to 0.42 %: active set, h = 20 ns, "));
-}
-
-TEST(WorkPrecisionPage, NamesNoSettingForWhatTheReferenceIsNotKnownTo) {
-  sim::WorkPrecision study = work_precision_sample();
-  study.cheapest.front() = {.target = 1e-3, .reference_error = 0.0096};
-  EXPECT_TRUE(contains(work_precision_page({}, study, {}),
-                       "cannot be told: the reference may err by 0.0096"));
-}
-
-TEST(WorkPrecisionPage, SaysHowFarRunsCameThatWereStopped) {
-  sim::WorkPrecision study = work_precision_sample();
-  study.time_limit = 20.0;
-  sim::BenchRow& stopped = study.rows.back();
-  stopped.out_of_time = 1;
-  stopped.reached = {0.004, 0.0021, 0.004};  // of all seeds
-  stopped.stopped_at = {0.0021, 0.0021, 0.0021};
-  EXPECT_TRUE(contains(work_precision_page({}, study, {}),
-                       "1 of 1 stopped after 20.0\u00a0s, at a strain of 0.210\u00a0%"));
 }
 
 TEST(ComparisonPage, PutsFitsSideBySide) {

@@ -197,5 +197,19 @@ TEST(Calibrate, StopsInsideAnySimulationAndGoesOnFromTheStore) {
   }
 }
 
+// Two of three replicates fail: what the third says is no cost.
+TEST(Calibrate, HasNoCostWhereNoPointHasAnAnswer) {
+  auto simulator = test::ClosedForm{}.simulator();
+  simulator.run = [](const sim::Scene& scene) {
+    auto response = test::ClosedForm{}(scene);
+    response.failed = scene.joints.seed % 3 != 0;
+    return response;
+  };
+  const auto result = calibrate_with(simulator, test::synthetic_study({0.0, 90.0}));
+  EXPECT_EQ(result.status, CalibrationStatus::all_failed);
+  EXPECT_LT(result.failed_simulations, result.distinct_simulations);
+  EXPECT_FALSE(std::isfinite(result.cost));
+}
+
 }  // namespace
 }  // namespace havers::calib

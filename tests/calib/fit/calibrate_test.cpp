@@ -197,5 +197,39 @@ TEST(Calibrate, CountsTheErrorOfAScatterInHeldOutSpecimensToo) {
               0.01 * error_of(result.specimens.front()));
 }
 
+// Every chain comes to the same answer, and none simulates outside the bounds.
+TEST(Calibrate, AnyOptimisersFindTheSame) {
+  auto study = test::synthetic_study(test::three_orientations);
+  study.calibrate.bounds["ratio"] = {0.5, 2.2};
+  study.calibrate.threads = 1;
+  auto simulator = test::ClosedForm{}.simulator();
+  int outside = 0;
+  simulator.run = [&](const sim::Scene& scene) {
+    const double r = sim::ratio(scene.assembly, scene.joints);
+    outside += r < 0.5 - 1e-9 || r > 2.2 + 1e-9 ? 1 : 0;
+    return test::ClosedForm{}(scene);
+  };
+  const auto usual = calibrate_with(simulator, study);
+  for (const auto global :
+       {GlobalSearch::crs2, GlobalSearch::direct, GlobalSearch::mlsl, GlobalSearch::esch})
+    for (const auto local : {LocalSearch::sbplx, LocalSearch::cobyla}) {
+      study.calibrate.global = global;
+      study.calibrate.local = local;
+      const auto result = calibrate_with(simulator, study);
+      for (const auto& parameter : usual.parameters)
+        EXPECT_NEAR(test::parameter_of(result, parameter.name).value, parameter.value,
+                    0.2 * parameter.standard_error)
+            << parameter.name << " " << static_cast<int>(global) << static_cast<int>(local);
+    }
+  EXPECT_EQ(outside, 0);
+}
+
+TEST(Calibrate, DoesWithoutTheSmoothStage) {
+  auto study = test::synthetic_study(test::three_orientations);
+  study.calibrate.smooth = false;
+  const auto result = test::fit(study);
+  EXPECT_NEAR(test::parameter_of(result, "ratio").value, 2.0, 0.1);
+}
+
 }  // namespace
 }  // namespace havers::calib

@@ -210,40 +210,6 @@ TEST(Hindsight, StoppedTestsDoNotMakeStrengthsAlike) {
       }
 }
 
-// Every chain comes to the same answer, and none simulates outside the bounds.
-TEST(Hindsight, AnyOptimisersFindTheSame) {
-  auto study = test::synthetic_study(test::three_orientations);
-  study.calibrate.bounds["ratio"] = {0.5, 2.2};
-  study.calibrate.threads = 1;
-  auto simulator = test::ClosedForm{}.simulator();
-  int outside = 0;
-  simulator.run = [&](const sim::Scene& scene) {
-    const double r = sim::ratio(scene.assembly, scene.joints);
-    outside += r < 0.5 - 1e-9 || r > 2.2 + 1e-9 ? 1 : 0;
-    return test::ClosedForm{}(scene);
-  };
-  const auto usual = calibrate_with(simulator, study);
-  for (const auto global :
-       {GlobalSearch::crs2, GlobalSearch::direct, GlobalSearch::mlsl, GlobalSearch::esch})
-    for (const auto local : {LocalSearch::sbplx, LocalSearch::cobyla}) {
-      study.calibrate.global = global;
-      study.calibrate.local = local;
-      const auto result = calibrate_with(simulator, study);
-      for (const auto& parameter : usual.parameters)
-        EXPECT_NEAR(test::parameter_of(result, parameter.name).value, parameter.value,
-                    0.2 * parameter.standard_error)
-            << parameter.name << " " << static_cast<int>(global) << static_cast<int>(local);
-    }
-  EXPECT_EQ(outside, 0);
-}
-
-TEST(Hindsight, DoesWithoutTheSmoothStage) {
-  auto study = test::synthetic_study(test::three_orientations);
-  study.calibrate.smooth = false;
-  const auto result = test::fit(study);
-  EXPECT_NEAR(test::parameter_of(result, "ratio").value, 2.0, 0.1);
-}
-
 // E = E₀ (1−p)^m over specimens whose porosity differs.
 TEST(Hindsight, FitsTheLawOfModulusAndPorosity) {
   auto study = test::synthetic_study({0.0, 0.0, 0.0, 0.0, 0.0});
@@ -281,20 +247,6 @@ TEST(LeftOut, SaysWhyItRanFewerSimulationsThanItAskedFor) {
   EXPECT_THAT(why(simulator), testing::HasSubstr("in the quasi-static limit"));
   simulator.quasi_static = [](const sim::Scene&) { return false; };
   EXPECT_EQ(why(simulator), "asked for before");
-}
-
-// Two of three replicates fail: what the third says is no cost.
-TEST(Cost, IsNoneWhereNoPointHasAnAnswer) {
-  auto simulator = test::ClosedForm{}.simulator();
-  simulator.run = [](const sim::Scene& scene) {
-    auto response = test::ClosedForm{}(scene);
-    response.failed = scene.joints.seed % 3 != 0;
-    return response;
-  };
-  const auto result = calibrate_with(simulator, test::synthetic_study({0.0, 90.0}));
-  EXPECT_EQ(result.status, CalibrationStatus::all_failed);
-  EXPECT_LT(result.failed_simulations, result.distinct_simulations);
-  EXPECT_FALSE(std::isfinite(result.cost));
 }
 
 }  // namespace

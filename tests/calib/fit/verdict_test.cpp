@@ -1,13 +1,10 @@
 // Every check of the verdict says yes and no where it should, in words.
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 
 #include "calib/fit/answer.hpp"
-#include "calib/fit/answer_checks.hpp"
 #include "calib/fit/calibrate.hpp"
-#include "calib/fit/model_checks.hpp"
 #include "tests/support/studies.hpp"
 
 namespace havers::calib {
@@ -192,82 +189,6 @@ TEST(Verdict, RejectsStrengthsThatDifferBetweenOrientationsAndNoneOfATrueModel) 
   EXPECT_GE(of_false, 8);
 }
 
-TEST(Verdict, SaysWhatIsLeftOut) {
-  const auto check = check_of(test::fit(test::synthetic_study({0.0})), "identifiable");
-  EXPECT_EQ(check.outcome, Outcome::warn);
-  EXPECT_TRUE(says(check, "ratio is left out"));
-  EXPECT_TRUE(says(check, ", the value of [model]. What is left out")) << check.text;
-}
-
-// One parameter, of which the study's value cannot be, and which its own noise hides.
-TEST(Verdict, SaysWhereAParameterStaysThatIsLeftOut) {
-  Study study = test::synthetic_study({0.0});
-  study.calibrate.parameters = {"scatter"};
-  const FitProblem problem{.study = study, .unknowns = unknowns_of(study)};
-  Answer answer;
-  answer.left = {{0, "practically unidentifiable; kept where the fit found it"}};
-  CalibrationResult result;
-  const auto stays_at = [&](double scatter) {
-    answer.best.point = Point::Constant(1, scatter);
-    answer.best.failed = false;
-    result.verdict = verdict_of(problem, answer, result);
-    return check_of(result, "identifiable").text;
-  };
-  const std::string rest = " What is left out has no interval; ";
-  EXPECT_THAT(stays_at(0.01), testing::HasSubstr("found it. It stays at 0.01, a bound." + rest));
-  EXPECT_THAT(stays_at(0.5), testing::HasSubstr("found it. It stays at 0.5." + rest));
-  EXPECT_THAT(stays_at(problem.unknowns[0].start), testing::HasSubstr(", the value of [model]."));
-}
-
-TEST(Verdict, TicksNothingOfAFitThatHasNoParameter) {
-  Study study = test::synthetic_study({0.0});
-  study.calibrate.parameters = {"scatter"};
-  const FitProblem problem{.study = study, .unknowns = unknowns_of(study)};
-  Answer answer{.status = CalibrationStatus::nothing_to_fit};
-  answer.left = {{0, "nothing changes with it"}};
-  answer.best.point = Point::Constant(1, 0.01);
-  answer.best.failed = false;
-  CalibrationResult result;
-  result.verdict = verdict_of(problem, answer, result);
-  for (const Check& check : result.verdict)
-    if (check.outcome == Outcome::pass && check.check != "simulations") {
-      EXPECT_FALSE(check.done) << check.check;
-      EXPECT_TRUE(says(check, "Not checked: ")) << check.text;
-    }
-  EXPECT_EQ(check_of(result, "inside bounds").text, "Not checked: no parameter is fitted.");
-  const Check left = check_of(result, "identifiable");
-  EXPECT_EQ(left.outcome, Outcome::warn);
-  EXPECT_FALSE(says(left, "the others")) << left.text;
-}
-
-TEST(Verdict, WritesPercentagesInPlainDigits) {
-  EXPECT_EQ(percent_text(0.026), "2.6 %");
-  EXPECT_EQ(percent_text(0.996), "100 %");
-  EXPECT_EQ(percent_text(2.8), "280 %");
-}
-
-TEST(Verdict, SendsNobodyToTheBoundsWhereTheTimeStepIsTheReason) {
-  const Study study = test::synthetic_study({0.0});
-  const FitProblem problem{.study = study, .unknowns = unknowns_of(study)};
-  Answer answer;
-  answer.best.point = Point::Constant(static_cast<Eigen::Index>(problem.unknowns.size()), 0.5);
-  CalibrationResult result;
-  result.failed_simulations = 5;
-  result.distinct_simulations = 9;
-  const auto advice = [&](const std::string& because) {
-    result.most_failed_because = because;
-    return verdict_of(problem, answer, result).back().text;
-  };
-  sim::Simulation run;
-  run.status = sim::SimulationStatus::broken;
-  run.step_error->strength = 0.5;
-  EXPECT_THAT(advice(run.why_not_trusted()), testing::EndsWith("quasi-static regime, may help."));
-  EXPECT_THAT(advice(explain(sim::SimulationStatus::step_limit)),
-              testing::EndsWith("takes fewer."));
-  EXPECT_THAT(advice(explain(sim::SimulationStatus::not_converged)),
-              testing::EndsWith("Narrow calibrate.bounds to where the model can be simulated."));
-}
-
 TEST(Verdict, SaysThatSimulationsDoNotBreak) {
   auto study = test::synthetic_study(test::three_orientations);
   study.model.loading.max_strain = 1e-4;
@@ -285,16 +206,6 @@ TEST(Verdict, CountsFailedSimulations) {
   };
   const auto result = calibrate_with(simulator, test::synthetic_study(test::three_orientations));
   EXPECT_EQ(check_of(result, "simulations").outcome, Outcome::fail);
-}
-
-TEST(CalibrationStatus, HasASentenceEach) {
-  std::set<std::string> sentences;
-  for (const auto status : {CalibrationStatus::converged, CalibrationStatus::budget_spent,
-                            CalibrationStatus::all_failed, CalibrationStatus::nothing_to_fit,
-                            CalibrationStatus::cancelled})
-    sentences.insert(explain(status));
-  EXPECT_EQ(sentences.size(), 5U);
-  EXPECT_EQ(to_string(Outcome::warn), "warn");
 }
 
 }  // namespace
