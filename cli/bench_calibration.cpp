@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "calib/count.hpp"
 #include "cli/bench.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output_folder.hpp"
@@ -46,7 +47,8 @@ std::string percent(const calib::Rate& rate) {
 
 void print_chains(const calib::ChainBenchmark& benchmark) {
   if (benchmark.summaries.empty()) {
-    fmt::print("stopped after {} fits: no chain is summed up\n", benchmark.rows.size());
+    fmt::print("stopped after {}: no chain is summed up\n",
+               calib::count(benchmark.rows.size(), "fit"));
     return;
   }
   fmt::print("{:<36}{:>20}{:>22}{:>24}{:>24}\n", "median (10 to 90 %)", "error [%]", "simulations",

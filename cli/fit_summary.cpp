@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "calib/count.hpp"
 #include "cli/command.hpp"
 
 namespace havers::cli {
@@ -47,7 +48,7 @@ std::string reservations_of(const calib::CalibrationResult& result) {
   const auto warned =
       std::ranges::count(result.verdict, calib::Outcome::warn, &calib::Check::outcome);
   if (!result.trusted() || warned == 0) return "";
-  return fmt::format(", with {} reservation{}", warned, warned == 1 ? "" : "s");
+  return ", with " + calib::count(warned, "reservation");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "calib/count.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output_folder.hpp"
@@ -68,14 +69,15 @@ void write_results(const OutputFolder& output, const io::SceneFile& file,
 
 // No time without its error. The runs of longer steps were timed too.
 std::string steps_text(const sim::Simulation& run) {
-  if (run.regime == sim::Regime::quasi_static) return fmt::format("{} events", run.steps);
+  if (run.regime == sim::Regime::quasi_static) return calib::count(run.steps, "event");
   const sim::StepError unknown{.failure_strain = NAN, .strength = NAN};
   const sim::StepError error = run.step_error.value_or(unknown);
-  return fmt::format(
-      "{} steps{}, {}", run.steps, run.step_error ? " after runs of longer ones" : "",
-      std::isnan(error.failure_strain) ? "whose error is not known"
-                                       : fmt::format("step error {:.1e} (strength {:.1e})",
-                                                     error.failure_strain, error.strength));
+  return fmt::format("{}{}, {}", calib::count(run.steps, "step"),
+                     run.step_error ? " after runs of longer ones" : "",
+                     std::isnan(error.failure_strain)
+                         ? "whose error is not known"
+                         : fmt::format("step error {:.1e} (strength {:.1e})", error.failure_strain,
+                                       error.strength));
 }
 
 std::string headline(const sim::Simulation& run) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "calib/count.hpp"
 #include "calib/sweep/measure_words.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
@@ -156,15 +157,14 @@ std::string found(const calib::Finding& finding) {
 
 void print_summary(const std::vector<Done>& all, double wall_seconds) {
   fmt::print(
-      "{}: {} runs, {} failed, {} did not break, in {:.3g} s\n",
+      "{}: {}, {} failed, {} did not break, in {:.3g} s\n",
       trusted(all) ? "to be trusted" : "NOT to be trusted: too many runs failed or did not break",
-      runs_of(all), sum_of(all, &calib::PointSummary::failed),
+      calib::count(runs_of(all), "run"), sum_of(all, &calib::PointSummary::failed),
       sum_of(all, &calib::PointSummary::unbroken), wall_seconds);
   for (const Done& one : all)
     for (const calib::Finding& finding : one.result.findings)
-      fmt::print("{:<6}{:<12}{:<11}{}; {} runs  {}\n", finding.id,
-                 calib::to_string(finding.outcome), finding.at, found(finding), finding.runs,
-                 finding.claim);
+      fmt::print("{:<6}{:<12}{:<11}{}; {}  {}\n", finding.id, calib::to_string(finding.outcome),
+                 finding.at, found(finding), calib::count(finding.runs, "run"), finding.claim);
 }
 
 int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {

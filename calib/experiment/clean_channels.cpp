@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "calib/count.hpp"
 #include "calib/experiment/channel_noise.hpp"
 
 namespace havers::calib {
@@ -70,8 +71,8 @@ void clean_channels(RawTest& test, const ReductionOptions& options) {
     if (const std::size_t rows = spread_repeated_times(test.time); rows > 0)
       test.corrections.push_back(
           {"repeated times",
-           fmt::format("{} the time of the row before: spread evenly up to the next",
-                       rows == 1 ? "1 row has" : fmt::format("{} rows have", rows))});
+           fmt::format("{} {} the time of the row before: spread evenly up to the next",
+                       count(rows, "row"), rows == 1 ? "has" : "have")});
   if (!options.remove_spikes) return;
   struct Named {
     const char* name;

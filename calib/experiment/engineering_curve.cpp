@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "calib/count.hpp"
+
 namespace havers::calib {
 namespace {
 
@@ -115,8 +117,8 @@ EngineeringCurve engineering_curve(const RawTest& raw, double machine_compliance
   take_strain(raw, machine_compliance, curve);
   if (!curve.problems.empty()) return curve;
   if (raw.rows() < fewest_readings)
-    curve.problems.push_back(fmt::format(
-        "{} too few", raw.rows() == 1 ? "1 row is" : fmt::format("{} rows are", raw.rows())));
+    curve.problems.push_back(
+        fmt::format("{} {} too few", count(raw.rows(), "row"), raw.rows() == 1 ? "is" : "are"));
   else if (!all_finite(curve.stress) || !all_finite(curve.strain) || !all_finite(raw.time))
     curve.problems.emplace_back("a number is not finite");
   else if (is_compressed(curve.stress))

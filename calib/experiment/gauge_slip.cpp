@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/count.hpp"
 #include "calib/experiment/channel_noise.hpp"
 #include "calib/experiment/robust_line.hpp"
 
@@ -163,8 +164,8 @@ SlipRepair mend_slips(std::vector<double>& strain, std::span<const double> stres
     continue_with_crosshead(record, extension, row, "stood still", repair);
   if (repair.slips > 0)
     repair.warnings.push_back(
-        fmt::format("the gauge slipped ({} {}): strains after that are uncertain by as much",
-                    repair.slips, repair.slips == 1 ? "jump" : "jumps"));
+        fmt::format("the gauge slipped ({}): strains after that are uncertain by as much",
+                    count(repair.slips, "jump")));
   return repair;
 }
 

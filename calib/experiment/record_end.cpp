@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "calib/count.hpp"
 #include "calib/experiment/channel_noise.hpp"
 
 namespace havers::calib {
@@ -110,8 +111,8 @@ RecordEnd parted_at(const Fall& fall, std::size_t row) {
   const double strength = std::ranges::max(fall.stress.first(row));
   if (const std::size_t again = fall.rows_again(row, strength); again > 0)
     end.warnings.push_back(fmt::format(
-        "after the break the stress is above {:.2g} of the strength again in {} {}: not used",
-        fall.part, again, again == 1 ? "row" : "rows"));
+        "after the break the stress is above {:.2g} of the strength again in {}: not used",
+        fall.part, count(again, "row")));
   if (std::string offset = offset_after(fall, row, strength); !offset.empty())
     end.warnings.push_back(std::move(offset));
   return end;

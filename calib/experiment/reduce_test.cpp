@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "calib/count.hpp"
 #include "calib/experiment/channel_noise.hpp"
 #include "calib/experiment/clean_channels.hpp"
 #include "calib/experiment/engineering_curve.hpp"
@@ -114,7 +115,7 @@ void remove_toe(MeasuredTest& test, const Line& line) {
       std::ranges::find_if(test.strain, [&](double strain) { return strain >= -rounding; });
   if (const auto slack = static_cast<std::size_t>(origin - test.strain.begin()); slack > 0) {
     drop_first(test, slack);
-    detail += fmt::format("; {} {} before it dropped", slack, slack == 1 ? "row" : "rows");
+    detail += fmt::format("; {} before it dropped", count(slack, "row"));
   }
   test.corrections.push_back({"toe", detail});
 }

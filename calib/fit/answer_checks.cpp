@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/count.hpp"
 #include "calib/fit/model_checks.hpp"
 #include "calib/fit/plain_law.hpp"
 #include "calib/fit/specimen_effect.hpp"
@@ -103,10 +104,11 @@ Check check_confirmation(const CalibrationResult& result) {
   if (compared == 0)
     return {name, Outcome::warn, "Every simulation in time failed: the limit stands unconfirmed."};
   const std::string text = fmt::format(
-      "{} replicates step by step in time differ from the quasi-static limit by at most {} "
+      "{} step by step in time {} from the quasi-static limit by at most {} "
       "in strength and {} in failure strain; single waves of the break, too short for a "
       "testing machine, rise {} higher",
-      compared, percent_text(strength), percent_text(strain), percent_text(wave));
+      count(compared, "replicate"), compared == 1 ? "differs" : "differ", percent_text(strength),
+      percent_text(strain), percent_text(wave));
   if (std::max(strength, strain) <= close) return {name, Outcome::pass, text + "."};
   return {name, Outcome::warn, text + ": inertia matters; fit with solver.regime = \"dynamic\"."};
 }
@@ -217,9 +219,8 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
   if (!std::isfinite(law.criterion) || !std::isfinite(law.model_criterion))
     return {
         name, Outcome::pass,
-        fmt::format(
-            "Not checked: {} strengths are too few to compare the model with a law without fibres.",
-            specimens.size()),
+        fmt::format("Not checked: {} {} too few to compare the model with a law without fibres.",
+                    count(specimens.size(), "strength"), specimens.size() == 1 ? "is" : "are"),
         false};
   const double better = law.criterion - law.model_criterion;
   const std::string numbers = fmt::format(

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/count.hpp"
 #include "calib/fit/answer.hpp"
 #include "calib/fit/confirmation.hpp"
 #include "calib/fit/next_test.hpp"
@@ -43,8 +44,8 @@ std::string product(const FitProblem& problem, const Answer& answer,
 // (F20) Singular vectors of the Jacobian, scaled so that the largest exponent is 1.
 std::vector<std::string> directions_of(const FitProblem& problem, const Answer& answer) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(answer.slopes.jacobian, Eigen::ComputeThinV);
-  std::vector<std::string> sentences{fmt::format("The specimens determine {} of {} directions.",
-                                                 svd.rank(), svd.singularValues().size())};
+  std::vector<std::string> sentences{fmt::format("The specimens determine {} of {}.", svd.rank(),
+                                                 count(svd.singularValues().size(), "direction"))};
   for (Index i = 0; i < svd.singularValues().size(); ++i) {
     Index largest = 0;
     svd.matrixV().col(i).cwiseAbs().maxCoeff(&largest);

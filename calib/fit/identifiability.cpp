@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/count.hpp"
+
 namespace havers::calib {
 namespace {
 
@@ -52,24 +54,26 @@ bool informs(const Unknown& unknown, const Column& column) {
 
 std::string no_effect(const FitProblem& problem, const Unknown& unknown, const Column& column) {
   const bool logarithmic = unknown.info->scale == Scale::logarithmic;
+  const std::size_t n = problem.fitted.size();
+  const std::string specimens =
+      n == 1 ? "the fitted specimen" : fmt::format("the {}", count(n, "fitted specimen"));
   const Eigen::VectorXd& slope = column.rest;
   if (slope.cwiseAbs().maxCoeff() < 1e-3)
-    return fmt::format(
-        "structurally unidentifiable: nothing that the {} fitted specimens show changes with it",
-        problem.fitted.size());
+    return fmt::format("structurally unidentifiable: nothing that {} {} changes with it", specimens,
+                       n == 1 ? "shows" : "show");
   const char* const change = logarithmic ? "doubling it" : "changing it by 0.1";
   const double most = slope.cwiseAbs().maxCoeff() * (logarithmic ? std::log(2.0) : 0.1);
   // A large effect that chance could have made is no small one.
   if (!seen(column) && most >= 1.0)
     return fmt::format(
-        "practically unidentifiable: what {} does to the {} fitted specimens, up to {:.2g} "
+        "practically unidentifiable: what {} does to {}, up to {:.2g} "
         "standard deviations, is lost in the chance of the replicates; more of them "
         "(calibrate.options.replicates) may tell it",
-        change, problem.fitted.size(), most);
+        change, specimens, most);
   return fmt::format(
-      "practically unidentifiable: {} moves no modulus, strength or failure strain of the {} "
-      "fitted specimens by more than {:.2g} of its standard deviation",
-      change, problem.fitted.size(), most);
+      "practically unidentifiable: {} moves no modulus, strength or failure strain of {} "
+      "by more than {:.2g} of its standard deviation",
+      change, specimens, most);
 }
 
 // A combination in words: how the partner has to move to undo what the unknown does.

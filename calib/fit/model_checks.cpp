@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "calib/count.hpp"
 #include "calib/fit/specimen_effect.hpp"
 
 namespace havers::calib {
@@ -223,10 +224,9 @@ Check check_validation(const CalibrationResult& result, const std::vector<std::s
     return {name, Outcome::pass, "Not checked: none was kept for validation (use = \"validate\").",
             false};
   if (off.empty())
-    return {
-        name, Outcome::pass,
-        fmt::format("{} held-out specimens lie within three standard deviations of the prediction.",
-                    held_out)};
+    return {name, Outcome::pass,
+            fmt::format("{} {} within three standard deviations of the prediction.",
+                        count(held_out, "held-out specimen"), held_out == 1 ? "lies" : "lie")};
   // (F24) What is left out may explain it, and excuses nothing: the model that is handed over has
   // the value with which it does not predict.
   const auto why = left_out.empty()
@@ -246,9 +246,9 @@ Check check_censored(const FitProblem& problem, const Answer& answer) {
   if (censored == 0)
     return {"simulations break", Outcome::pass, "Every specimen's simulations break."};
   return {"simulations break", Outcome::fail,
-          fmt::format(
-              "{} of {} specimens do not break in the simulations: raise model.loading.max_strain.",
-              censored, problem.fitted.size())};
+          fmt::format("{} of {} {} not break in the simulations: raise model.loading.max_strain.",
+                      censored, count(problem.fitted.size(), "specimen"),
+                      censored == 1 ? "does" : "do")};
 }
 
 }  // namespace havers::calib

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "calib/count.hpp"
 #include "calib/fit/specimen_effect.hpp"
 
 namespace havers::calib {
@@ -68,8 +69,8 @@ void bootstrap(const std::vector<Normal>& normals, const Normal& all, std::uint6
                Resampling& result) {
   const std::size_t n = normals.size();
   if (n < fewest_specimens) {
-    result.missing =
-        fmt::format("{} specimens are too few to draw from, {} are the least", n, fewest_specimens);
+    result.missing = fmt::format("{} {} too few to draw from, {} are the least",
+                                 count(n, "specimen"), n == 1 ? "is" : "are", fewest_specimens);
     return;
   }
   std::vector<std::vector<double>> shifts(static_cast<std::size_t>(all.vector.size()));

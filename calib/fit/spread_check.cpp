@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "calib/count.hpp"
 #include "calib/fit/model_checks.hpp"
 #include "calib/fit/specimen_effect.hpp"
 
@@ -42,8 +43,8 @@ std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer
   const double freedom = terms - static_cast<double>(answer.active.size());
   if (freedom < 1.0) return "";
   const double chance = gsl_cdf_chisq_Q(sum, freedom);
-  return fmt::format(" Were they alike, χ² would be {:.3g} on {:g} degrees of freedom ({}){}{}.",
-                     sum, freedom, chance_text(chance),
+  return fmt::format(" Were they alike, χ² would be {:.3g} on {} of freedom ({}){}{}.", sum,
+                     count(static_cast<long>(freedom), "degree"), chance_text(chance),
                      chance < significance && !answer.active.empty()
                          ? ": they are not, which widens the intervals and rejects nothing"
                          : "",

@@ -71,9 +71,9 @@ Check check_starts(const FitProblem& problem, const Answer& answer) {
   }
   if (elsewhere > 0)
     return {"starts agree", Outcome::fail,
-            fmt::format("{} of {} starts end at another point that fits as well: the answer is not "
+            fmt::format("{} of {} starts {} at another point that fits as well: the answer is not "
                         "unique. Narrow calibrate.bounds or add specimens.",
-                        elsewhere, ends.size())};
+                        elsewhere, ends.size(), elsewhere == 1 ? "ends" : "end")};
   if (same_cost < 2)
     return {"starts agree", Outcome::warn,
             fmt::format(

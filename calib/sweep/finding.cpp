@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "calib/count.hpp"
 #include "calib/sweep/comparison.hpp"
 #include "calib/sweep/measure_words.hpp"
 
@@ -153,12 +154,12 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
     return run.failed && std::ranges::find(group.points, run.point) != group.points.end();
   });
   if (failed > 0)
-    finding.ground += fmt::format("; {} run{} failed and {} not count", failed,
-                                  failed == 1 ? "" : "s", failed == 1 ? "does" : "do");
+    finding.ground += fmt::format("; {} failed and {} not count", count(failed, "run"),
+                                  failed == 1 ? "does" : "do");
   const long unbroken = unbroken_of(evidence.runs, group.points, request.response);
   if (unbroken > 0)
-    finding.ground += fmt::format("; {} {} not break: raise loading.max_strain", unbroken,
-                                  unbroken == 1 ? "run did" : "runs did");
+    finding.ground +=
+        fmt::format("; {} did not break: raise loading.max_strain", count(unbroken, "run"));
   const std::vector<Comparison> comparisons =
       unbroken > 0 ? std::vector<Comparison>{} : comparisons_of(evidence, group);
   finding.comparisons = static_cast<int>(comparisons.size());

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "calib/count.hpp"
 #include "io/images/density.hpp"
 #include "io/images/grey_image.hpp"
 #include "io/images/image_library.hpp"
@@ -141,14 +142,15 @@ void warn_of_side(const PoreMap& map, bool like_background, io::Pores known, War
 
 void warn_of_objects(const PoreMap& map, Warnings& warnings) {
   if (map.specks > 0)
-    warnings.push_back(
-        fmt::format("{} objects below {} pixels were left out as too small to tell from noise",
-                    map.specks, smallest_pore));
+    warnings.push_back(fmt::format("{} below {} pixels {} left out as too small to tell from noise",
+                                   calib::count(map.specks, "object"), smallest_pore,
+                                   map.specks == 1 ? "was" : "were"));
   if (map.crack_count > 0)
-    warnings.push_back(
-        fmt::format("{} long and narrow objects, {:.2f} % of the bone, were taken for cracks and "
-                    "do not count as pores",
-                    map.crack_count, 100.0 * map.crack_area / cv::countNonZero(map.bone)));
+    warnings.push_back(fmt::format(
+        "{}, {:.2f} % of the bone, {}", calib::count(map.crack_count, "long and narrow object"),
+        100.0 * map.crack_area / cv::countNonZero(map.bone),
+        map.crack_count == 1 ? "was taken for a crack and does not count as a pore"
+                             : "were taken for cracks and do not count as pores"));
 }
 
 void warn_of_size(const PoreMap& map, const calib::SectionPorosity& section, Warnings& warnings) {

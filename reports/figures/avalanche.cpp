@@ -73,7 +73,7 @@ std::string legend(const std::vector<Broken>& broken, double y) {
                      R"({}</text>)",
                      y + 10.0, quantity(broken.front().strain / in::percent, "%"),
                      quantity(broken.back().strain / in::percent, "%"),
-                     count(static_cast<long>(broken.size()), "broken joint"));
+                     count(broken.size(), "broken joint"));
 }
 
 }  // namespace

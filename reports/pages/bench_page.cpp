@@ -106,14 +106,13 @@ std::string work_precision_page(const sim::Scene& scene, const sim::WorkPrecisio
       "havers bench: error against run time", "bench",
       {{"sentence", text(typeset(summary(study)))},
        {"detail",
-        text(fmt::format("{} × {} fibres, {}. Errors are relative to {}, of the same seed: {}.{}",
-                         scene.assembly.fibres, scene.assembly.layers,
-                         count(static_cast<long>(study.seeds.size()), "seed"),
-                         study.reference_ground, setting_text(study.reference),
-                         study.closed_form
-                             ? " Those of joint forces before the first break are relative to "
-                               "their closed form."
-                             : ""))},
+        text(fmt::format(
+            "{} × {} fibres, {}. Errors are relative to {}, of the same seed: {}.{}",
+            scene.assembly.fibres, scene.assembly.layers, count(study.seeds.size(), "seed"),
+            study.reference_ground, setting_text(study.reference),
+            study.closed_form ? " Those of joint forces before the first break are relative to "
+                                "their closed form."
+                              : ""))},
        {"grade", text(grade_of(study))},
        {"figure", text(work_precision_svg(study))},
        {"strain", text(quantity(study.bonded_strain / in::percent, "%", 3))},

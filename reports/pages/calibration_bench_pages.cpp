@@ -98,8 +98,9 @@ std::string coverage_page(const calib::Coverage& coverage, const Provenance& pro
       {{"grade", text(!coverage.holds()                      ? "bad"
                       : coverage.complete && !widths.empty() ? "good"
                                                              : "mixed")},
-       {"sentence", text(fmt::format("{}{} % of {} intervals hold the truth; 95 % should.", stopped,
-                                     number(all.part / in::percent, 3), informed))},
+       {"sentence", text(fmt::format("{}{} % of {} {} the truth; 95 % should.", stopped,
+                                     number(all.part / in::percent, 3), count(informed, "interval"),
+                                     informed == 1 ? "holds" : "hold"))},
        {"detail", text(what_shares_say(widths))},
        {"rows", mstch::node{rows}}},
       provenance);

@@ -165,8 +165,7 @@ std::string comparison_page(const std::vector<FitReport>& reports) {
     for (const auto& [name, value] : fit.provenance)
       provenance.emplace_back(fmt::format("{}: {}", fit.study.name, name), value);
   }
-  return render_page(fmt::format("havers report: {} side by side",
-                                 count(static_cast<long>(reports.size()), "fit")),
+  return render_page(fmt::format("havers report: {} side by side", count(reports.size(), "fit")),
                      "comparison",
                      {{"fits", mstch::node{fits}},
                       {"intervals", text(draw(intervals_figure(reports, "intervals")))},

@@ -119,9 +119,8 @@ std::string clocks_svg(const calib::ClockFit& clocks, const std::string& id) {
 std::string import_page(const std::vector<ImportReport>& reports, const Provenance& provenance) {
   mstch::array tests;
   for (std::size_t i = 0; i < reports.size(); ++i) tests.emplace_back(content_of(reports[i], i));
-  return render_page(
-      fmt::format("havers import: {}", count(static_cast<long>(reports.size()), "test")), "import",
-      {{"tests", mstch::node{tests}}}, provenance);
+  return render_page(fmt::format("havers import: {}", count(reports.size(), "test")), "import",
+                     {{"tests", mstch::node{tests}}}, provenance);
 }
 
 }  // namespace havers::reports

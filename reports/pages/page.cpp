@@ -79,7 +79,7 @@ std::string fit_sentence(const calib::CalibrationResult& result) {
   for (const calib::Check& check : result.verdict)
     if (check.outcome == calib::Outcome::fail) names += (names.empty() ? "" : ", ") + check.check;
   return fmt::format("The fit cannot be trusted: {} of {} failed ({}).", failed,
-                     count(static_cast<long>(result.verdict.size()), "check"), names);
+                     count(result.verdict.size(), "check"), names);
 }
 
 std::string status_sentence(const calib::CalibrationResult& result) {
@@ -140,16 +140,15 @@ std::string render_page(const std::string& title, const std::string& name, mstch
     else
       facts.emplace_back(fact, value);
   const std::string body = mstch::render(templates().at(name), content, templates());
-  return mstch::render(
-      templates().at("page"),
-      mstch::map{{"title", text(title)},
-                 {"body", text(body)},
-                 {"has_provenance", mstch::node{!provenance.empty()}},
-                 {"provenance", mstch::node{fact_list(facts)}},
-                 {"has_digests", mstch::node{!digests.empty()}},
-                 {"digest_count", text(count(static_cast<long>(digests.size()), "input file"))},
-                 {"digests", mstch::node{fact_list(digests)}}},
-      templates());
+  return mstch::render(templates().at("page"),
+                       mstch::map{{"title", text(title)},
+                                  {"body", text(body)},
+                                  {"has_provenance", mstch::node{!provenance.empty()}},
+                                  {"provenance", mstch::node{fact_list(facts)}},
+                                  {"has_digests", mstch::node{!digests.empty()}},
+                                  {"digest_count", text(count(digests.size(), "input file"))},
+                                  {"digests", mstch::node{fact_list(digests)}}},
+                       templates());
 }
 
 }  // namespace havers::reports

@@ -142,15 +142,13 @@ std::string porosity_page(const PorosityReport& report) {
     rows.emplace_back(row(base_name(s.file), s, report.scatter[i]));
     details.emplace_back(detail(report, i));
   }
-  return render_page(
-      fmt::format("havers porosity: {}", count(static_cast<long>(rows.size()), "section")),
-      "porosity",
-      {{"grade", text(in_doubt(report) == 0 ? "good" : "mixed")},
-       {"sentence", text(sentence_of(report))},
-       {"detail", text(detail_of(report))},
-       {"rows", mstch::node{rows}},
-       {"sections", mstch::node{details}}},
-      report.provenance);
+  return render_page(fmt::format("havers porosity: {}", count(rows.size(), "section")), "porosity",
+                     {{"grade", text(in_doubt(report) == 0 ? "good" : "mixed")},
+                      {"sentence", text(sentence_of(report))},
+                      {"detail", text(detail_of(report))},
+                      {"rows", mstch::node{rows}},
+                      {"sections", mstch::node{details}}},
+                     report.provenance);
 }
 
 }  // namespace havers::reports

@@ -107,7 +107,7 @@ std::string findings_sentence(const std::vector<FindingRow>& rows) {
     ++counts.at(kind);
   }
   std::string sentence =
-      fmt::format("Of {}{}: ", count(static_cast<long>(outcomes.size()), "finding"),
+      fmt::format("Of {}{}: ", count(outcomes.size(), "finding"),
                   rows.size() == outcomes.size() ? "" : fmt::format(" in {} rows", rows.size()));
   const std::array<std::string_view, 4> say{"agree", "disagree", "are undecided", "differ by row"},
       of_one{"agrees", "disagrees", "is undecided", "differs by row"};

@@ -153,8 +153,7 @@ std::string about(const SweepReport& report) {
       report.result.summaries, [](const calib::PointSummary& s) { return s.unbroken > 0; });
   return fmt::format(
       "{} {}, {} each.{}{}", typeset(report.sweep.text),
-      count(static_cast<long>(report.result.points.size()), "point"),
-      count(report.sweep.plan.seeds, "run"),
+      count(report.result.points.size(), "point"), count(report.sweep.plan.seeds, "run"),
       why.empty() ? "" : fmt::format(" Runs that failed, most often so: {}.", typeset(why)),
       open ? " Of points with runs that did not break the modulus alone is drawn." : "");
 }

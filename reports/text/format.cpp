@@ -131,10 +131,6 @@ std::string chance(double p) {
   return p < 1e-6 ? "p < 10⁻⁶" : fmt::format("p = {}", number(p, 2));
 }
 
-std::string count(long n, std::string_view noun) {
-  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
-}
-
 Prefix prefix_for(double magnitude) {
   constexpr std::array<Prefix, 7> prefixes{Prefix{1e6, "M"},  Prefix{1e3, "k"},  Prefix{1.0, ""},
                                            Prefix{1e-3, "m"}, Prefix{1e-6, "µ"}, Prefix{1e-9, "n"},

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "calib/count.hpp"
+
 namespace havers::reports {
 
 /// What a value in SI units is divided by to be shown in the unit.
@@ -45,8 +47,7 @@ std::string with_interval(double value, double low, double high, std::string_vie
 /// "p = 0.013"; no test is good enough for less than 10⁻⁶.
 std::string chance(double p);
 
-/// "1 joint", "2 joints".
-std::string count(long n, std::string_view noun);
+using calib::count;
 
 /// The decimal prefix that brings `magnitude` between 1 and 1000.
 struct Prefix {

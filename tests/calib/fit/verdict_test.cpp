@@ -143,6 +143,9 @@ TEST(Verdict, ComparesEndsByTheWeightsOfTheAnswer) {
   answer.ends = {answer.best, end_at(0.01)};
   EXPECT_GT(std::abs(answer.ends[1].cost - answer.ends[0].cost), 0.5);
   EXPECT_EQ(verdict().text, "2 of 2 starts came to the same point.");
+  answer.uncertainty.half_width.setZero();
+  answer.ends = {answer.best, end_at(0.024)};
+  EXPECT_TRUE(says(verdict(), "1 of 2 starts ends at another point")) << verdict().text;
   answer.ends = {answer.best, end_at(1.0)};
   EXPECT_TRUE(says(verdict(), "Only one of 2 starts reached the lowest cost")) << verdict().text;
 }

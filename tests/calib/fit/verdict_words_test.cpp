@@ -4,6 +4,7 @@
 #include <set>
 
 #include "calib/fit/answer.hpp"
+#include "calib/fit/answer_checks.hpp"
 #include "calib/fit/model_checks.hpp"
 #include "tests/support/studies.hpp"
 
@@ -87,6 +88,40 @@ TEST(Verdict, SendsNobodyToTheBoundsWhereTheTimeStepIsTheReason) {
               testing::EndsWith("takes fewer."));
   EXPECT_THAT(advice(explain(sim::SimulationStatus::not_converged)),
               testing::EndsWith("Narrow calibrate.bounds to where the model can be simulated."));
+}
+
+// One specimen is "the fitted specimen", not "the 1 fitted specimens".
+TEST(Verdict, SpeaksOfOneAsOfOne) {
+  Study study = test::synthetic_study({0.0});
+  study.specimens.resize(1);
+  study.calibrate.parameters = {"head_tail_MPa", "ratio"};
+  const CalibrationResult result = test::fit(study);
+  EXPECT_THAT(test::parameter_of(result, "ratio").left_out_because,
+              testing::EndsWith("nothing that the fitted specimen shows changes with it"));
+  EXPECT_EQ(test::parameter_of(result, "head_tail_MPa").bootstrap_missing,
+            "1 specimen is too few to draw from, 5 are the least");
+  EXPECT_EQ(result.directions.front(), "The specimens determine 1 of 1 direction.");
+  EXPECT_TRUE(says(check_of(result, "better than a plain law"), "1 strength is too few"));
+  study.calibrate.parameters = {"head_tail_MPa", "young_GPa"};
+  const Check spread = check_of(test::fit(study), "spread between specimens");
+  EXPECT_TRUE(says(spread, " on 1 degree of freedom (")) << spread.text;
+
+  CalibrationResult one;
+  one.specimens.push_back({.id = "A1", .use = Use::validate});
+  EXPECT_TRUE(says(check_validation(one, {}), "1 held-out specimen lies within"));
+  one.fitted = {"ratio"};
+  one.confirmations.push_back({.failed = false,
+                               .strength_limit = 1.0,
+                               .strength_in_time = 1.0,
+                               .peak_in_time = 1.0,
+                               .failure_strain_limit = 1.0,
+                               .failure_strain_in_time = 1.0});
+  EXPECT_TRUE(says(check_confirmation(one), "1 replicate step by step in time differs"));
+  const FitProblem problem{.study = study, .unknowns = {}, .fitted = {0, 1}};
+  Answer answer;
+  answer.best.predictions.resize(2);
+  answer.best.predictions[0].censored = true;
+  EXPECT_TRUE(says(check_censored(problem, answer), "1 of 2 specimens does not break"));
 }
 
 TEST(CalibrationStatus, HasASentenceEach) {

@@ -1,6 +1,7 @@
 // Sections of known porosity, through every hardship that a laboratory's images have.
 #include "io/images/measure_section.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -224,6 +225,10 @@ TEST(Section, TellsCracksFromPores) {
   const double crack = cv::countNonZero(drawn.image != before) * pixel * pixel;
   const auto measured = measure(drawn, "cracked.png");
   EXPECT_EQ(measured.crack_count, 1);
+  EXPECT_THAT(measured.warnings,
+              testing::Contains(testing::AllOf(
+                  testing::StartsWith("1 long and narrow object, "),
+                  testing::EndsWith("was taken for a crack and does not count as a pore"))));
   EXPECT_NEAR(measured.crack_area, crack, 0.1 * crack);
   EXPECT_EQ(measured.porosity, 0.0);
   const auto counted =
