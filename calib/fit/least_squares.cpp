@@ -36,14 +36,8 @@ class Residuals final : public ceres::CostFunction {
     const Eigen::MatrixXd slopes = difference_jacobian(problem_, at_, here_, options_);
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
         jacobians[0], here_.size(), at_.size()) = slopes;
-    const Eigen::RowVectorXd effect = slopes.colwise().norm();
-    largest_effect_ = largest_effect_.size() == 0 ? effect : effect.cwiseMax(largest_effect_);
-    flat_ = (effect.array() < 1e-9 * largest_effect_.array()).any();
     return true;
   }
-
-  /// Whether an unknown that had an effect has none at the last slopes.
-  [[nodiscard]] bool flat() const { return flat_; }
 
   void report(LeastSquaresResult& result) const {
     result.best = best_;
@@ -68,8 +62,6 @@ class Residuals final : public ceres::CostFunction {
   const LeastSquares& problem_;
   const LeastSquaresOptions& options_;
   mutable VectorXd at_, here_, best_, best_residuals_;
-  mutable Eigen::RowVectorXd largest_effect_;
-  mutable bool flat_ = false;
 };
 
 void set_bounds(const LeastSquares& problem, std::vector<double>& values,
@@ -123,11 +115,13 @@ Eigen::MatrixXd difference_jacobian(const LeastSquares& problem, const VectorXd&
   return jacobian;
 }
 
-namespace {
+LeastSquaresResult least_squares(const LeastSquares& problem, const VectorXd& start,
+                                 const LeastSquaresOptions& options) {
+  LeastSquaresResult result{.best = inside(problem, start)};
+  result.residuals = problem.residuals({result.best}).front();
+  result.failed = result.residuals.size() == 0 || !result.residuals.allFinite();
+  if (result.failed) return result;
 
-// From `result.best`; whether the search ended where an unknown has no effect.
-bool descend(const LeastSquares& problem, const LeastSquaresOptions& options, double trust_radius,
-             LeastSquaresResult& result) {
   Residuals residuals(problem, options, result.best, result.residuals);
   std::vector<double> values(result.best.begin(), result.best.end());
   ceres::Problem::Options ownership;
@@ -142,31 +136,14 @@ bool descend(const LeastSquares& problem, const LeastSquaresOptions& options, do
   settings.function_tolerance = options.cost_tolerance;
   settings.parameter_tolerance = options.step_tolerance;
   settings.gradient_tolerance = 1e-15;
-  settings.initial_trust_region_radius = trust_radius;
+  settings.initial_trust_region_radius = options.trust_radius;
   // Each try of such a search costs derivatives.
   settings.max_num_line_search_step_size_iterations = options.search_steps ? 3 : 0;
   ceres::Solver::Summary summary;
   ceres::Solve(settings, &description, &summary);
   residuals.report(result);
   result.message = summary.message;
-  return residuals.flat();
-}
-
-}  // namespace
-
-LeastSquaresResult least_squares(const LeastSquares& problem, const VectorXd& start,
-                                 const LeastSquaresOptions& options) {
-  constexpr double bold = 1e4, cautious = 1e-3;
-  LeastSquaresResult first{.best = inside(problem, start)};
-  first.residuals = problem.residuals({first.best}).front();
-  first.failed = first.residuals.size() == 0 || !first.residuals.allFinite();
-  if (first.failed) return first;
-
-  LeastSquaresResult result = first;
-  const bool plateau = descend(problem, options, bold, result);
-  if (!plateau || !options.second_try) return result;
-  descend(problem, options, cautious, first);
-  return first.cost < result.cost ? first : result;
+  return result;
 }
 
 }  // namespace havers::calib

@@ -22,7 +22,7 @@ struct LeastSquaresOptions {
   int stencil = 2;               ///< Points per derivative: 2, or 4 where residuals are exact.
   int max_iterations = 30;       ///< Steps of Levenberg-Marquardt.
   double cost_tolerance = 1e-4;  ///< Part of the cost that a step must win to go on.
-  bool second_try = false;       ///< Short steps from the start if bold ones end on a plateau.
+  double trust_radius = 1e4;     ///< Of the first step; less is more cautious.
   bool search_steps = false;     ///< Beside bounds along each step: where residuals are exact.
   double step_tolerance = 1e-4;  ///< Part of the unknowns' norm that a step must move to go on.
 };

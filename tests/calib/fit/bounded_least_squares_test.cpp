@@ -29,7 +29,6 @@ constexpr LeastSquaresOptions to_the_last_digit{.step = 1e-6,
                                                 .stencil = 2,
                                                 .max_iterations = 10000,
                                                 .cost_tolerance = 1e-16,
-                                                .second_try = true,
                                                 .search_steps = true,
                                                 .step_tolerance = 1e-16};
 
