@@ -80,8 +80,7 @@ constexpr const char* kept_where_found =
 void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
   const Evaluation found = trail.best();
   Point point = found.point;
-  for (const auto& one : left)
-    point[one.unknown] = trail.problem().unknowns[static_cast<std::size_t>(one.unknown)].start;
+  for (const auto& one : left) point[one.unknown] = trail.problem().unknown(one.unknown).start;
   answer.active = without(answer.active, left);
   trail.restart(trail.weights(), trail.evaluate(point));
   search_ceres(trail, trail.best(), answer.active);

@@ -158,7 +158,7 @@ void score(const FitProblem& problem, const Weights& weights, Evaluation& evalua
   evaluation.residuals.resize(landmark_count * static_cast<Eigen::Index>(problem.fitted.size()));
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
-    evaluation.residuals.segment<landmark_count>(landmark_count * static_cast<Eigen::Index>(f)) =
+    evaluation.residuals.segment<landmark_count>(first_row(f)) =
         residuals_of(evaluation.predictions[f], problem.targets[s], weights.sd[s]);
   }
   const double cost = 0.5 * evaluation.residuals.squaredNorm();
@@ -172,7 +172,7 @@ std::set<double> one_sided_orientations(const FitProblem& problem, const Evaluat
   if (at.residuals.size() == 0) return orientations;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
-    const Eigen::Index row = landmark_count * static_cast<Eigen::Index>(f) + strength;
+    const Eigen::Index row = first_row(f) + strength;
     if (has_bound(at.predictions[f], problem.targets[s]) && at.residuals[row] < -least_told)
       orientations.insert(problem.study.specimens[s].orientation);
   }

@@ -23,6 +23,11 @@ struct FitProblem {
   /// Specimens that are fitted and whose test is usable, by their ids: the order in which a study
   /// names them changes nothing.
   std::vector<std::size_t> fitted{};
+
+  /// The unknown whose position is the k-th of a point.
+  [[nodiscard]] const Unknown& unknown(Eigen::Index k) const {
+    return unknowns[static_cast<std::size_t>(k)];
+  }
 };
 FitProblem make_problem(const Study& study);
 
@@ -39,6 +44,11 @@ struct Weights {
   Landmarks specimen = Landmarks::Zero();  ///< Between specimens, beyond everything else (F9).
   std::vector<Landmarks> sd;               ///< All of them and the machine's noise together.
 };
+
+/// Where the landmark_count rows of the f-th fitted specimen begin, of residuals and of Jacobians.
+constexpr Eigen::Index first_row(std::size_t f) {
+  return landmark_count * static_cast<Eigen::Index>(f);
+}
 
 /// One point of a search.
 struct Evaluation {

@@ -19,8 +19,7 @@ namespace {
 using Eigen::Index;
 
 const Unknown& unknown_of(const FitProblem& problem, const Answer& answer, Index column) {
-  return problem
-      .unknowns[static_cast<std::size_t>(answer.active[static_cast<std::size_t>(column)])];
+  return problem.unknown(answer.active[static_cast<std::size_t>(column)]);
 }
 
 // "young_GPa × ratio^-0.31": a product of powers, of those that matter.

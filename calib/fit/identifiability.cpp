@@ -100,7 +100,7 @@ LeftUnknown left_unknown(const FitProblem& problem, const Point& at, const Activ
     return active[static_cast<std::size_t>(column)];
   };
   const auto unknown_of = [&](Eigen::Index column) -> const Unknown& {
-    return problem.unknowns[static_cast<std::size_t>(index_of(column))];
+    return problem.unknown(index_of(column));
   };
   const Unknown& unknown = unknown_of(k);
   const Eigen::VectorXd slope = slopes.jacobian.col(k);
@@ -143,9 +143,8 @@ Eigen::Index last_uninformed(const FitProblem& problem, const Active& active,
       std::vector<Eigen::Index> others;
       for (Eigen::Index j = 0; beside_others && j < slopes.jacobian.cols(); ++j)
         if (j != k) others.push_back(j);
-      const auto unknown = static_cast<std::size_t>(active[static_cast<std::size_t>(k)]);
-      if (!informs(problem.unknowns[unknown], split(slopes.jacobian, slopes.variance, k, others)))
-        return k;
+      const Unknown& unknown = problem.unknown(active[static_cast<std::size_t>(k)]);
+      if (!informs(unknown, split(slopes.jacobian, slopes.variance, k, others))) return k;
     }
     return Eigen::Index{-1};
   };

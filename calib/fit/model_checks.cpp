@@ -39,7 +39,7 @@ std::map<double, Group> groups_of(const FitProblem& problem, const Answer& answe
     const std::size_t s = problem.fitted[f];
     if (!tells(answer.best.predictions[f], problem.targets[s])[q]) continue;
     Group& group = groups[problem.study.specimens[s].orientation];
-    group.rows.push_back(landmark_count * static_cast<Eigen::Index>(f) + q);
+    group.rows.push_back(first_row(f) + q);
     group.difference.push_back(difference(answer.best.predictions[f], problem.targets[s])[q]);
     group.variance.push_back(std::pow(answer.weights.sd[s][q], 2) -
                              std::pow(answer.weights.specimen[q], 2));
@@ -95,9 +95,8 @@ std::optional<double> chance(const FitProblem& problem, const Answer& answer, Ei
 }
 
 bool is_fitted(const FitProblem& problem, const Answer& answer, std::string_view parameter) {
-  return std::ranges::any_of(answer.active, [&](Eigen::Index k) {
-    return problem.unknowns[static_cast<std::size_t>(k)].info->name == parameter;
-  });
+  return std::ranges::any_of(
+      answer.active, [&](Eigen::Index k) { return problem.unknown(k).info->name == parameter; });
 }
 
 // Whether a fitted parameter moves the strengths; so, for all that is known, where slopes failed.
@@ -106,8 +105,7 @@ bool strengths_are_fitted(const FitProblem& problem, const Answer& answer) {
   if (answer.slopes.failed) return true;
   double squares = 0.0;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f)
-    squares += answer.slopes.jacobian.row(landmark_count * static_cast<Eigen::Index>(f) + strength)
-                   .squaredNorm();
+    squares += answer.slopes.jacobian.row(first_row(f) + strength).squaredNorm();
   return squares > 0.0;
 }
 

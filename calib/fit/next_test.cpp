@@ -18,8 +18,7 @@ using Eigen::MatrixXd;
 constexpr double faster_by = 10.0;  // of a test at another rate
 
 MatrixXd rows_of(const Answer& answer, std::size_t fitted) {
-  return answer.slopes.jacobian.middleRows<landmark_count>(landmark_count *
-                                                           static_cast<Index>(fitted));
+  return answer.slopes.jacobian.middleRows<landmark_count>(first_row(fitted));
 }
 
 double distance(const FitProblem& problem, std::size_t fitted, double orientation) {

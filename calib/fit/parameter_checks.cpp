@@ -12,10 +12,6 @@
 namespace havers::calib {
 namespace {
 
-const Unknown& unknown_at(const FitProblem& problem, Eigen::Index k) {
-  return problem.unknowns[static_cast<std::size_t>(k)];
-}
-
 // What an unknown that was left out is in the answer, by its value there.
 std::string where_left(const Unknown& unknown, double position) {
   const char* const ground = at_bound(unknown, position) ? ", a bound"
@@ -31,7 +27,7 @@ std::string what_may_tell(const FitProblem& problem, const std::vector<LeftUnkno
   for (const std::size_t s : problem.fitted)
     orientations.insert(problem.study.specimens[s].orientation);
   const auto is_scatter = [&](const LeftUnknown& one) {
-    return orientations.size() > 1 && unknown_at(problem, one.unknown).info->name == "scatter";
+    return orientations.size() > 1 && problem.unknown(one.unknown).info->name == "scatter";
   };
   std::string text;
   if (!std::ranges::all_of(left, is_scatter))
@@ -88,13 +84,13 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer,
   std::string text;
   bool conditional = false;
   for (const LeftUnknown& one : answer.left) {
-    const Unknown& unknown = unknown_at(problem, one.unknown);
+    const Unknown& unknown = problem.unknown(one.unknown);
     text += fmt::format("{} is left out: {}. It stays at {}. ", unknown.label, one.because,
                         where_left(unknown, answer.best.point[one.unknown]));
     if (asked || std::ranges::count(answer.active, one.partner) == 0) continue;
     conditional = true;
     text += fmt::format("The interval of {} holds for that value only. ",
-                        unknown_at(problem, one.partner).label);
+                        problem.unknown(one.partner).label);
   }
   text += "What is left out has no interval; " + what_may_tell(problem, answer.left);
   if (asked && !none_fitted)
@@ -106,7 +102,7 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer,
 Check check_strain(const FitProblem& problem, const Answer& answer) {
   constexpr const char* name = "strain of bone alone";
   const auto is_modulus = [&](Eigen::Index k) {
-    return unknown_at(problem, k).info->name == "young_GPa";
+    return problem.unknown(k).info->name == "young_GPa";
   };
   if (std::ranges::none_of(answer.active, is_modulus))
     return {name, Outcome::pass, "Not checked: young_GPa is not fitted.", false};

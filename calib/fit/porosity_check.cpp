@@ -71,8 +71,7 @@ PorositySample sample_of(const FitProblem& problem, const Answer& answer, Landma
     sample.difference[i] = difference(answer.best.predictions[f], problem.targets[s])[q];
     sample.variance[i] = sd * sd - std::pow(answer.weights.specimen[q], 2);
     sample.porosity[i] = problem.models[s].porosity;
-    sample.slopes.row(i) =
-        sd * answer.slopes.jacobian.row(landmark_count * static_cast<Index>(f) + q);
+    sample.slopes.row(i) = sd * answer.slopes.jacobian.row(first_row(f) + q);
   }
   return sample;
 }

@@ -132,7 +132,7 @@ std::vector<Held> held_further(const FitProblem& problem, const Answer& answer,
   for (std::size_t k = 0; k < roots.size(); ++k)
     for (const bool upper : {false, true}) {
       const auto i = static_cast<Index>(k);
-      const auto& unknown = problem.unknowns[static_cast<std::size_t>(answer.active[k])];
+      const auto& unknown = problem.unknown(answer.active[k]);
       const double last = side_of(roots[k], upper).back().first;
       const bool bound = upper ? last >= unknown.upper : last <= unknown.lower;
       if (bound || std::isfinite(crossing(roots[k], quantile_of(answer, i), upper))) continue;
@@ -184,8 +184,8 @@ std::vector<Profile> profiles_of(Trail& trail, const Answer& answer) {
   const auto roots = trace(trail, answer);
   std::vector<Profile> profiles;
   for (std::size_t k = 0; k < roots.size(); ++k)
-    profiles.push_back(profile_of(problem.unknowns[static_cast<std::size_t>(answer.active[k])],
-                                  answer, static_cast<Index>(k), roots[k]));
+    profiles.push_back(
+        profile_of(problem.unknown(answer.active[k]), answer, static_cast<Index>(k), roots[k]));
   return profiles;
 }
 

@@ -34,7 +34,7 @@ VectorXd variance_of_mean(const FitProblem& problem, const Answer& answer) {
     const Prediction& prediction = answer.best.predictions[f];
     const std::size_t s = problem.fitted[f];
     const Landmarks& sd = answer.weights.sd[s];
-    variance.segment<landmark_count>(landmark_count * static_cast<Index>(f)) =
+    variance.segment<landmark_count>(first_row(f)) =
         (slopes_of_residuals(prediction, problem.targets[s], sd) * prediction.sd / sd).square() /
         prediction.usable;
   }

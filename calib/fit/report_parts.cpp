@@ -75,7 +75,7 @@ std::vector<sim::LeftOut> left_out_of(const FitProblem& problem, const Simulatio
                                       const Answer& answer) {
   std::vector<sim::LeftOut> list;
   for (const LeftUnknown& one : answer.left)
-    list.push_back({problem.unknowns[static_cast<std::size_t>(one.unknown)].label, one.because});
+    list.push_back({problem.unknown(one.unknown).label, one.because});
   for (std::size_t s = 0; s < problem.targets.size(); ++s)
     if (!problem.targets[s].usable)
       list.push_back({"specimen " + problem.study.specimens[s].id,

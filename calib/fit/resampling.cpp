@@ -42,7 +42,7 @@ std::vector<Normal> normals_of(const FitProblem& problem, const Answer& answer) 
   const Landmarks widen = (told / freedom).max(1.0).sqrt();
   std::vector<Normal> normals;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
-    const Index row = landmark_count * static_cast<Index>(f);
+    const Index row = first_row(f);
     const MatrixXd rows = answer.slopes.jacobian.middleRows<landmark_count>(row);
     const VectorXd residuals = answer.best.residuals.segment<landmark_count>(row).array() * widen;
     normals.push_back({rows.transpose() * rows, rows.transpose() * residuals});

@@ -24,14 +24,13 @@ SearchResult search_ceres(Trail& trail, const Evaluation& start, const Active& a
   const int points_before = trail.points();
   const double seconds_before = trail.wall_seconds();
 
-  const auto& unknowns = trail.problem().unknowns;
   const auto count = static_cast<Eigen::Index>(active.size());
   LeastSquares problem{.residuals = {}, .lower = Point(count), .upper = Point(count)};
   Point from(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Index k = active[static_cast<std::size_t>(i)];
-    problem.lower[i] = unknowns[static_cast<std::size_t>(k)].lower;
-    problem.upper[i] = unknowns[static_cast<std::size_t>(k)].upper;
+    problem.lower[i] = trail.problem().unknown(k).lower;
+    problem.upper[i] = trail.problem().unknown(k).upper;
     from[i] = start.point[k];
   }
   problem.residuals = [&](const std::vector<Point>& moved) {

@@ -21,16 +21,12 @@ std::vector<Point> starts_of(const FitProblem& problem, const Point& own, const 
     gsl_qrng_get(sequence.get(), fractions.data());
     Point point = own;
     for (std::size_t j = 0; j < moving.size(); ++j) {
-      const auto& unknown = problem.unknowns[static_cast<std::size_t>(moving[j])];
+      const auto& unknown = problem.unknown(moving[j]);
       point[moving[j]] = unknown.lower + fractions[j] * unknown.range();
     }
     starts.push_back(point);
   }
   return starts;
-}
-
-bool cheaper(const Evaluation& a, const Evaluation& b) {
-  return a.cost < b.cost;
 }
 
 }  // namespace
@@ -44,8 +40,8 @@ MultiStart search_globally(Trail& trail, const Active& active) {
       trail.evaluate(starts_of(trail.problem(), own, all_free ? split.free : split.costly));
   for (auto& start : starts)
     if (!all_free) start = search_ceres(trail, start, split.free).best;
-  std::ranges::stable_sort(starts, cheaper);
-  std::erase_if(starts, [](const Evaluation& e) { return e.failed; });
+  std::ranges::stable_sort(starts, {}, &Evaluation::cost);
+  std::erase_if(starts, &Evaluation::failed);
   MultiStart result;
   if (trail.problem().study.calibrate.global != GlobalSearch::starts && !starts.empty()) {
     trail.enter("global search");
@@ -69,7 +65,7 @@ MultiStart search_globally(Trail& trail, const Active& active) {
     }
     result.ends.push_back(std::move(end.best));
   }
-  std::ranges::stable_sort(result.ends, cheaper);
+  std::ranges::stable_sort(result.ends, {}, &Evaluation::cost);
   return result;
 }
 

@@ -51,11 +51,11 @@ std::string run(nlopt::opt& optimiser, std::vector<double> values) {
   }
 }
 
-void set_box(nlopt::opt& optimiser, const std::vector<Unknown>& unknowns, const Active& costly,
+void set_box(nlopt::opt& optimiser, const FitProblem& problem, const Active& costly,
              Stride stride) {
   std::vector<double> lower, upper, step;
   for (const Eigen::Index k : costly) {
-    const auto& unknown = unknowns[static_cast<std::size_t>(k)];
+    const auto& unknown = problem.unknown(k);
     lower.push_back(unknown.lower);
     upper.push_back(unknown.upper);
     step.push_back(stride == Stride::wide ? unknown.range() / 8.0 : 0.02);
@@ -114,7 +114,7 @@ SearchResult follow(const Plan& plan, Trail& trail, const Evaluation& start, con
   }
   Objective objective{.trail = trail, .split = split, .optimiser = optimiser, .best = start};
   optimiser.set_min_objective(Objective::call, &objective);
-  set_box(optimiser, trail.problem().unknowns, split.costly, plan.stride);
+  set_box(optimiser, trail.problem(), split.costly, plan.stride);
   // Of the logarithm of a parameter; what a wide search leaves, least squares and polish find.
   const bool wide = plan.stride == Stride::wide;
   optimiser.set_xtol_abs(wide ? 2e-2 : 2e-3);
@@ -145,7 +145,7 @@ Split split_by_cost(const FitProblem& problem, const SimulationBatch& batch, con
   const auto here = keys(at);
   Split split;
   for (const Eigen::Index k : active) {
-    const auto& unknown = problem.unknowns[static_cast<std::size_t>(k)];
+    const auto& unknown = problem.unknown(k);
     Point moved = at;
     moved[k] += (at[k] < 0.5 * (unknown.lower + unknown.upper) ? 0.1 : -0.1) * unknown.range();
     (keys(moved) == here ? split.free : split.costly).push_back(k);

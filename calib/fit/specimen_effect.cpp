@@ -45,11 +45,8 @@ Landmarks parameters_spent(const FitProblem& problem, const Evaluation& at,
   const Eigen::VectorXd of_row = leverage(jacobian);
   if (jacobian.cols() == 0) return spent;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f)
-    spent +=
-        tells(at.predictions[f], problem.targets[problem.fitted[f]])
-            .select(of_row.segment<landmark_count>(landmark_count * static_cast<Eigen::Index>(f))
-                        .array(),
-                    0.0);
+    spent += tells(at.predictions[f], problem.targets[problem.fitted[f]])
+                 .select(of_row.segment<landmark_count>(first_row(f)).array(), 0.0);
   return spent;
 }
 

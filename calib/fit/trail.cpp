@@ -42,7 +42,7 @@ void Trail::note(const Evaluation& evaluation) {
                                .best_cost = best_.cost,
                                .best = {}};
   for (Eigen::Index k = 0; k < best_.point.size(); ++k) {
-    const auto& unknown = problem_.unknowns[static_cast<std::size_t>(k)];
+    const auto& unknown = problem_.unknown(k);
     progress.best.emplace_back(unknown.label, value_in_unit(unknown, best_.point[k]));
   }
   cancelled_ = !observer_(progress);

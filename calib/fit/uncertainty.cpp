@@ -30,7 +30,7 @@ VarianceSources sources_of(const FitProblem& problem, const Weights& weights,
                          .freedom = {}};
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
-    const Eigen::Index row = landmark_count * static_cast<Eigen::Index>(f);
+    const Eigen::Index row = first_row(f);
     result.orientation.push_back(problem.study.specimens[s].orientation);
     result.replicates.segment<landmark_count>(row) =
         (weights.replicates[s] / weights.sd[s]).square();
@@ -79,7 +79,7 @@ double distance_to_minimum(const FitProblem& problem, const Evaluation& at, cons
                            const Eigen::MatrixXd& jacobian) {
   std::vector<Eigen::Index> movable;
   for (std::size_t i = 0; i < active.size(); ++i)
-    if (!at_bound(problem.unknowns[static_cast<std::size_t>(active[i])], at.point[active[i]]))
+    if (!at_bound(problem.unknown(active[i]), at.point[active[i]]))
       movable.push_back(static_cast<Eigen::Index>(i));
   if (movable.empty()) return 0.0;
   const Eigen::MatrixXd columns = jacobian(Eigen::all, movable);

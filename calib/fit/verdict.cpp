@@ -101,8 +101,7 @@ void leave_all_unchecked(std::vector<Check>& checks, const char* because) {
 std::vector<std::string> missed(const FitProblem& problem, const Answer& answer) {
   std::vector<std::string> labels;
   if (problem.study.calibrate.automatic) return labels;
-  for (const LeftUnknown& left : answer.left)
-    labels.push_back(problem.unknowns[static_cast<std::size_t>(left.unknown)].label);
+  for (const LeftUnknown& left : answer.left) labels.push_back(problem.unknown(left.unknown).label);
   return labels;
 }
 

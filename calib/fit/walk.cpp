@@ -23,10 +23,9 @@ std::vector<Point> from_bound_to_bound(const Unknown& unknown, Eigen::Index inde
 
 std::vector<Evaluation> walk_along(Trail& trail, Eigen::Index unknown, const Active& active,
                                    const Eigen::MatrixXd& jacobian) {
-  const auto& unknowns = trail.problem().unknowns;
   const Evaluation best = trail.best();
-  auto walked = trail.evaluate(
-      from_bound_to_bound(unknowns[static_cast<std::size_t>(unknown)], unknown, best.point));
+  auto walked =
+      trail.evaluate(from_bound_to_bound(trail.problem().unknown(unknown), unknown, best.point));
   std::erase_if(walked, &Evaluation::failed);
   std::vector<Point> points;
   points.reserve(walked.size());
@@ -34,7 +33,7 @@ std::vector<Evaluation> walk_along(Trail& trail, Eigen::Index unknown, const Act
   for (const Evaluation& one : walked) {
     Point& point = points.emplace_back(one.point);
     point(active) -= slopes.solve(one.residuals);
-    point = inside_bounds(unknowns, point);
+    point = inside_bounds(trail.problem().unknowns, point);
   }
   auto refitted = trail.evaluate(points);
   for (std::size_t i = 0; i < walked.size(); ++i)
