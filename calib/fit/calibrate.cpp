@@ -25,7 +25,8 @@ constexpr double close_enough = 0.02;
 constexpr double contradicts = 1.92;
 
 // The first of the study's start and the middle of the bounds where the simulations answer.
-bool find_a_start(const FitProblem& problem, Trail& trail, int replicates) {
+bool find_a_start(Trail& trail, int replicates) {
+  const FitProblem& problem = trail.problem();
   trail.set_replicates(replicates);
   const auto both =
       predict(problem, trail.batch(),
@@ -140,33 +141,34 @@ void reweigh(Trail& trail, const Landmarks& effect) {
                 trail.best());
 }
 
+// By the slopes at the best point; none where these fail.
+Landmarks effect_at_best(Trail& trail, const Active& active) {
+  const auto slopes = differentiate(trail, trail.best(), active, slope_step);
+  if (slopes.failed) return Landmarks::Zero();
+  return specimen_effect(trail.problem(), trail.weights(), trail.best(), slopes.jacobian);
+}
+
 // As many as were asked for, or as the weights where the scouts ended say are needed.
-void choose_replicates(const FitProblem& problem, Trail& trail, Answer& answer) {
-  if (problem.study.calibrate.replicates != replicates_by_need) return;
-  Landmarks effect = Landmarks::Zero();
-  const auto slopes = differentiate(trail, trail.best(), answer.active, slope_step);
-  if (!slopes.failed)
-    effect = specimen_effect(problem, trail.weights(), trail.best(), slopes.jacobian);
-  reweigh(trail, effect);
-  answer.replicates = replicates_needed(problem, trail.weights(), trail.best());
+void choose_replicates(Trail& trail, Answer& answer) {
+  if (trail.problem().study.calibrate.replicates != replicates_by_need) return;
+  reweigh(trail, effect_at_best(trail, answer.active));
+  answer.replicates = replicates_needed(trail.problem(), trail.weights(), trail.best());
 }
 
 // From here on, at the best point of the scouts; false where they fail there.
-bool take_all_replicates(const FitProblem& problem, Trail& trail, int replicates) {
+bool take_all_replicates(Trail& trail, int replicates) {
   trail.set_replicates(replicates);
-  trail.restart(trail.weights(),
-                predict(problem, trail.batch(), {trail.best().point}, trail.replicates()).front());
+  trail.restart(
+      trail.weights(),
+      predict(trail.problem(), trail.batch(), {trail.best().point}, trail.replicates()).front());
   return !trail.best().failed;
 }
 
 // Search, weigh anew, search again, until weights and answer agree. The first weights come from
 // where the scouts ended: without them the first search would chase what is a specimen's own.
 void alternate_search_and_weights(Trail& trail, Answer& answer) {
-  Landmarks effect = Landmarks::Zero();
   bool rough = !trail.problem().study.calibrate.smooth, polished = false;
-  const auto first = differentiate(trail, trail.best(), answer.active, slope_step);
-  if (!first.failed)
-    effect = specimen_effect(trail.problem(), trail.weights(), trail.best(), first.jacobian);
+  Landmarks effect = effect_at_best(trail, answer.active);
   for (int round = 0; round < most_rounds && !trail.stopped(); ++round) {
     reweigh(trail, effect);
     search(trail, answer.active, rough, answer);
@@ -222,7 +224,8 @@ CalibrationStatus status_of(const Trail& trail, const Answer& answer) {
   return CalibrationStatus::converged;
 }
 
-Answer solve(const FitProblem& problem, Trail& trail) {
+Answer solve(Trail& trail) {
+  const FitProblem& problem = trail.problem();
   const int asked = problem.study.calibrate.replicates;
   const int all = asked == replicates_by_need ? replicates_before_need : asked;
   Answer answer{.replicates = all};
@@ -231,8 +234,7 @@ Answer solve(const FitProblem& problem, Trail& trail) {
     answer.status = CalibrationStatus::nothing_to_fit;
     return answer;
   }
-  if (!find_a_start(problem, trail, std::min(scouting_replicates, all)) &&
-      !find_a_start(problem, trail, all))
+  if (!find_a_start(trail, std::min(scouting_replicates, all)) && !find_a_start(trail, all))
     return answer;
 
   for (std::size_t k = 0; k < problem.unknowns.size(); ++k)
@@ -244,9 +246,8 @@ Answer solve(const FitProblem& problem, Trail& trail) {
     answer.starts = std::move(starts);
     answer.ends = std::move(ends);
     answer.stages = std::move(logs);
-    choose_replicates(problem, trail, answer);
-    if (take_all_replicates(problem, trail, answer.replicates))
-      alternate_search_and_weights(trail, answer);
+    choose_replicates(trail, answer);
+    if (take_all_replicates(trail, answer.replicates)) alternate_search_and_weights(trail, answer);
   }
   assess_answer(trail, answer);
   answer.status = status_of(trail, answer);
@@ -260,7 +261,7 @@ CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
   const FitProblem problem = make_problem(study);
   SimulationBatch batch(simulator, store, study.calibrate.threads);
   Trail trail(problem, batch, observer);
-  Answer answer = solve(problem, trail);
+  Answer answer = solve(trail);
 
   CalibrationResult result{.stages = answer.stages, .scene = study.model, .cost = answer.best.cost};
   result.parameters = parameters_of(problem, answer);

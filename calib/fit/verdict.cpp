@@ -105,18 +105,16 @@ std::vector<std::string> missed(const FitProblem& problem, const Answer& answer)
   return labels;
 }
 
-Check check_failures(const CalibrationResult& result, long distinct) {
-  const double share =
-      distinct > 0 ? static_cast<double>(result.failed_simulations) / static_cast<double>(distinct)
-                   : 0.0;
-  const std::string text =
-      fmt::format("{} of {} different simulations failed", result.failed_simulations, distinct);
-  // Behind a semicolon, as all reasons do.
-  const bool says_what_helps = result.most_failed_because.find("; ") != std::string::npos;
-  if (result.failed_simulations == 0) return {"simulations", Outcome::pass, text + "."};
+Check check_failures(const CalibrationResult& result) {
+  const long failed = result.failed_simulations, distinct = result.distinct_simulations;
+  const std::string text = fmt::format("{} of {} different simulations failed", failed, distinct);
+  if (failed == 0) return {"simulations", Outcome::pass, text + "."};
+  const double share = static_cast<double>(failed) / static_cast<double>(distinct);
   if (share <= 0.05)
     return {"simulations", Outcome::pass,
             text + "; the replicates that answered stand in for them."};
+  // Behind a semicolon, as all reasons do.
+  const bool says_what_helps = result.most_failed_because.find("; ") != std::string::npos;
   return {"simulations", share <= 0.2 ? Outcome::warn : Outcome::fail,
           fmt::format("{}, most often so: {}.{}", text, result.most_failed_because,
                       says_what_helps ? ""
@@ -152,7 +150,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
     leave_all_unchecked(checks, "the budget ended before the searches did");
   else if (answer.active.empty())
     leave_unchecked(checks, "no parameter is fitted");
-  checks.push_back(check_failures(result, result.distinct_simulations));
+  checks.push_back(check_failures(result));
   return checks;
 }
 
