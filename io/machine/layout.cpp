@@ -1,7 +1,6 @@
 #include "io/machine/layout.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "io/machine/number.hpp"
 #include "io/machine/split_unit.hpp"
@@ -10,8 +9,6 @@
 
 namespace havers::io {
 namespace {
-
-constexpr std::array<Recognise, 2> layouts{recognise_bluehill, recognise_any_table};
 
 // The first row of numbers from `begin` that is followed by another of the same length, or by
 // nothing.
@@ -58,6 +55,14 @@ void take_names(Table& table, const PreviewRow& names, const PreviewRow* units) 
   }
 }
 
+// INSTRON Bluehill's raw data: key,"value",unit lines, a blank line, names, and below them units in
+// round brackets.
+bool is_bluehill(const Table& table, const PreviewRow* units) {
+  return table.header_rows > 0 && units != nullptr &&
+         std::ranges::all_of(units->cells,
+                             [](const auto& cell) { return cell.empty() || cell.front() == '('; });
+}
+
 // The table whose numbers begin at this row.
 Table table_at(const Preview& preview, std::size_t numbers) {
   const auto& rows = preview.rows;
@@ -65,7 +70,6 @@ Table table_at(const Preview& preview, std::size_t numbers) {
   const char decimal = preview.dialect.decimal;
 
   Table table;
-  table.layout = "table";
   table.header_rows = numbers;
   table.first_line = rows[numbers].line;
   std::size_t above = numbers;
@@ -82,10 +86,7 @@ Table table_at(const Preview& preview, std::size_t numbers) {
     table.header_rows = above;
     if (above >= 1) table.titles = rows[above - 1].cells;
   }
-  table.units_in_round_brackets =
-      units != nullptr && std::ranges::all_of(units->cells, [](const auto& c) {
-        return c.empty() || c.front() == '(';
-      });
+  table.layout = is_bluehill(table, units) ? "Bluehill raw data" : "table";
   return table;
 }
 
@@ -147,12 +148,6 @@ std::vector<Table> side_by_side(const Table& table) {
 }
 
 std::optional<Table> recognise_table(const Preview& preview) {
-  for (const Recognise recognise : layouts)
-    if (std::optional<Table> table = recognise(preview)) return table;
-  return std::nullopt;
-}
-
-std::optional<Table> recognise_any_table(const Preview& preview) {
   std::optional<Table> results;
   std::size_t begin = 0;
   while (const std::optional<std::size_t> numbers = first_number_row(preview, begin)) {
@@ -166,15 +161,6 @@ std::optional<Table> recognise_any_table(const Preview& preview) {
       ++begin;
   }
   return results;
-}
-
-std::optional<Table> recognise_bluehill(const Preview& preview) {
-  std::optional<Table> table = recognise_any_table(preview);
-  if (!table || table->layout == results_layout || table->header_rows == 0 ||
-      !table->units_in_round_brackets)
-    return std::nullopt;
-  table->layout = "Bluehill raw data";
-  return table;
 }
 
 }  // namespace havers::io

@@ -11,9 +11,9 @@
 
 namespace havers::io {
 
-/// A recognised layout. Column by column: name and unit, as in the file; the unit may be empty.
+/// A recognised table. Column by column: name and unit, as in the file; the unit may be empty.
 struct Table {
-  std::string layout;
+  std::string layout;                     ///< "table", "Bluehill raw data" or `results_layout`.
   std::vector<std::string> names, units;  ///< `names` is empty where the file has none.
   std::size_t header_rows = 0;      ///< Rows of the preview above the names: facts of the specimen.
   std::size_t first_line = 0;       ///< Of the numbers, from 1.
@@ -21,7 +21,6 @@ struct Table {
   std::string title;                ///< Name of the specimen, from the row above the names.
   std::vector<std::string> titles;  ///< That row.
   std::string guess;  ///< What the columns may hold by their numbers (`guess_columns`).
-  bool units_in_round_brackets = false;  ///< In a row of their own below the names.
 };
 
 /// The layout of a table with one row per specimen: results, not raw data.
@@ -31,19 +30,8 @@ inline constexpr std::string_view results_layout = "results";
 /// there is one.
 std::vector<Table> side_by_side(const Table& table);
 
-/// A recogniser answers only for its own layout. A further layout is one function and one line in
-/// `layouts`.
-using Recognise = std::optional<Table> (*)(const Preview&);
-
-/// Asks every recogniser in turn, the most particular first.
-std::optional<Table> recognise_table(const Preview& preview);
-
 /// Any table of numbers: names above it or not, units in a row, in the names, or absent. A table of
 /// results only where no other follows.
-std::optional<Table> recognise_any_table(const Preview& preview);
-
-/// INSTRON Bluehill's raw data: key,"value",unit lines, a blank line, names, units in round
-/// brackets.
-std::optional<Table> recognise_bluehill(const Preview& preview);
+std::optional<Table> recognise_table(const Preview& preview);
 
 }  // namespace havers::io
