@@ -4,6 +4,10 @@
 
 namespace havers::io {
 
+std::string at_line(const std::string& file, std::size_t line) {
+  return file + ":" + std::to_string(line);
+}
+
 std::string to_string(const Problem& problem) {
   std::string text = problem.where + ": " + problem.what;
   if (!problem.hint.empty()) text += " (" + problem.hint + ")";

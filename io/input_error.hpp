@@ -1,6 +1,7 @@
 // The one exception of havers: what is wrong with the user's input.
 #pragma once
 
+#include <cstddef>
 #include <exception>
 #include <string>
 #include <vector>
@@ -12,6 +13,9 @@ namespace havers::io {
 struct Problem {
   std::string where, what, hint;
 };
+
+/// "file:line", for a problem's `where`.
+std::string at_line(const std::string& file, std::size_t line);
 
 /// "where: what (hint)".
 std::string to_string(const Problem& problem);

@@ -51,10 +51,6 @@ Candidate classify(const Column& column) {
   return {quantity_of_unit(column.unit), by_unit};
 }
 
-std::string place_of(const TestFile& file, const Table& table) {
-  return fmt::format("{}:{}", file.file, table.first_line);
-}
-
 std::string unknown_unit(const Column& column) {
   return fmt::format(R"(unit "{}" of column "{}" is not known)", excerpt(column.unit),
                      excerpt(column.name));
@@ -207,7 +203,7 @@ const char* volt_hint(const ReadOptions& options) {
 // A signal in volts is of use only where another signal tells its factor.
 // Where nothing at all was recognised, the numbers may tell.
 void need_load(TestFile& file, const Table& table, const ReadOptions& options, Chosen& chosen) {
-  const std::string where = place_of(file, table);
+  const std::string where = at_line(file.file, table.first_line);
   const bool loaded = chosen.contains(Quantity::force) || chosen.contains(Quantity::stress);
   if (!loaded && options.has_logger && chosen.contains(Quantity::load_volts)) return;
   for (const Quantity quantity : {Quantity::load_volts, Quantity::volts}) {
@@ -242,7 +238,7 @@ void need_gauge(const TestFile& file, const std::string& where, const ReadOption
 }  // namespace
 
 std::vector<Channel> find_channels(TestFile& file, const Table& table, const ReadOptions& options) {
-  const std::string where = place_of(file, table);
+  const std::string where = at_line(file.file, table.first_line);
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < table.names.size(); ++i)
     file.columns.push_back({table.names[i], table.units[i]});

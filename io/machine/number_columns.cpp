@@ -11,10 +11,6 @@
 namespace havers::io {
 namespace {
 
-std::string place(const TestFile& file, std::size_t line) {
-  return fmt::format("{}:{}", file.file, line);
-}
-
 bool has_ended(const Row& row, const SpecimenColumns& specimen) {
   return std::ranges::all_of(specimen.channels, [&](const Channel& channel) {
     return channel.column >= row.cells.size() || row.cells[channel.column].empty();
@@ -32,7 +28,7 @@ void check_time(const Row& row, SpecimenColumns& specimen, std::vector<Problem>&
     const bool clock = row.cells[specimen.channels[i].column].find(':') != std::string_view::npos;
     if (clock && before > now) now += day * std::round((before - now) / day);
     if (now < before)
-      problems.push_back({place(specimen.file, row.line),
+      problems.push_back({at_line(specimen.file.file, row.line),
                           fmt::format("time goes back from {:.6g} s to {:.6g} s", before, now),
                           "one table holds one test"});
   }
@@ -43,7 +39,7 @@ bool take_cells(const Row& row, char decimal, SpecimenColumns& specimen,
   for (std::size_t i = 0; i < specimen.channels.size(); ++i) {
     const Channel& channel = specimen.channels[i];
     if (channel.column >= row.cells.size()) {
-      problems.push_back({place(specimen.file, row.line),
+      problems.push_back({at_line(specimen.file.file, row.line),
                           fmt::format("the row ends after {} of {} columns", row.cells.size(),
                                       specimen.file.columns.size()),
                           "the file may be cut off here"});
@@ -70,7 +66,7 @@ void check_width(const Row& row, std::span<const SpecimenColumns> side_by_side,
   const auto surplus = row.cells.subspan(columns);
   if (std::ranges::all_of(surplus, [](std::string_view cell) { return cell.empty(); })) return;
   problems.push_back(
-      {place(side_by_side.front().file, row.line),
+      {at_line(side_by_side.front().file.file, row.line),
        fmt::format("the row has {} cells, and there are {} columns", row.cells.size(), columns),
        "is the decimal mark also the delimiter?"});
 }
@@ -95,7 +91,7 @@ void take_numbers(const Row& row, char decimal, std::span<SpecimenColumns> side_
       continue;
     }
     if (specimen.ended) {
-      problems.push_back({place(specimen.file, row.line),
+      problems.push_back({at_line(specimen.file.file, row.line),
                           fmt::format("specimen {} goes on after rows without cells",
                                       excerpt(specimen.file.test.specimen_id)),
                           "fill them, or leave them out"});
@@ -109,7 +105,7 @@ void take_numbers(const Row& row, char decimal, std::span<SpecimenColumns> side_
 Problem bad_cell(const TestFile& file, std::size_t line, const Column& column,
                  std::string_view cell, NumberFault fault) {
   return {
-      place(file, line),
+      at_line(file.file, line),
       fmt::format(R"(column "{}": "{}" {})", excerpt(column.name), excerpt(cell), to_string(fault)),
       fault == NumberFault::empty ? "export all channels at one rate, or leave the row out" : ""};
 }

@@ -29,7 +29,7 @@ bool names_results(const PreviewRow& row) {
 void refuse_text_among_numbers(const std::string& name, const PreviewRow& row,
                                const Preview& preview) {
   if (const std::string* text = text_among_numbers(row, preview.dialect.decimal))
-    throw InputError(fmt::format("{}:{}", name, row.line),
+    throw InputError(at_line(name, row.line),
                      fmt::format("\"{}\" stands among numbers", excerpt(*text)),
                      "correct it, or leave its column out of the export");
 }
@@ -37,7 +37,7 @@ void refuse_text_among_numbers(const std::string& name, const PreviewRow& row,
 Table find_table(const std::string& name, const Preview& preview) {
   for (const PreviewRow& row : preview.rows)
     if (row.cells.size() > most_columns)
-      throw InputError(fmt::format("{}:{}", name, row.line),
+      throw InputError(at_line(name, row.line),
                        fmt::format("has more than {} columns", most_columns),
                        "a test has a row for each time and a column for each channel");
   std::optional<Table> table = recognise_table(preview);
@@ -59,7 +59,7 @@ void name_columns(Table& table, const std::string& name, const Preview& preview,
   const auto first = std::ranges::find(preview.rows, table.first_line, &PreviewRow::line);
   if (first != preview.rows.begin()) refuse_text_among_numbers(name, *std::prev(first), preview);
   if (options.columns.empty())
-    throw InputError(fmt::format("{}:{}", name, table.first_line), "the columns have no names",
+    throw InputError(at_line(name, table.first_line), "the columns have no names",
                      fmt::format("say which is which {}; from the numbers it may be {}",
                                  column_place(options), table.guess));
   for (std::size_t i = 0; i < first->cells.size(); ++i) {

@@ -49,7 +49,7 @@ void take_given_sizes(const ReadOptions& options, calib::RawTest& test) {
 }  // namespace
 
 InputError open_quote(const std::string& file, std::size_t line) {
-  return {fmt::format("{}:{}", file, line), "a quote is opened and never closed",
+  return {at_line(file, line), "a quote is opened and never closed",
           "the file may be cut off or damaged here"};
 }
 

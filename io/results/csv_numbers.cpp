@@ -27,7 +27,7 @@ class Columns {
   bool take(const Row& row) {
     if (positions_.empty()) return find_columns(row);
     if (row.cells.size() > cells_)
-      problems_.push_back({fmt::format("{}:{}", file_, row.line),
+      problems_.push_back({at_line(file_, row.line),
                            fmt::format("has {} cells, the header has {}", row.cells.size(), cells_),
                            "is the decimal mark also the delimiter?"});
     CsvNumbers numbers{row.line, {}};
@@ -53,8 +53,8 @@ class Columns {
     for (const std::string& name : names_) {
       const auto found = std::ranges::find(header.cells, name);
       if (found == header.cells.end())
-        problems_.push_back({fmt::format("{}:{}", file_, header.line),
-                             fmt::format("has no column {}", name), expected()});
+        problems_.push_back(
+            {at_line(file_, header.line), fmt::format("has no column {}", name), expected()});
       positions_.push_back(static_cast<std::size_t>(found - header.cells.begin()));
     }
     return problems_.empty();
@@ -68,7 +68,7 @@ class Columns {
     const bool whole = std::from_chars(cell.data(), end, value).ptr == end;
     if (!cell.empty() && !(whole && std::isfinite(value)))
       problems_.push_back(
-          {fmt::format("{}:{}", file_, row.line),
+          {at_line(file_, row.line),
            fmt::format("column {} holds \"{}\", must be a number", names_[column], excerpt(cell)),
            ""});
     return value;
@@ -105,7 +105,7 @@ std::vector<CsvNumbers> read_csv_numbers(const std::filesystem::path& file,
   rows.feed(std::string_view(text).substr(text.starts_with(byte_order_mark) ? byte_order_mark.size()
                                                                             : 0));
   if (const std::size_t line = rows.open_quote_line(); line > 0)
-    throw InputError(fmt::format("{}:{}", file.string(), line), "a quote is opened and not closed");
+    throw InputError(at_line(file.string(), line), "a quote is opened and not closed");
   rows.finish();
   return columns.finish();
 }

@@ -18,7 +18,7 @@ std::vector<sim::Threshold> read_thresholds(const std::filesystem::path& file) {
   std::vector<std::size_t> line_of(rows.size(), 0);
   std::vector<Problem> problems;
   const auto complain = [&](std::size_t line, std::string what) {
-    problems.push_back({fmt::format("{}:{}", file.string(), line), std::move(what), ""});
+    problems.push_back({at_line(file.string(), line), std::move(what), ""});
   };
   for (const CsvNumbers& row : rows) {
     const double joint = row.values[0];
