@@ -89,7 +89,7 @@ void SpecimenTables::read(std::string_view beginning, TextSource& source) {
 // As many rows in every block as in the first: a vector that grows by doubling copies all it has.
 void SpecimenTables::make_room(double blocks) {
   constexpr double spare = 1.05;
-  for (SpecimenColumns& specimen : std::span(specimens_).subspan(current_))
+  for (SpecimenColumns& specimen : current())
     for (std::vector<double>& values : specimen.values)
       values.reserve(static_cast<std::size_t>(spare * blocks * static_cast<double>(values.size())));
 }
@@ -102,7 +102,7 @@ bool SpecimenTables::take_row(const Row& row) {
   if (!header_.empty() || begins_header(row))
     take_header_row(row);
   else
-    take_numbers(row, dialect_.decimal, std::span(specimens_).subspan(current_), problems_);
+    take_numbers(row, dialect_.decimal, current(), problems_);
   return problems_.size() < enough_problems;
 }
 
@@ -147,7 +147,7 @@ void SpecimenTables::end_file() {
   const std::string& first = header_.front().cells.front();
   if (std::ranges::any_of(header_, is_numbers) || std::ranges::none_of(first, is_letter))
     return end_header();
-  for (SpecimenColumns& specimen : std::span(specimens_).subspan(current_))
+  for (SpecimenColumns& specimen : current())
     specimen.file.test.warnings.push_back(
         fmt::format("line {}, \"{}\", and what follows it are no rows of numbers: not read",
                     header_.front().line, excerpt(first)));
@@ -192,8 +192,7 @@ void SpecimenTables::take_held_back_numbers(const std::vector<PreviewRow>& rows,
   for (const PreviewRow& row : rows) {
     if (row.line < first_line) continue;
     const std::vector<std::string_view> cells(row.cells.begin(), row.cells.end());
-    take_numbers({row.line, cells}, dialect_.decimal, std::span(specimens_).subspan(current_),
-                 problems_);
+    take_numbers({row.line, cells}, dialect_.decimal, current(), problems_);
   }
 }
 

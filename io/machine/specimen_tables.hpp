@@ -32,6 +32,7 @@ class SpecimenTables {
   std::vector<TestFile> take();
 
  private:
+  std::span<SpecimenColumns> current() { return std::span(specimens_).subspan(current_); }
   void make_room(double blocks);
   bool take_row(const Row& row);
   [[nodiscard]] bool begins_header(const Row& row) const;

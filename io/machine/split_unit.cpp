@@ -54,16 +54,13 @@ bool can_have(std::string_view name, std::string_view text) {
 }
 
 NameAndUnit named_unit(std::string_view name, std::string_view unit) {
-  while (name.ends_with(' ')) name.remove_suffix(1);
-  while (unit.starts_with(' ')) unit.remove_prefix(1);
-  return {std::string(name), std::string(unit)};
+  return {std::string(without_blanks(name)), std::string(without_blanks(unit))};
 }
 
 }  // namespace
 
 NameAndUnit split_unit(std::string_view text) {
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  while (text.ends_with(' ')) text.remove_suffix(1);
+  text = without_blanks(text);
   NameAndUnit whole{std::string(text), {}};
   if (text.empty()) return whole;
   if (text.back() == ')' || text.back() == ']') {

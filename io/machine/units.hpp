@@ -17,7 +17,10 @@ struct Unit {
 /// first, then any. A calibration factor is a unit too: "500 N/V" is a force.
 std::optional<Unit> find_unit(std::string_view text);
 
-/// Text without the blanks and one pair of brackets around it.
+/// Text without the blanks around it.
+std::string_view without_blanks(std::string_view text);
+
+/// And without one pair of brackets around it, nor blanks inside that.
 std::string_view without_brackets(std::string_view text);
 
 }  // namespace havers::io
