@@ -137,10 +137,8 @@ void write_all(const OutputFolder& output, const SweepArguments& arguments,
 // nothing could be compared.
 std::string found(const calib::Finding& finding) {
   if (!std::isfinite(finding.value)) return fmt::format("{} -", io::word(finding.response));
-  const bool of_means =
-      finding.test == calib::FindingTest::above || finding.test == calib::FindingTest::below;
-  const auto [name, unit, scale] =
-      of_means ? calib::words_of(finding.response) : calib::MeasureWords{"", "%", 0.01};
+  const auto [name, unit, scale] = judges_means(finding.test) ? calib::words_of(finding.response)
+                                                              : calib::MeasureWords{"", "%", 0.01};
   const double width = (finding.high - finding.low) / scale;
   const bool known = std::isfinite(width) && width > 0.0;
   const int two = known ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(width)))) : 3;

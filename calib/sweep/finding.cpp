@@ -126,8 +126,8 @@ void show(const Comparison& comparison, const FindingRequest& request, Finding& 
   finding.high = comparison.high;
   if (finding.high - finding.low <= rounding * std::abs(finding.value))
     finding.low = finding.high = finding.value;
-  const bool of_means = request.test == FindingTest::above || request.test == FindingTest::below;
-  if (!of_means || !is_share(request.response) || std::isnan(comparison.low)) return;
+  if (!judges_means(request.test) || !is_share(request.response) || std::isnan(comparison.low))
+    return;
   finding.low = std::max(finding.low, 0.0);
   finding.high = std::min(finding.high, 1.0);
 }
@@ -179,6 +179,10 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
 }
 
 }  // namespace
+
+bool judges_means(FindingTest test) {
+  return test == FindingTest::above || test == FindingTest::below;
+}
 
 std::string to_string(FindingOutcome outcome) {
   constexpr std::array words{"agrees", "disagrees", "undecided"};

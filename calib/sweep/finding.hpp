@@ -20,13 +20,17 @@ enum class FindingTest {
   below,
 };
 
+/// Whether a mean itself is judged, `above` or `below`: value and margin are in its SI unit, else
+/// relative.
+bool judges_means(FindingTest test);
+
 struct FindingRequest {
   std::string id, claim;
   FindingTest test = FindingTest::same;
   Measure response = Measure::strength;
   std::vector<std::string> keys;  ///< What is compared; `linear` takes several.
   std::string per;                ///< Key with a judgement for each of its values; empty: one.
-  double margin = 0.05;           ///< Relative; of `above` and `below` in SI units.
+  double margin = 0.05;           ///< Relative, or in SI units where `judges_means`.
   std::string if_agrees, if_disagrees, if_undecided;  ///< What it means, in words.
 };
 

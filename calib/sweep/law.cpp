@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <numeric>
 
 namespace havers::calib {
 namespace {
@@ -111,9 +112,7 @@ std::string explain(LawStatus status) {
 
 double Law::value(const SweepPoint& point, const SweepPlan& plan) const {
   const std::vector<double> row = row_of(request, plan, point);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < row.size(); ++i) sum += coefficients[i] * row[i];
-  return sum;
+  return std::inner_product(row.begin(), row.end(), coefficients.begin(), 0.0);
 }
 
 std::vector<Law> fit_laws(const LawRequest& request, const SweepPlan& plan,

@@ -36,22 +36,20 @@ std::array<double, measure_count> measures_of(const Response& response, const Pa
   std::array<double, measure_count> measures{};
   measures.fill(not_measured);
   if (response.failed || response.strain.empty()) return measures;
+  const auto set = [&](Measure m, double value) {
+    measures.at(static_cast<std::size_t>(m)) = value;
+  };
   const double failure = response.failure_strain;
-  measures = {response.strength,
-              failure,
-              response.modulus,
-              linear_until(response) / failure,
-              response.broke ? (response.strain.back() - failure) / failure : not_measured,
-              not_measured,
-              not_measured,
-              not_measured,
-              not_measured};
-  if (pattern != nullptr) {
-    measures[5] = pattern->head_tail;
-    measures[6] = pattern->flank;
-    measures[7] = pattern->span;
-    measures[8] = pattern->linked;
-  }
+  set(Measure::strength, response.strength);
+  set(Measure::failure_strain, failure);
+  set(Measure::modulus, response.modulus);
+  set(Measure::linear_part, linear_until(response) / failure);
+  if (response.broke) set(Measure::fall_part, (response.strain.back() - failure) / failure);
+  if (pattern == nullptr) return measures;
+  set(Measure::head_tail_broken, pattern->head_tail);
+  set(Measure::flank_broken, pattern->flank);
+  set(Measure::crack_span, pattern->span);
+  set(Measure::crack_linked, pattern->linked);
   return measures;
 }
 
@@ -113,8 +111,8 @@ PointSummary summary_of(const std::vector<SweepRun>& runs, std::size_t point) {
     summary.failed += run.failed ? 1 : 0;
     summary.unbroken += run.unbroken() ? 1 : 0;
   }
-  for (std::size_t m = 0; m < measure_count; ++m)
-    summary.measures.at(m) = statistics_of(values_of(runs, point, static_cast<Measure>(m)));
+  std::ranges::transform(all_measures, summary.measures.begin(),
+                         [&](Measure m) { return statistics_of(values_of(runs, point, m)); });
   return summary;
 }
 

@@ -25,7 +25,12 @@ enum class Measure {
   crack_span,        ///< Height that the largest chain of broken joints spans, over H. [-]
   crack_linked,      ///< Part of the broken head-tail joints that a broken flank continues. [-]
 };
-inline constexpr std::size_t measure_count = 9;
+/// In the order of their numbers.
+inline constexpr std::array all_measures{
+    Measure::strength,     Measure::failure_strain, Measure::modulus,
+    Measure::linear_part,  Measure::fall_part,      Measure::head_tail_broken,
+    Measure::flank_broken, Measure::crack_span,     Measure::crack_linked};
+inline constexpr std::size_t measure_count = all_measures.size();
 
 /// A point of a sweep: the values of its keys, and the scene they make.
 struct SweepPoint {

@@ -14,10 +14,6 @@ namespace {
 
 using Unit = std::vector<std::vector<double>>;  // points in [0, 1)^keys
 
-bool is_sample(Sampling sampling) {
-  return sampling == Sampling::latin_hypercube || sampling == Sampling::sobol;
-}
-
 // A permutation of the strata for each key, and a place in each stratum. [MCB79]
 Unit latin_hypercube(std::size_t points, std::size_t keys, std::uint64_t seed) {
   Unit unit(points, std::vector<double>(keys));
@@ -88,6 +84,10 @@ std::vector<std::vector<std::string>> list(const std::vector<SweepKey>& keys) {
 }
 
 }  // namespace
+
+bool is_sample(Sampling sampling) {
+  return sampling == Sampling::latin_hypercube || sampling == Sampling::sobol;
+}
 
 double number_in(const std::string& value) {
   double number = 0.0;

@@ -11,6 +11,8 @@ namespace havers::calib {
 /// fill the box between two bounds for each key.
 enum class Sampling { list, grid, latin_hypercube, sobol };
 
+bool is_sample(Sampling sampling);
+
 /// A key of a scene and what it takes, as TOML values.
 struct SweepKey {
   std::string name;                 ///< Dotted: "joints.scatter".

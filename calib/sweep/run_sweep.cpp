@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -133,6 +134,14 @@ bool SweepResult::trusted() const {
   for (const PointSummary& summary : summaries)
     without_strength += summary.failed + summary.unbroken;
   return 20 * without_strength <= static_cast<long>(runs.size());
+}
+
+std::vector<Measure> SweepResult::known() const {
+  std::vector<Measure> told;
+  std::ranges::copy_if(all_measures, std::back_inserter(told), [this](Measure m) {
+    return std::ranges::any_of(summaries, [m](const PointSummary& s) { return s[m].n > 0; });
+  });
+  return told;
 }
 
 sim::Scene scale_above(const sim::Scene& scene, const PointSummary& below) {

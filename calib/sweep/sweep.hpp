@@ -50,6 +50,8 @@ struct SweepResult {
 
   /// At most a twentieth of the runs failed or did not break; their points say which.
   [[nodiscard]] bool trusted() const;
+  /// The measures that any point tells.
+  [[nodiscard]] std::vector<Measure> known() const;
 };
 
 /// Called with the finished and all runs of a sweep; returning false stops it.

@@ -70,8 +70,7 @@ std::vector<std::string> idle_keys_of_sweep(TableReader& top, const calib::Sweep
     warnings.emplace_back("joints.seed changes nothing: sweep.seed and sweep.seeds choose them");
   if (plan.seeds == 1 && !top.tables("finding").empty())
     warnings.emplace_back("sweep.seeds is 1: no finding can be decided; give 2 or more");
-  const bool is_sample = plan.sampling >= calib::Sampling::latin_hypercube;
-  if (!is_sample && top.table("sweep").has("points"))
+  if (!is_sample(plan.sampling) && top.table("sweep").has("points"))
     warnings.emplace_back("sweep.points changes nothing: a list or a grid has those of its keys");
   return warnings;
 }
@@ -124,8 +123,7 @@ void read_questions(TableReader& top, calib::Sweep& sweep) {
     const bool of_keys = finding.test <= calib::FindingTest::linear;
     if (of_keys && finding.keys.empty())
       table.complain("keys", "is missing", "name the key whose effect is judged");
-    if (finding.test < calib::FindingTest::above &&
-        !(finding.margin >= 0.0 && finding.margin < 1.0))
+    if (!judges_means(finding.test) && !(finding.margin >= 0.0 && finding.margin < 1.0))
       table.complain("margin",
                      fmt::format("is {:g}, must be at least 0 and less than 1", finding.margin),
                      "give a part, 0.05 for 5 %");

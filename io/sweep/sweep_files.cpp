@@ -17,16 +17,6 @@ namespace {
 
 using calib::Measure;
 
-Measure measure(std::size_t m) {
-  return static_cast<Measure>(m);
-}
-
-bool is_known(const calib::SweepResult& result, std::size_t m) {
-  return std::ranges::any_of(result.summaries, [m](const calib::PointSummary& summary) {
-    return summary[measure(m)].n > 0;
-  });
-}
-
 // TOML texts keep their quotes, which hold a comma together in CSV as well.
 std::string point_cells(const calib::SweepPoint& point, std::size_t index) {
   std::string cells = fmt::format("{},{}", index, point.level);
@@ -48,16 +38,15 @@ std::string name_of(Measure m) {
 }
 
 std::string runs_csv(const calib::Sweep& sweep, const calib::SweepResult& result) {
+  const std::vector<Measure> known = result.known();
   std::string text = point_header(sweep) + ",seed,outcome";
-  for (std::size_t m = 0; m < calib::measure_count; ++m)
-    if (is_known(result, m)) text += fmt::format(",{}", name_of(measure(m)));
+  for (const Measure m : known) text += fmt::format(",{}", name_of(m));
   text += '\n';
   for (const calib::SweepRun& run : result.runs) {
     const std::string_view outcome = run.failed ? "failed" : run.broke ? "broken" : "unbroken";
     text += fmt::format("{},{},{}", point_cells(result.points[run.point], run.point), run.seed,
                         outcome);
-    for (std::size_t m = 0; m < calib::measure_count; ++m)
-      if (is_known(result, m)) text += fmt::format(",{}", csv_number(run[measure(m)]));
+    for (const Measure m : known) text += fmt::format(",{}", csv_number(run[m]));
     text += '\n';
   }
   return text;
@@ -66,11 +55,11 @@ std::string runs_csv(const calib::Sweep& sweep, const calib::SweepResult& result
 std::string summary_csv(const calib::Sweep& sweep, const calib::SweepResult& result) {
   std::string text = point_header(sweep) + ",inertia_number,measure,n,mean,sd,standard_error\n";
   for (std::size_t point = 0; point < result.points.size(); ++point)
-    for (std::size_t m = 0; m < calib::measure_count; ++m) {
-      const calib::Statistics& s = result.summaries[point][measure(m)];
+    for (const Measure m : calib::all_measures) {
+      const calib::Statistics& s = result.summaries[point][m];
       if (s.n == 0) continue;
       text += fmt::format("{},{},{},{},{},{},{}\n", point_cells(result.points[point], point),
-                          csv_number(result.points[point].inertia_number), name_of(measure(m)), s.n,
+                          csv_number(result.points[point].inertia_number), name_of(m), s.n,
                           csv_number(s.mean), csv_number(s.sd), csv_number(s.standard_error()));
     }
   return text;
@@ -124,13 +113,13 @@ nlohmann::json sweep_json(const calib::Sweep& sweep, const calib::SweepResult& r
           point.values[k].front() == '"' || point.values[k].front() == '\''
               ? nlohmann::json(point.values[k].substr(1, point.values[k].size() - 2))
               : nlohmann::json::parse(point.values[k], nullptr, false);
-    for (std::size_t m = 0; m < calib::measure_count; ++m) {
-      const calib::Statistics& s = summary[measure(m)];
+    for (const Measure m : calib::all_measures) {
+      const calib::Statistics& s = summary[m];
       if (s.n > 0)
-        measures[name_of(measure(m))] = {{"n", s.n},
-                                         {"mean", json_of(s.mean)},
-                                         {"sd", json_of(s.sd)},
-                                         {"standard_error", json_of(s.standard_error())}};
+        measures[name_of(m)] = {{"n", s.n},
+                                {"mean", json_of(s.mean)},
+                                {"sd", json_of(s.sd)},
+                                {"standard_error", json_of(s.standard_error())}};
     }
     calib::StrengthLaw strength = result.strengths[i];
     points.push_back({{"level", point.level},

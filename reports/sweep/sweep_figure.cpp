@@ -117,8 +117,7 @@ std::string axes(const std::vector<Line>& lines) {
 std::string mean_commands(const Panel& panel) {
   std::string data, bands, marks;
   std::vector<Line> lines;
-  const bool sample = panel.sweep.plan.sampling != calib::Sampling::grid &&
-                      panel.sweep.plan.sampling != calib::Sampling::list;
+  const bool sample = is_sample(panel.sweep.plan.sampling);
   for (const PointGroup& series : series_of(panel)) {
     const Line line = line_of(panel, series.points);
     if (line.x.empty()) continue;

@@ -18,8 +18,7 @@ using calib::FindingOutcome;
 
 std::string value_of(const calib::Finding& finding) {
   const calib::MeasureWords words = calib::words_of(finding.response);
-  const bool absolute =
-      finding.test == calib::FindingTest::above || finding.test == calib::FindingTest::below;
+  const bool absolute = judges_means(finding.test);
   const std::string what =
       finding.test == calib::FindingTest::steady   ? words.name + ", coefficient of variation"
       : finding.test == calib::FindingTest::linear ? words.name + ", away from the line"

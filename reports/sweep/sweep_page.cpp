@@ -83,16 +83,6 @@ mstch::array law_rows(const std::vector<calib::Law>& laws) {
   return list;
 }
 
-std::vector<calib::Measure> known_measures(const calib::SweepResult& result) {
-  std::vector<calib::Measure> known;
-  for (std::size_t m = 0; m < calib::measure_count; ++m)
-    if (std::ranges::any_of(result.summaries, [m](const calib::PointSummary& s) {
-          return s[static_cast<calib::Measure>(m)].n > 0;
-        }))
-      known.push_back(static_cast<calib::Measure>(m));
-  return known;
-}
-
 mstch::array point_heads(const SweepReport& report) {
   mstch::array heads;
   const auto head = [&heads](const std::string& name) {
@@ -104,7 +94,7 @@ mstch::array point_heads(const SweepReport& report) {
   head("n");
   head("Failed");
   head("Did not break");
-  for (const calib::Measure m : known_measures(report.result)) head(with_unit(words_of(m)));
+  for (const calib::Measure m : report.result.known()) head(with_unit(words_of(m)));
   head("CV of the strength (%)");
   head("Weibull modulus");
   head("ln-likelihood, Gumbel − Weibull");
@@ -122,7 +112,7 @@ mstch::node point_row(const SweepReport& report, std::size_t i) {
   cells.push_back(cell(std::to_string(summary.runs - summary.failed)));
   cells.push_back(cell(std::to_string(summary.failed)));
   cells.push_back(cell(std::to_string(summary.unbroken)));
-  for (const calib::Measure m : known_measures(report.result))
+  for (const calib::Measure m : report.result.known())
     cells.push_back(cell(plus_minus(summary[m].mean / words_of(m).scale,
                                     summary[m].standard_error() / words_of(m).scale)));
   const calib::Statistics& strength = summary[calib::Measure::strength];
