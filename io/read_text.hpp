@@ -1,3 +1,4 @@
+// A small file as a whole; test files are read in blocks (io/machine).
 #pragma once
 
 #include <filesystem>

@@ -96,8 +96,8 @@ std::string take_modulus(MeasuredTest& test, const ReductionOptions& options, Mo
   test.modulus_standard_error = fit.line.slope_standard_error;
   test.window_low = test.strain[fit.window.first];
   test.window_high = test.strain[fit.window.last - 1];
-  test.corrections.insert(test.corrections.end(), fit.corrections.begin(), fit.corrections.end());
-  test.warnings.insert(test.warnings.end(), fit.warnings.begin(), fit.warnings.end());
+  append(test.corrections, fit.corrections);
+  append(test.warnings, fit.warnings);
   return {};
 }
 

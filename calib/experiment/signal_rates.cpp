@@ -48,7 +48,7 @@ double telling_step(const Signal& signal) {
   const double sampling = std::max(median(std::move(steps)), span / 4000.0);
   if (high <= low) return sampling;
   constexpr double above_noise = 14.0;
-  const double noise = noise_of({signal.value.begin(), signal.value.end()});
+  const double noise = noise_of(signal.value);
   return std::clamp(above_noise * noise * span / (high - low), sampling,
                     std::max(sampling, span / 100.0));
 }

@@ -1,3 +1,4 @@
+// Which name was meant by one that is not known.
 #pragma once
 
 #include <set>

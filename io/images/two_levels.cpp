@@ -80,13 +80,9 @@ TwoLevels split_levels(const cv::Mat& image, const cv::Mat& mask) {
 // Noise cut in halves has a separation of 2.65; a shade cut along a contour has no jump across it.
 bool is_a_step(const TwoLevels& levels, const cv::Mat& image, const cv::Mat& mask) {
   if (levels.bright.empty() || levels.separation < 4.5) return false;
-  cv::Mat grown, shrunk, grown_far, shrunk_far;
-  const cv::Mat near = cv::Mat::ones(3, 3, CV_8U), far = cv::Mat::ones(7, 7, CV_8U);
-  cv::dilate(levels.bright, grown, near);
-  cv::dilate(levels.bright, grown_far, far);
-  cv::erode(levels.bright, shrunk, near);
-  cv::erode(levels.bright, shrunk_far, far);
-  const cv::Mat inside = shrunk & ~shrunk_far & mask, outside = grown_far & ~grown & mask;
+  constexpr int near = 3, far = 7;
+  const cv::Mat inside = eroded(levels.bright, near) & ~eroded(levels.bright, far) & mask;
+  const cv::Mat outside = dilated(levels.bright, far) & ~dilated(levels.bright, near) & mask;
   if (cv::countNonZero(inside) == 0 || cv::countNonZero(outside) == 0) return false;
   const double jump = cv::mean(image, inside)[0] - cv::mean(image, outside)[0];
   const double whole =

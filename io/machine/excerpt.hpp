@@ -1,3 +1,4 @@
+// Words of a file as a message quotes them.
 #pragma once
 
 #include <string>
