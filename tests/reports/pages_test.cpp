@@ -287,6 +287,13 @@ TEST(WorkPrecisionPage, SaysHowFarRunsCameThatWereStopped) {
                        "1 of 1 stopped after 20.0\u00a0s, at a strain of 0.210\u00a0%"));
 }
 
+// A sheet of A4 is narrower than a narrow window: what scrolls there would be cut on paper.
+TEST(Style, ScrollsOnScreensAlone) {
+  const std::string page = comparison_page({});
+  EXPECT_EQ(after(page, "@media ", "{"),
+            (std::vector<std::string>{"screen and (max-width: 48em) ", "print "}));
+}
+
 TEST(ComparisonPage, PutsFitsSideBySide) {
   const auto a = test::fit_sample();
   auto b = test::fit_sample();
