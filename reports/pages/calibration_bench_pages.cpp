@@ -49,8 +49,8 @@ std::string what_shares_say(const std::set<calib::IntervalWidth>& widths) {
   if (widths.contains(too_narrow)) return "Some intervals are too narrow by more than chance.";
   if (widths.contains(too_wide))
     return "Some intervals are too wide by more than chance, none too narrow.";
-  return widths.empty() ? "Too few studies to tell the shares from 95 %."
-                        : "No share differs from 95 % by more than chance.";
+  return widths.empty() ? "Too few studies to tell the shares from 95\u00a0%."
+                        : "No share differs from 95\u00a0% by more than chance.";
 }
 
 }  // namespace
@@ -98,8 +98,9 @@ std::string coverage_page(const calib::Coverage& coverage, const Provenance& pro
       {{"grade", text(!coverage.holds()                      ? "bad"
                       : coverage.complete && !widths.empty() ? "good"
                                                              : "mixed")},
-       {"sentence", text(fmt::format("{}{} % of {} intervals hold the truth; 95 % should.", stopped,
-                                     number(all.part / in::percent, 3), informed))},
+       {"sentence",
+        text(fmt::format("{}{}\u00a0% of {} intervals hold the truth; 95\u00a0% should.", stopped,
+                         number(all.part / in::percent, 3), informed))},
        {"detail", text(what_shares_say(widths))},
        {"rows", mstch::node{rows}}},
       provenance);

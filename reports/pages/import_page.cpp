@@ -31,11 +31,11 @@ Facts facts_of(const ImportReport& report) {
   };
   Facts facts{
       {"Modulus",
-       fmt::format("{} GPa, in the window {} %",
+       fmt::format("{}\u00a0GPa, in the window {}\u00a0%",
                    plus_minus(test.modulus / in::GPa, test.modulus_standard_error / in::GPa),
                    interval(test.window_low / in::percent, test.window_high / in::percent))},
       {bounded("Strength"),
-       fmt::format("{} MPa",
+       fmt::format("{}\u00a0MPa",
                    plus_minus(test.strength / in::MPa, test.strength_standard_error / in::MPa))},
       {"Largest force", quantity(test.max_force, "N")},
       {bounded("Failure strain"), quantity(test.failure_strain / in::percent, "%")},
@@ -59,7 +59,7 @@ std::string clocks_caption(const calib::ClockFit& clocks) {
         "was taken from it.",
         typeset(clocks.problem));
   std::string caption = fmt::format(
-      "The two clocks. When the logger's shows {} s, the machine's shows {} s. ",
+      "The two clocks. When the logger's shows {}\u00a0s, the machine's shows {}\u00a0s. ",
       number(clocks.reference), plus_minus(clocks.offset, clocks.offset_standard_error));
   caption +=
       clocks.rate_fitted

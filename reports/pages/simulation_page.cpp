@@ -18,8 +18,9 @@ bool has_no_bounds(const sim::Simulation& s) {
 }
 
 std::string by_step(double error) {
-  return error > 0.0 ? fmt::format(" (± {} by the step)", quantity(error / in::percent, "%", 2))
-                     : "";
+  return error > 0.0
+             ? fmt::format(" (±\u00a0{} by the step)", quantity(error / in::percent, "%", 2))
+             : "";
 }
 
 std::string sentence_of(const sim::Simulation& s) {
@@ -176,7 +177,7 @@ Facts scene_facts(const SimulationReport& report) {
                    setting(assembly.fibre_height / in::um, "µm"), degrees(assembly.orientation),
                    8 * assembly.refinement * assembly.refinement)},
       {"Material",
-       fmt::format("E = {}, ν = {}, ρ = {} kg/m³, plane {}{}",
+       fmt::format("E = {}, ν = {}, ρ = {}\u00a0kg/m³, plane {}{}",
                    setting(material.young / in::GPa, "GPa"), setting(material.poisson),
                    setting(material.density),
                    material.plane == sim::Plane::stress ? "stress" : "strain", unusual(material))},
@@ -190,7 +191,7 @@ Facts scene_facts(const SimulationReport& report) {
                                        to_string(joints.distribution), setting(joints.scatter),
                                        setting(joints.missing / in::percent, "%"), joints.seed)
                          : "one per joint, given"},
-      {"Loading", fmt::format("{} 1/s, {} sides, {} start, up to {} strain, followed to {}",
+      {"Loading", fmt::format("{}\u00a01/s, {} sides, {} start, up to {} strain, followed to {}",
                               setting(loading.strain_rate),
                               loading.lateral == sim::Lateral::periodic ? "periodic" : "free",
                               loading.start == sim::Start::uniform ? "uniform" : "rest",

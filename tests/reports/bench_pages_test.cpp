@@ -82,9 +82,9 @@ TEST(CoveragePage, SaysWhichIntervalsHoldLessThanTheyPromise) {
       {.design = "0, 90 deg", .parameter = "ratio", .studies = 100, .half_width = {NAN, NAN, NAN}}};
   const std::string page = coverage_page(coverage, {{"seed", "1"}});
   expect_sound(page);
-  EXPECT_TRUE(contains(page, "95.0 % of 100 intervals hold the truth; 95 % should."));
+  EXPECT_TRUE(contains(page, "95.0\u00a0% of 100 intervals hold the truth; 95\u00a0% should."));
   EXPECT_TRUE(contains(page, "100 of 100"));
-  EXPECT_TRUE(contains(page, "No share differs from 95 %"));
+  EXPECT_TRUE(contains(page, "No share differs from 95\u00a0%"));
   EXPECT_TRUE(contains(page, "<td>as promised</td>"));
   coverage.summaries.front().inside = calib::rate_of(100, 100);
   const std::string wide = coverage_page(coverage, {{"seed", "1"}});
@@ -116,7 +116,7 @@ TEST(CoveragePage, SaysThatItWasStopped) {
   coverage.complete = false;
   const std::string page = coverage_page(coverage, {});
   EXPECT_TRUE(contains(page, "verdict mixed"));
-  EXPECT_TRUE(contains(page, "Stopped before all studies were fitted. 95.0 % of"));
+  EXPECT_TRUE(contains(page, "Stopped before all studies were fitted. 95.0\u00a0% of"));
 }
 
 TEST(CoveragePage, CallsNoRowAsPromisedWhoseIntervalLeavesOut95) {
@@ -130,7 +130,7 @@ TEST(CoveragePage, SaysWhereStudiesAreTooFewToTell) {
   const std::string page = coverage_page(coverage_of(1, 1), {});
   EXPECT_TRUE(contains(page, "<td>too few to tell</td>"));
   EXPECT_FALSE(contains(page, "<td>as promised</td>"));
-  EXPECT_TRUE(contains(page, "Too few studies to tell the shares from 95 %."));
+  EXPECT_TRUE(contains(page, "Too few studies to tell the shares from 95\u00a0%."));
   EXPECT_TRUE(contains(page, "verdict mixed"));
 }
 

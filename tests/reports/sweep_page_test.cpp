@@ -139,7 +139,7 @@ TEST(SweepPage, TypesetsClaimsAndChancesThatAreNextToNothing) {
   known.result.laws.front().lack_of_fit = 709.0;
   known.result.laws.front().lack_of_fit_p = 0.0;
   const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
-  EXPECT_THAT(page, HasSubstr("1.8 × 10⁻⁶ d"));
+  EXPECT_THAT(page, HasSubstr("1.8\u00a0×\u00a010⁻⁶ d"));
   EXPECT_THAT(page, HasSubstr("709 (p &lt; 10⁻⁶)"));
 }
 
