@@ -52,11 +52,28 @@ TEST(ChainsPage, NamesTheWinnerAndDrawsErrorAgainstCost) {
   const auto benchmark = calib::summarise(std::move(rows));
   const std::string page = chains_page(benchmark, {{"seed", "1"}});
   expect_sound(page);
-  EXPECT_TRUE(contains(page, calib::all_chains().front().name + " needs the fewest simulations"));
+  EXPECT_TRUE(contains(page, "<p class=\"sentence\">The chain “" +
+                                 calib::all_chains().front().name +
+                                 "” needs the fewest simulations of those"));
   EXPECT_TRUE(contains(page, "It is the default."));
   EXPECT_TRUE(contains(page, "<td class=\"n\">1.2</td><td class=\"n\">300</td>"));
   EXPECT_TRUE(contains(page, "7 fits of 1 study of known truth."));
   EXPECT_TRUE(contains(page, "bysimulations"));
+}
+
+TEST(ChainsPage, ClaimsNoClearLeadWhereRangesMeet) {
+  std::vector<calib::ChainRow> rows;
+  for (const calib::Chain& chain : calib::all_chains())
+    for (const int study : {1, 2}) {
+      rows.push_back(chain_row(chain.name, 0.0123, (rows.size() < 2 ? 310 : 300) + 200 * study));
+      rows.back().study = study;
+    }
+  const auto benchmark = calib::summarise(std::move(rows));
+  const std::string page = chains_page(benchmark, {});
+  EXPECT_TRUE(contains(page, "” needs the fewest simulations, though not clearly, of those"));
+  EXPECT_TRUE(contains(page, "It is not the default. Its range meets that of “" +
+                                 calib::all_chains().front().name + "”, “"));
+  EXPECT_TRUE(contains(page, "verdict mixed"));
 }
 
 // Its lines begin at the left and end at the bottom, where the names would stand.
