@@ -106,6 +106,23 @@ mstch::map content_of(const ImportReport& report, std::size_t index) {
       {"warnings", text_section(test.warnings)}};
 }
 
+// Which tests can be used, and whether any has a warning.
+mstch::map verdict_of(const std::vector<ImportReport>& reports) {
+  std::vector<std::string> cannot;
+  long warnings = 0;
+  for (const ImportReport& report : reports) {
+    if (!report.problems.empty()) cannot.push_back(base_name(report.file));
+    warnings += static_cast<long>(report.test.warnings.size());
+  }
+  const std::string reserve =
+      warnings == 0 ? "" : fmt::format(", with {}", count(warnings, "warning"));
+  return {
+      {"grade", text(!cannot.empty() ? "bad"
+                     : warnings > 0  ? "mixed"
+                                     : "good")},
+      {"sentence", text(how_many_can("be used", "test", reports.size(), cannot) + reserve + ".")}};
+}
+
 }  // namespace
 
 std::string test_svg(const ImportReport& report, const std::string& id) {
@@ -119,9 +136,11 @@ std::string clocks_svg(const calib::ClockFit& clocks, const std::string& id) {
 std::string import_page(const std::vector<ImportReport>& reports, const Provenance& provenance) {
   mstch::array tests;
   for (std::size_t i = 0; i < reports.size(); ++i) tests.emplace_back(content_of(reports[i], i));
+  mstch::map content = verdict_of(reports);
+  content["tests"] = mstch::node{tests};
   return render_page(
       fmt::format("havers import: {}", count(static_cast<long>(reports.size()), "test")), "import",
-      {{"tests", mstch::node{tests}}}, provenance);
+      content, provenance);
 }
 
 }  // namespace havers::reports

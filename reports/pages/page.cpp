@@ -65,6 +65,15 @@ mstch::node check_section(const std::vector<calib::Check>& checks) {
   return section(std::move(items));
 }
 
+std::string how_many_can(const std::string& verb, const std::string& noun, std::size_t all,
+                         const std::vector<std::string>& cannot) {
+  if (all == 1) return fmt::format("The {} can{} {}", noun, cannot.empty() ? "" : "not", verb);
+  const std::string counted = count(static_cast<long>(all), noun);
+  if (cannot.empty()) return fmt::format("All {} can {}", counted, verb);
+  return fmt::format("{} of {} cannot {} ({})", cannot.size(), counted, verb,
+                     fmt::join(cannot, ", "));
+}
+
 std::string fit_sentence(const calib::CalibrationResult& result) {
   const auto how_many = [&](calib::Outcome outcome) {
     return std::ranges::count(result.verdict, outcome, &calib::Check::outcome);

@@ -83,6 +83,20 @@ TEST(ImportPage, ShowsNumbersCorrectionsAndWarningsOfEveryTest) {
   EXPECT_TRUE(contains(stopped, "<td class=\"n\">≥ "));
 }
 
+TEST(ImportPage, SaysFirstWhetherTheTestsCanBeUsed) {
+  const auto raw = test::raw_test(13e9, 43e6, 1);
+  auto measured = test::measured_test(13e9, 43e6, 1);
+  measured.warnings.clear();
+  std::vector<ImportReport> reports{{"A1.csv", raw, measured}};
+  const auto verdict = [&] {
+    return after(import_page(reports, {}), "<p class=\"sentence\">", "<");
+  };
+  EXPECT_EQ(verdict(), std::vector<std::string>{"The test can be used."});
+  reports.push_back({"data/A2.csv", raw, {}, {"no column is a force"}});
+  EXPECT_EQ(verdict(), std::vector<std::string>{"1 of 2 tests cannot be used (A2.csv)."});
+  EXPECT_TRUE(contains(import_page(reports, {}), "verdict bad"));
+}
+
 TEST(ImportPage, SurvivesAnEmptyTest) {
   const calib::RawTest raw;
   const calib::MeasuredTest measured;
@@ -308,6 +322,8 @@ TEST(ComparisonPage, PutsFitsSideBySide) {
   const std::string page = comparison_page({{a.study, a.result, {}, {{"seed", "1"}}, 38.2},
                                             {b.study, b.result, {}, {{"seed", "2"}}, 61.0}});
   expect_sound(page);
+  EXPECT_EQ(after(page, "<p class=\"sentence\">", "<").front(),
+            "1 of 2 fits cannot be trusted (bovine femur B), 1 with reservations.");
   EXPECT_TRUE(contains(page, "13.123\u00a0±\u00a00.087"));
   EXPECT_TRUE(contains(page, "14.200\u00a0±\u00a00.087"));
   EXPECT_TRUE(contains(page, "<td>bovine femur B</td><td class=\"n\">14.200"));  // wide as one fit
