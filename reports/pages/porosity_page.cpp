@@ -24,7 +24,8 @@ std::string with_sd(double mean, double sd, double unit) {
 // Of a section by itself: pores larger than a window take joints away instead (K5).
 std::string scatter_text(const calib::SectionPorosity& s, double scatter) {
   const calib::SpecimenPorosity alone = calib::pool_sections({s});
-  if (!calib::removes_joints(alone)) return number(scatter, 3);
+  if (!calib::removes_joints(alone))
+    return plus_minus(scatter, calib::scatter_standard_error(alone, {}));
   return fmt::format("– ({} missing)",
                      quantity(calib::missing_joints(alone) / in::percent, "%", 3));
 }
@@ -130,7 +131,7 @@ std::string detail_of(const PorosityReport& report) {
   return fmt::format(
       "Pores are smaller than the window of one fibre: they spread the joints' strength by a "
       "scatter of d = {}.",
-      number(scatter, 3));
+      plus_minus(scatter, calib::scatter_standard_error(mean, {})));
 }
 
 }  // namespace

@@ -74,7 +74,9 @@ std::string cost_of(const SimulationReport& report) {
 // Of a run that did not break the strain of the largest stress says nothing.
 std::string failure_strain_of(const SimulationReport& report) {
   const sim::Simulation& s = report.simulation;
-  if (s.status == Status::broken) return quantity(s.failure_strain / in::percent, "%");
+  if (s.status == Status::broken)
+    return quantity(s.failure_strain / in::percent, "%") +
+           by_step(s.error_beyond_accuracy().failure_strain);
   if (s.status == Status::severed) return "–";
   if (s.status != Status::strain_limit) return "not reached";
   return fmt::format("not reached within the strain limit of {}",
@@ -106,16 +108,16 @@ std::string steps_of(const sim::Simulation& s) {
 Facts key_numbers(const SimulationReport& report) {
   const sim::Simulation& s = report.simulation;
   const bool dynamic = s.regime == sim::Regime::dynamic;
-  Facts facts{
-      {has_no_bounds(s) ? "Strength" : "Strength, at least", quantity(s.strength / in::MPa, "MPa")},
-      {"Failure strain", failure_strain_of(report)},
-      {"Modulus", quantity(s.modulus / in::GPa, "GPa")},
-      {"Strain of the first break", quantity(s.first_break_strain / in::percent, "%")},
-      {"Broken joints", broken_joints_of(report)},
-      {"Regime",
-       fmt::format("{}: {}", dynamic ? "dynamic" : "quasi-static", typeset(s.regime_ground))},
-      {dynamic ? "Time steps" : "Events", steps_of(s)},
-      {"Contact iterations", std::to_string(s.iterations)}};
+  Facts facts{{has_no_bounds(s) ? "Strength" : "Strength, at least",
+               quantity(s.strength / in::MPa, "MPa") + by_step(s.error_beyond_accuracy().strength)},
+              {"Failure strain", failure_strain_of(report)},
+              {"Modulus", quantity(s.modulus / in::GPa, "GPa")},
+              {"Strain of the first break", quantity(s.first_break_strain / in::percent, "%")},
+              {"Broken joints", broken_joints_of(report)},
+              {"Regime", fmt::format("{}: {}", dynamic ? "dynamic" : "quasi-static",
+                                     typeset(s.regime_ground))},
+              {dynamic ? "Time steps" : "Events", steps_of(s)},
+              {"Contact iterations", std::to_string(s.iterations)}};
   if (!std::isnan(s.strength_over_a_wave))
     facts.insert(facts.begin() + 1, {"Largest mean stress over the time of a wave",
                                      quantity(s.strength_over_a_wave / in::MPa, "MPa")});

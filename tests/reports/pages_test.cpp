@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "calib/porosity/scatter_map.hpp"
 #include "reports/bench_pages.hpp"
+#include "reports/text/format.hpp"
 #include "tests/reports/sound_page.hpp"
 
 namespace havers::reports {
@@ -152,6 +154,9 @@ TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
   EXPECT_TRUE(contains(page, "at a depth of 0.490, 0 bone, 1 pore"));
   EXPECT_TRUE(contains(page, "lacunae below 15 µm"));
   EXPECT_TRUE(contains(page, "Pores are smaller than the window of one fibre"));
+  EXPECT_TRUE(contains(
+      page, "by a scatter of d = " + plus_minus(calib::scatter_of(report.mean, {}),
+                                                calib::scatter_standard_error(report.mean, {}))));
   EXPECT_EQ(after(page, "<img", " ").size(), 2U);
 
   EXPECT_TRUE(contains(page, "verdict good"));

@@ -66,6 +66,7 @@ TEST(SimulationPage, IsNotGreenWhereTheStepLeavesAnErrorOrOneThatIsNotKnown) {
   EXPECT_TRUE(contains(page(),
                        "strength 38.90\u00a0MPa (±\u00a02.2\u00a0% by the step) at "
                        "0.300\u00a0% strain. To be trusted."));
+  EXPECT_TRUE(contains(page(), "<td>38.90\u00a0MPa (±\u00a02.2\u00a0% by the step)</td>"));
   simulation.step_error.reset();
   EXPECT_TRUE(contains(page(), "verdict mixed"));
   EXPECT_TRUE(contains(
