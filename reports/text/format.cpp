@@ -23,8 +23,11 @@ std::string with_minus(const std::string& text) {
   return text.starts_with('-') ? fmt::format("−{}", text.substr(1)) : text;
 }
 
+// No minus before what is rounded to zero.
 std::string fixed(double value, int decimals) {
-  return with_minus(fmt::format("{:.{}f}", value, decimals));
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  return text.find_first_not_of("-0.") == std::string::npos ? fmt::format("{:.{}f}", 0.0, decimals)
+                                                            : with_minus(text);
 }
 
 // Of "-0.23" in plain digits: "⁻⁰·²³".

@@ -103,6 +103,11 @@ TEST(PlusMinus, LeavesOutAnErrorThatIsNotKnown) {
   EXPECT_EQ(plus_minus(nan, 0.1), "–");
 }
 
+TEST(Interval, HasNoMinusBeforeZero) {
+  EXPECT_EQ(interval(-0.004, 0.9), "0.00 to 0.90");
+  EXPECT_EQ(with_interval(-0.004, -0.9, 0.9, "%"), "0.0\u00a0% (−0.9 to 0.9)");
+}
+
 TEST(Interval, ShowsTwoDigitsOfItsWidth) {
   EXPECT_EQ(interval(12.9494, 13.2974), "12.95 to 13.30");
   EXPECT_EQ(interval(2.0, 2.0), "2.000 to 2.000");
