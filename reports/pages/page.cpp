@@ -69,7 +69,7 @@ std::string how_many_can(const std::string& verb, const std::string& noun, std::
                          const std::vector<std::string>& cannot) {
   if (all == 1) return fmt::format("The {} can{} {}", noun, cannot.empty() ? "" : "not", verb);
   const std::string counted = count(static_cast<long>(all), noun);
-  if (cannot.empty()) return fmt::format("All {} can {}", counted, verb);
+  if (cannot.empty()) return fmt::format("{} of {} can {}", all, counted, verb);
   return fmt::format("{} of {} cannot {} ({})", cannot.size(), counted, verb,
                      fmt::join(cannot, ", "));
 }

@@ -126,8 +126,8 @@ std::string axes(const std::vector<Line>& lines) {
                                          y.low >= 0.0 ? "0<" : ""));
 }
 
-// Means with the band of their 95 % intervals, a line for each series. Every second has open
-// symbols and every line its dashes, so that of two that coincide both are seen.
+// Means with the band of their 95 % intervals, a line for each series. Every line has its
+// dashes and every second large open symbols, so that of two that coincide both are seen.
 std::string mean_commands(const Panel& panel) {
   std::string data, bands, marks;
   std::vector<Line> lines;
@@ -145,7 +145,7 @@ std::string mean_commands(const Panel& panel) {
           "$s{} using 1:3:4 with filledcurves fs transparent solid 0.25 lc rgb {} notitle, ", i,
           colour);
     const std::string symbol =
-        fmt::format("pt {} ps {}", 4 + 2 * (i % 5) + (i % 2 == 0 ? 1 : 0), i % 2 == 0 ? 0.7 : 1.1);
+        fmt::format("pt {} ps {}", 4 + 2 * (i % 5) + (i % 2 == 0 ? 0 : 1), i % 2 == 0 ? 1.1 : 0.7);
     marks += fmt::format(
         "{0}$s{1} using 1:2:3:4 with yerrorbars {2} lw 1.2 lc rgb {3} notitle, "
         "$s{1} using 1:2 with {4} lw 1.6 dt {5} {2} lc rgb {3} title '{6}'",

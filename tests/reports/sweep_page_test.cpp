@@ -190,7 +190,7 @@ TEST(SweepFigures, ShowBothOfTwoSeriesThatCoincide) {
   const calib::SweepFigure wanted{.caption = "c", .x = "joints.scatter", .series = "joints.ratio"};
   EXPECT_THAT(
       sweep_figures(known.sweep, known.result, wanted, "f").front().figure.commands,
-      AllOf(HasSubstr("dt 1 pt 5 ps 0.7 lc rgb blue"), HasSubstr("dt 2 pt 6 ps 1.1 lc rgb red")));
+      AllOf(HasSubstr("dt 1 pt 4 ps 1.1 lc rgb blue"), HasSubstr("dt 2 pt 7 ps 0.7 lc rgb red")));
 }
 
 TEST(SweepFigures, SayWhatBarsAndBandsAre) {
