@@ -161,7 +161,7 @@ bool has_reservations(const FitReport& fit) {
 }
 
 // Which fits can be trusted, and how many with reservations.
-mstch::map verdict_of(const std::vector<FitReport>& fits) {
+mstch::map verdict_of_fits(const std::vector<FitReport>& fits) {
   std::vector<std::string> cannot;
   long reserved = 0;
   for (const FitReport& fit : fits)
@@ -187,7 +187,7 @@ std::string comparison_page(const std::vector<FitReport>& reports) {
     for (const auto& [name, value] : fit.provenance)
       provenance.emplace_back(fmt::format("{}: {}", fit.study.name, name), value);
   }
-  mstch::map content = verdict_of(reports);
+  mstch::map content = verdict_of_fits(reports);
   content["fits"] = mstch::node{fits};
   content["intervals"] = text(draw(intervals_figure(reports, "intervals")));
   content["parameters"] = mstch::node{parameter_rows(reports)};

@@ -107,7 +107,7 @@ mstch::map content_of(const ImportReport& report, std::size_t index) {
 }
 
 // Which tests can be used, and whether any has a warning.
-mstch::map verdict_of(const std::vector<ImportReport>& reports) {
+mstch::map verdict_of_tests(const std::vector<ImportReport>& reports) {
   std::vector<std::string> cannot;
   long warnings = 0;
   for (const ImportReport& report : reports) {
@@ -136,7 +136,7 @@ std::string clocks_svg(const calib::ClockFit& clocks, const std::string& id) {
 std::string import_page(const std::vector<ImportReport>& reports, const Provenance& provenance) {
   mstch::array tests;
   for (std::size_t i = 0; i < reports.size(); ++i) tests.emplace_back(content_of(reports[i], i));
-  mstch::map content = verdict_of(reports);
+  mstch::map content = verdict_of_tests(reports);
   content["tests"] = mstch::node{tests};
   return render_page(
       fmt::format("havers import: {}", count(static_cast<long>(reports.size()), "test")), "import",
