@@ -40,6 +40,12 @@ std::string spread(const std::array<double, 3>& quantiles, double unit, int digi
                      quantiles[0] / unit, digits, quantiles[2] / unit, digits);
 }
 
+// Simulations are counted: no part of one is told.
+std::string whole(const std::array<double, 3>& counts) {
+  if (counts[0] == counts[2]) return fmt::format("{:.0f}", counts[1]);
+  return fmt::format("{:.0f} ({:.0f} to {:.0f})", counts[1], counts[0], counts[2]);
+}
+
 std::string percent(const calib::Rate& rate) {
   return fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100.0 * rate.part, 100.0 * rate.interval_95[0],
                      100.0 * rate.interval_95[1]);
@@ -55,7 +61,7 @@ void print_chains(const calib::ChainBenchmark& benchmark) {
              "wall [s]", "success (95 %)");
   for (const calib::ChainSummary& s : benchmark.summaries)
     fmt::print("{:<36}{:>20}{:>22}{:>24}{:>24}\n", s.chain, spread(s.error, 0.01, 2),
-               spread(s.simulations, 1.0, 4), spread(s.seconds, 1.0, 2), percent(s.success));
+               whole(s.simulations), spread(s.seconds, 1.0, 2), percent(s.success));
   fmt::print("fewest simulations of those that succeed most often with the least error: {}\n",
              benchmark.winner().chain);
 }

@@ -144,13 +144,22 @@ std::string found(const calib::Finding& finding) {
   const int two = known ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(width)))) : 3;
   const int decimals = two + calib::extra_digits(finding, scale);
   const auto shown = [&, scale = scale](double number) {
-    return fmt::format("{:.{}f}", number / scale, decimals);
+    const std::string text = fmt::format("{:.{}f}", number / scale, decimals);
+    const bool zero = text.find_first_not_of("-0.") == std::string::npos;
+    return zero ? fmt::format("{:.{}f}", 0.0, decimals) : text;  // without a minus
   };
   return fmt::format("{} {}{}{} ({})", io::word(finding.response), shown(finding.value),
                      unit.empty() ? "" : " ", unit,
                      std::isfinite(width)
                          ? fmt::format("{} to {}", shown(finding.low), shown(finding.high))
                          : "interval not known");
+}
+
+// "ratio = 0.333: ", where a finding has a place.
+std::string place_of(const calib::Finding& finding) {
+  return finding.per.empty()
+             ? ""
+             : fmt::format("{} = {}: ", finding.per.substr(finding.per.rfind('.') + 1), finding.at);
 }
 
 void print_summary(const std::vector<Done>& all, double wall_seconds) {
@@ -161,8 +170,9 @@ void print_summary(const std::vector<Done>& all, double wall_seconds) {
       sum_of(all, &calib::PointSummary::unbroken), wall_seconds);
   for (const Done& one : all)
     for (const calib::Finding& finding : one.result.findings)
-      fmt::print("{:<6}{:<12}{:<11}{}; {}  {}\n", finding.id, calib::to_string(finding.outcome),
-                 finding.at, found(finding), calib::count(finding.runs, "run"), finding.claim);
+      fmt::print("{:<6}{:<12}{}{}; {}  {}\n", finding.id, calib::to_string(finding.outcome),
+                 place_of(finding), found(finding), calib::count(finding.runs, "run"),
+                 finding.claim);
 }
 
 int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {

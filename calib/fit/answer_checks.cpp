@@ -43,8 +43,8 @@ std::string wider_bootstraps(const FitProblem& problem, const CalibrationResult&
   }
   if (wider.empty()) return "";
   return fmt::format(
-      " The bootstrap over specimens gives wider ones: {}; where few tell one, draws may lack "
-      "them.",
+      " The bootstrap over specimens gives wider ones: {}; a draw may leave out "
+      "the few specimens that tell a parameter.",
       fmt::join(wider, ", "));
 }
 
@@ -82,7 +82,7 @@ Check check_randomness(const CalibrationResult& result) {
                                 std::max(r.replicates_needed, 2 * r.replicates))};
 }
 
-Check check_confirmation(const CalibrationResult& result) {
+Check check_confirmation(const FitProblem& problem, const CalibrationResult& result) {
   constexpr const char* name = "confirmed in time";
   constexpr double close = 0.02;
   double strength = 0.0, strain = 0.0, wave = 0.0;
@@ -96,11 +96,12 @@ Check check_confirmation(const CalibrationResult& result) {
     wave = std::max(wave, one.peak_in_time / one.strength_in_time - 1.0);
   }
   if (result.confirmations.empty())
-    return {
-        name, Outcome::pass,
-        "Not checked: not asked for, or simulated in time anyhow; calibrate.options.confirm = 3 "
-        "simulates three replicates step by step in time.",
-        false};
+    return {name, Outcome::pass,
+            problem.study.calibrate.confirm == 0
+                ? "Not checked: not asked for; calibrate.options.confirm = 3 simulates three "
+                  "replicates step by step in time."
+                : "Not checked: the fit simulated its replicates step by step in time anyhow.",
+            false};
   if (compared == 0)
     return {name, Outcome::warn, "Every simulation in time failed: the limit stands unconfirmed."};
   const std::string text = fmt::format(

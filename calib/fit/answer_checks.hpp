@@ -14,7 +14,7 @@ namespace havers::calib {
 Check check_randomness(const CalibrationResult& result);
 
 /// Quasi-static answers hold in time; asked for by calibrate.options.confirm.
-Check check_confirmation(const CalibrationResult& result);
+Check check_confirmation(const FitProblem& problem, const CalibrationResult& result);
 
 /// No single specimen decides a parameter (F16).
 Check check_influence(const CalibrationResult& result);

@@ -141,7 +141,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_intervals(problem, result));
   checks.push_back(check_influence(result));
   checks.push_back(check_randomness(result));
-  checks.push_back(check_confirmation(result));
+  checks.push_back(check_confirmation(problem, result));
   checks.push_back(check_validation(result, missed(problem, answer)));
   checks.push_back(check_censored(problem, answer));
   if (answer.best.failed)

@@ -139,8 +139,7 @@ std::vector<Chain> all_chains(CostlyUnknowns unknowns) {
   return chains;
 }
 
-const ChainSummary& ChainBenchmark::winner() const {
-  assert(!summaries.empty());
+std::vector<const ChainSummary*> ChainBenchmark::contenders() const {
   std::vector<const ChainSummary*> left;
   const auto keep = [&](auto&& worth) {
     std::erase_if(left, [&](const ChainSummary* one) { return !worth(*one); });
@@ -151,6 +150,12 @@ const ChainSummary& ChainBenchmark::winner() const {
   keep([&](const ChainSummary& one) { return one.success.part == most; });
   for (const ChainSummary* one : left) least = std::min(least, one->error[2]);
   keep([&](const ChainSummary& one) { return one.error[2] <= equal_error * least; });
+  return left;
+}
+
+const ChainSummary& ChainBenchmark::winner() const {
+  assert(!summaries.empty());
+  const std::vector<const ChainSummary*> left = contenders();
   return **std::ranges::min_element(left, {}, [](const auto* one) { return one->simulations[1]; });
 }
 

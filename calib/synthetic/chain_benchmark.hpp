@@ -62,9 +62,12 @@ struct ChainBenchmark {
   std::vector<ChainRow> rows;
   std::vector<ChainSummary> summaries;  ///< In the order of the rows; empty when stopped.
 
-  /// Of the chains that succeed most often (all have the same studies), and whose 90 % error is
-  /// within a tenth of the least of theirs, the one with the fewest simulations (median).
-  /// Precondition: there are summaries.
+  /// The chains that succeed most often (all have the same studies), and whose 90 % error is
+  /// within a tenth of the least of theirs.
+  [[nodiscard]] std::vector<const ChainSummary*> contenders() const;
+
+  /// Of the contenders the one with the fewest simulations (median). Precondition: there are
+  /// summaries.
   [[nodiscard]] const ChainSummary& winner() const;
 };
 

@@ -21,8 +21,9 @@ int legend_height(const calib::ChainBenchmark& benchmark) {
 
 Figure chains_figure(const calib::ChainBenchmark& benchmark, ChainCost cost,
                      const std::string& id) {
-  constexpr std::array<const char*, 6> looks{"lc rgb grey",  "lc rgb orange", "lc rgb red",
-                                             "lc rgb green", "lc rgb purple", "lc rgb grey dt 2"};
+  constexpr std::array<const char*, 6> looks{
+      "lc rgb grey",           "lc rgb orange dt (14,5)",     "lc rgb red dt (2,4)",
+      "lc rgb green dt (8,4)", "lc rgb purple dt (14,4,2,4)", "lc rgb dark dt (5,3,2,3,2,3)"};
   const bool simulations = cost == ChainCost::simulations;
   Figure figure{.id = id,
                 .description = "Error of the best point so far against what it cost, by chain",
@@ -48,13 +49,13 @@ Figure chains_figure(const calib::ChainBenchmark& benchmark, ChainCost cost,
                     usual           ? ", "
                     : lines.empty() ? ""
                                     : ", ",
-                    name, usual ? 2.6 : 1.5,
+                    name, usual ? 2.6 : 1.8,
                     usual ? "lc rgb blue" : looks.at((i - 1) % looks.size()), plain(summary.chain));
   }
   if (figure.commands.empty()) return figure;
   figure.commands += fmt::format(
       "set logscale xy\nset format y '%g'\nset format x '%g'\n"
-      "set key samplen 2 font ',11' width -6\nset tmargin at screen {:.3f}\n"
+      "set key samplen 4 font ',11' width -6\nset tmargin at screen {:.3f}\n"
       "set xlabel '{}' offset 0,0.5\nset ylabel 'Error of the parameters (%)' offset 1.5,0\n"
       "plot $chain0 using 1:2:4 with filledcurves lc rgb band title '10 to 90 % of the default', "
       "{}{}\n",

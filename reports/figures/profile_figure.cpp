@@ -47,15 +47,16 @@ Figure waterfall_figure(const calib::CalibrationResult& result, const std::strin
   for (std::size_t i = 0; i < std::max(result.starts.size(), result.ends.size()); ++i)
     rank.push_back(static_cast<double>(i + 1));
   figure.commands = data_block("starts", {rank, result.starts}) +
-                    data_block("ends", {rank, result.ends}) + panel(0.2, 0.96) +
+                    data_block("ends", {rank, result.ends}) + panel(0.2, 0.89) +
                     R"(
 set xlabel 'Start, lowest cost first' offset 0,0.5
-set ylabel 'Cost'
+set ylabel 'Cost' offset 2,0
 set logscale y
+set format y '%g'
+set autoscale yfix
 set xtics 1
-set key inside left top
-set offsets 0.4, 0.4, graph 0.1, graph 0.1
-plot $starts using 1:2 with linespoints pt 6 ps 1 lw 1.4 lc rgb grey title 'starts, scale parameters solved', \
+set offsets 0.4, 0.4, graph 0.06, graph 0.06
+plot $starts using 1:2 with linespoints pt 6 ps 1 lw 1.4 lc rgb grey title 'starts', \
  $ends using 1:2 with points pt 7 ps 1.1 lc rgb blue title 'refined'
 )";
   return figure;

@@ -35,7 +35,7 @@ unset multiplot
 )gnuplot";
 
 constexpr std::string_view left_side =
-    "$curve using ($1*100):($3*1e-6) with lines lw 1.2 lc rgb orange title 'left side', ";
+    "$curve using ($1*100):($3*1e-6) with lines lw 1.4 dt 2 lc rgb orange title 'left side', ";
 
 // A quasi-static run has rows at breaks only, and one in time leaps to the first: between rows
 // stress grows with the strain, energy and what friction takes with its square, what viscosity

@@ -13,7 +13,7 @@
 namespace havers::reports {
 namespace {
 
-// Specimens that share a symbol: those of one orientation and one use.
+// Specimens that share a symbol: those of one orientation, in thousandths of a degree, and one use.
 using Group = std::pair<long, calib::Use>;
 using Groups = std::map<Group, std::vector<const calib::SpecimenResult*>>;
 
@@ -22,8 +22,8 @@ Groups groups_of(const std::vector<calib::SpecimenResult>& specimens) {
   for (const auto& specimen : specimens) {
     if (!std::isfinite(specimen.strength.mean) || !std::isfinite(specimen.measured.strength))
       continue;
-    const long degrees = std::lround(specimen.orientation * 180.0 / std::numbers::pi);
-    groups[{degrees, specimen.use}].push_back(&specimen);
+    const long thousandths = std::lround(specimen.orientation * 180e3 / std::numbers::pi);
+    groups[{thousandths, specimen.use}].push_back(&specimen);
   }
   return groups;
 }
@@ -171,13 +171,13 @@ std::string group_plot(int number, const Group& group, int shape) {
   const bool fitted = group.second == calib::Use::fit;
   return fmt::format(
       ", $group{0} using ($1*1e-6):($2*1e-6):($3*1e-6):($4*1e-6) with xyerrorbars pt {1} ps 1.2 "
-      "lw 1.4 lc rgb {2} title '{3}°{4}', "
+      "lw 1.4 lc rgb {2} title '{3:.4g}°{4}', "
       "$group{0} using ($1*1e-6):($2*1e-6):5 with labels noenhanced left offset 1.3,-0.6 "
       "font ',11' tc rgb '#555555' notitle, "
       "$group{0} using ($1*1e-6):($2*1e-6):6 with labels noenhanced right offset -1.3,0.6 "
       "font ',11' tc rgb '#555555' notitle",
-      number, 5 + 2 * style - (fitted ? 0 : 1), colours.at(style), group.first,
-      fitted ? "" : ", validation");
+      number, 5 + 2 * style - (fitted ? 0 : 1), colours.at(style),
+      1e-3 * static_cast<double>(group.first), fitted ? "" : ", validation");
 }
 
 // Pixels for the rows of the legend that have no room above a figure of usual height.

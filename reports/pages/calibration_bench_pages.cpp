@@ -34,6 +34,16 @@ mstch::map chain_row(const calib::ChainSummary& chain, bool usual) {
           {"success", text(rate_text(chain.success))}};
 }
 
+// Contenders whose 10 to 90 % of simulations meet the winner's: another study may turn the two.
+std::vector<std::string> near_the_winner(const calib::ChainBenchmark& benchmark) {
+  const calib::ChainSummary& winner = benchmark.winner();
+  std::vector<std::string> names;
+  for (const calib::ChainSummary* one : benchmark.contenders())
+    if (one != &winner && one->simulations[0] <= winner.simulations[2])
+      names.push_back(fmt::format("“{}”", one->chain));
+  return names;
+}
+
 mstch::map coverage_row(const calib::CoverageSummary& one, calib::IntervalWidth judged) {
   return {{"design", text(one.design)},
           {"parameter", text(one.parameter)},
@@ -49,8 +59,8 @@ std::string what_shares_say(const std::set<calib::IntervalWidth>& widths) {
   if (widths.contains(too_narrow)) return "Some intervals are too narrow by more than chance.";
   if (widths.contains(too_wide))
     return "Some intervals are too wide by more than chance, none too narrow.";
-  return widths.empty() ? "Too few studies to tell the shares from 95 %."
-                        : "No share differs from 95 % by more than chance.";
+  return widths.empty() ? "Too few studies to tell the shares from 95\u00a0%."
+                        : "No share differs from 95\u00a0% by more than chance.";
 }
 
 }  // namespace
@@ -61,18 +71,25 @@ std::string chains_page(const calib::ChainBenchmark& benchmark, const Provenance
   const bool usual = winner.chain == summaries.front().chain;
   const auto fits = static_cast<long>(benchmark.rows.size());
   const std::size_t studies = benchmark.rows.size() / summaries.size();
+  const std::vector<std::string> near = near_the_winner(benchmark);
   mstch::array chains;
   for (const calib::ChainSummary& chain : summaries)
     chains.emplace_back(chain_row(chain, &chain == &summaries.front()));
   return render_page(
       "havers bench: chains of optimisers", "chains",
-      {{"grade", text(usual ? "good" : "bad")},
-       {"sentence", text(fmt::format("{} needs the fewest simulations of those that succeed "
-                                     "most often with the least error.",
-                                     winner.chain))},
-       {"detail", text(fmt::format("{} of {} of known truth. {}", count(fits, "fit"),
+      {{"grade", text(usual          ? "good"
+                      : near.empty() ? "bad"
+                                     : "mixed")},
+       {"sentence",
+        text(fmt::format("The chain “{}” needs the fewest simulations{} of those that succeed most "
+                         "often with the least error.",
+                         winner.chain, near.empty() ? "" : ", though not clearly,"))},
+       {"detail", text(fmt::format("{} of {} of known truth. {}{}", count(fits, "fit"),
                                    studies == 1 ? "1 study" : fmt::format("{} studies", studies),
-                                   usual ? "It is the default." : "It is not the default."))},
+                                   usual ? "It is the default." : "It is not the default.",
+                                   near.empty() ? ""
+                                                : fmt::format(" Its range meets that of {}.",
+                                                              fmt::join(near, ", "))))},
        {"chains", mstch::node{chains}},
        {"by_simulations",
         text(draw(chains_figure(benchmark, ChainCost::simulations, "bysimulations")))},
@@ -98,7 +115,7 @@ std::string coverage_page(const calib::Coverage& coverage, const Provenance& pro
       {{"grade", text(!coverage.holds()                      ? "bad"
                       : coverage.complete && !widths.empty() ? "good"
                                                              : "mixed")},
-       {"sentence", text(fmt::format("{}{} % of {} {} the truth; 95 % should.", stopped,
+       {"sentence", text(fmt::format("{}{}\u00a0% of {} {} the truth; 95\u00a0% should.", stopped,
                                      number(all.part / in::percent, 3), count(informed, "interval"),
                                      informed == 1 ? "holds" : "hold"))},
        {"detail", text(what_shares_say(widths))},

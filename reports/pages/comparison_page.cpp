@@ -155,6 +155,28 @@ mstch::map fit_content(const FitReport& fit, const FitReport& first) {
           {"checks", check_section(result.verdict)}};
 }
 
+bool has_reservations(const FitReport& fit) {
+  return std::ranges::find(fit.result.verdict, calib::Outcome::warn, &calib::Check::outcome) !=
+         fit.result.verdict.end();
+}
+
+// Which fits can be trusted, and how many with reservations.
+mstch::map verdict_of_fits(const std::vector<FitReport>& fits) {
+  std::vector<std::string> cannot;
+  long reserved = 0;
+  for (const FitReport& fit : fits)
+    if (!fit.result.trusted())
+      cannot.push_back(fit.study.name);
+    else if (has_reservations(fit))
+      ++reserved;
+  const std::string reserve = reserved == 0 ? "" : fmt::format(", {} with reservations", reserved);
+  return {
+      {"grade", text(!cannot.empty() ? "bad"
+                     : reserved > 0  ? "mixed"
+                                     : "good")},
+      {"sentence", text(how_many_can("be trusted", "fit", fits.size(), cannot) + reserve + ".")}};
+}
+
 }  // namespace
 
 std::string comparison_page(const std::vector<FitReport>& reports) {
@@ -165,12 +187,12 @@ std::string comparison_page(const std::vector<FitReport>& reports) {
     for (const auto& [name, value] : fit.provenance)
       provenance.emplace_back(fmt::format("{}: {}", fit.study.name, name), value);
   }
+  mstch::map content = verdict_of_fits(reports);
+  content["fits"] = mstch::node{fits};
+  content["intervals"] = text(draw(intervals_figure(reports, "intervals")));
+  content["parameters"] = mstch::node{parameter_rows(reports)};
   return render_page(fmt::format("havers report: {} side by side", count(reports.size(), "fit")),
-                     "comparison",
-                     {{"fits", mstch::node{fits}},
-                      {"intervals", text(draw(intervals_figure(reports, "intervals")))},
-                      {"parameters", mstch::node{parameter_rows(reports)}}},
-                     provenance);
+                     "comparison", content, provenance);
 }
 
 }  // namespace havers::reports

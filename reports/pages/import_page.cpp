@@ -31,11 +31,11 @@ Facts facts_of(const ImportReport& report) {
   };
   Facts facts{
       {"Modulus",
-       fmt::format("{} GPa, in the window {} %",
+       fmt::format("{}\u00a0GPa, in the window {}\u00a0%",
                    plus_minus(test.modulus / in::GPa, test.modulus_standard_error / in::GPa),
                    interval(test.window_low / in::percent, test.window_high / in::percent))},
       {bounded("Strength"),
-       fmt::format("{} MPa",
+       fmt::format("{}\u00a0MPa",
                    plus_minus(test.strength / in::MPa, test.strength_standard_error / in::MPa))},
       {"Largest force", quantity(test.max_force, "N")},
       {bounded("Failure strain"), quantity(test.failure_strain / in::percent, "%")},
@@ -59,7 +59,7 @@ std::string clocks_caption(const calib::ClockFit& clocks) {
         "was taken from it.",
         typeset(clocks.problem));
   std::string caption = fmt::format(
-      "The two clocks. When the logger's shows {} s, the machine's shows {} s. ",
+      "The two clocks. When the logger's shows {}\u00a0s, the machine's shows {}\u00a0s. ",
       number(clocks.reference), plus_minus(clocks.offset, clocks.offset_standard_error));
   caption +=
       clocks.rate_fitted
@@ -106,6 +106,23 @@ mstch::map content_of(const ImportReport& report, std::size_t index) {
       {"warnings", text_section(test.warnings)}};
 }
 
+// Which tests can be used, and whether any has a warning.
+mstch::map verdict_of_tests(const std::vector<ImportReport>& reports) {
+  std::vector<std::string> cannot;
+  long warnings = 0;
+  for (const ImportReport& report : reports) {
+    if (!report.problems.empty()) cannot.push_back(base_name(report.file));
+    warnings += static_cast<long>(report.test.warnings.size());
+  }
+  const std::string reserve =
+      warnings == 0 ? "" : fmt::format(", with {}", count(warnings, "warning"));
+  return {
+      {"grade", text(!cannot.empty() ? "bad"
+                     : warnings > 0  ? "mixed"
+                                     : "good")},
+      {"sentence", text(how_many_can("be used", "test", reports.size(), cannot) + reserve + ".")}};
+}
+
 }  // namespace
 
 std::string test_svg(const ImportReport& report, const std::string& id) {
@@ -119,8 +136,10 @@ std::string clocks_svg(const calib::ClockFit& clocks, const std::string& id) {
 std::string import_page(const std::vector<ImportReport>& reports, const Provenance& provenance) {
   mstch::array tests;
   for (std::size_t i = 0; i < reports.size(); ++i) tests.emplace_back(content_of(reports[i], i));
+  mstch::map content = verdict_of_tests(reports);
+  content["tests"] = mstch::node{tests};
   return render_page(fmt::format("havers import: {}", count(reports.size(), "test")), "import",
-                     {{"tests", mstch::node{tests}}}, provenance);
+                     content, provenance);
 }
 
 }  // namespace havers::reports

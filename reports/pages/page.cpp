@@ -65,6 +65,15 @@ mstch::node check_section(const std::vector<calib::Check>& checks) {
   return section(std::move(items));
 }
 
+std::string how_many_can(const std::string& verb, const std::string& noun, std::size_t all,
+                         const std::vector<std::string>& cannot) {
+  if (all == 1) return fmt::format("The {} can{} {}", noun, cannot.empty() ? "" : "not", verb);
+  const std::string counted = count(static_cast<long>(all), noun);
+  if (cannot.empty()) return fmt::format("{} of {} can {}", all, counted, verb);
+  return fmt::format("{} of {} cannot {} ({})", cannot.size(), counted, verb,
+                     fmt::join(cannot, ", "));
+}
+
 std::string fit_sentence(const calib::CalibrationResult& result) {
   const auto how_many = [&](calib::Outcome outcome) {
     return std::ranges::count(result.verdict, outcome, &calib::Check::outcome);
@@ -105,8 +114,8 @@ std::string search_sentence(const FitReport& report) {
 
 std::string section_caption(const calib::SectionPorosity& section) {
   return fmt::format(
-      "{}: porosity {} %, {} on {} mm² of bone, standard deviation {} in windows of one fibre; {}, "
-      "threshold at a depth of {} (0 bone, 1 pore), pixel {}",
+      "{}: porosity {}\u00a0%, {} on {}\u00a0mm² of bone, standard deviation {} in windows of one "
+      "fibre; {}, threshold at a depth of {} (0 bone, 1 pore), pixel {}",
       base_name(section.file),
       plus_minus(section.porosity / in::percent, section.porosity_standard_error / in::percent),
       count(section.pore_count, "pore"), number(section.bone_area / in::mm2, 3),

@@ -30,6 +30,11 @@ mstch::node check_section(const std::vector<calib::Check>& checks);
 mstch::node text_section(const std::vector<std::string>& sentences);
 mstch::node correction_section(const std::vector<calib::Correction>& corrections);
 
+/// "2 of 2 tests can be used", "1 of 2 fits cannot be trusted (A1)": the verdict over several of a
+/// noun.
+std::string how_many_can(const std::string& verb, const std::string& noun, std::size_t all,
+                         const std::vector<std::string>& cannot);
+
 /// Whether a fit may be used, in a sentence; with the checks that failed, or how many made a
 /// reservation.
 std::string fit_sentence(const calib::CalibrationResult& result);

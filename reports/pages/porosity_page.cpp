@@ -24,7 +24,8 @@ std::string with_sd(double mean, double sd, double unit) {
 // Of a section by itself: pores larger than a window take joints away instead (K5).
 std::string scatter_text(const calib::SectionPorosity& s, double scatter) {
   const calib::SpecimenPorosity alone = calib::pool_sections({s});
-  if (!calib::removes_joints(alone)) return number(scatter, 3);
+  if (!calib::removes_joints(alone))
+    return plus_minus(scatter, calib::scatter_standard_error(alone, {}));
   return fmt::format("– ({} missing)",
                      quantity(calib::missing_joints(alone) / in::percent, "%", 3));
 }
@@ -68,10 +69,10 @@ Facts facts_of(const calib::SectionPorosity& s) {
               {"Pixel", quantity(s.pixel_size / in::um, "µm", 3)}};
   if (std::isfinite(s.mean_pore_area))
     facts.emplace_back("Area of a pore",
-                       with_sd(s.mean_pore_area, s.pore_area_sd, in::um * in::um) + " µm²");
+                       with_sd(s.mean_pore_area, s.pore_area_sd, in::um * in::um) + "\u00a0µm²");
   if (s.crack_count > 0)
-    facts.emplace_back("Cracks", fmt::format("{}, {} mm², no part of the porosity", s.crack_count,
-                                             number(s.crack_area / in::mm2, 3)));
+    facts.emplace_back("Cracks", fmt::format("{}, {}\u00a0mm², no part of the porosity",
+                                             s.crack_count, number(s.crack_area / in::mm2, 3)));
   if (std::isfinite(s.density))
     facts.emplace_back("Density of solid bone",
                        fmt::format("{} ({})", quantity(s.density, "kg/m³", 4),
@@ -106,7 +107,7 @@ std::string sentence_of(const PorosityReport& report) {
                             : all == 1
                                 ? ", in doubt: see its warnings."
                                 : fmt::format(", {} of them in doubt: see the warnings.", doubtful);
-  return fmt::format("{}: porosity {} %{}", count(all, "section"),
+  return fmt::format("{}: porosity {}\u00a0%{}", count(all, "section"),
                      percent(mean.porosity, mean.porosity_standard_error), doubt);
 }
 
@@ -115,9 +116,9 @@ std::string detail_of(const PorosityReport& report) {
   const calib::SpecimenPorosity& mean = report.mean;
   if (calib::removes_joints(mean))
     return fmt::format(
-        "Pores are larger (a* = {} µm²) than the window of one fibre ({} µm²): they take {} of the "
-        "joints away rather than spread their strength. a*: mean area of the pore that a random "
-        "point of pore lies in.",
+        "Pores are larger (a*\u00a0= {}\u00a0µm²) than the window of one fibre ({}\u00a0µm²): they "
+        "take {} of the joints away rather than spread their strength. a*: mean area of the pore "
+        "that a random point of pore lies in.",
         number(mean.pore_area_ratio / (in::um * in::um), 3),
         number(mean.window_area / (in::um * in::um), 3),
         quantity(calib::missing_joints(mean) / in::percent, "%", 3));
@@ -130,7 +131,7 @@ std::string detail_of(const PorosityReport& report) {
   return fmt::format(
       "Pores are smaller than the window of one fibre: they spread the joints' strength by a "
       "scatter of d = {}.",
-      number(scatter, 3));
+      plus_minus(scatter, calib::scatter_standard_error(mean, {})));
 }
 
 }  // namespace

@@ -18,8 +18,9 @@ bool has_no_bounds(const sim::Simulation& s) {
 }
 
 std::string by_step(double error) {
-  return error > 0.0 ? fmt::format(" (± {} by the step)", quantity(error / in::percent, "%", 2))
-                     : "";
+  return error > 0.0
+             ? fmt::format(" (±\u00a0{} by the step)", quantity(error / in::percent, "%", 2))
+             : "";
 }
 
 std::string sentence_of(const sim::Simulation& s) {
@@ -73,7 +74,9 @@ std::string cost_of(const SimulationReport& report) {
 // Of a run that did not break the strain of the largest stress says nothing.
 std::string failure_strain_of(const SimulationReport& report) {
   const sim::Simulation& s = report.simulation;
-  if (s.status == Status::broken) return quantity(s.failure_strain / in::percent, "%");
+  if (s.status == Status::broken)
+    return quantity(s.failure_strain / in::percent, "%") +
+           by_step(s.error_beyond_accuracy().failure_strain);
   if (s.status == Status::severed) return "–";
   if (s.status != Status::strain_limit) return "not reached";
   return fmt::format("not reached within the strain limit of {}",
@@ -105,16 +108,16 @@ std::string steps_of(const sim::Simulation& s) {
 Facts key_numbers(const SimulationReport& report) {
   const sim::Simulation& s = report.simulation;
   const bool dynamic = s.regime == sim::Regime::dynamic;
-  Facts facts{
-      {has_no_bounds(s) ? "Strength" : "Strength, at least", quantity(s.strength / in::MPa, "MPa")},
-      {"Failure strain", failure_strain_of(report)},
-      {"Modulus", quantity(s.modulus / in::GPa, "GPa")},
-      {"Strain of the first break", quantity(s.first_break_strain / in::percent, "%")},
-      {"Broken joints", broken_joints_of(report)},
-      {"Regime",
-       fmt::format("{}: {}", dynamic ? "dynamic" : "quasi-static", typeset(s.regime_ground))},
-      {dynamic ? "Time steps" : "Events", steps_of(s)},
-      {"Contact iterations", std::to_string(s.iterations)}};
+  Facts facts{{has_no_bounds(s) ? "Strength" : "Strength, at least",
+               quantity(s.strength / in::MPa, "MPa") + by_step(s.error_beyond_accuracy().strength)},
+              {"Failure strain", failure_strain_of(report)},
+              {"Modulus", quantity(s.modulus / in::GPa, "GPa")},
+              {"Strain of the first break", quantity(s.first_break_strain / in::percent, "%")},
+              {"Broken joints", broken_joints_of(report)},
+              {"Regime", fmt::format("{}: {}", dynamic ? "dynamic" : "quasi-static",
+                                     typeset(s.regime_ground))},
+              {dynamic ? "Time steps" : "Events", steps_of(s)},
+              {"Contact iterations", std::to_string(s.iterations)}};
   if (!std::isnan(s.strength_over_a_wave))
     facts.insert(facts.begin() + 1, {"Largest mean stress over the time of a wave",
                                      quantity(s.strength_over_a_wave / in::MPa, "MPa")});
@@ -176,7 +179,7 @@ Facts scene_facts(const SimulationReport& report) {
                    setting(assembly.fibre_height / in::um, "µm"), degrees(assembly.orientation),
                    8 * assembly.refinement * assembly.refinement)},
       {"Material",
-       fmt::format("E = {}, ν = {}, ρ = {} kg/m³, plane {}{}",
+       fmt::format("E = {}, ν = {}, ρ = {}\u00a0kg/m³, plane {}{}",
                    setting(material.young / in::GPa, "GPa"), setting(material.poisson),
                    setting(material.density),
                    material.plane == sim::Plane::stress ? "stress" : "strain", unusual(material))},
@@ -190,7 +193,7 @@ Facts scene_facts(const SimulationReport& report) {
                                        to_string(joints.distribution), setting(joints.scatter),
                                        setting(joints.missing / in::percent, "%"), joints.seed)
                          : "one per joint, given"},
-      {"Loading", fmt::format("{} 1/s, {} sides, {} start, up to {} strain, followed to {}",
+      {"Loading", fmt::format("{}\u00a01/s, {} sides, {} start, up to {} strain, followed to {}",
                               setting(loading.strain_rate),
                               loading.lateral == sim::Lateral::periodic ? "periodic" : "free",
                               loading.start == sim::Start::uniform ? "uniform" : "rest",

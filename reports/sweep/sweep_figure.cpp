@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "calib/sweep/measure_words.hpp"
@@ -54,7 +55,19 @@ std::vector<PointGroup> series_of(const Panel& panel) {
 
 struct Line {
   std::vector<double> x, mean, low, high;
+  bool joined = true;
 };
+
+// Whether every key goes one way along the points, as on a curve: a line would join unlike ones.
+bool go_one_way(const calib::SweepResult& result, const std::vector<std::size_t>& points) {
+  for (std::size_t key = 0; key < result.points.front().numbers.size(); ++key) {
+    const auto value = [&](std::size_t point) { return result.points[point].numbers[key]; };
+    if (!std::ranges::is_sorted(points, {}, value) &&
+        !std::ranges::is_sorted(points, std::greater{}, value))
+      return false;
+  }
+  return true;
+}
 
 Line line_of(const Panel& panel, std::vector<std::size_t> points) {
   const auto& keys = panel.sweep.plan.keys;
@@ -63,7 +76,7 @@ Line line_of(const Panel& panel, std::vector<std::size_t> points) {
   const auto x_of = [&](std::size_t point) { return panel.result.points[point].numbers[column]; };
   std::ranges::stable_sort(points, {}, x_of);
   const double scale = calib::words_of(panel.wanted.response).scale;
-  Line line;
+  Line line{.joined = go_one_way(panel.result, points)};
   for (const std::size_t point : points) {
     const calib::PointSummary& summary = panel.result.summaries[point];
     const calib::Statistics& s = summary[panel.wanted.response];
@@ -113,7 +126,8 @@ std::string axes(const std::vector<Line>& lines) {
                                          y.low >= 0.0 ? "0<" : ""));
 }
 
-// Means with the band of their 95 % intervals, a line for each series.
+// Means with the band of their 95 % intervals, a line for each series. Every line has its
+// dashes and every second large open symbols, so that of two that coincide both are seen.
 std::string mean_commands(const Panel& panel) {
   std::string data, bands, marks;
   std::vector<Line> lines;
@@ -121,18 +135,20 @@ std::string mean_commands(const Panel& panel) {
   for (const PointGroup& series : series_of(panel)) {
     const Line line = line_of(panel, series.points);
     if (line.x.empty()) continue;
+    const bool joined = line.joined && !sample;
     const std::size_t i = lines.size();
     const std::string_view colour = colours.at(i % colours.size());
     data += data_block(fmt::format("s{}", i), {line.x, line.mean, line.low, line.high});
-    if (!sample)
+    if (joined)
       bands += fmt::format(
           "$s{} using 1:3:4 with filledcurves fs transparent solid 0.25 lc rgb {} notitle, ", i,
           colour);
+    const std::string symbol =
+        fmt::format("pt {} ps {}", 4 + 2 * (i % 5) + (i % 2 == 0 ? 0 : 1), i % 2 == 0 ? 1.1 : 0.7);
     marks += fmt::format(
-        "{}$s{} using 1:2:3:4 with yerrorbars pt {} ps 0.7 lw 1.2 lc rgb {} "
-        "notitle, $s{} using 1:2 with {} lw 1.6 pt {} ps 0.7 lc rgb {} title '{}'",
-        marks.empty() ? "" : ", ", i, 4 + 2 * (i % 5) + 1, colour, i,
-        sample ? "points" : "linespoints", 4 + 2 * (i % 5) + 1, colour,
+        "{0}$s{1} using 1:2:3:4 with yerrorbars {2} lw 1.2 lc rgb {3} notitle, "
+        "$s{1} using 1:2 with {4} lw 1.6 dt {5} {2} lc rgb {3} title '{6}'",
+        marks.empty() ? "" : ", ", i, symbol, colour, joined ? "linespoints" : "points", 1 + i % 5,
         title_of(panel, series.value));
     lines.push_back(line);
   }

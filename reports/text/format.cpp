@@ -23,8 +23,11 @@ std::string with_minus(const std::string& text) {
   return text.starts_with('-') ? fmt::format("−{}", text.substr(1)) : text;
 }
 
+// No minus before what is rounded to zero.
 std::string fixed(double value, int decimals) {
-  return with_minus(fmt::format("{:.{}f}", value, decimals));
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  return text.find_first_not_of("-0.") == std::string::npos ? fmt::format("{:.{}f}", 0.0, decimals)
+                                                            : with_minus(text);
 }
 
 // Of "-0.23" in plain digits: "⁻⁰·²³".
@@ -38,7 +41,8 @@ std::string superscript(std::string_view exponent) {
 }
 
 std::string power_of_ten(const std::string& mantissa, int exponent) {
-  const std::string factor = mantissa == "1" ? "" : fmt::format("{} × ", with_minus(mantissa));
+  const std::string factor =
+      mantissa == "1" ? "" : fmt::format("{}\u00a0×\u00a0", with_minus(mantissa));
   return fmt::format("{}10{}", factor, superscript(std::to_string(exponent)));
 }
 
@@ -85,7 +89,11 @@ std::string setting(double value, std::string_view unit, int digits) {
 std::string typeset(const std::string& sentence) {
   static const std::regex power(R"((-?\b\d+(?:\.\d+)?)e([+-]\d+)\b)"),
       exponent(R"(\^(-?\d+(?:\.\d+)?))"), minus(R"((^|[\s(\[=])-(?=\d))"), degree(R"((\d) deg\b)");
-  std::string text = replaced(sentence, power, [](const std::smatch& found) {
+  static const std::regex unit(R"((\d) (?=(%|1/s|[kMG]?Pa|(µ|[mnp])?[ms]|k?N|k?J|kg)(?!\w)))"),
+      error(R"(± (?=\d))");
+  const std::string held =
+      std::regex_replace(std::regex_replace(sentence, unit, "$1\u00a0"), error, "±\u00a0");
+  std::string text = replaced(held, power, [](const std::smatch& found) {
     return power_of_ten(found.str(1), std::stoi(found.str(2)));
   });
   text =
@@ -101,9 +109,10 @@ std::string quantity(double value, std::string_view unit, int digits) {
 std::string plus_minus(double value, double error) {
   if (!std::isfinite(value) || !std::isfinite(error) || error <= 1e-9 * std::abs(value))
     return number(value);  // not known, or no more than rounding
-  if (!shows_plainly(value, error)) return fmt::format("{} ± {}", number(value), number(error, 2));
+  if (!shows_plainly(value, error))
+    return fmt::format("{}\u00a0±\u00a0{}", number(value), number(error, 2));
   const int decimals = decimals_for(error);
-  return fmt::format("{} ± {}", fixed(value, decimals), fixed(error, decimals));
+  return fmt::format("{}\u00a0±\u00a0{}", fixed(value, decimals), fixed(error, decimals));
 }
 
 std::string interval(double low, double high, int more) {

@@ -26,7 +26,7 @@ std::string number(double value, int digits = 4);
 std::string setting(double value, std::string_view unit = {}, int digits = 6);
 
 /// A sentence with its numbers as a page writes them: "p = 3e-06" is "p = 3 × 10⁻⁶", "-2" "−2",
-/// "r^-0.23" "r⁻⁰·²³", "45 deg" "45°".
+/// "r^-0.23" "r⁻⁰·²³", "45 deg" "45°"; no line ends between a number and its unit or its error.
 std::string typeset(const std::string& sentence);
 
 /// A number and its unit, held together by a space that does not break: "38.2 MPa"; "–" when not

@@ -65,10 +65,10 @@ TEST(Sweep, PrintsMeansInTheirUnitAndDifferencesInPerCent) {
   test::write_text(folder / "small.toml", std::string(small) +
                                               "[[finding]]\nid = \"F2\"\nclaim = \"Stiff\"\n"
                                               "test = \"above\"\nresponse = \"modulus\"\n"
-                                              "margin = 1e9\n");
+                                              "margin = 1e9\nper = \"joints.scatter\"\n");
   EXPECT_THAT(run_havers(folder, "sweep small.toml -o out").out,
               testing::AllOf(testing::ContainsRegex("F1 .*strength -?[0-9]+ % "),
-                             testing::ContainsRegex("F2 .*modulus 13.[0-9]+ GPa ")));
+                             testing::ContainsRegex("F2 .*scatter = 0.8: modulus 13.[0-9]+ GPa ")));
 }
 
 TEST(Sweep, AgainTakesItsRunsFromTheStore) {
@@ -86,7 +86,7 @@ TEST(Sweep, IsNotTrustedWhereRunsDidNotBreak) {
   EXPECT_EQ(answer.exit_code, 1) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("NOT to be trusted: too many runs failed or did not break"));
   EXPECT_THAT(answer.out, HasSubstr("8 runs, 0 failed, 8 did not break"));
-  EXPECT_THAT(answer.out, HasSubstr("undecided              strength -; 0 runs"));
+  EXPECT_THAT(answer.out, HasSubstr("undecided   strength -; 0 runs"));
   const auto result = nlohmann::json::parse(test::contents(folder / "out/result.json"));
   EXPECT_EQ(result["trusted"], false);
   EXPECT_EQ(result["unbroken_simulations"], 8);

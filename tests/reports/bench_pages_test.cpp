@@ -52,11 +52,28 @@ TEST(ChainsPage, NamesTheWinnerAndDrawsErrorAgainstCost) {
   const auto benchmark = calib::summarise(std::move(rows));
   const std::string page = chains_page(benchmark, {{"seed", "1"}});
   expect_sound(page);
-  EXPECT_TRUE(contains(page, calib::all_chains().front().name + " needs the fewest simulations"));
+  EXPECT_TRUE(contains(page, "<p class=\"sentence\">The chain “" +
+                                 calib::all_chains().front().name +
+                                 "” needs the fewest simulations of those"));
   EXPECT_TRUE(contains(page, "It is the default."));
   EXPECT_TRUE(contains(page, "<td class=\"n\">1.2</td><td class=\"n\">300</td>"));
   EXPECT_TRUE(contains(page, "7 fits of 1 study of known truth."));
   EXPECT_TRUE(contains(page, "bysimulations"));
+}
+
+TEST(ChainsPage, ClaimsNoClearLeadWhereRangesMeet) {
+  std::vector<calib::ChainRow> rows;
+  for (const calib::Chain& chain : calib::all_chains())
+    for (const int study : {1, 2}) {
+      rows.push_back(chain_row(chain.name, 0.0123, (rows.size() < 2 ? 310 : 300) + 200 * study));
+      rows.back().study = study;
+    }
+  const auto benchmark = calib::summarise(std::move(rows));
+  const std::string page = chains_page(benchmark, {});
+  EXPECT_TRUE(contains(page, "” needs the fewest simulations, though not clearly, of those"));
+  EXPECT_TRUE(contains(page, "It is not the default. Its range meets that of “" +
+                                 calib::all_chains().front().name + "”, “"));
+  EXPECT_TRUE(contains(page, "verdict mixed"));
 }
 
 // Its lines begin at the left and end at the bottom, where the names would stand.
@@ -82,9 +99,9 @@ TEST(CoveragePage, SaysWhichIntervalsHoldLessThanTheyPromise) {
       {.design = "0, 90 deg", .parameter = "ratio", .studies = 100, .half_width = {NAN, NAN, NAN}}};
   const std::string page = coverage_page(coverage, {{"seed", "1"}});
   expect_sound(page);
-  EXPECT_TRUE(contains(page, "95.0 % of 100 intervals hold the truth; 95 % should."));
+  EXPECT_TRUE(contains(page, "95.0\u00a0% of 100 intervals hold the truth; 95\u00a0% should."));
   EXPECT_TRUE(contains(page, "100 of 100"));
-  EXPECT_TRUE(contains(page, "No share differs from 95 %"));
+  EXPECT_TRUE(contains(page, "No share differs from 95\u00a0%"));
   EXPECT_TRUE(contains(page, "<td>as promised</td>"));
   coverage.summaries.front().inside = calib::rate_of(100, 100);
   const std::string wide = coverage_page(coverage, {{"seed", "1"}});
@@ -116,7 +133,7 @@ TEST(CoveragePage, SaysThatItWasStopped) {
   coverage.complete = false;
   const std::string page = coverage_page(coverage, {});
   EXPECT_TRUE(contains(page, "verdict mixed"));
-  EXPECT_TRUE(contains(page, "Stopped before all studies were fitted. 95.0 % of"));
+  EXPECT_TRUE(contains(page, "Stopped before all studies were fitted. 95.0\u00a0% of"));
 }
 
 TEST(CoveragePage, CallsNoRowAsPromisedWhoseIntervalLeavesOut95) {
@@ -130,7 +147,7 @@ TEST(CoveragePage, SaysWhereStudiesAreTooFewToTell) {
   const std::string page = coverage_page(coverage_of(1, 1), {});
   EXPECT_TRUE(contains(page, "<td>too few to tell</td>"));
   EXPECT_FALSE(contains(page, "<td>as promised</td>"));
-  EXPECT_TRUE(contains(page, "Too few studies to tell the shares from 95 %."));
+  EXPECT_TRUE(contains(page, "Too few studies to tell the shares from 95\u00a0%."));
   EXPECT_TRUE(contains(page, "verdict mixed"));
 }
 

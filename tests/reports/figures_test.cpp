@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <numbers>
+#include <set>
 #include <sstream>
 
 #include "reports/figures/process.hpp"
 #include "reports/figures/thin.hpp"
 #include "sim/simulation.hpp"
+#include "tests/reports/sound_page.hpp"
 #include "tests/support/results.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -108,6 +111,34 @@ TEST(Figure, HasRoomForTheLegendOfSixGroups) {
 }
 
 // To the right of the first, "longer" would stand beside the second point.
+TEST(Figure, NamesAnglesAsTheTableDoes) {
+  auto specimens = test::fit_sample().result.specimens;
+  specimens.front().orientation = 22.5 * std::numbers::pi / 180.0;
+  EXPECT_TRUE(contains(draw(strength_figure(specimens, "strength")), ">22.5°<"));
+}
+
+// Seven chains, six of them thin: hue alone would not tell them apart.
+TEST(Figure, TellsChainsApartInGrey) {
+  std::vector<calib::ChainRow> rows;
+  for (const calib::Chain& chain : calib::all_chains())
+    rows.push_back({.chain = chain.name, .error = 0.1, .trace = {{10, 0.1, 0.4}, {20, 0.5, 0.1}}});
+  const std::string commands =
+      chains_figure(calib::summarise(std::move(rows)), ChainCost::simulations, "c").commands;
+  const std::vector<std::string> dashes = test::after(commands, " dt ", ")");
+  EXPECT_EQ(dashes.size(), 5U);
+  EXPECT_EQ(std::set<std::string>(dashes.begin(), dashes.end()).size(), dashes.size());
+}
+
+TEST(Figure, NamesTheCostOfStartsAndKeepsItsLegendOutside) {
+  calib::CalibrationResult result;
+  result.starts = {93.0, 178.0, 12000.0};
+  result.ends = {93.0, 94.0};
+  const Figure figure = waterfall_figure(result, "w");
+  EXPECT_FALSE(contains(figure.commands, "key inside"));
+  for (const char* words : {">Cost<", ">starts<", ">refined<"})
+    EXPECT_TRUE(contains(draw(figure), words)) << words;
+}
+
 TEST(Figure, GivesNoPointTheNameOfAnother) {
   std::vector<calib::SpecimenResult> specimens;
   for (const double strength : {40.0, 44.2, 60.0}) {
@@ -127,6 +158,7 @@ TEST(Figure, ShowsBothSidesOnlyWhereTheyDiffer) {
   auto simulation = test::simulation_sample(assembly);
   const SimulationReport report{{}, assembly, simulation, {}};
   EXPECT_TRUE(contains(draw(simulation_figure(report, "c")), "left side"));
+  EXPECT_TRUE(contains(simulation_figure(report, "c").commands, "dt 2 lc rgb orange title 'left"));
   simulation.regime = sim::Regime::quasi_static;
   EXPECT_FALSE(contains(draw(simulation_figure(report, "c")), "left side"));
 }

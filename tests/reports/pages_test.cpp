@@ -1,8 +1,8 @@
-// Pages of tests and sections, and of several fits.
-#include "reports/pages.hpp"
-
+// Pages of sections and of several fits.
 #include <gtest/gtest.h>
 
+#include "calib/porosity/scatter_map.hpp"
+#include "reports/text/format.hpp"
 #include "tests/reports/sound_page.hpp"
 
 namespace havers::reports {
@@ -11,109 +11,6 @@ namespace {
 using test::after;
 using test::contains;
 using test::expect_sound;
-
-// As a machine records it that counts tension negative: no axis goes below zero for it.
-TEST(ImportPage, DrawsATurnedLoadAsItWasUsed) {
-  auto raw = test::raw_test(13e9, 43e6, 1);
-  auto measured = test::measured_test(13e9, 43e6, 1);
-  for (std::vector<double>* channel : {&raw.force, &raw.stress})
-    for (double& value : *channel) value = -value;
-  for (const bool turned : {false, true}) {
-    measured.load_turned = turned;
-    const std::string svg = test_svg({"A1.csv", raw, measured});
-    EXPECT_EQ(contains(svg, ">as read, sign turned<"), turned);
-    EXPECT_EQ(contains(svg, ">−10<"), !turned);
-  }
-}
-
-// A test that was joined with a logger comes turned.
-TEST(ImportPage, SaysThatALoadWasTurnedBeforeItWasJoined) {
-  auto raw = test::raw_test(13e9, 43e6, 1);
-  auto measured = test::measured_test(13e9, 43e6, 1);
-  raw.load_turned = measured.load_turned = true;
-  const std::string svg = test_svg({"A1.csv", raw, measured});
-  EXPECT_TRUE(contains(svg, ">as read, sign turned<"));
-  EXPECT_FALSE(contains(svg, ">−10<"));
-  EXPECT_TRUE(contains(test_svg({"A1.csv", raw, {}}), ", sign turned<"));
-}
-
-TEST(ImportPage, SaysWhatTheAreaIs) {
-  auto raw = test::raw_test(13e9, 43e6, 1);
-  const auto measured = test::measured_test(13e9, 43e6, 1);
-  raw.width = 4e-3;
-  raw.thickness = 2e-3;
-  raw.area = 7.5e-6;
-  EXPECT_TRUE(
-      contains(import_page({{"A1.csv", raw, measured}}, {}), "8\u00a0mm², width × thickness<"));
-  raw.thickness.reset();
-  EXPECT_TRUE(contains(import_page({{"A1.csv", raw, measured}}, {}), ">7.5\u00a0mm²<"));
-}
-
-TEST(ImportPage, CallsNothingAlignedWhereTheClocksAreNot) {
-  const auto raw = test::raw_test(13e9, 43e6, 1);
-  const auto measured = test::measured_test(13e9, 43e6, 1);
-  calib::ClockFit clocks;
-  const auto page = [&] { return import_page({{"A1.csv", raw, measured, {}, &clocks}}, {}); };
-  EXPECT_TRUE(contains(page(), "the aligned signals"));
-  clocks.problem = "the signals do not determine the two clocks: several offsets fit alike";
-  EXPECT_FALSE(contains(page(), "the aligned signals"));
-  EXPECT_TRUE(contains(page(), "cannot be aligned: the signals do not determine the two clocks"));
-}
-
-TEST(ImportPage, ShowsNumbersCorrectionsAndWarningsOfEveryTest) {
-  const auto raw = test::raw_test(13e9, 43e6, 1);
-  auto measured = test::measured_test(13e9, 43e6, 1);
-  measured.warnings = {"The curve is not linear to failure."};
-  const std::string page =
-      import_page({{"a/A1.csv", raw, measured}, {"a/A2.csv", raw, measured}}, {});
-  expect_sound(page);
-  EXPECT_TRUE(contains(page, "<h2>A1.csv</h2>"));
-  EXPECT_TRUE(contains(page, "<h2>A2.csv</h2>"));
-  EXPECT_TRUE(contains(page, "13.000 ± 0.078 GPa, in the window 0.033 to 0.132 %"));
-  EXPECT_TRUE(contains(page, "strain shifted by 2.0 × 10⁻⁴"));
-  EXPECT_TRUE(contains(page, "The curve is not linear to failure."));
-  EXPECT_FALSE(contains(page, "at least"));
-
-  measured.broke = false;
-  const std::string stopped = import_page({{"a/A1.csv", raw, measured}}, {});
-  EXPECT_TRUE(contains(stopped, "Strength, at least"));
-  EXPECT_TRUE(contains(stopped, "Failure strain, at least"));
-  EXPECT_TRUE(contains(stopped, "<td class=\"n\">≥ "));
-}
-
-TEST(ImportPage, SurvivesAnEmptyTest) {
-  const calib::RawTest raw;
-  const calib::MeasuredTest measured;
-  expect_sound(import_page({{"empty.csv", raw, measured}}, {}));
-  expect_sound(import_page({}, {}));
-}
-
-TEST(TestSvg, StandsOnItsOwn) {
-  const auto raw = test::raw_test(13e9, 43e6, 1);
-  const auto measured = test::measured_test(13e9, 43e6, 1);
-  const std::string svg = test_svg({"A1.csv", raw, measured});
-  EXPECT_TRUE(contains(svg, "xmlns=\"http://www.w3.org/2000/svg\""));
-  EXPECT_TRUE(contains(svg, "modulus; window shaded"));
-  EXPECT_LT(svg.size(), 200'000U);
-}
-
-// The parted specimen goes back in strain: a line would look like a second loading.
-TEST(TestSvg, DrawsWhatWasReadAfterTheBreakApart) {
-  const auto raw = test::raw_test(13e9, 43e6, 1);
-  auto measured = test::measured_test(13e9, 43e6, 1);
-  measured.time = raw.time;
-  EXPECT_FALSE(contains(test_svg({"A1.csv", raw, measured}), ">read after the break<"));
-  measured.time.resize(raw.time.size() / 2);
-  EXPECT_TRUE(contains(test_svg({"A1.csv", raw, measured}), ">read after the break<"));
-}
-
-TEST(TestSvg, DrawsTheStepsOfAClockThatRepeatsItself) {
-  auto raw = test::raw_test(13e9, 43e6, 1);
-  const auto measured = test::measured_test(13e9, 43e6, 1);
-  EXPECT_FALSE(contains(test_svg({"A1.csv", raw, measured}), "Time step (s)"));
-  for (double& time : raw.time) time = std::floor(time);
-  EXPECT_TRUE(contains(test_svg({"A1.csv", raw, measured}), "Time step (s)"));
-}
 
 TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
   auto section = test::fit_sample().study.specimens.front().sections.front();
@@ -128,7 +25,7 @@ TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
                         .provenance = {{"seed", "1"}}};
   const std::string page = porosity_page(report);
   expect_sound(page);
-  EXPECT_TRUE(contains(page, "4.80 ± 0.21"));
+  EXPECT_TRUE(contains(page, "4.80\u00a0±\u00a00.21"));
   EXPECT_TRUE(contains(page, "0.410"));
   EXPECT_TRUE(contains(page, "The bone touches the edge of the image."));
   EXPECT_TRUE(contains(page, "outer third"));
@@ -136,13 +33,16 @@ TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
   EXPECT_TRUE(contains(page, "at a depth of 0.490, 0 bone, 1 pore"));
   EXPECT_TRUE(contains(page, "lacunae below 15 µm"));
   EXPECT_TRUE(contains(page, "Pores are smaller than the window of one fibre"));
+  EXPECT_TRUE(contains(
+      page, "by a scatter of d = " + plus_minus(calib::scatter_of(report.mean, {}),
+                                                calib::scatter_standard_error(report.mean, {}))));
   EXPECT_EQ(after(page, "<img", " ").size(), 2U);
 
   EXPECT_TRUE(contains(page, "verdict good"));
   EXPECT_FALSE(contains(page, "in doubt"));
 
   report.sections[1].doubtful = true;
-  report.sections[1].mean_pore_diameter = test::nan;
+  report.sections[1].mean_pore_diameter = std::numeric_limits<double>::quiet_NaN();
   const std::string doubted = porosity_page(report);
   EXPECT_TRUE(contains(doubted, "verdict mixed"));
   EXPECT_TRUE(contains(doubted, "%, 1 of them in doubt: see the warnings."));
@@ -174,6 +74,13 @@ TEST(PorosityPage, SaysThatTwoReferencesDoNotCheckTheirLine) {
   EXPECT_TRUE(contains(porosity_page(report), "(references 14\u00a0kg&#x2F;m³ about their line)"));
 }
 
+// A sheet of A4 is narrower than a narrow window: what scrolls there would be cut on paper.
+TEST(Style, ScrollsOnScreensAlone) {
+  const std::string page = comparison_page({});
+  EXPECT_EQ(after(page, "@media ", "{"),
+            (std::vector<std::string>{"screen and (max-width: 48em) ", "print "}));
+}
+
 TEST(ComparisonPage, PutsFitsSideBySide) {
   const auto a = test::fit_sample();
   auto b = test::fit_sample();
@@ -184,8 +91,10 @@ TEST(ComparisonPage, PutsFitsSideBySide) {
   const std::string page = comparison_page({{a.study, a.result, {}, {{"seed", "1"}}, 38.2},
                                             {b.study, b.result, {}, {{"seed", "2"}}, 61.0}});
   expect_sound(page);
-  EXPECT_TRUE(contains(page, "13.123 ± 0.087"));
-  EXPECT_TRUE(contains(page, "14.200 ± 0.087"));
+  EXPECT_EQ(after(page, "<p class=\"sentence\">", "<").front(),
+            "1 of 2 fits cannot be trusted (bovine femur B), 1 with reservations.");
+  EXPECT_TRUE(contains(page, "13.123\u00a0±\u00a00.087"));
+  EXPECT_TRUE(contains(page, "14.200\u00a0±\u00a00.087"));
   EXPECT_TRUE(contains(page, "<td>bovine femur B</td><td class=\"n\">14.200"));  // wide as one fit
   EXPECT_EQ(test::after(page, "<th>E (GPa) <", ">").size(), 1U);
   EXPECT_TRUE(contains(page, "The fit cannot be trusted: 1 of 4 checks failed (search)."));

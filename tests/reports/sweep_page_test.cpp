@@ -139,7 +139,7 @@ TEST(SweepPage, TypesetsClaimsAndChancesThatAreNextToNothing) {
   known.result.laws.front().lack_of_fit = 709.0;
   known.result.laws.front().lack_of_fit_p = 0.0;
   const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
-  EXPECT_THAT(page, HasSubstr("1.8 × 10⁻⁶ d"));
+  EXPECT_THAT(page, HasSubstr("1.8\u00a0×\u00a010⁻⁶ d"));
   EXPECT_THAT(page, HasSubstr("709 (p &lt; 10⁻⁶)"));
 }
 
@@ -173,6 +173,36 @@ TEST(SweepFigures, TellCurvesApartWithoutColour) {
   const std::string commands =
       sweep_figures(known.sweep, known.result, wanted, "f").front().figure.commands;
   EXPECT_THAT(commands, AllOf(HasSubstr("dt 1 lc rgb blue"), HasSubstr("dt 2 lc rgb red")));
+}
+
+TEST(SweepFigures, JoinPointsThatLieOnACurveAlone) {
+  const Case known;
+  const auto commands = [&](const std::string& series) {
+    const calib::SweepFigure wanted{.caption = "c", .x = "joints.scatter", .series = series};
+    return sweep_figures(known.sweep, known.result, wanted, "f").front().figure.commands;
+  };
+  EXPECT_THAT(commands("joints.ratio"), HasSubstr("with linespoints"));
+  EXPECT_THAT(commands(""), AllOf(Not(HasSubstr("with linespoints")), Not(HasSubstr("filled"))));
+}
+
+TEST(SweepFigures, ShowBothOfTwoSeriesThatCoincide) {
+  const Case known;
+  const calib::SweepFigure wanted{.caption = "c", .x = "joints.scatter", .series = "joints.ratio"};
+  EXPECT_THAT(
+      sweep_figures(known.sweep, known.result, wanted, "f").front().figure.commands,
+      AllOf(HasSubstr("dt 1 pt 4 ps 1.1 lc rgb blue"), HasSubstr("dt 2 pt 7 ps 0.7 lc rgb red")));
+}
+
+TEST(SweepFigures, SayWhatBarsAndBandsAre) {
+  Case known;
+  known.sweep.figures = {{.caption = "As in fig. 12.", .x = "joints.ratio"}};
+  const auto page = [&] {
+    return sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
+  };
+  EXPECT_THAT(page(),
+              HasSubstr("As in fig. 12. Bars and bands: 95\u00a0% intervals of the means."));
+  known.sweep.figures.front().x = "";
+  EXPECT_THAT(page(), Not(HasSubstr("Bars and bands")));
 }
 
 TEST(SweepFigures, WriteTheirSeriesAsTheTextDoes) {

@@ -25,8 +25,8 @@ TEST(Number, CountsDigitsAfterRounding) {
 }
 
 TEST(Number, WritesPowersOfTenOnlyWhereTheyHelp) {
-  EXPECT_EQ(number(3.214e-14, 3), "3.21 × 10⁻¹⁴");
-  EXPECT_EQ(number(1.5e9, 2), "1.5 × 10⁹");
+  EXPECT_EQ(number(3.214e-14, 3), "3.21\u00a0×\u00a010⁻¹⁴");
+  EXPECT_EQ(number(1.5e9, 2), "1.5\u00a0×\u00a010⁹");
 }
 
 TEST(Number, IsADashWhereNothingIsKnown) {
@@ -36,8 +36,9 @@ TEST(Number, IsADashWhereNothingIsKnown) {
 }
 
 TEST(Typeset, WritesPowersOfTenInASentence) {
-  EXPECT_EQ(typeset("Gauss-Seidel 1e-06, h = 5 ns"), "Gauss-Seidel 10⁻⁶, h = 5 ns");
-  EXPECT_EQ(typeset("off by 6.1e-09 at 2e+12 Pa"), "off by 6.1 × 10⁻⁹ at 2 × 10¹² Pa");
+  EXPECT_EQ(typeset("Gauss-Seidel 1e-06, h = 5 ns"), "Gauss-Seidel 10⁻⁶, h = 5\u00a0ns");
+  EXPECT_EQ(typeset("off by 6.1e-09 at 2e+12 Pa"),
+            "off by 6.1\u00a0×\u00a010⁻⁹ at 2\u00a0×\u00a010¹²\u00a0Pa");
   EXPECT_EQ(typeset("the ends: 3 e, 3e"), "the ends: 3 e, 3e");
   EXPECT_EQ(typeset(""), "");
 }
@@ -47,13 +48,22 @@ TEST(Setting, IsWrittenAsItWasChosen) {
   EXPECT_EQ(setting(13.0, "GPa"), "13\u00a0GPa");
   EXPECT_EQ(setting(nan, "GPa"), "–");
   EXPECT_EQ(setting(1e-8), "10⁻⁸");
-  EXPECT_EQ(setting(-2.5e-9, "m"), "−2.5 × 10⁻⁹\u00a0m");
+  EXPECT_EQ(setting(-2.5e-9, "m"), "−2.5\u00a0×\u00a010⁻⁹\u00a0m");
 }
 
 TEST(Typeset, WritesTheNumbersOfASentenceAsAPageDoes) {
-  EXPECT_EQ(typeset("alike (p = 3e-06), or -2.5e+07."), "alike (p = 3 × 10⁻⁶), or −2.5 × 10⁷.");
+  EXPECT_EQ(typeset("alike (p = 3e-06), or -2.5e+07."),
+            "alike (p = 3\u00a0×\u00a010⁻⁶), or −2.5\u00a0×\u00a010⁷.");
   EXPECT_EQ(typeset("p < 1e-6"), "p < 10⁻⁶");
   EXPECT_EQ(typeset("AICc is -21.7 (-3 before)"), "AICc is −21.7 (−3 before)");
+}
+
+TEST(Typeset, EndsNoLineBetweenANumberAndItsUnitOrError) {
+  EXPECT_EQ(typeset("took 47 % of all, known to ± 1.9 % after 20 ns"),
+            "took 47\u00a0% of all, known to ±\u00a01.9\u00a0% after 20\u00a0ns");
+  EXPECT_EQ(typeset("1e-06 Pa, 3 µm, 12.5 GPa, 1000 1/s."),
+            "10⁻⁶\u00a0Pa, 3\u00a0µm, 12.5\u00a0GPa, 1000\u00a01/s.");
+  EXPECT_EQ(typeset("2 specimens, 3 mm2, 4 Papers"), "2 specimens, 3 mm2, 4 Papers");
 }
 
 TEST(Typeset, LeavesNamesAndWordsAsTheyAre) {
@@ -81,9 +91,9 @@ TEST(ParameterLabel, WritesFormulasWithSymbols) {
 }
 
 TEST(PlusMinus, ShowsTwoDigitsOfTheError) {
-  EXPECT_EQ(plus_minus(13.1234, 0.0871), "13.123 ± 0.087");
-  EXPECT_EQ(plus_minus(1234.6, 56.0), "1235 ± 56");
-  EXPECT_EQ(plus_minus(0.3, 0.0996), "0.30 ± 0.10");
+  EXPECT_EQ(plus_minus(13.1234, 0.0871), "13.123\u00a0±\u00a00.087");
+  EXPECT_EQ(plus_minus(1234.6, 56.0), "1235\u00a0±\u00a056");
+  EXPECT_EQ(plus_minus(0.3, 0.0996), "0.30\u00a0±\u00a00.10");
 }
 
 TEST(PlusMinus, LeavesOutAnErrorThatIsNotKnown) {
@@ -91,6 +101,11 @@ TEST(PlusMinus, LeavesOutAnErrorThatIsNotKnown) {
   EXPECT_EQ(plus_minus(13.1234, 0.0), "13.12");
   EXPECT_EQ(plus_minus(13.1234, 2e-15), "13.12");
   EXPECT_EQ(plus_minus(nan, 0.1), "–");
+}
+
+TEST(Interval, HasNoMinusBeforeZero) {
+  EXPECT_EQ(interval(-0.004, 0.9), "0.00 to 0.90");
+  EXPECT_EQ(with_interval(-0.004, -0.9, 0.9, "%"), "0.0\u00a0% (−0.9 to 0.9)");
 }
 
 TEST(Interval, ShowsTwoDigitsOfItsWidth) {

@@ -36,11 +36,13 @@ TEST(WorkPrecisionPage, WritesNumbersAsAReaderDoes) {
   const sim::Scene scene;
   const std::string page = work_precision_page(scene, study, {{"seed", "1"}});
   expect_sound(page);
-  EXPECT_TRUE(contains(page, "Gauss-Seidel 10⁻⁸, h = 20 ns, 8 triangles a fibre"));
-  EXPECT_TRUE(contains(page, "h = 10 ps"));
-  EXPECT_TRUE(contains(page, "3.0 × 10⁻⁶ (1.5 × 10⁻⁶ to 6.0 × 10⁻⁶)"));
+  EXPECT_TRUE(contains(page, "Gauss-Seidel 10⁻⁸, h = 20\u00a0ns, 8 triangles a fibre"));
+  EXPECT_TRUE(contains(page, "h = 10\u00a0ps"));
+  EXPECT_TRUE(
+      contains(page, "3.0\u00a0×\u00a010⁻⁶ (1.5\u00a0×\u00a010⁻⁶ to 6.0\u00a0×\u00a010⁻⁶)"));
   EXPECT_TRUE(contains(page, ">1234567<"));
-  EXPECT_TRUE(contains(page, "differs by 1.3 × 10⁻¹³ at most and takes 1.7 times the CPU time"));
+  EXPECT_TRUE(
+      contains(page, "differs by 1.3\u00a0×\u00a010⁻¹³ at most and takes 1.7 times the CPU time"));
   EXPECT_TRUE(contains(page, "1 of 1 not to be trusted"));
   EXPECT_FALSE(contains(page, "e-0"));
 }
@@ -103,8 +105,9 @@ TEST(WorkPrecisionPage, IsNotGreenWhereNothingComesNearTheReference) {
   study.rows[1].errors.failure_strain = {0.0005, 0.0001, 0.0042, 1};
   const std::string page = work_precision_page({}, study, {});
   EXPECT_TRUE(contains(page, "verdict mixed"));
-  EXPECT_TRUE(
-      contains(page, "0.1 % for every seed; the nearest comes to 0.42 %: active set, h = 20 ns, "));
+  EXPECT_TRUE(contains(
+      page,
+      "0.1\u00a0% for every seed; the nearest comes to 0.42\u00a0%: active set, h = 20\u00a0ns, "));
 }
 
 TEST(WorkPrecisionPage, NamesNoSettingForWhatTheReferenceIsNotKnownTo) {

@@ -105,6 +105,15 @@ TEST(Verdict, WarnsOfAModulusWithTheMachineInIt) {
   EXPECT_FALSE(check().done);
 }
 
+TEST(Verdict, SaysWhyNothingWasConfirmedInTime) {
+  auto study = test::synthetic_study(test::three_orientations);
+  const FitProblem problem = make_problem(study);
+  EXPECT_TRUE(
+      says(check_confirmation(problem, {}), "not asked for; calibrate.options.confirm = 3"));
+  study.calibrate.confirm = 1;
+  EXPECT_TRUE(says(check_confirmation(problem, {}), "step by step in time anyhow"));
+}
+
 TEST(Verdict, SaysThatAHeldOutSpecimenIsOff) {
   auto study = test::synthetic_study(test::three_orientations);
   study.specimens[0].use = Use::validate;

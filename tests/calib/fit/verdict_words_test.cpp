@@ -116,8 +116,8 @@ TEST(Verdict, SpeaksOfOneAsOfOne) {
                                .peak_in_time = 1.0,
                                .failure_strain_limit = 1.0,
                                .failure_strain_in_time = 1.0});
-  EXPECT_TRUE(says(check_confirmation(one), "1 replicate step by step in time differs"));
   const FitProblem problem{.study = study, .unknowns = {}, .fitted = {0, 1}};
+  EXPECT_TRUE(says(check_confirmation(problem, one), "1 replicate step by step in time differs"));
   Answer answer;
   answer.best.predictions.resize(2);
   answer.best.predictions[0].censored = true;
