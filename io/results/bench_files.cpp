@@ -160,7 +160,8 @@ nlohmann::json methods_json(const calib::MethodComparison& comparison,
   nlohmann::json hardships;
   for (const auto& [hardship, methods] : comparison.hardships)
     hardships.push_back({{"hardship", hardship}, {"methods", summaries_of(methods)}});
-  return {{"sections", comparison.trials.size()},
+  return {{"complete", comparison.complete},
+          {"sections", comparison.trials.size()},
           {"methods", summaries_of(comparison.methods)},
           {"hardships", hardships},
           {"provenance", provenance_object(provenance)}};

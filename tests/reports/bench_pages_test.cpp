@@ -33,6 +33,15 @@ TEST(MethodsPage, ComparesMethodsByErrorAndTime) {
   EXPECT_TRUE(contains(page, "33.3"));  // MPix/s of 0.03 s for a million pixels
 }
 
+TEST(MethodsPage, SaysThatItWasStopped) {
+  auto comparison = calib::compare_methods({trial_of("blur", 0.0, 0.0)});
+  EXPECT_TRUE(contains(methods_page(comparison, {}), "verdict good"));
+  comparison.complete = false;
+  const std::string page = methods_page(comparison, {});
+  EXPECT_TRUE(contains(page, "verdict mixed"));
+  EXPECT_TRUE(contains(page, "Stopped before all sections were measured. On 1 drawn sections"));
+}
+
 calib::ChainRow chain_row(const std::string& chain, double error, long simulations) {
   return {.chain = chain,
           .study = 1,

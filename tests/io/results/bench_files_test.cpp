@@ -57,6 +57,10 @@ TEST(BenchFiles, SayWhetherABenchWasCompleted) {
   EXPECT_EQ(chains_json({}, {})["complete"], false);
   EXPECT_EQ(coverage_json({.rows = {}, .summaries = {}, .complete = false}, {})["complete"], false);
   EXPECT_EQ(coverage_json({}, {})["complete"], true);
+  calib::MethodComparison methods = calib::compare_methods({{.hardship = "noise"}});
+  EXPECT_EQ(methods_json(methods, {})["complete"], true);
+  methods.complete = false;
+  EXPECT_EQ(methods_json(methods, {})["complete"], false);
 }
 
 TEST(BenchFiles, HaveAHeaderWithoutRows) {
