@@ -23,6 +23,8 @@ TEST(Verdict, RejectsSpecimensThatDifferByMoreThanHalf) {
   const auto check = check_of(test::fit(study), "spread between specimens");
   EXPECT_EQ(check.outcome, Outcome::fail);
   EXPECT_TRUE(says(check, "exchanged?")) << check.text;
+  EXPECT_TRUE(says(check, ": they are not.")) << check.text;
+  EXPECT_FALSE(says(check, "rejects nothing")) << check.text;
 }
 
 TEST(Verdict, SaysThatAsManyParametersAsStrengthsLeaveNoSpread) {
