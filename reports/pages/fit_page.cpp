@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "calib/experiment/quality.hpp"
@@ -83,6 +84,12 @@ mstch::array interval_rows(const calib::CalibrationResult& result) {
   return rows;
 }
 
+bool has_bootstrap(const calib::CalibrationResult& result) {
+  return std::ranges::any_of(result.parameters, [](const calib::CalibratedParameter& p) {
+    return p.identifiable && p.bootstrap_missing.empty();
+  });
+}
+
 mstch::array influence_rows(const calib::CalibrationResult& result) {
   mstch::array rows;
   for (const calib::SpecimenResult& specimen : result.specimens) {
@@ -128,6 +135,7 @@ mstch::node knowledge(const FitReport& report) {
       {"directions", mstch::node{directions(result)}},
       {"fitted", mstch::node{fitted_symbols(result)}},
       {"intervals", mstch::node{interval_rows(result)}},
+      {"drawn", mstch::node{has_bootstrap(result)}},
       {"correlation", mstch::node{correlation_rows(result)}},
       {"next", section(next_rows(result))},
       {"influence", section(influence_rows(result))},

@@ -57,8 +57,18 @@ TEST(FitPage, BreaksTheLinesOfReasonsInTheTableOfIntervals) {
   sample.result.parameters.front().bootstrap_missing = "3 specimens are too few to draw from";
   const std::string page = fit_page({sample.study, sample.result, {}, {}});
   EXPECT_TRUE(contains(page, "<td class=\"n said\">– (3 specimens are too few"));
-  EXPECT_TRUE(contains(page, "Six specimens are too few to draw from"));
   EXPECT_TRUE(contains(page, "td.said { white-space: normal; }"));
+}
+
+// Beside "2 specimens are too few to draw from" it would speak of a fit of six.
+TEST(FitPage, SaysWhatABootstrapIsWorthWhereThereIsOne) {
+  auto sample = test::fit_sample();
+  sample.result.fitted = {"young_GPa"};
+  const std::string worth = "over six they hold the truth in 78 to 91 %";
+  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), worth));
+  for (auto& parameter : sample.result.parameters)
+    parameter.bootstrap_missing = "2 specimens are too few to draw from, 5 are the least";
+  EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), worth));
 }
 
 // What a search asks for again is in memory; the store knows what earlier runs left.
