@@ -105,7 +105,7 @@ mstch::array influence_rows(const calib::CalibrationResult& result) {
 mstch::array directions(const calib::CalibrationResult& result) {
   mstch::array list;
   for (const std::string& sentence : result.directions)
-    list.push_back(text(typeset(with_symbols(sentence, result.fitted))));
+    list.push_back(text(typeset(with_symbols(sentence, asked_for(result)))));
   return list;
 }
 
@@ -194,6 +194,7 @@ std::string fit_page(const FitReport& report) {
        {"checks", check_section(result.verdict)},
        {"study_notes", text_section(result.notes)},
        {"parameters", mstch::node{parameters}},
+       {"held_at", text(held_along(report))},
        {"strength_figure", text(draw(strength_figure(result.specimens, "strength")))},
        {"specimens", mstch::node{specimens}},
        {"knowledge", knowledge(report)},

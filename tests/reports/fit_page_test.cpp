@@ -188,6 +188,11 @@ TEST(FitPage, SaysWhyAnIntervalReachesBeyondItsProfile) {
                        "drawn straight and taken for a parabola between its points"));
   sample.result.parameters.back().left_out_because = "nothing changes with it";
   EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), said));
+  sample.result.directions = {
+      "young_GPa is known to ± 5.5 % (one standard error, at ratio = 1.5)."};
+  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  EXPECT_TRUE(contains(page, "Standard errors are those at r = 1.5; the 95 % intervals let"));
+  EXPECT_TRUE(contains(page, "E is known to ± 5.5 % (one standard error, at r = 1.5)."));
   sample.study.calibrate.automatic = true;
   EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), said));
 }
