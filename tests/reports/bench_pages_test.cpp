@@ -91,7 +91,9 @@ TEST(CoveragePage, SaysWhichIntervalsHoldLessThanTheyPromise) {
       {.design = "0, 90 deg", .parameter = "ratio", .studies = 100, .half_width = {NAN, NAN, NAN}}};
   const std::string page = coverage_page(coverage, {{"seed", "1"}});
   expect_sound(page);
-  EXPECT_TRUE(contains(page, "95.0 % of 100 intervals hold the truth; 95 % should."));
+  EXPECT_TRUE(
+      contains(page, "Of 100 intervals 95.0 (88.8 to 97.8) % hold the truth; 95 % should."));
+  EXPECT_TRUE(contains(page, "<th>0, 90°</th><td>E</td>")) << page;
   EXPECT_TRUE(contains(page, "100 of 100"));
   EXPECT_TRUE(contains(page, "No share differs from 95 %"));
   EXPECT_TRUE(contains(page, "<td>as promised</td>"));
@@ -125,7 +127,7 @@ TEST(CoveragePage, SaysThatItWasStopped) {
   coverage.complete = false;
   const std::string page = coverage_page(coverage, {});
   EXPECT_TRUE(contains(page, "verdict mixed"));
-  EXPECT_TRUE(contains(page, "Stopped before all studies were fitted. 95.0 % of"));
+  EXPECT_TRUE(contains(page, "Stopped before all studies were fitted. Of 300 intervals"));
 }
 
 TEST(CoveragePage, CallsNoRowAsPromisedWhoseIntervalLeavesOut95) {
