@@ -65,6 +65,7 @@ TEST(BenchFiles, SayWhetherABenchWasCompleted) {
 
 TEST(BenchFiles, HaveAHeaderWithoutRows) {
   EXPECT_EQ(rows_of(stability_csv({})).size(), 1U);
+  EXPECT_EQ(rows_of(work_precision_csv({})).size(), 1U);
 }
 
 }  // namespace
