@@ -72,7 +72,9 @@ int run_check(const std::filesystem::path& file, const CommonOptions& common) {
   }
   if (!findings.problems.empty()) throw io::InputError(findings.problems);
   for (const std::string& warning : findings.warnings) fmt::print("note: {}\n", warning);
-  fmt::print("no problems in this {}\n", io::name_of(*findings.kind));
+  const std::size_t notes = findings.warnings.size();
+  fmt::print("no problems in this {}{}\n", io::name_of(*findings.kind),
+             notes == 0 ? "" : fmt::format(", {} note{}", notes, notes == 1 ? "" : "s"));
   return done;
 }
 
