@@ -84,6 +84,7 @@ Command check_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser =
       add_command(app, common, "check", "every problem of a study, scene or sweep, nothing run",
                   check_examples);
+  say_refused(*parser, {"--seed"});
   const auto file = std::make_shared<std::filesystem::path>();
   parser->add_option("INPUT", *file, "study, scene or sweep file (TOML)")->required();
   return {parser, [file, &common] { return run_check(*file, common); }};
