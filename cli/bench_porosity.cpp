@@ -19,16 +19,21 @@ calib::MethodComparison try_all(const BenchArguments& arguments, const CommonOpt
                                 const std::filesystem::path& image) {
   ProgressLine line(common);
   std::vector<calib::PorosityTrial> trials;
-  for (const io::SectionCase& next : io::section_cases(arguments.seeds)) {
+  const std::vector<io::SectionCase> cases = io::section_cases(arguments.seeds);
+  for (const io::SectionCase& next : cases) {
     if (interrupted() && !trials.empty()) break;
     if (line.due()) line.show(next.hardship);
     trials.push_back(io::try_section(next, image));
   }
   std::filesystem::remove(image);
-  return calib::compare_methods(std::move(trials));
+  const bool complete = trials.size() == cases.size();
+  calib::MethodComparison comparison = calib::compare_methods(std::move(trials));
+  comparison.complete = complete;
+  return comparison;
 }
 
 void print_methods(const calib::MethodComparison& comparison) {
+  if (!comparison.complete) fmt::print("stopped before all sections were measured\n");
   fmt::print("{:<40}{:>12}{:>12}{:>14}{:>10}\n", "errors in points of porosity", "median", "worst",
              "without pores", "MPix/s");
   for (const calib::MethodSummary& method : comparison.methods)
@@ -51,7 +56,7 @@ int bench_porosity(const BenchArguments& arguments, const CommonOptions& common)
   if (reports::available())
     output.write("report.html", reports::methods_page(comparison, page_facts(provenance)));
   answer(common, &output, result, page_or("result.json"), [&] { print_methods(comparison); });
-  return comparison.good() && !interrupted() ? done : answer_is_no;
+  return comparison.good() && comparison.complete ? done : answer_is_no;
 }
 
 }  // namespace havers::cli

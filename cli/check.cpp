@@ -72,7 +72,9 @@ int run_check(const std::filesystem::path& file, const CommonOptions& common) {
   }
   if (!findings.problems.empty()) throw io::InputError(findings.problems);
   for (const std::string& warning : findings.warnings) fmt::print("note: {}\n", warning);
-  fmt::print("no problems in this {}\n", io::name_of(*findings.kind));
+  const std::size_t notes = findings.warnings.size();
+  fmt::print("no problems in this {}{}\n", io::name_of(*findings.kind),
+             notes == 0 ? "" : fmt::format(", {} note{}", notes, notes == 1 ? "" : "s"));
   return done;
 }
 
@@ -82,6 +84,7 @@ Command check_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser =
       add_command(app, common, "check", "every problem of a study, scene or sweep, nothing run",
                   check_examples);
+  say_refused(*parser, {"--seed"});
   const auto file = std::make_shared<std::filesystem::path>();
   parser->add_option("INPUT", *file, "study, scene or sweep file (TOML)")->required();
   return {parser, [file, &common] { return run_check(*file, common); }};

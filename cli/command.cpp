@@ -44,6 +44,11 @@ CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& n
   return command;
 }
 
+void say_refused(CLI::App& command, std::initializer_list<const char*> options) {
+  for (const char* option : options)
+    command.get_option(option)->description("sets nothing here, and is refused");
+}
+
 CLI::Option* add_output(CLI::App& command, std::filesystem::path& folder, const std::string& help) {
   const auto complaint = [](const std::string& text) -> std::string {
     return text.empty() ? "is empty, must name a folder" : "";

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -56,6 +57,9 @@ Command bench_command(CLI::App& app, CommonOptions& common);
 /// Adds a sub-command with the common options, a sentence of what it does, and examples under -h.
 CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& name,
                       const std::string& sentence, const std::string& examples);
+
+/// Says in the -h of a command that it refuses these options, though every command takes them.
+void say_refused(CLI::App& command, std::initializer_list<const char*> options);
 
 /// Adds -o,--output DIR, which names a folder.
 CLI::Option* add_output(CLI::App& command, std::filesystem::path& folder, const std::string& help);

@@ -242,6 +242,7 @@ int run_import(const ImportArguments& arguments, const CommonOptions& common) {
 Command import_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(app, common, "import",
                                  "what is in a test file, as read and as used", import_examples);
+  say_refused(*parser, {"--seed"});
   const auto arguments = std::make_shared<ImportArguments>();
   parser->add_option("FILE", arguments->files, "test files")->required();
   parser

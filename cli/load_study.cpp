@@ -33,6 +33,17 @@ void collect(std::vector<io::Problem>& all, const std::vector<io::Problem>& more
   all.insert(all.end(), more.begin(), more.end());
 }
 
+// What a file complains of, with its place in the study.
+void collect(Outcome& outcome, const std::vector<io::Problem>& more,
+             const std::filesystem::path& file, const char* key) {
+  for (io::Problem problem : more) {
+    if (problem.where.starts_with(file.string()))
+      problem.hint += fmt::format("{}it is the {} of specimen {}", problem.hint.empty() ? "" : "; ",
+                                  key, outcome.specimen.id);
+    outcome.problems.push_back(std::move(problem));
+  }
+}
+
 io::ReadOptions with_sizes(io::ReadOptions options, const io::SpecimenFiles& files) {
   options.width = files.width;
   options.thickness = files.thickness;
@@ -42,12 +53,13 @@ io::ReadOptions with_sizes(io::ReadOptions options, const io::SpecimenFiles& fil
 
 // A file that is not there was complained of with the study.
 std::optional<calib::RawTest> read_file(const std::filesystem::path& file,
-                                        const io::ReadOptions& options, Outcome& outcome) {
+                                        const io::ReadOptions& options, const char* key,
+                                        Outcome& outcome) {
   if (!std::filesystem::is_regular_file(file)) return std::nullopt;
   try {
     return io::read_test(file, options).test;
   } catch (const io::InputError& error) {
-    collect(outcome.problems, error.problems());
+    collect(outcome, error.problems(), file, key);
     return std::nullopt;
   }
 }
@@ -56,9 +68,9 @@ void read_specimen(const io::SpecimenFiles& files, const calib::ReductionOptions
                    Outcome& outcome) {
   io::ReadOptions options = with_sizes(files.columns, files);
   options.has_logger = files.gauge.has_value();
-  std::optional<calib::RawTest> test = read_file(files.test, options, outcome), logger;
+  std::optional<calib::RawTest> test = read_file(files.test, options, "test", outcome), logger;
   if (files.gauge)
-    logger = read_file(*files.gauge, with_sizes(files.gauge_columns, files), outcome);
+    logger = read_file(*files.gauge, with_sizes(files.gauge_columns, files), "gauge", outcome);
   if (!test || files.gauge.has_value() != logger.has_value()) return;
   outcome.record.raw = std::move(*test);
   if (!logger) return;
@@ -90,7 +102,7 @@ void measure(const std::filesystem::path& section, const io::SectionOptions& opt
       outcome.overlays.push_back(std::move(measured.overlay_png));
     }
   } catch (const io::InputError& error) {
-    collect(outcome.problems, error.problems());
+    collect(outcome, error.problems(), section, "section");
   }
 }
 

@@ -100,10 +100,13 @@ void refuse_to_overwrite(const fs::path& folder, bool force) {
   if (!fs::is_directory(folder))
     throw io::InputError(folder.string(), "is a file, not a folder",
                          "give another folder after -o");
+  const std::set<std::string> own = names_of_runs(folder);
   if (!force && holds_something(folder))
     throw io::InputError(folder.string(), "is not empty",
-                         "give another folder, or --force to replace the run in it");
-  if (is_in_the_way(folder, last_name, names_of_runs(folder)))
+                         own.empty() ? "no run has written there; give another folder, or --force "
+                                       "to write beside what it holds"
+                                     : "give another folder, or --force to replace the run in it");
+  if (is_in_the_way(folder, last_name, own))
     refuse_to_replace(folder / last_name, "give another folder after -o");
 }
 

@@ -23,7 +23,7 @@ constexpr const char* simulate_examples =
     "  havers simulate data_samples/scenes/machine.toml -o runs/seed7 --seed 7 --set "
     "joints.scatter=0.4\n"
     "  havers simulate data_samples/scenes/impact.toml -o runs/film "
-    "--set output.snapshots=50   # for ParaView\n";
+    "--set output.snapshots=50   # for ParaView; needs VTK\n";
 
 struct SimulateArguments {
   std::filesystem::path scene, folder;

@@ -92,6 +92,13 @@ long runs_of(const std::vector<Done>& all) {
   return runs;
 }
 
+// Those that were not in the store: what the time was spent on.
+long simulated_of(const std::vector<Done>& all) {
+  long simulated = 0;
+  for (const Done& one : all) simulated += one.result.simulated;
+  return simulated;
+}
+
 // Runs that failed, or did not break.
 long sum_of(const std::vector<Done>& all, long calib::PointSummary::*runs) {
   long sum = 0;
@@ -110,6 +117,7 @@ nlohmann::json json_of_all(const std::vector<Done>& all, const io::Provenance& p
   return {{"status", "finished"},
           {"trusted", trusted(all)},
           {"evaluations", runs_of(all)},
+          {"simulated", simulated_of(all)},
           {"failed_simulations", sum_of(all, &calib::PointSummary::failed)},
           {"unbroken_simulations", sum_of(all, &calib::PointSummary::unbroken)},
           {"wall_s", provenance.wall_seconds},
@@ -164,10 +172,10 @@ std::string place_of(const calib::Finding& finding) {
 
 void print_summary(const std::vector<Done>& all, double wall_seconds) {
   fmt::print(
-      "{}: {}, {} failed, {} did not break, in {:.3g} s\n",
+      "{}: {}, {} failed, {} did not break; {} of them simulated now, in {:.3g} s\n",
       trusted(all) ? "to be trusted" : "NOT to be trusted: too many runs failed or did not break",
       calib::count(runs_of(all), "run"), sum_of(all, &calib::PointSummary::failed),
-      sum_of(all, &calib::PointSummary::unbroken), wall_seconds);
+      sum_of(all, &calib::PointSummary::unbroken), simulated_of(all), wall_seconds);
   for (const Done& one : all)
     for (const calib::Finding& finding : one.result.findings)
       fmt::print("{:<6}{:<12}{}{}; {}  {}\n", finding.id, calib::to_string(finding.outcome),

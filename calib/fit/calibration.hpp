@@ -31,7 +31,7 @@ struct CalibratedParameter {
                      ///< "young_GPa[45 deg]".
   std::string unit;
   double value = 0.0;
-  double standard_error = 0.0;  ///< NaN where not identifiable.
+  double standard_error = 0.0;  ///< At what is left out; NaN where not identifiable.
   /// By profile likelihood where there is a profile, to the bound where the cost does not rise; by
   /// the slopes otherwise. NaN where not identifiable.
   std::array<double, 2> interval_95{};

@@ -40,6 +40,20 @@ std::string product(const FitProblem& problem, const Answer& answer,
   return text;
 }
 
+// ", at ratio = 1.5": where the slopes are those of, as what was asked for is left out there. What
+// "auto" leaves out the study knows.
+std::string where_held(const FitProblem& problem, const Answer& answer) {
+  std::string text;
+  if (problem.study.calibrate.automatic) return text;
+  for (const LeftUnknown& left : answer.left) {
+    const Unknown& unknown = problem.unknowns[static_cast<std::size_t>(left.unknown)];
+    text += fmt::format("{} {} = {:.4g}{}{}", text.empty() ? ", at" : " and", unknown.label,
+                        value_in_unit(unknown, answer.best.point[left.unknown]),
+                        unknown.info->unit.empty() ? "" : " ", unknown.info->unit);
+  }
+  return text;
+}
+
 // (F20) Singular vectors of the Jacobian, scaled so that the largest exponent is 1.
 std::vector<std::string> directions_of(const FitProblem& problem, const Answer& answer) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(answer.slopes.jacobian, Eigen::ComputeThinV);
@@ -51,8 +65,8 @@ std::vector<std::string> directions_of(const FitProblem& problem, const Answer& 
     const double scale = svd.matrixV()(largest, i);
     const Eigen::VectorXd direction = svd.matrixV().col(i) / scale;
     sentences.push_back(fmt::format(
-        "{} is known to ± {:.2g} % (one standard error).", product(problem, answer, direction),
-        100.0 * std::expm1(1.0 / (svd.singularValues()[i] * std::abs(scale)))));
+        "{} is known to ± {:.2g} % (one standard error{}).", product(problem, answer, direction),
+        100.0 / (svd.singularValues()[i] * std::abs(scale)), where_held(problem, answer)));
   }
   return sentences;
 }

@@ -38,9 +38,17 @@ std::string what_may_tell(const FitProblem& problem, const std::vector<LeftUnkno
   return text;
 }
 
-// What few degrees of freedom leave of an unknown that is informed (F10).
-std::string wide_intervals(const FitProblem& problem, const CalibrationResult& result) {
+/// Intervals of informed unknowns that cover much of their bounds.
+struct WideIntervals {
   std::string text;
+  bool nothing_told = false;
+};
+
+// What few degrees of freedom, or unknowns that are left out, leave of one that is informed (F10).
+// Bounds alone, without a test, give an interval of 95 % of their range.
+WideIntervals wide_intervals(const FitProblem& problem, const CalibrationResult& result) {
+  constexpr double warned = 0.5, as_without_tests = 0.9;
+  WideIntervals wide;
   for (std::size_t k = 0; k < result.parameters.size(); ++k) {
     const CalibratedParameter& parameter = result.parameters[k];
     if (!parameter.identifiable) continue;
@@ -50,12 +58,15 @@ std::string wide_intervals(const FitProblem& problem, const CalibrationResult& r
     };
     const auto [low, high] = parameter.interval_95;
     const double part = (position(high) - position(low)) / unknown.range();
-    if (part > 0.5)
-      text += fmt::format(
-          " The 95 % interval of {} covers {} of the range of its bounds, which tell much of it.",
-          parameter.name, percent_text(part));
+    if (part <= warned) continue;
+    const bool nothing = part > as_without_tests;
+    wide.nothing_told = wide.nothing_told || nothing;
+    wide.text += fmt::format(" The 95 % interval of {} covers {} of the range of its bounds, {}.",
+                             parameter.name, percent_text(part),
+                             nothing ? "hardly less than without any test: its value is not known"
+                                     : "which tell much of it");
   }
-  return text;
+  return wide;
 }
 
 }  // namespace
@@ -76,8 +87,9 @@ Check check_bounds(const CalibrationResult& result) {
 
 Check check_identifiable(const FitProblem& problem, const Answer& answer,
                          const CalibrationResult& result) {
-  const std::string wide = wide_intervals(problem, result);
-  if (answer.left.empty() && !wide.empty()) return {"identifiable", Outcome::warn, wide.substr(1)};
+  const auto [wide, nothing_told] = wide_intervals(problem, result);
+  const Outcome doubt = nothing_told ? Outcome::fail : Outcome::warn;
+  if (answer.left.empty() && !wide.empty()) return {"identifiable", doubt, wide.substr(1)};
   if (answer.left.empty())
     return {"identifiable", Outcome::pass, "The specimens inform every parameter asked for."};
   const bool asked = !problem.study.calibrate.automatic, none_fitted = answer.active.empty();
@@ -96,7 +108,7 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer,
   if (asked && !none_fitted)
     text += " The intervals of the others hold wherever the specimens allow it to be.";
   const bool doubted = asked || none_fitted || conditional || !wide.empty();
-  return {"identifiable", doubted ? Outcome::warn : Outcome::pass, text + wide};
+  return {"identifiable", doubted ? doubt : Outcome::pass, text + wide};
 }
 
 Check check_strain(const FitProblem& problem, const Answer& answer) {

@@ -25,8 +25,9 @@ std::string left_out_text(const std::set<double>& one_sided) {
                      fmt::join(degrees, ", "));
 }
 
-// (F9) without a specimen effect: what the residuals would be if specimens were alike.
-std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer) {
+// (F9) without a specimen effect: what the residuals would be if specimens were alike. Where they
+// differ too much for a model of one bone, that is what rejects it.
+std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer, bool rejected) {
   if (answer.best.failed || answer.weights.sd.empty()) return "";
   const auto one_sided = one_sided_orientations(problem, answer.best);
   double sum = 0.0, terms = 0.0;
@@ -43,11 +44,12 @@ std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer
   const double freedom = terms - static_cast<double>(answer.active.size());
   if (freedom < 1.0) return "";
   const double chance = gsl_cdf_chisq_Q(sum, freedom);
+  const bool unlike = chance < significance && !answer.active.empty();
   return fmt::format(" Were they alike, χ² would be {:.3g} on {} of freedom ({}){}{}.", sum,
                      count(static_cast<long>(freedom), "degree"), chance_text(chance),
-                     chance < significance && !answer.active.empty()
-                         ? ": they are not, which widens the intervals and rejects nothing"
-                         : "",
+                     !unlike    ? ""
+                     : rejected ? ": they are not"
+                                : ": they are not, which widens the intervals and rejects nothing",
                      left_out_text(one_sided));
 }
 
@@ -88,7 +90,10 @@ Check check_specimen_spread(const FitProblem& problem, const Answer& answer) {
         "Fewer than three specimens: how much they differ beyond noise is not told. Test more."};
   const Landmarks& part = answer.weights.specimen;
   const auto [told, untold] = spread_words(problem, answer);
-  const auto rest = untold + chi_squared_sentence(problem, answer) + (few ? " Test more." : "");
+  const double most = std::max(part[modulus], part[strength]);
+  const bool rejected = !few && !told.empty() && most > 0.5;
+  const auto rest =
+      untold + chi_squared_sentence(problem, answer, rejected) + (few ? " Test more." : "");
   if (told.empty() && untold.empty())
     return {name, Outcome::pass, "Not checked: neither modulus nor strength is compared.", false};
   if (told.empty()) return {name, Outcome::warn, rest.substr(1)};
@@ -99,8 +104,7 @@ Check check_specimen_spread(const FitProblem& problem, const Answer& answer) {
   if (few)
     return {name, Outcome::warn,
             text + "; the intervals include it, as far as so few tell it." + rest};
-  const double most = std::max(part[modulus], part[strength]);
-  if (most > 0.5)
+  if (rejected)
     return {name, Outcome::fail,
             text + ": no model of one bone describes them. Are tests, sizes or angles exchanged?" +
                 rest};

@@ -52,6 +52,7 @@ struct MethodComparison {
   std::vector<PorosityTrial> trials;
   std::array<MethodSummary, porosity_methods> methods;  ///< Over all trials.
   std::vector<HardshipSummary> hardships;               ///< In the order of the trials.
+  bool complete = true;                                 ///< Every section was measured.
 
   /// Whether ours errs by 0.3 points of porosity at most, and 0.05 where there are no pores.
   [[nodiscard]] bool good() const {

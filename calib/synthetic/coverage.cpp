@@ -59,7 +59,7 @@ std::string to_string(IntervalWidth width) {
 }
 
 IntervalWidth Coverage::width_of(const CoverageSummary& summary) const {
-  constexpr double promised = 0.95;
+  constexpr double promised = 0.95, much_poorer = 0.85;
   const auto shares =
       std::ranges::count_if(summaries, [](const CoverageSummary& one) { return one.informed > 0; });
   const double risk_each_side = 0.025 / static_cast<double>(std::max(shares, std::ptrdiff_t{1}));
@@ -71,9 +71,10 @@ IntervalWidth Coverage::width_of(const CoverageSummary& summary) const {
   if (held > 0 && gsl_cdf_binomial_Q(held - 1, promised, all) < risk_each_side)
     return IntervalWidth::too_wide;
   const auto [low, high] = summary.inside.interval_95;
-  return high < promised  ? IntervalWidth::perhaps_too_narrow
-         : low > promised ? IntervalWidth::perhaps_too_wide
-                          : IntervalWidth::as_promised;
+  return high < promised     ? IntervalWidth::perhaps_too_narrow
+         : low > promised    ? IntervalWidth::perhaps_too_wide
+         : low < much_poorer ? IntervalWidth::too_few
+                             : IntervalWidth::as_promised;
 }
 
 bool Coverage::holds() const {

@@ -40,7 +40,8 @@ enum class IntervalWidth {
   too_narrow,
   perhaps_too_wide,  ///< The share's own interval leaves out 95 %, which may be chance among many.
   perhaps_too_narrow,
-  too_few,  ///< Neither all nor none would be beside 95 % by more than chance.
+  too_few,  ///< Neither all nor none would be beside 95 % by more than chance, or the share's own
+            ///< interval reaches below 85 %, three times as many misses as promised.
 };
 std::string to_string(IntervalWidth width);
 

@@ -98,15 +98,29 @@ void doubt_specimens(TableReader top, const StudyFile& read, Sentences& found) {
   }
 }
 
-// All angles of a study in radians are small numbers.
+// All angles of a study in radians are small numbers; among others in degrees one is known by the
+// 15, 30 ... 90 degrees that it is.
 void doubt_angles(const StudyFile& read, Sentences& found) {
   constexpr double most = 1.6;  // a little more than a right angle in radians
+  constexpr double per_radian = 180.0 / std::numbers::pi;
   double largest = 0.0;
   for (const calib::Specimen& specimen : read.study.specimens)
-    largest = std::max(largest, std::abs(specimen.orientation) * 180.0 / std::numbers::pi);
-  if (largest > 0.0 && largest < most)
+    largest = std::max(largest, std::abs(specimen.orientation) * per_radian);
+  if (largest > 0.0 && largest < most) {
     found.push_back(fmt::format(
         "orientation_deg is in degrees, and the largest is {:.4g}: were radians meant?", largest));
+    return;
+  }
+  for (const calib::Specimen& specimen : read.study.specimens) {
+    const double given = specimen.orientation * per_radian;
+    const double meant = 15.0 * std::round(given * per_radian / 15.0);
+    if (given == 0.0 || std::abs(given) >= most || std::abs(given * per_radian - meant) > 0.3)
+      continue;
+    found.push_back(fmt::format(
+        "orientation_deg of specimen {} is {:.4g}, as {:g} degrees are in radians: were radians "
+        "meant?",
+        specimen.id, given, meant));
+  }
 }
 
 void doubt_reduction(const TableReader& reduction, const StudyFile& read, Sentences& found) {

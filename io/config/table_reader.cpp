@@ -36,7 +36,8 @@ const toml::node& innermost(const toml::table& table, std::string_view key) {
 }
 
 std::filesystem::path beside(const std::filesystem::path& file, const std::string& name) {
-  return (file.parent_path() / name).lexically_normal();
+  const std::filesystem::path path = (file.parent_path() / name).lexically_normal();
+  return name.empty() || path.has_filename() ? path : path.parent_path();  // "." is a folder's name
 }
 
 }  // namespace

@@ -101,13 +101,17 @@ struct HeaderSize {
 };
 
 // The user may correct a size; ten times it is a slip of the unit. A bare length may be that of the
-// whole specimen.
+// whole specimen, a hundred times the gauge length it is not. A strain that was recorded needs
+// none.
 std::string far_from(double given, const HeaderSize& fresh) {
-  constexpr double most = 10.0;
+  const double most = fresh.fact == Fact::length ? 100.0 : 10.0;
   const double ratio = std::max(given, fresh.value) / std::min(given, fresh.value);
-  if (fresh.fact == Fact::length || ratio < most) return {};
-  return fmt::format("{:.6g} mm here, and {:.6g} mm is given: the given one is used, check both",
-                     1e3 * fresh.value, 1e3 * given);
+  if (ratio < most) return {};
+  const bool gauge = fresh.fact == Fact::length || fresh.fact == Fact::gauge_length;
+  return fmt::format("{:.6g} mm here, and {:.6g} mm is given{}: {}, check both", 1e3 * fresh.value,
+                     1e3 * given, gauge ? " as gauge length" : "",
+                     gauge ? "the given one counts where an elongation is to be a strain"
+                           : "the given one is used");
 }
 
 // A gauge length beats the length of the specimen; else the first of two counts.

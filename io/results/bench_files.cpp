@@ -83,6 +83,12 @@ Cells stability_cells(const sim::StabilityResult& result) {
           {"reason", result.reason}};
 }
 
+CsvRow row_of(const sim::BenchRow& one) {
+  CsvRow row("setting", to_string(one.setting));
+  for (const auto& [name, value] : row_cells(one)) add_cell(row, name, value);
+  return row;
+}
+
 CsvRow row_of(const sim::StabilityResult& result) {
   CsvRow row("scene", result.name);
   for (const auto& [name, value] : stability_cells(result)) add_cell(row, name, value);
@@ -140,17 +146,13 @@ nlohmann::json stability_json(const std::vector<sim::StabilityResult>& results,
 }
 
 std::string work_precision_csv(const sim::WorkPrecision& study) {
-  CsvTable table;
-  for (const sim::BenchRow& one : study.rows) {
-    CsvRow row("setting", to_string(one.setting));
-    for (const auto& [name, value] : row_cells(one)) add_cell(row, name, value);
-    table.add(row);
-  }
-  return table.text;
+  std::string text = row_of(sim::BenchRow{}).names();
+  for (const sim::BenchRow& row : study.rows) text += row_of(row).cells();
+  return text;
 }
 
 std::string stability_csv(const std::vector<sim::StabilityResult>& results) {
-  std::string text = row_of({}).names();
+  std::string text = row_of(sim::StabilityResult{}).names();
   for (const sim::StabilityResult& result : results) text += row_of(result).cells();
   return text;
 }
@@ -160,7 +162,8 @@ nlohmann::json methods_json(const calib::MethodComparison& comparison,
   nlohmann::json hardships;
   for (const auto& [hardship, methods] : comparison.hardships)
     hardships.push_back({{"hardship", hardship}, {"methods", summaries_of(methods)}});
-  return {{"sections", comparison.trials.size()},
+  return {{"complete", comparison.complete},
+          {"sections", comparison.trials.size()},
           {"methods", summaries_of(comparison.methods)},
           {"hardships", hardships},
           {"provenance", provenance_object(provenance)}};

@@ -81,6 +81,16 @@ mstch::array cheapest_rows(const sim::WorkPrecision& study) {
   return rows;
 }
 
+// The headline speaks of the failure strain alone.
+std::string what_reference_errs_by(const sim::BenchErrors& errors) {
+  if (!(errors.strength.high > 0.0)) return "";
+  const auto percent = [](double error) { return quantity(error / in::percent, "%", 2); };
+  return fmt::format(
+      " The reference's own strength may err by {}, its failure strain by {}, the largest of all "
+      "seeds.",
+      percent(errors.strength.high), percent(errors.failure_strain.high));
+}
+
 mstch::map stability_row(const sim::StabilityResult& result) {
   const bool ran = result.outcome != sim::StabilityOutcome::refused;
   const auto if_ran = [&](double value) { return text(ran ? error_text(value) : "–"); };
@@ -107,12 +117,14 @@ std::string work_precision_page(const sim::Scene& scene, const sim::WorkPrecisio
       {{"sentence", text(typeset(summary(study)))},
        {"detail",
         text(fmt::format(
-            "{} × {} fibres, {}. Errors are relative to {}, of the same seed: {}.{}",
+            "{} × {} fibres, {}. Errors are relative to {}, of the same seed: {}.{}{}",
             scene.assembly.fibres, scene.assembly.layers, count(study.seeds.size(), "seed"),
             study.reference_ground, setting_text(study.reference),
             study.closed_form ? " Those of joint forces before the first break are relative to "
                                 "their closed form."
-                              : ""))},
+                              : "",
+            what_reference_errs_by(study.reference_errors)))},
+       {"has_rows", mstch::node{!study.rows.empty()}},
        {"grade", text(grade_of(study))},
        {"figure", text(work_precision_svg(study))},
        {"strain", text(quantity(study.bonded_strain / in::percent, "%", 3))},

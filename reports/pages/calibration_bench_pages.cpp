@@ -7,6 +7,7 @@
 #include "reports/figures/figures.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/text/format.hpp"
+#include "reports/text/parameter_label.hpp"
 
 namespace havers::reports {
 namespace {
@@ -45,8 +46,8 @@ std::vector<std::string> near_the_winner(const calib::ChainBenchmark& benchmark)
 }
 
 mstch::map coverage_row(const calib::CoverageSummary& one, calib::IntervalWidth judged) {
-  return {{"design", text(one.design)},
-          {"parameter", text(one.parameter)},
+  return {{"design", text(typeset(one.design))},
+          {"parameter", text(symbol_of(one.parameter))},
           {"informed", text(fmt::format("{} of {}", one.informed, one.studies))},
           {"inside", text(rate_text(one.inside))},
           {"judged", text(one.informed > 0 ? to_string(judged) : "–")},
@@ -115,9 +116,8 @@ std::string coverage_page(const calib::Coverage& coverage, const Provenance& pro
       {{"grade", text(!coverage.holds()                      ? "bad"
                       : coverage.complete && !widths.empty() ? "good"
                                                              : "mixed")},
-       {"sentence", text(fmt::format("{}{}\u00a0% of {} {} the truth; 95\u00a0% should.", stopped,
-                                     number(all.part / in::percent, 3), count(informed, "interval"),
-                                     informed == 1 ? "holds" : "hold"))},
+       {"sentence", text(fmt::format("{}Of {} {}\u00a0% hold the truth; 95\u00a0% should.", stopped,
+                                     count(informed, "interval"), rate_text(all)))},
        {"detail", text(what_shares_say(widths))},
        {"rows", mstch::node{rows}}},
       provenance);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "calib/experiment/quality.hpp"
@@ -83,6 +84,12 @@ mstch::array interval_rows(const calib::CalibrationResult& result) {
   return rows;
 }
 
+bool has_bootstrap(const calib::CalibrationResult& result) {
+  return std::ranges::any_of(result.parameters, [](const calib::CalibratedParameter& p) {
+    return p.identifiable && p.bootstrap_missing.empty();
+  });
+}
+
 mstch::array influence_rows(const calib::CalibrationResult& result) {
   mstch::array rows;
   for (const calib::SpecimenResult& specimen : result.specimens) {
@@ -98,7 +105,7 @@ mstch::array influence_rows(const calib::CalibrationResult& result) {
 mstch::array directions(const calib::CalibrationResult& result) {
   mstch::array list;
   for (const std::string& sentence : result.directions)
-    list.push_back(text(typeset(with_symbols(sentence, result.fitted))));
+    list.push_back(text(typeset(with_symbols(sentence, asked_for(result)))));
   return list;
 }
 
@@ -128,6 +135,7 @@ mstch::node knowledge(const FitReport& report) {
       {"directions", mstch::node{directions(result)}},
       {"fitted", mstch::node{fitted_symbols(result)}},
       {"intervals", mstch::node{interval_rows(result)}},
+      {"drawn", mstch::node{has_bootstrap(result)}},
       {"correlation", mstch::node{correlation_rows(result)}},
       {"next", section(next_rows(result))},
       {"influence", section(influence_rows(result))},
@@ -186,6 +194,7 @@ std::string fit_page(const FitReport& report) {
        {"checks", check_section(result.verdict)},
        {"study_notes", text_section(result.notes)},
        {"parameters", mstch::node{parameters}},
+       {"held_at", text(held_along(report))},
        {"strength_figure", text(draw(strength_figure(result.specimens, "strength")))},
        {"specimens", mstch::node{specimens}},
        {"knowledge", knowledge(report)},

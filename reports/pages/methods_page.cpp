@@ -36,11 +36,15 @@ std::string methods_page(const calib::MethodComparison& comparison, const Proven
     methods.emplace_back(method_row(method));
   for (const calib::HardshipSummary& hardship : comparison.hardships)
     hardships.emplace_back(hardship_row(hardship));
+  const bool complete = comparison.complete;
   return render_page(
       "havers bench: porosity of sections", "methods",
-      {{"grade", text(comparison.good() ? "good" : "bad")},
+      {{"grade", text(!comparison.good() ? "bad"
+                      : complete         ? "good"
+                                         : "mixed")},
        {"sentence",
-        text(fmt::format("On {} drawn sections {} errs by {} points of porosity at most.",
+        text(fmt::format("{}On {} drawn sections {} errs by {} points of porosity at most.",
+                         complete ? "" : "Stopped before all sections were measured. ",
                          comparison.trials.size(), to_string(ours.method),
                          points(ours.worst_error)))},
        {"detail", text("Asked: at most 0.3 points, and 0.05 where there are no pores.")},

@@ -169,10 +169,11 @@ mstch::node sweep_part(const SweepReport& report) {
 std::string sweep_page(const std::string& title, const std::vector<SweepReport>& sweeps,
                        const Provenance& provenance, double wall_seconds) {
   const std::vector<FindingRow> rows = findings_of(sweeps);
-  long runs = 0, failed = 0, unbroken = 0;
+  long runs = 0, simulated = 0, failed = 0, unbroken = 0;
   mstch::array parts;
   for (const SweepReport& report : sweeps) {
     runs += static_cast<long>(report.result.runs.size());
+    simulated += report.result.simulated;
     for (const calib::PointSummary& summary : report.result.summaries) {
       failed += summary.failed;
       unbroken += summary.unbroken;
@@ -188,8 +189,9 @@ std::string sweep_page(const std::string& title, const std::vector<SweepReport>&
                                                          : findings_sentence(rows)))},
        {"detail",
         text(fmt::format(
-            "{}, {} failed, {} did not break, {} wall time; seeds are not shared between points.",
-            count(runs, "run"), failed, unbroken, duration(wall_seconds)))},
+            "{}, {} failed, {} did not break; {} of them simulated now, in {} wall time. Seeds are "
+            "not shared between points.",
+            count(runs, "run"), failed, unbroken, simulated, duration(wall_seconds)))},
        {"has_findings", mstch::node{!rows.empty()}},
        {"findings", mstch::node{finding_rows(rows)}},
        {"sweeps", mstch::node{parts}}},

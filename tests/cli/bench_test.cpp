@@ -92,6 +92,20 @@ TEST(Bench, ComparesWaysToMeasurePorosityWithoutAScene) {
   EXPECT_FALSE(fs::exists(folder / "out/section.png"));
 }
 
+TEST(Bench, SaysThatItWasStoppedAmongSections) {
+  if (!test::reads_images()) GTEST_SKIP() << "this build reads no images";
+  const fs::path folder = own_folder();
+  const auto stopped =
+      run_havers(folder, "-h >help; '" HAVERS_PROGRAM
+                         "' bench --porosity --seeds 100 -o out >said & "
+                         "for i in $(seq 1000); do [ -e .out.partial ] && break; sleep 0.01; done; "
+                         "kill $!; wait $! #");
+  EXPECT_EQ(stopped.exit_code, 1);
+  EXPECT_TRUE(test::contents(folder / "said").starts_with("stopped before all sections"));
+  const auto result = nlohmann::json::parse(test::contents(folder / "out/result.json"));
+  EXPECT_FALSE(result["complete"]);
+}
+
 TEST(Bench, ComparesChainsOfOptimisersWithoutAScene) {
   const fs::path folder = own_folder();
   const auto answer = run_havers(folder, "bench --calibration --studies 1 -o out --json");

@@ -108,6 +108,7 @@ TEST(Check, SaysWhatAStudyLeavesOutAndTakesTwice) {
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("specimen B0 has no orientation_deg"));
   EXPECT_THAT(answer.out, HasSubstr("specimens B0 and B90 have the same test"));
+  EXPECT_THAT(answer.out, testing::EndsWith("\nno problems in this study, 3 notes\n"));
   EXPECT_EQ(run_havers(folder, "check made/study.toml").out, "no problems in this study\n");
 
   EXPECT_THAT(

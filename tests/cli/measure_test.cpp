@@ -223,6 +223,21 @@ TEST(Study, LeavesOutASpecimenThatCannotBeUsedAndSaysWhy) {
   EXPECT_THAT(none.err, HasSubstr("no specimen is left to fit"));
 }
 
+// A study has many files, and the file's own words do not say which this is.
+TEST(Study, SaysOfWhichSpecimenAFaultyFileIs) {
+  const bool images = test::reads_images();
+  const fs::path folder = folder_with_tests();
+  test::write_text(folder / "made/B90.csv", "");
+  EXPECT_THAT(run_havers(folder, "check made/study.toml").err,
+              HasSubstr("B90.csv: the file is empty (it is the test of specimen B90)\n"));
+  if (!images) GTEST_SKIP() << "this build reads no images";
+  test::write_text(folder / "made/none.png", "no image");
+  test::write_text(folder / "made/study.toml",
+                   test::small_study() + "sections = [\"none.png\"]\npixel_size_um = 5\n");
+  EXPECT_THAT(run_havers(folder, "check made/study.toml").err,
+              HasSubstr("; it is the section of specimen B90)\n"));
+}
+
 TEST(Import, AsksForSizesOnlyWhereSomeAreLacking) {
   const fs::path folder = own_folder();
   test::write_text(folder / "short.csv", "Time (s),Load (N),Strain (%)\n0,0,0\n1,2,0.1\n2,5,0.2\n");

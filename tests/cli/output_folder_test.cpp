@@ -29,7 +29,7 @@ TEST(OutputFolder, IsNotReplacedUnlessForceIsGiven) {
 
   const auto refused = run_havers(folder, "simulate scene.toml -o out --seed 5");
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("--force"));
+  EXPECT_THAT(refused.err, HasSubstr("--force to replace the run in it"));
   EXPECT_EQ(test::contents(folder / "out/curve.csv"), first);
 
   EXPECT_EQ(run_havers(folder, "simulate scene.toml -o out --seed 5 --force").exit_code, 0);
@@ -79,7 +79,7 @@ TEST(OutputFolder, IsRefusedBeforeAnythingIsDone) {
     const auto answer = run_havers(folder, command + std::string(" -o full"));
     EXPECT_EQ(answer.exit_code, 2);
     EXPECT_EQ(answer.out, "") << command;
-    EXPECT_THAT(answer.err, HasSubstr("is not empty"));
+    EXPECT_THAT(answer.err, HasSubstr("is not empty (no run has written there; "));
   }
   EXPECT_EQ(run_havers(folder, "import none.csv -o far/away/from/here").exit_code, 2);
   EXPECT_FALSE(fs::exists(folder / "far"));

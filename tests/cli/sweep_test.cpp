@@ -77,6 +77,10 @@ TEST(Sweep, AgainTakesItsRunsFromTheStore) {
   const std::string first = run_havers(folder, "sweep small.toml -o out").out;
   const auto again = run_havers(folder, "sweep small.toml -o out --force --json");
   EXPECT_EQ(nlohmann::json::parse(again.out)["sweeps"][0]["simulated"], 0);
+  EXPECT_EQ(nlohmann::json::parse(again.out)["simulated"], 0);
+  EXPECT_THAT(first, HasSubstr("; 8 of them simulated now, in "));
+  EXPECT_THAT(run_havers(folder, "sweep small.toml -o out --force").out,
+              HasSubstr("; 0 of them simulated now, in "));
 }
 
 TEST(Sweep, IsNotTrustedWhereRunsDidNotBreak) {

@@ -1,9 +1,8 @@
-// What a user meets first: help, version, and mistakes in the command line.
+// What a user meets first: version, and mistakes in the command line.
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "tests/cli/run_havers.hpp"
 
@@ -14,52 +13,12 @@ using test::own_folder;
 using test::run_havers;
 using testing::HasSubstr;
 
-constexpr std::array commands{"fit",        "simulate", "import", "porosity", "check",
-                              "synthesize", "report",   "bench",  "sweep"};
-
-TEST(Usage, HelpListsEveryCommand) {
-  const auto answer = run_havers(own_folder(), "-h");
-  EXPECT_EQ(answer.exit_code, 0);
-  EXPECT_TRUE(answer.err.empty()) << answer.err;
-  for (const char* command : commands) EXPECT_THAT(answer.out, HasSubstr(command)) << command;
-}
-
 TEST(Usage, WithoutACommandTheHelpIsShownAsAMistake) {
   const auto folder = own_folder();
   const auto answer = run_havers(folder, "");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_TRUE(answer.out.empty()) << answer.out;
   EXPECT_EQ(answer.err, run_havers(folder, "-h").out);
-}
-
-TEST(Usage, EveryCommandShowsExamplesAndExitCodes) {
-  const auto folder = own_folder();
-  for (const char* command : commands) {
-    const auto answer = run_havers(folder, std::string(command) + " -h");
-    EXPECT_EQ(answer.exit_code, 0);
-    EXPECT_THAT(answer.out, HasSubstr("Examples:\n  havers " + std::string(command)));
-    for (const char* option : {"--json", "-q", "-v", "--threads", "--seed", "--set", "--force",
-                               "--version", "Exit codes"})
-      EXPECT_THAT(answer.out, HasSubstr(option)) << command << " " << option;
-  }
-}
-
-// Those of the user's own are in "my/".
-TEST(Usage, FilesOfTheExamplesAreThere) {
-  const auto folder = own_folder();
-  const std::filesystem::path source = HAVERS_SOURCE_DIR;
-  for (const char* command : commands) {
-    std::istringstream words(run_havers(folder, std::string(command) + " -h").out);
-    for (std::string word; words >> word;) {
-      const bool is_file = word.ends_with(".toml") || word.ends_with(".csv") ||
-                           word.ends_with(".png") || word.ends_with(".tif");
-      if (!is_file || word == "study.toml" || word.starts_with("my/")) continue;
-      const bool is_pattern = word.find('*') != std::string::npos;
-      EXPECT_TRUE(
-          std::filesystem::exists(is_pattern ? (source / word).parent_path() : source / word))
-          << command << ": " << word;
-    }
-  }
 }
 
 // As a script gives it whose variable is not set.

@@ -33,6 +33,15 @@ TEST(MethodsPage, ComparesMethodsByErrorAndTime) {
   EXPECT_TRUE(contains(page, "33.3"));  // MPix/s of 0.03 s for a million pixels
 }
 
+TEST(MethodsPage, SaysThatItWasStopped) {
+  auto comparison = calib::compare_methods({trial_of("blur", 0.0, 0.0)});
+  EXPECT_TRUE(contains(methods_page(comparison, {}), "verdict good"));
+  comparison.complete = false;
+  const std::string page = methods_page(comparison, {});
+  EXPECT_TRUE(contains(page, "verdict mixed"));
+  EXPECT_TRUE(contains(page, "Stopped before all sections were measured. On 1 drawn sections"));
+}
+
 calib::ChainRow chain_row(const std::string& chain, double error, long simulations) {
   return {.chain = chain,
           .study = 1,
@@ -87,6 +96,23 @@ TEST(ChainsFigure, HasItsLegendOutside) {
   EXPECT_EQ(figure.height, 380 + 4 * 18);
 }
 
+TEST(WorkPrecisionPage, ShowsNoEmptyTableOfABenchStoppedAtOnce) {
+  const std::string page = work_precision_page({}, {}, {});
+  EXPECT_TRUE(contains(page, "Stopped before every setting was run."));
+  EXPECT_FALSE(contains(page, "<table"));
+  EXPECT_FALSE(contains(page, "<figcaption>"));
+}
+
+TEST(WorkPrecisionPage, SaysWhatTheReferencesStrengthMayErrByToo) {
+  sim::WorkPrecision study{.complete = true, .rows = {{.runs = 3, .trusted = 3}}};
+  EXPECT_FALSE(contains(work_precision_page({}, study, {}), "own strength may err"));
+  study.reference_errors.strength.high = 0.014;
+  study.reference_errors.failure_strain.high = 0.0025;
+  EXPECT_TRUE(contains(work_precision_page({}, study, {}),
+                       "own strength may err by 1.4\u00a0%, its failure strain by "
+                       "0.25\u00a0%, the largest of all seeds."));
+}
+
 TEST(CoveragePage, SaysWhichIntervalsHoldLessThanTheyPromise) {
   calib::Coverage coverage;
   coverage.summaries = {
@@ -99,7 +125,9 @@ TEST(CoveragePage, SaysWhichIntervalsHoldLessThanTheyPromise) {
       {.design = "0, 90 deg", .parameter = "ratio", .studies = 100, .half_width = {NAN, NAN, NAN}}};
   const std::string page = coverage_page(coverage, {{"seed", "1"}});
   expect_sound(page);
-  EXPECT_TRUE(contains(page, "95.0\u00a0% of 100 intervals hold the truth; 95\u00a0% should."));
+  EXPECT_TRUE(contains(
+      page, "Of 100 intervals 95.0 (88.8 to 97.8)\u00a0% hold the truth; 95\u00a0% should."));
+  EXPECT_TRUE(contains(page, "<th>0, 90°</th><td>E</td>")) << page;
   EXPECT_TRUE(contains(page, "100 of 100"));
   EXPECT_TRUE(contains(page, "No share differs from 95\u00a0%"));
   EXPECT_TRUE(contains(page, "<td>as promised</td>"));
@@ -133,7 +161,7 @@ TEST(CoveragePage, SaysThatItWasStopped) {
   coverage.complete = false;
   const std::string page = coverage_page(coverage, {});
   EXPECT_TRUE(contains(page, "verdict mixed"));
-  EXPECT_TRUE(contains(page, "Stopped before all studies were fitted. 95.0\u00a0% of"));
+  EXPECT_TRUE(contains(page, "Stopped before all studies were fitted. Of 300 intervals"));
 }
 
 TEST(CoveragePage, CallsNoRowAsPromisedWhoseIntervalLeavesOut95) {

@@ -57,8 +57,18 @@ TEST(FitPage, BreaksTheLinesOfReasonsInTheTableOfIntervals) {
   sample.result.parameters.front().bootstrap_missing = "3 specimens are too few to draw from";
   const std::string page = fit_page({sample.study, sample.result, {}, {}});
   EXPECT_TRUE(contains(page, "<td class=\"n said\">– (3 specimens are too few"));
-  EXPECT_TRUE(contains(page, "Six specimens are too few to draw from"));
   EXPECT_TRUE(contains(page, "td.said { white-space: normal; }"));
+}
+
+// Beside "2 specimens are too few to draw from" it would speak of a fit of six.
+TEST(FitPage, SaysWhatABootstrapIsWorthWhereThereIsOne) {
+  auto sample = test::fit_sample();
+  sample.result.fitted = {"young_GPa"};
+  const std::string worth = "over six they hold the truth in 78 to 91&nbsp;%";
+  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), worth));
+  for (auto& parameter : sample.result.parameters)
+    parameter.bootstrap_missing = "2 specimens are too few to draw from, 5 are the least";
+  EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), worth));
 }
 
 // What a search asks for again is in memory; the store knows what earlier runs left.
@@ -178,6 +188,11 @@ TEST(FitPage, SaysWhyAnIntervalReachesBeyondItsProfile) {
                        "drawn straight and taken for a parabola between its points"));
   sample.result.parameters.back().left_out_because = "nothing changes with it";
   EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), said));
+  sample.result.directions = {
+      "young_GPa is known to ± 5.5 % (one standard error, at ratio = 1.5)."};
+  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  EXPECT_TRUE(contains(page, "Standard errors are those at r = 1.5; the 95&nbsp;% intervals let"));
+  EXPECT_TRUE(contains(page, "E is known to ±\u00a05.5\u00a0% (one standard error, at r = 1.5)."));
   sample.study.calibrate.automatic = true;
   EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), said));
 }

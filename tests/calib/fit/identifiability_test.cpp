@@ -1,5 +1,6 @@
 // What the specimens cannot tell is left out of the fit, with the reason.
-#include <gtest/gtest.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -115,6 +116,26 @@ TEST(Identifiability, HoldsTheThresholdWhateverTheRatioThatIsLeftOut) {
     // The law's 1 + r from 1.5 to 5 beside the study's 2, and what two specimens leave open.
     EXPECT_NEAR(std::log(threshold.interval_95[1] / threshold.value), std::log(5.0 / 2.0), 0.25);
   }
+}
+
+// What the ratio may be lets the threshold be anywhere between its bounds, beside a standard error
+// of a few per cent: no answer.
+TEST(Identifiability, RejectsAnIntervalThatBoundsAloneWouldGive) {
+  auto study = test::synthetic_study({45.0}, {.specimen_effect = 0.1});
+  study.calibrate.bounds["ratio"] = {0.1, 20.0};
+  study.calibrate.bounds["head_tail_MPa"] = {20.0, 200.0};
+  const auto result = calibrate_with(test::ClosedForm{}.simulator(), study);
+  const auto threshold = test::parameter_of(result, "head_tail_MPa");
+  ASSERT_TRUE(threshold.identifiable);
+  const Check check = test::check_of(result, "identifiable");
+  EXPECT_EQ(check.outcome, Outcome::fail) << check.text;
+  EXPECT_TRUE(test::says(check, "without any test: its value is not known.")) << check.text;
+  EXPECT_FALSE(result.trusted());
+  const double part = threshold.standard_error / threshold.value;
+  EXPECT_THAT(result.directions,
+              testing::Contains(fmt::format("head_tail_MPa is known to ± {:.2g} % (one standard "
+                                            "error, at ratio = 1).",
+                                            100.0 * part)));
 }
 
 TEST(Identifiability, LeavesOutTheScatterBesideTheThreshold) {

@@ -109,6 +109,17 @@ TEST(Coverage, IsJudgedByAllSharesTogether) {
   EXPECT_TRUE(shares_of({0}, 0).holds());
 }
 
+TEST(Coverage, CallsNoShareAsPromisedThatMayBeMuchPoorer) {
+  const auto width_of = [](int held, int informed) {
+    const Coverage coverage = shares_of({held}, informed);
+    return coverage.width_of(coverage.summaries.front());
+  };
+  EXPECT_EQ(width_of(4, 4), IntervalWidth::too_few);
+  EXPECT_EQ(width_of(19, 20), IntervalWidth::too_few);
+  EXPECT_EQ(width_of(95, 100), IntervalWidth::as_promised);
+  EXPECT_EQ(width_of(0, 4), IntervalWidth::too_narrow);
+}
+
 TEST(Coverage, OfTooWideIntervalsHolds) {
   const Coverage coverage = shares_of({100}, 100);
   EXPECT_EQ(coverage.width_of(coverage.summaries.front()), IntervalWidth::too_wide);

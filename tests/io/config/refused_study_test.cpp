@@ -67,8 +67,10 @@ TEST_F(RefusedStudy, TakesNothingElseForATable) {
 
 TEST_F(RefusedStudy, NamesFoldersAndNamesThatNoFileHas) {
   folder.write("tests/a.csv", "");
-  EXPECT_THAT(complaints("[[specimen]]\nid = \"A\"\ntest = \"tests\"\n", Files::must_exist),
-              ElementsAre(testing::HasSubstr("which is a folder (name a file in it)")));
+  for (const char* name : {"tests", "tests/", "."})
+    EXPECT_THAT(complaints("[[specimen]]\nid = \"A\"\ntest = \"" + std::string(name) + "\"\n",
+                           Files::must_exist),
+                ElementsAre(testing::HasSubstr("which is a folder (name a file in it)")));
   EXPECT_THAT(complaints("[[specimen]]\nid = \"A\"\ntest = \"" + std::string(300, 'a') + "\"\n",
                          Files::must_exist),
               ElementsAre(testing::HasSubstr("study.toml:3: specimen.test: names aaa")));

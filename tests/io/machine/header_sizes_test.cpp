@@ -109,6 +109,10 @@ TEST(HeaderSizes, AreSaidWhereThoseOfTheUserAreTenTimesOff) {
       sized("Width,40,mm\nGauge length,2.5,mm\n" + two_rows, {.width = 4e-3, .gauge_length = 25e-3})
           .warnings.size(),
       2U);
+  EXPECT_EQ(sized("Length,25,mm\n" + two_rows, {.gauge_length = 25e-6}).warnings,
+            std::vector<std::string>{"line 1, Length: 25 mm here, and 0.025 mm is given as gauge "
+                                     "length: the given one counts where an elongation is to be a "
+                                     "strain, check both"});
   EXPECT_EQ(sized("Width,4\n" + two_rows, {.width = 4e-3}).warnings,
             std::vector<std::string>{"line 1, Width: no unit, taken as mm"});
 }

@@ -57,10 +57,15 @@ TEST(BenchFiles, SayWhetherABenchWasCompleted) {
   EXPECT_EQ(chains_json({}, {})["complete"], false);
   EXPECT_EQ(coverage_json({.rows = {}, .summaries = {}, .complete = false}, {})["complete"], false);
   EXPECT_EQ(coverage_json({}, {})["complete"], true);
+  calib::MethodComparison methods = calib::compare_methods({{.hardship = "noise"}});
+  EXPECT_EQ(methods_json(methods, {})["complete"], true);
+  methods.complete = false;
+  EXPECT_EQ(methods_json(methods, {})["complete"], false);
 }
 
 TEST(BenchFiles, HaveAHeaderWithoutRows) {
   EXPECT_EQ(rows_of(stability_csv({})).size(), 1U);
+  EXPECT_EQ(rows_of(work_precision_csv({})).size(), 1U);
 }
 
 }  // namespace
