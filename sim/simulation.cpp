@@ -117,11 +117,10 @@ std::string Simulation::reservation() const {
   if (!step_error && numerical_loss >= worth_saying)
     reservations.push_back(
         fmt::format("steps took {:.0f} % of all energy", 100.0 * numerical_loss));
-  const double ringing = strength / strength_over_a_wave - 1.0;
   if (ringing >= worth_saying)
     reservations.push_back(
         fmt::format("the strength: waves that ring, which steps and meshes change, raise it by "
-                    "{:.2g} % above the mean over the time of one, {:.4g} MPa",
+                    "{:.2g} %; its mean over the time of one is {:.4g} MPa",
                     100.0 * ringing, 1e-6 * strength_over_a_wave));
   return fmt::format("{}", fmt::join(reservations, "; "));
 }

@@ -86,6 +86,9 @@ struct Simulation {
   /// Largest mean of the stress over the time W/c of a wave through the specimen, as breaks set
   /// waves free that no machine sees; NaN in the limit, and where the run was shorter. [Pa]
   double strength_over_a_wave = std::numeric_limits<double>::quiet_NaN();
+  /// By how much the strength is more than that mean and what the specimen's modulus adds to it in
+  /// half the time of a wave: waves that ring. NaN as above. [-]
+  double ringing = std::numeric_limits<double>::quiet_NaN();
   double failure_strain = 0.0;      ///< Strain of the strength. [-]
   double modulus = 0.0;             ///< Slope from 0.1 to 0.5 of the first break's strain. [Pa]
   double first_break_strain = 0.0;  ///< NaN when nothing broke. [-]

@@ -84,9 +84,12 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
     strain.push_back(point.strain);
     stress.push_back(point.stress_right);
   }
-  const double transit = assembly.width / wave_speed(scene.material);
-  simulation.strength_over_a_wave =
-      largest_mean_stress(strain, stress, scene.loading.strain_rate * transit);
+  const double over_a_wave =
+      scene.loading.strain_rate * assembly.width / wave_speed(scene.material);
+  simulation.strength_over_a_wave = largest_mean_stress(strain, stress, over_a_wave);
+  const double without_ringing =
+      simulation.strength_over_a_wave + 0.5 * simulation.modulus * over_a_wave;
+  simulation.ringing = simulation.strength / without_ringing - 1.0;
   return simulation;
 }
 

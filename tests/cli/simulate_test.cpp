@@ -61,9 +61,9 @@ TEST(Simulate, IsTrustedButForAStepThatWasGiven) {
   const fs::path folder = test::folder_with_scene();
   const auto answer = run_havers(folder, std::string("simulate scene.toml -o out") + impact);
   EXPECT_EQ(answer.exit_code, 0);
-  EXPECT_TRUE(answer.out.starts_with(
-      "to be trusted but for the time step: 20 ns was given, and its "
-      "error is not known; steps took 50 % of all energy; the strength: waves"))
+  EXPECT_TRUE(
+      answer.out.starts_with("to be trusted but for the time step: 20 ns was given, and its "
+                             "error is not known; steps took 50 % of all energy; after a break"))
       << answer.out;
 }
 
