@@ -24,8 +24,6 @@ constexpr int most_refinements = 5;
 constexpr double most_growth = 10.0;  // of what is lacking: more, and rounding leads a piece away
 constexpr double little = 1e-5;       // of the gaps: what so much changes is known to enough digits
 
-// A tolerance below what rounding leaves is no reason to do without contact.
-constexpr double least_tolerance = 1e-8;
 // Of the intact specimen's force: where nothing bears any, where rounding may be all that is left,
 // and more than what is broken can bear.
 constexpr double nothing_borne = 1e-9, next_to_nothing = 1e-3, too_much = 2.0;
@@ -34,10 +32,10 @@ constexpr double hardly_stored = 1e-3;  // of the work of a force: then the forc
 }  // namespace
 
 BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact,
-                         bool careful, const StopAsked& stop_asked)
+                         Care care, const StopAsked& stop_asked)
     : scene_(scene),
-      careful_(careful),
-      glances_(!careful && scene.solver.leave_out),
+      care_(care),
+      glances_(care != Care::digits && scene.solver.leave_out),
       intact_(std::move(intact)),
       joints_(initial_outcomes(draw_thresholds(scene, intact_->assembly()))),
       loose_(intact_->structure(), [this](int joint) { return intact_->jump(joint); }),
@@ -124,39 +122,6 @@ void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {
   system_.grow();
 }
 
-// What keeps the law to the tolerance, found in another way if need be; not converged where none
-// does.
-LocalContactResult BreakingRun::or_better(LocalContactResult result) {
-  double residual = law_residual_of(contact_, result.y);
-  if (!result.converged || !(residual <= scene_.solver.tolerance)) {
-    LocalContactResult other = solve_local_contact(contact_, result.states);
-    iterations_ += other.iterations;
-    const double of_other = law_residual_of(contact_, other.y);
-    if (!result.converged || (other.converged && of_other < residual)) {
-      result = std::move(other);
-      residual = of_other;
-    }
-  }
-  result.converged =
-      result.converged && residual <= std::max(scene_.solver.tolerance, least_tolerance);
-  return result;
-}
-
-// From a solution that the joints just broken are still held in.
-LocalContactResult BreakingRun::release(const StateSolution& known) {
-  constexpr int most_changes = 5;  // paths that arrive take fewer, but for a few
-  const std::vector<JointState> start = system_.states();
-  LocalContactResult result;
-  for (const double nothing : {1e-8, 1e-10, 1e-6}) {
-    system_.set(start);
-    const int spent = result.iterations;
-    result = follow_homotopy(system_, {.cohesion = extra_}, known, most_changes, nothing);
-    result.iterations += spent;
-    if (result.converged) break;
-  }
-  return result;
-}
-
 // Only what has just broken is released; the others follow from where they are.
 bool BreakingRun::settle() {
   contact_.apart = apart();
@@ -170,7 +135,8 @@ bool BreakingRun::settle() {
   LocalContactResult result = release(known);
   iterations_ += result.iterations;
   result = or_better(std::move(result));
-  if (!result.converged && stop_is_asked(contact_.stop_asked)) return false;
+  if (!result.converged && (care_ == Care::little || stop_is_asked(contact_.stop_asked)))
+    return false;
   if (!result.converged) {  // an answer without contact, counted and reported, instead of none
     ++without_contact_;
     contact_.apart.assign(loose_.size(), 1);
@@ -189,7 +155,7 @@ bool BreakingRun::settle() {
     summed_ = summed();
     lacked_ = lacking().norm();
     // Where a piece swings freely, its gaps change so much that digits are lost.
-    if (careful_ || (hardly_bears && !in_two) ||
+    if (care_ == Care::digits || (hardly_bears && !in_two) ||
         lacked_ > refined * intact_->answer().reactions.norm())
       refine();
   }

@@ -14,13 +14,19 @@
 
 namespace havers::sim {
 
+/// How the contact of an event is solved.
+enum class Care : char {
+  little,     ///< Digits as they come; what little effort does not solve ends the run.
+  digits,     ///< Every answer is refined: influences of joints on each other have few digits where
+              ///< cracks are wide. All effort, at last without contact.
+  all_effort  ///< Digits as they come.
+};
+
 /// The structure as it is between two events, at one strain. Its answer is proportional to that: it
 /// is known from ε = 1.
 class BreakingRun {
  public:
-  /// @param careful  refines every answer: influences of joints on each other have few digits
-  /// where cracks are wide
-  BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact, bool careful,
+  BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact, Care care,
               const StopAsked& stop_asked = {});
 
   /// Takes away the joints that are missing from the start; false when no answer without them was
@@ -83,7 +89,7 @@ class BreakingRun {
   LocalContactResult or_better(LocalContactResult result);
 
   const Scene& scene_;
-  bool careful_;
+  Care care_;
   bool glances_;  // else all is seen after every event
   std::shared_ptr<const IntactStructure> intact_;
   std::vector<JointOutcome> joints_;

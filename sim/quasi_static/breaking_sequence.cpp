@@ -101,7 +101,7 @@ std::vector<LeftOut> left_out_in_the_limit(const Scene& scene, const IntactStruc
 }
 
 Simulation break_event_by_event(const Scene& scene,
-                                const std::shared_ptr<const IntactStructure>& intact, bool careful,
+                                const std::shared_ptr<const IntactStructure>& intact, Care care,
                                 const Observer& observer, const StopAsked& stop_asked) {
   Simulation simulation;
   simulation.regime = Regime::quasi_static;
@@ -111,7 +111,7 @@ Simulation break_event_by_event(const Scene& scene,
     simulation.status = SimulationStatus::not_determined;
     return simulation;
   }
-  BreakingRun run(scene, intact, careful, stop_asked);
+  BreakingRun run(scene, intact, care, stop_asked);
   if (!run.take_missing()) {
     if (stop_is_asked(stop_asked)) simulation.status = SimulationStatus::cancelled;
     return simulation;
@@ -130,6 +130,7 @@ double missed_by(const Simulation& run) {
 
 bool is_no_worse(const Simulation& a, const Simulation& b) {
   if (has_ended(a) != has_ended(b)) return has_ended(a);
+  if (!has_ended(a)) return a.curve.size() >= b.curve.size();  // it came as far
   return missed_by(a) <= missed_by(b);
 }
 
@@ -138,15 +139,26 @@ bool is_no_worse(const Simulation& a, const Simulation& b) {
 Simulation simulate_quasi_static(const Scene& scene, const Observer& observer,
                                  const StopAsked& stop_asked) {
   const std::shared_ptr<const IntactStructure> intact = intact_structure(scene);
-  Simulation quick = break_event_by_event(scene, intact, false, observer, stop_asked);
-  if ((has_ended(quick) && missed_by(quick) <= std::min(accurate, scene.solver.tolerance)) ||
-      quick.status == SimulationStatus::cancelled)
-    return quick;
-  Simulation careful = break_event_by_event(scene, intact, true, observer, stop_asked);
+  const auto run = [&](Care care) {
+    return break_event_by_event(scene, intact, care, observer, stop_asked);
+  };
+  const double enough = std::min(accurate, scene.solver.tolerance);
+  Simulation best = run(Care::little);
+  const bool ended = has_ended(best);
+  Care of_best = Care::little, last = Care::little;
   // Where a piece hangs on next to nothing either may miss an answer that the other finds.
-  if (is_no_worse(careful, quick) || careful.status == SimulationStatus::cancelled) return careful;
+  for (const Care care : {Care::digits, Care::all_effort}) {
+    if (best.status == SimulationStatus::cancelled ||
+        (has_ended(best) && missed_by(best) <= enough) || (care == Care::all_effort && ended))
+      break;
+    Simulation other = run(care);
+    last = care;
+    if (other.status != SimulationStatus::cancelled && !is_no_worse(other, best)) continue;
+    best = std::move(other);
+    of_best = care;
+  }
   // A watcher sees the answer last.
-  return observer ? break_event_by_event(scene, intact, false, observer, stop_asked) : quick;
+  return observer && of_best != last ? run(of_best) : best;
 }
 
 }  // namespace havers::sim
