@@ -117,6 +117,18 @@ TEST(SampleStudy, SectionsThatAreListedTwiceAreDoubted) {
       << checked.out;
 }
 
+TEST(SampleStudy, DoubtsPixelsThatMakePoresLargerThanFibres) {
+  const fs::path folder = own_folder();
+  fs::copy(bars, folder / "bars");
+  std::string study = test::contents(bars / "study.toml");
+  const std::string pixel = "pixel_size_um = 2.0\n";
+  study.replace(study.find(pixel), pixel.size(), "pixel_size_um = 6.0\n");
+  test::write_text(folder / "bars/large.toml", study);
+  const std::string words = "pores are larger than a fibre and take joints away of A1 (2.4 %): sim";
+  EXPECT_THAT(run_havers(folder, "check bars/large.toml").out, HasSubstr(words));
+  EXPECT_THAT(run_havers(folder, "check bars/study.toml").out, testing::Not(HasSubstr(words)));
+}
+
 TEST(SampleStudy, SaysWhichScatterIsTakenWithoutAPixelSizeAndWhoHasTheSameSection) {
   const fs::path folder = own_folder();
   fs::copy(bars, folder / "bars");

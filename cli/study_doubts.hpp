@@ -1,0 +1,16 @@
+// What can be fitted, though it is hardly meant: sentences for the notes of a study.
+#pragma once
+
+#include <vector>
+
+#include "cli/load_study.hpp"
+
+namespace havers::cli {
+
+/// Tests and sections that count twice, angles that are not said.
+void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStudy& loaded);
+
+/// Scatter, pores, rate and search, once all specimens are taken.
+void doubt_model(bool rate_is_given, LoadedStudy& loaded);
+
+}  // namespace havers::cli
