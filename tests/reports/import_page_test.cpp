@@ -84,12 +84,13 @@ TEST(ImportPage, SaysFirstWhetherTheTestsCanBeUsed) {
   const auto raw = test::raw_test(13e9, 43e6, 1);
   auto measured = test::measured_test(13e9, 43e6, 1);
   measured.warnings.clear();
+  const calib::MeasuredTest none;
   std::vector<ImportReport> reports{{"A1.csv", raw, measured}};
   const auto verdict = [&] {
     return after(import_page(reports, {}), "<p class=\"sentence\">", "<");
   };
   EXPECT_EQ(verdict(), std::vector<std::string>{"The test can be used."});
-  reports.push_back({"data/A2.csv", raw, {}, {"no column is a force"}});
+  reports.push_back({"data/A2.csv", raw, none, {"no column is a force"}});
   EXPECT_EQ(verdict(), std::vector<std::string>{"1 of 2 tests cannot be used (A2.csv)."});
   EXPECT_TRUE(contains(import_page(reports, {}), "verdict bad"));
 }

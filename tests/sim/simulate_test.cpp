@@ -110,7 +110,7 @@ TEST(Simulate, IsNotTrustedWhereAStepLeadsToFailure) {
   EXPECT_TRUE(simulate(scene).trusted());
   scene.solver.step = 0.25 * time;
   EXPECT_THAT(simulate(scene).why_not_trusted(), HasSubstr("time step"));
-  scene.loading.max_strain = 1e-5;  // nothing breaks, and a bonded specimen's step is exact
+  scene.loading.max_strain = 2e-4;  // nothing breaks, and a bonded specimen's step is exact
   EXPECT_TRUE(simulate(scene).trusted());
 }
 
@@ -144,8 +144,8 @@ TEST(Simulate, SaysWhenForcesAreNotDetermined) {
 }
 
 TEST(Simulate, SaysWhenANumberLeftItsRange) {
-  Scene scene = test::dynamic_scene(0.0, 1e-8);
-  scene.loading.strain_rate = 1e304;
+  Scene scene = test::dynamic_scene(0.0, 4e-152);
+  scene.loading.strain_rate = 1e150;
   scene.material.young = 1e300;
   const Simulation simulation = simulate(scene);
   EXPECT_EQ(simulation.status, SimulationStatus::not_finite);
@@ -164,7 +164,7 @@ TEST(Simulate, StopsWhenAskedToWithTheRowsItHas) {
     const Simulation whole = simulate(scene, {}, [&asked] { return ++asked < 0; });
     ASSERT_GT(asked, whole.steps);
     const int times = asked;
-    for (int stop = 1; stop <= times; stop += 1 + times / 50) {
+    for (int stop = 1; stop <= times; stop += 1 + times / 12) {
       asked = 0;
       std::size_t rows = 1;  // and a row at the strain of the next break, in the limit
       const Simulation run = simulate(
