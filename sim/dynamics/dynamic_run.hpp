@@ -27,6 +27,7 @@ class DynamicRun {
   [[nodiscard]] const std::vector<JointOutcome>& outcomes() const { return joints_; }
   [[nodiscard]] const Eigen::VectorXd& displacements() const { return motion_.q; }
   [[nodiscard]] int steps() const { return steps_; }
+  [[nodiscard]] bool is_stopped() const { return stop_is_asked(step_.stop_asked); }
   /// Whether the first step had but one answer, as far as the solver tells.
   [[nodiscard]] bool determined() const { return steps_ > 0 || solver_->determined(); }
   [[nodiscard]] bool finite() const { return motion_.q.allFinite() && motion_.v.allFinite(); }

@@ -26,22 +26,21 @@ std::vector<LeftOut> left_out_in_time(const Scene& scene, const Simulation& simu
 
 // From step to step, until the run ends.
 SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepping& stepping,
-                                const Observer& observer, const StopAsked& stop_asked,
-                                Simulation& simulation) {
+                                const Observer& observer, Simulation& simulation) {
   constexpr double but_for_rounding = 1.0 - 1e-9;
   const double end = but_for_rounding * scene.loading.max_strain;
   simulation.curve.push_back(run.point());
   while (simulation.curve.back().strain < end) {
     const bool solved = run.advance();
     if (!run.finite()) return SimulationStatus::not_finite;
-    if (!solved && stop_is_asked(stop_asked)) return SimulationStatus::cancelled;
+    if (!solved && run.is_stopped()) return SimulationStatus::cancelled;
     if (!solved)
       return run.determined() ? SimulationStatus::not_converged : SimulationStatus::not_determined;
     simulation.curve.push_back(run.point());
     if (observer)
       observer({simulation.curve.back(), simulation.curve.size() - 1,
                 [&run] { return run.outcomes(); }, [&run] { return run.displacements(); }});
-    if (stop_is_asked(stop_asked)) return SimulationStatus::cancelled;
+    if (run.is_stopped()) return SimulationStatus::cancelled;
     if (has_failed(simulation, simulation.end_fraction_used)) return SimulationStatus::broken;
     if (run.steps() == stepping.most) return SimulationStatus::step_limit;
     // Steps may be so short that rounding looks like acceleration in the first of them.
@@ -74,7 +73,7 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
   simulation.step = stepping.step;
   simulation.end_fraction_used = scene.loading.end_fraction;
   DynamicRun run(scene, assembly, simulation.step, stop_asked);
-  simulation.status = follow_in_time(scene, run, stepping, observer, stop_asked, simulation);
+  simulation.status = follow_in_time(scene, run, stepping, observer, simulation);
   run.finish(simulation);
   simulation.dropped = assembly.dropped;
   simulation.left_out = left_out_in_time(scene, simulation);
