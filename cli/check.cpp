@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "calib/count.hpp"
 #include "cli/command.hpp"
 #include "cli/load_study.hpp"
 #include "io/config/file_kind.hpp"
@@ -74,7 +75,7 @@ int run_check(const std::filesystem::path& file, const CommonOptions& common) {
   for (const std::string& warning : findings.warnings) fmt::print("note: {}\n", warning);
   const std::size_t notes = findings.warnings.size();
   fmt::print("no problems in this {}{}\n", io::name_of(*findings.kind),
-             notes == 0 ? "" : fmt::format(", {} note{}", notes, notes == 1 ? "" : "s"));
+             notes == 0 ? "" : ", " + calib::count(notes, "note"));
   return done;
 }
 

@@ -5,12 +5,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
-#include <set>
 #include <utility>
 
 #include "calib/experiment/join_logger.hpp"
-#include "calib/fit/calibration.hpp"
 #include "cli/study_doubts.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/input_error.hpp"

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "sim/outcome.hpp"
 

@@ -62,9 +62,9 @@ SimulationStatus follow_events(const Scene& scene, BreakingRun& run, const Obser
     }
     if (event.strain > scene.loading.max_strain) return SimulationStatus::strain_limit;
 
-    const bool solved = run.break_joints(event.joints);
-    if (!solved && !stop_is_asked(stop_asked)) return SimulationStatus::not_converged;
-    if (!solved) return SimulationStatus::cancelled;
+    if (!run.break_joints(event.joints))
+      return stop_is_asked(stop_asked) ? SimulationStatus::cancelled
+                                       : SimulationStatus::not_converged;
     simulation.curve.push_back(run.point());
     ++simulation.steps;
     if (observer)
