@@ -26,6 +26,7 @@ void LooseJoints::add(int joint) {
     stiffness_.conservativeResize(size, size);
   }
   stiffness_.block(first, 0, 2, first) = reactions_of(joint);
+  stiffness_.block(0, first, first, 2) = reactions_of(joint).transpose();
   stiffness_.block<2, 2>(first, first) = structure_->reactions_of(*held_, {held_});
   joints_.push_back(joint);
   for (const Index row : {2 * joint, 2 * joint + 1}) rows_.push_back(row);
@@ -38,14 +39,6 @@ const Eigen::Matrix2Xd& LooseJoints::reactions_of(int joint) {
   held_ = source_(joint);
   of_held_ = structure_->reactions_of(*held_, jumps_);
   return of_held_;
-}
-
-Eigen::MatrixXd LooseJoints::stiffness() const {
-  const auto n = static_cast<Index>(2 * joints_.size());
-  Eigen::MatrixXd S(n, n);
-  S.triangularView<Eigen::Lower>() = stiffness_.topLeftCorner(n, n);
-  S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
-  return S;
 }
 
 }  // namespace havers::sim

@@ -33,8 +33,11 @@ class LooseJoints {
   /// Reactions of a joint that holds to unit gaps of the loose ones, a column each. [N/m²]
   [[nodiscard]] const Eigen::Matrix2Xd& reactions_of(int joint);
 
-  /// S over the loose joints. [N/m²]
-  [[nodiscard]] Eigen::MatrixXd stiffness() const;
+  /// S over the loose joints, symmetric; a view. [N/m²]
+  [[nodiscard]] auto stiffness() const {
+    const auto n = static_cast<Eigen::Index>(2 * joints_.size());
+    return stiffness_.topLeftCorner(n, n);
+  }
 
  private:
   const Structure* structure_;
@@ -45,7 +48,7 @@ class LooseJoints {
   std::vector<SharedJump> jumps_;  // at each
   SharedJump held_;                // what was last asked about; none since joints have come
   Eigen::Matrix2Xd of_held_;       // its reactions
-  Eigen::MatrixXd stiffness_;      // lower triangle of 2 × 2 blocks; grows by doubling
+  Eigen::MatrixXd stiffness_;      // and more; grows by doubling
 };
 
 }  // namespace havers::sim

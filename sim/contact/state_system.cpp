@@ -19,6 +19,9 @@ constexpr double shrinkage = 0.5;  // by a correction, without which rounding is
 // A bordered factor that leaves more of the reactions than this, and more than rounding leaves of
 // those by the gaps, a sum of so many, is made anew.
 constexpr double tolerated = 1e-10, rounding_of_gaps = 1.5e-16;
+// Where nothing but the trace holds a piece that is pulled, a factor made anew leaves as much: what
+// differs from that by less than this part is no reason for another one.
+constexpr double as_much = 0.2;
 // A border costs its cube, a factor that of all equations: so many, and a tenth of these.
 constexpr std::size_t borders_at_least = 4;
 
@@ -49,8 +52,8 @@ double StateSystem::scale() const {
 }
 
 double StateSystem::coefficient(const Equation& equation, Index unknown) const {
-  double value = problem_->S(equation.row, unknown);
-  if (equation.slope != 0.0) value += equation.slope * problem_->S(equation.row - 1, unknown);
+  double value = problem_->S(unknown, equation.row);
+  if (equation.slope != 0.0) value += equation.slope * problem_->S(unknown, equation.row - 1);
   return value;
 }
 
@@ -198,17 +201,17 @@ StateSolution StateSystem::solve_from(StateSolution known, const MatrixXd& r0, c
   if (borders_.empty()) return found;
   const double lacks = lacking(found.r, cohesion).norm(),
                rounding = rounding_of_gaps * std::sqrt(static_cast<double>(found.y.rows()));
-  if (lacks <= tolerated * found.r.norm() + rounding * scale() * found.y.norm()) return found;
+  if (lacks <= tolerated * found.r.norm() + rounding * scale() * found.y.norm() ||
+      std::abs(lacks - left_by_a_factor_) <= as_much * left_by_a_factor_)
+    return found;
   factorise();
   correct(known, held, cohesion, load, accuracy);
+  left_by_a_factor_ = lacking(known.r, cohesion).norm();
   return known;
 }
 
 VectorXd StateSystem::forces_of(const VectorXd& change) const {
-  VectorXd forces = VectorXd::Zero(change.size());
-  for (const Equation& equation : equations_)
-    forces.noalias() += problem_->S.col(equation.row) * change(equation.row);
-  return forces;
+  return problem_->S * change;
 }
 
 // Gaps that the states hold are set, the others found.

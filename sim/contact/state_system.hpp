@@ -83,6 +83,8 @@ class StateSystem {
   Eigen::PartialPivLU<Eigen::MatrixXd> factor_;
   std::map<Eigen::Index, Eigen::VectorXd> columns_;  // factor⁻¹ of a border's column
 
+  double left_by_a_factor_ = 0.0;  // of the reactions, when one was last made for its digits [N/m]
+
   std::vector<Border> borders_;
   Eigen::MatrixXd border_columns_, border_rows_;
   Eigen::PartialPivLU<Eigen::MatrixXd> complement_;

@@ -27,7 +27,7 @@ double end_fraction_used(const Scene& scene) {
 
 namespace {
 
-// Residual above which a run is done again with care.
+// Rounding error of the strength above which a run is done again with care.
 constexpr double accurate = 1e-9;
 
 // Breaks at a given strain release energy. What they add up to the strength belongs to it.
@@ -105,6 +105,7 @@ Simulation break_event_by_event(const Scene& scene,
                                 const Observer& observer, const StopAsked& stop_asked) {
   Simulation simulation;
   simulation.regime = Regime::quasi_static;
+  simulation.tolerance = scene.solver.tolerance;
   simulation.end_fraction_used = end_fraction_used(scene);
   simulation.dropped = intact->assembly().dropped;
   if (!intact->structure().ok()) {
@@ -124,14 +125,18 @@ Simulation break_event_by_event(const Scene& scene,
   return simulation;
 }
 
-double missed_by(const Simulation& run) {
-  return std::max(run.worst_residual, run.rounding_error);
+bool is_enough(const Simulation& run) {
+  return run.trusted() && run.rounding_error <= accurate;
 }
 
 bool is_no_worse(const Simulation& a, const Simulation& b) {
   if (has_ended(a) != has_ended(b)) return has_ended(a);
   if (!has_ended(a)) return a.curve.size() >= b.curve.size();  // it came as far
-  return missed_by(a) <= missed_by(b);
+  if (a.trusted() != b.trusted()) return a.trusted();
+  const auto missed = [](const Simulation& run) {
+    return worse(run.worst_residual, run.rounding_error);
+  };
+  return !(missed(a) > missed(b));
 }
 
 }  // namespace
@@ -142,14 +147,13 @@ Simulation simulate_quasi_static(const Scene& scene, const Observer& observer,
   const auto run = [&](Care care) {
     return break_event_by_event(scene, intact, care, observer, stop_asked);
   };
-  const double enough = std::min(accurate, scene.solver.tolerance);
   Simulation best = run(Care::little);
   const bool ended = has_ended(best);
   Care of_best = Care::little, last = Care::little;
   // Where a piece hangs on next to nothing either may miss an answer that the other finds.
   for (const Care care : {Care::digits, Care::all_effort}) {
-    if (best.status == SimulationStatus::cancelled ||
-        (has_ended(best) && missed_by(best) <= enough) || (care == Care::all_effort && ended))
+    if (best.status == SimulationStatus::cancelled || is_enough(best) ||
+        (care == Care::all_effort && ended))
       break;
     Simulation other = run(care);
     last = care;
