@@ -128,6 +128,15 @@ TEST(FitPage, SaysWhyAFitWithoutFailedChecksCannotBeTrusted) {
                        "The fit cannot be trusted: " + explain(sample.result.status)));
 }
 
+// Its check "converged" fails too, and says less.
+TEST(FitPage, SaysHowASearchEndedThatDidNotConverge) {
+  auto sample = test::fit_sample();
+  sample.result.status = calib::CalibrationStatus::budget_spent;
+  sample.result.verdict[0].outcome = calib::Outcome::fail;
+  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}),
+                       "The fit cannot be trusted: " + explain(sample.result.status)));
+}
+
 TEST(FitPage, NamesNoCostWhereThereIsNoAnswer) {
   auto sample = test::fit_sample();
   EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), "Cost ½ Σ residual² = "));
