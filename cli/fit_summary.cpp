@@ -5,8 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
-#include <vector>
+#include <string>
 
 #include "calib/count.hpp"
 #include "cli/command.hpp"
@@ -33,17 +32,6 @@ void print_specimen(const calib::SpecimenResult& specimen) {
              specimen.measured.broke ? "" : "  not broken");
 }
 
-// The checks that failed, or how the searches ended.
-std::string ground_of(const calib::CalibrationResult& result) {
-  std::vector<std::string_view> failed;
-  for (const calib::Check& check : result.verdict)
-    if (check.outcome == calib::Outcome::fail) failed.push_back(check.check);
-  if (failed.empty() || result.status != calib::CalibrationStatus::converged)
-    return calib::explain(result.status);
-  return fmt::format("{} of {} checks failed ({})", failed.size(), result.verdict.size(),
-                     fmt::join(failed, ", "));
-}
-
 std::string reservations_of(const calib::CalibrationResult& result) {
   const auto warned =
       std::ranges::count(result.verdict, calib::Outcome::warn, &calib::Check::outcome);
@@ -55,7 +43,8 @@ std::string reservations_of(const calib::CalibrationResult& result) {
 
 void print_fit_summary(const calib::CalibrationResult& result, double wall_seconds, bool verbose) {
   fmt::print("{}{}: {}\n", result.trusted() ? "to be trusted" : "NOT to be trusted",
-             reservations_of(result), ground_of(result));
+             reservations_of(result),
+             result.trusted() ? calib::explain(result.status) : calib::why_not_trusted(result));
   for (const calib::Check& check : result.verdict)
     fmt::print("  {:<5}{}: {}\n", check.done ? calib::to_string(check.outcome) : "-", check.check,
                check.text);

@@ -143,6 +143,13 @@ std::size_t standstill(const Record& record) {
   return rises && !follows && first > 0 ? first - 1 : record.peak;
 }
 
+void warn_of_slips(SlipRepair& repair) {
+  if (repair.slips > 0)
+    repair.warnings.push_back(
+        fmt::format("the gauge slipped ({}): strains after that are uncertain by as much",
+                    count(repair.slips, "jump")));
+}
+
 }  // namespace
 
 SlipRepair mend_slips(std::vector<double>& strain, std::span<const double> stress,
@@ -154,18 +161,16 @@ SlipRepair mend_slips(std::vector<double>& strain, std::span<const double> stres
     std::size_t after = row + 1;  // a jump may take several rows
     while (after < record.peak && record.jumps(after)) ++after;
     if (fell_off(record, row, after)) {
+      warn_of_slips(repair);
       continue_with_crosshead(record, extension, row, "fell off", repair);
       return repair;
     }
     take_back(record, row, after, repair);
     row = after;
   }
+  warn_of_slips(repair);
   if (const std::size_t row = standstill(record); row < record.peak)
     continue_with_crosshead(record, extension, row, "stood still", repair);
-  if (repair.slips > 0)
-    repair.warnings.push_back(
-        fmt::format("the gauge slipped ({}): strains after that are uncertain by as much",
-                    count(repair.slips, "jump")));
   return repair;
 }
 

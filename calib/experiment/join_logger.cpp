@@ -49,7 +49,8 @@ std::vector<double> calibrated(const std::vector<double>& volts, const std::vect
                                const Calibration& calibration, JoinedTest& joined) {
   constexpr double largest_error = 0.05;  // of the factor
   const bool recorded = known.size() == volts.size();
-  const Line line = recorded ? fit_robust_line(volts, known) : Line{};
+  const Line line =
+      recorded ? with_true_error(fit_robust_line(volts, known), volts, known) : Line{};
   if (!(line.slope_standard_error < largest_error * std::abs(line.slope))) {
     joined.problems.push_back(fmt::format("{} is in volts, and {} does not tell what a volt is: {}",
                                           calibration.signal, calibration.known, calibration.hint));

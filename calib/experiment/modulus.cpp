@@ -18,19 +18,6 @@ constexpr double yielded = 0.5;           // slope ratio of the halves that only
 // Strains of the window of ISO 527-1, for curves without a straight part.
 constexpr double standard_low = 5e-4, standard_high = 25e-4;
 
-// (X4) Points that err alike are fewer, and what few scatter about a line is itself uncertain: the
-// variance of Student's t.
-Line with_true_error(Line line, std::span<const double> strain, std::span<const double> stress) {
-  constexpr double fewest_freedom = 3.0;
-  if (!line.fitted) return line;
-  const std::vector<double> residuals = residuals_of(line, strain, stress);
-  const double alike = rows_per_independent(residuals);
-  const double independent = static_cast<double>(residuals.size()) / alike;
-  const double freedom = std::max(independent - 2.0, fewest_freedom);
-  line.slope_standard_error *= std::sqrt(alike * freedom / (freedom - 2.0));
-  return line;
-}
-
 struct Curve {
   std::span<const double> strain, stress;
 

@@ -10,6 +10,8 @@
 #include <memory>
 #include <numeric>
 
+#include "calib/experiment/channel_noise.hpp"
+
 namespace havers::calib {
 namespace {
 
@@ -92,6 +94,17 @@ std::vector<double> residuals_of(const Line& line, std::span<const double> x,
   for (std::size_t i = 0; i < residuals.size(); ++i)
     residuals[i] -= line.intercept + line.slope * points[i];
   return residuals;
+}
+
+Line with_true_error(Line line, std::span<const double> x, std::span<const double> y) {
+  constexpr double fewest_freedom = 3.0;
+  if (!line.fitted) return line;
+  const std::vector<double> residuals = residuals_of(line, x, y);
+  const double alike = rows_per_independent(residuals);
+  const double independent = static_cast<double>(residuals.size()) / alike;
+  const double freedom = std::max(independent - 2.0, fewest_freedom);
+  line.slope_standard_error *= std::sqrt(alike * freedom / (freedom - 2.0));
+  return line;
 }
 
 }  // namespace havers::calib

@@ -30,4 +30,8 @@ Line fit_plain_line(std::span<const double> x, std::span<const double> y);
 std::vector<double> residuals_of(const Line& line, std::span<const double> x,
                                  std::span<const double> y);
 
+/// The line with the error of its slope as points that err alike have it: they are fewer, and what
+/// few scatter about a line is itself uncertain, by the variance of Student's t (X4).
+Line with_true_error(Line line, std::span<const double> x, std::span<const double> y);
+
 }  // namespace havers::calib

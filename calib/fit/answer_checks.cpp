@@ -85,6 +85,7 @@ Check check_randomness(const CalibrationResult& result) {
 Check check_confirmation(const FitProblem& problem, const CalibrationResult& result) {
   constexpr const char* name = "confirmed in time";
   constexpr double close = 0.02;
+  if (problem.study.calibrate.confirm > 0 && result.fitted.empty()) return not_fitted(name);
   double strength = 0.0, strain = 0.0, wave = 0.0;
   int compared = 0;
   for (const Confirmation& one : result.confirmations) {

@@ -204,6 +204,9 @@ struct CalibrationResult {
   /// Status good and no check failed.
   [[nodiscard]] bool trusted() const;
 };
+/// How the searches ended, where that is why, or which checks failed: no full sentence.
+/// Precondition: the result is not trusted.
+std::string why_not_trusted(const CalibrationResult& result);
 
 /// What the caller may watch: called after every evaluated point of a search. False stops the fit.
 struct CalibrationProgress {

@@ -44,7 +44,8 @@ void set_column(const FitProblem& problem, const Weights& weights, const Move& m
          (span * sd))
             .square();
     const Landmarks paired = variance_of_difference(other, one) * squared;
-    const Landmarks independent = (one.sd.square() + other.sd.square()) / one.usable * squared;
+    const Landmarks independent =
+        (one.sd.square() / one.usable + other.sd.square() / other.usable) * squared;
     result.variance.col(column).segment<landmark_count>(first_row(f)) = paired;
     // Moves that need no new simulation cancel to rounding, and say nothing of the gain.
     if (paired.sum() <= 1e-9 * independent.sum()) continue;

@@ -20,7 +20,7 @@ struct Response {
 };
 
 /// Keyed by a text that names everything the response depends on. Safe to call from several
-/// threads.
+/// threads. Both calls may throw, where a disk is full or a file locked: no fault of a simulation.
 class EvaluationStore {
  public:
   virtual ~EvaluationStore() = default;

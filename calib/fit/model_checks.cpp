@@ -135,6 +135,21 @@ std::string strength_off(const FitProblem& problem, const Answer& answer, double
       chance_text(p));
 }
 
+// (F24) What is left out may explain it, and excuses nothing: the model that is handed over has the
+// value with which it does not predict.
+std::string prediction_off(const std::vector<std::string>& off,
+                           const std::vector<std::string>& left_out) {
+  const auto why = left_out.empty()
+                       ? std::string("The parameters do not carry over to them.")
+                       : fmt::format(
+                             "The model as it is fitted does not predict them, probably "
+                             "because what is left out ({}) has another value than it is "
+                             "given; fitted too (use = \"fit\"), they may tell it.",
+                             fmt::join(left_out, ", "));
+  return fmt::format("Held-out specimens are off by more than three standard deviations: {}. {}",
+                     fmt::join(off, ", "), why);
+}
+
 }  // namespace
 
 std::string percent_text(double part) {
@@ -208,35 +223,30 @@ Check check_orientations(const FitProblem& problem, const Answer& answer) {
 Check check_validation(const CalibrationResult& result, const std::vector<std::string>& left_out) {
   constexpr const char* name = "held-out specimens";
   int held_out = 0;
-  std::string off;
+  std::vector<std::string> off, unknown;
   for (const auto& specimen : result.specimens) {
     if (specimen.use != Use::validate) continue;
     ++held_out;
     double worst = std::nan("");
     for (const double residual : specimen.residual) worst = std::fmax(worst, std::abs(residual));
-    if (worst <= 3.0) continue;
-    const auto how = std::isnan(worst) ? "nothing to compare" : fmt::format("{:.1f}", worst);
-    off += fmt::format("{}{} ({})", off.empty() ? "" : ", ", specimen.id, how);
+    if (std::isnan(worst)) unknown.push_back(specimen.id);
+    if (worst > 3.0) off.push_back(fmt::format("{} ({:.1f})", specimen.id, worst));
   }
   if (held_out == 0)
     return {name, Outcome::pass, "Not checked: none was kept for validation (use = \"validate\").",
             false};
-  if (off.empty())
+  if (off.empty() && unknown.empty())
     return {name, Outcome::pass,
             fmt::format("{} {} within three standard deviations of the prediction.",
                         count(held_out, "held-out specimen"), held_out == 1 ? "lies" : "lie")};
-  // (F24) What is left out may explain it, and excuses nothing: the model that is handed over has
-  // the value with which it does not predict.
-  const auto why = left_out.empty()
-                       ? std::string("The parameters do not carry over to them.")
-                       : fmt::format(
-                             "The model as it is fitted does not predict them, probably "
-                             "because what is left out ({}) has another value than it is "
-                             "given; fitted too (use = \"fit\"), they may tell it.",
-                             fmt::join(left_out, ", "));
-  return {name, Outcome::fail,
-          fmt::format("Held-out specimens are off by more than three standard deviations: {}. {}",
-                      off, why)};
+  std::vector<std::string> sentences;
+  if (!off.empty()) sentences.push_back(prediction_off(off, left_out));
+  if (!unknown.empty())
+    sentences.push_back(
+        fmt::format("Nothing can be compared of held-out specimens whose simulations failed or "
+                    "whose tests tell too little: {}.",
+                    fmt::join(unknown, ", ")));
+  return {name, Outcome::fail, fmt::format("{}", fmt::join(sentences, " "))};
 }
 
 Check check_censored(const FitProblem& problem, const Answer& answer) {

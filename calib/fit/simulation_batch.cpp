@@ -52,12 +52,14 @@ void SimulationBatch::settle(std::vector<Work>& work) {
     if (response) return;
     try {
       response = run_checked(simulator_, *scene);
-      if (!response) stopped_ = true;
-      if (store_ && response) store_->save(key, *response);
     } catch (const std::exception& error) {  // which may not come again: for this fit only
       response = Response{.why = error.what()};
+      simulated = true;
+      return;
     }
     simulated = response.has_value();
+    if (!simulated) stopped_ = true;
+    if (store_ && simulated) store_->save(key, *response);
   };
   tbb::task_arena arena(threads_ > 0 ? threads_ : tbb::task_arena::automatic);
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, work.size(), settle_one); });

@@ -1,6 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <string_view>
+#include <vector>
 
+#include "calib/count.hpp"
 #include "calib/fit/calibration.hpp"
 
 namespace havers::calib {
@@ -23,6 +28,15 @@ std::string to_string(Outcome outcome) {
 bool CalibrationResult::trusted() const {
   const auto failed = [](const Check& check) { return check.outcome == Outcome::fail; };
   return status == CalibrationStatus::converged && std::ranges::none_of(verdict, failed);
+}
+
+std::string why_not_trusted(const CalibrationResult& result) {
+  if (result.status != CalibrationStatus::converged) return explain(result.status);
+  std::vector<std::string_view> failed;
+  for (const Check& check : result.verdict)
+    if (check.outcome == Outcome::fail) failed.push_back(check.check);
+  return fmt::format("{} of {} failed ({})", failed.size(), count(result.verdict.size(), "check"),
+                     fmt::join(failed, ", "));
 }
 
 }  // namespace havers::calib

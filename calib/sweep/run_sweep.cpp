@@ -34,11 +34,13 @@ class PatternedModel {
  private:
   std::optional<Response> run(const sim::Scene& scene) {
     const sim::Simulation simulation = sim::simulate(scene, {}, stop_asked_);
+    std::optional<Response> response = response_of(simulation);
+    if (!response || response->failed) return response;  // its joints may be none
     const Pattern pattern =
         pattern_of(sim::build_assembly(scene.assembly, scene.loading.lateral), simulation.joints);
     const std::scoped_lock lock(mutex_);
     patterns_[key_of(scene)] = pattern;
-    return response_of(simulation);
+    return response;
   }
 
   sim::StopAsked stop_asked_;

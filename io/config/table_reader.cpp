@@ -84,17 +84,22 @@ bool TableReader::wrong_type(std::string_view name, const toml::node& node,
   return false;
 }
 
+// TOML's own conversion refuses whole numbers that a double only rounds.
+std::optional<double> TableReader::finite_number(std::string_view name, const toml::node& node) {
+  const double number =
+      node.is_integer() ? static_cast<double>(**node.as_integer()) : **node.as_floating_point();
+  if (std::isfinite(number)) return number;
+  complain(name, fmt::format("is {}, must be finite", number));
+  return std::nullopt;
+}
+
 bool TableReader::key(std::string_view name, double& value, KeyUnit unit) {
   const toml::node* node = ask(name);
   if (node == nullptr) return false;
   if (!node->is_number()) return wrong_type(name, *node, "a number");
-  const double number = *node->value<double>();
-  if (!std::isfinite(number)) {
-    complain(name, fmt::format("is {}, must be finite", number));
-    return false;
-  }
-  value = to_si(number, unit);
-  return true;
+  const std::optional<double> number = finite_number(name, *node);
+  if (number) value = to_si(*number, unit);
+  return number.has_value();
 }
 
 template <class T>
@@ -155,8 +160,10 @@ bool TableReader::key(std::string_view name, std::pair<double, double>& value) {
     complain(name, "must be a list of two numbers", "as in [5.0, 30.0]");
     return false;
   }
-  value = {*list->get(0)->value<double>(), *list->get(1)->value<double>()};
-  return true;
+  const std::optional<double> first = finite_number(name, *list->get(0));
+  const std::optional<double> second = finite_number(name, *list->get(1));
+  if (first && second) value = {*first, *second};
+  return first && second;
 }
 
 bool TableReader::key(std::string_view name, std::vector<std::string>& value) {

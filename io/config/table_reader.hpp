@@ -91,6 +91,7 @@ class TableReader {
   bool wrong_type(std::string_view name, const toml::node& node, std::string_view expected);
   template <class T>
   bool take(std::string_view name, T& value, std::string_view expected);
+  std::optional<double> finite_number(std::string_view name, const toml::node& node);
   std::optional<std::int64_t> whole_number(std::string_view name);
   std::optional<std::size_t> word_index(std::string_view name,
                                         const std::vector<std::string_view>& known);

@@ -9,6 +9,16 @@
 #include "io/input_error.hpp"
 
 namespace havers::images {
+namespace {
+
+// (I13) Two pixels from all that blur mixes into it.
+cv::Mat solid_bone(const PoreMap& map) {
+  cv::Mat solid = eroded(map.bone, 5) & ~dilated(map.pores, 5);
+  if (!map.cracks.empty()) solid &= ~dilated(map.cracks, 5);
+  return solid;
+}
+
+}  // namespace
 
 void add_density(const cv::Mat& whole, const cv::Mat& bone_grey, const PoreMap& map,
                  const std::vector<io::DensityReference>& references,
@@ -36,7 +46,9 @@ void add_density(const cv::Mat& whole, const cv::Mat& bone_grey, const PoreMap& 
     throw io::InputError(section.file, "density needs two materials of different grey level");
   const auto at = [&](double g) { return level[0] + common / spread * (g - middle[0]); };
   for (std::size_t i = 0; i < grey.size(); ++i) squares += std::pow(density[i] - at(grey[i]), 2);
-  section.density = at(cv::mean(bone_grey, eroded(map.bone, 5) & ~dilated(map.pores, 5))[0]);
+  const cv::Mat solid = solid_bone(map);
+  if (cv::countNonZero(solid) == 0) return;
+  section.density = at(cv::mean(bone_grey, solid)[0]);
   if (section.density < 0.0)
     throw io::InputError(
         section.file,

@@ -254,6 +254,9 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
   warn_of_side(map, !regions.outlined || map.dark == regions.dark_pores, options.pores, doubts);
   warn_of_size(map, measured.porosity, doubts);
   warn_of_objects(map, warnings);
+  if (!options.density.empty() && std::isnan(measured.porosity.density))
+    warnings.emplace_back(
+        "density stays unknown: nowhere is bone two pixels from its surface, pores and cracks");
   measured.porosity.doubtful = !doubts.empty();
   std::ranges::move(warnings, std::back_inserter(doubts));
   measured.porosity.warnings = std::move(doubts);

@@ -96,10 +96,12 @@ double spacing_in(const std::string& text) {
 }
 
 // Elements of a DICOM file: group, element, [type,] length, data. Sequences of unknown length are
-// walked through, as spacing may lie inside.
+// walked through, as spacing may lie inside. That at the detector (0018,1164), which is magnified,
+// comes before that in the body (0028,0030), and counts where there is no other.
 double dicom_pixel(FileBytes& bytes) {
   bytes.set_big_endian(false);
   bool typed = true;
+  double at_the_detector = 0.0;
   for (Offset at = 132; bytes.text(at, 8).size() == 8;) {
     const Offset group = bytes.number(at, 2), element = bytes.number(at + 2, 2);
     if (group == 0x7FE0) break;  // the pixels
@@ -117,12 +119,12 @@ double dicom_pixel(FileBytes& bytes) {
                                  : "";
     if (group == 2 && element == 0x10)  // transfer syntax
       typed = text.substr(0, text.find('\0')) != "1.2.840.10008.1.2";
-    if ((group == 0x28 && element == 0x30) || (group == 0x18 && element == 0x1164))
-      return spacing_in(text);
+    if (group == 0x28 && element == 0x30) return spacing_in(text);
+    if (group == 0x18 && element == 0x1164) at_the_detector = spacing_in(text);
     const bool inside = length == 0xFFFFFFFFU || (group == 0xFFFE && element == 0xE000);
     at = inside ? data : data + length;
   }
-  return 0.0;
+  return at_the_detector;
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ Levels bone_levels(const cv::Mat& grey, const Regions& regions);
 cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Depth& depth);
 
 /// The pores in `bone`; `depth` becomes the one they were cut at. Where it is not known on which
-/// side of the bone's level they are, its present side is tried, and the other if that holds more.
-/// An image without a second level has none.
+/// side of the bone's level they are, that to which its grey levels have a tail is tried, and the
+/// other if there are none (I3). An image without a second level has none.
 PoreMap find_pores(const cv::Mat& grey, const cv::Mat& bone, const PoreOptions& options,
                    Depth& depth);
 

@@ -164,6 +164,7 @@ bool SpecimenTables::goes_on(const Table& table, const Preview& preview) const {
       !std::ranges::equal(table.names, specimen.file.columns, {}, {}, &Column::name))
     return false;
   const auto row = std::ranges::find(preview.rows, table.first_line, &PreviewRow::line);
+  if (first.column >= row->cells.size()) return true;  // as any row that ends too early
   const Number next = read_cell(row->cells[first.column], preview.dialect.decimal, first);
   const double step = next.value - times.back(), before = times.back() - times.end()[-2];
   return next.fault == NumberFault::none && step >= 0.0 && step <= longest_step * before;

@@ -102,6 +102,17 @@ void require_looked_at(TableReader& table, const calib::Sweep& sweep, calib::Mea
                    "say patterns = true in [sweep]");
 }
 
+// A difference is judged over one key, the others held; a line may have several.
+void require_as_many_keys_as_are_judged(TableReader& table, const calib::FindingRequest& finding) {
+  if (finding.test > calib::FindingTest::linear) return;
+  if (finding.keys.empty())
+    table.complain("keys", "is missing", "name the key whose effect is judged");
+  else if (finding.keys.size() > 1 && finding.test != calib::FindingTest::linear)
+    table.complain("keys",
+                   fmt::format("names {} keys, of which one is judged", finding.keys.size()),
+                   "give each a finding of its own");
+}
+
 void read_questions(TableReader& top, calib::Sweep& sweep) {
   for (TableReader& table : top.tables("law")) {
     calib::LawRequest& law = sweep.laws.emplace_back();
@@ -120,9 +131,7 @@ void read_questions(TableReader& top, calib::Sweep& sweep) {
     for (const std::string& key : finding.keys)
       (in_order ? require_number : require_varied)(table, sweep.plan, key, "keys");
     require_varied(table, sweep.plan, finding.per, "per");
-    const bool of_keys = finding.test <= calib::FindingTest::linear;
-    if (of_keys && finding.keys.empty())
-      table.complain("keys", "is missing", "name the key whose effect is judged");
+    require_as_many_keys_as_are_judged(table, finding);
     if (!judges_means(finding.test) && !(finding.margin >= 0.0 && finding.margin < 1.0))
       table.complain("margin",
                      fmt::format("is {:g}, must be at least 0 and less than 1", finding.margin),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "reports/figures/figures.hpp"
@@ -93,11 +94,11 @@ std::string specimens_of(const FitReport& fit) {
   return joined(ids);
 }
 
-// Digests of the files that a fit read, by their names.
-std::map<std::string, std::string> digests_of(const FitReport& fit) {
-  std::map<std::string, std::string> files;
+// Digests of the files that a fit read, by their names, which those of several folders may share.
+std::map<std::string, std::set<std::string>> digests_of(const FitReport& fit) {
+  std::map<std::string, std::set<std::string>> files;
   for (const auto& [name, value] : fit.provenance)
-    if (value.starts_with("SHA-256")) files[base_name(name)] = value;
+    if (value.starts_with("SHA-256")) files[base_name(name)].insert(value);
   return files;
 }
 
@@ -105,14 +106,14 @@ std::map<std::string, std::string> digests_of(const FitReport& fit) {
 std::vector<std::string> files_unlike(const FitReport& fit, const FitReport& first) {
   const auto these = digests_of(fit), those = digests_of(first);
   std::vector<std::string> changed, missing, besides, parts;
-  for (const auto& [name, digest] : those) {
+  for (const auto& [name, digests] : those) {
     const auto found = these.find(name);
     if (found == these.end())
       missing.push_back(name);
-    else if (found->second != digest)
+    else if (found->second != digests)
       changed.push_back(name);
   }
-  for (const auto& [name, digest] : these)
+  for (const auto& [name, digests] : these)
     if (!those.contains(name)) besides.push_back(name);
   if (!changed.empty()) parts.push_back("contents of " + joined(changed));
   if (!missing.empty()) parts.push_back("without " + joined(missing));

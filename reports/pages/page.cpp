@@ -75,20 +75,13 @@ std::string how_many_can(const std::string& verb, const std::string& noun, std::
 }
 
 std::string fit_sentence(const calib::CalibrationResult& result) {
-  const auto how_many = [&](calib::Outcome outcome) {
-    return std::ranges::count(result.verdict, outcome, &calib::Check::outcome);
-  };
-  const long warned = how_many(calib::Outcome::warn), failed = how_many(calib::Outcome::fail);
-  if (result.trusted())
-    return warned == 0
-               ? "The fit can be trusted."
-               : fmt::format("The fit can be trusted, with {}.", count(warned, "reservation"));
-  if (failed == 0) return fmt::format("The fit cannot be trusted: {}.", explain(result.status));
-  std::string names;
-  for (const calib::Check& check : result.verdict)
-    if (check.outcome == calib::Outcome::fail) names += (names.empty() ? "" : ", ") + check.check;
-  return fmt::format("The fit cannot be trusted: {} of {} failed ({}).", failed,
-                     count(result.verdict.size(), "check"), names);
+  if (!result.trusted())
+    return fmt::format("The fit cannot be trusted: {}.", why_not_trusted(result));
+  const long warned =
+      std::ranges::count(result.verdict, calib::Outcome::warn, &calib::Check::outcome);
+  return warned == 0
+             ? "The fit can be trusted."
+             : fmt::format("The fit can be trusted, with {}.", count(warned, "reservation"));
 }
 
 std::string status_sentence(const calib::CalibrationResult& result) {

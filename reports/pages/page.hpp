@@ -35,8 +35,7 @@ mstch::node correction_section(const std::vector<calib::Correction>& corrections
 std::string how_many_can(const std::string& verb, const std::string& noun, std::size_t all,
                          const std::vector<std::string>& cannot);
 
-/// Whether a fit may be used, in a sentence; with the checks that failed, or how many made a
-/// reservation.
+/// Whether a fit may be used, in a sentence; with why not, or how many checks made a reservation.
 std::string fit_sentence(const calib::CalibrationResult& result);
 
 /// How the search of a fit ended, and over which specimens.

@@ -128,6 +128,15 @@ TEST(FitPage, SaysWhyAFitWithoutFailedChecksCannotBeTrusted) {
                        "The fit cannot be trusted: " + explain(sample.result.status)));
 }
 
+// Its check "converged" fails too, and says less.
+TEST(FitPage, SaysHowASearchEndedThatDidNotConverge) {
+  auto sample = test::fit_sample();
+  sample.result.status = calib::CalibrationStatus::budget_spent;
+  sample.result.verdict[0].outcome = calib::Outcome::fail;
+  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}),
+                       "The fit cannot be trusted: " + explain(sample.result.status)));
+}
+
 TEST(FitPage, NamesNoCostWhereThereIsNoAnswer) {
   auto sample = test::fit_sample();
   EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), "Cost ½ Σ residual² = "));
@@ -229,31 +238,6 @@ TEST(FitPage, SpeaksOfBoundsOnlyWhereATestWasStopped) {
   EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), "is but a bound"));
   sample.result.specimens.front().terms.front().bound = true;
   EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), "is but a bound"));
-}
-
-TEST(ComparisonPage, TellsMissingFilesFromChangedOnes) {
-  const auto fit = test::fit_sample();
-  const Provenance first{{"a.csv", "SHA-256 1"}, {"b.csv", "SHA-256 2"}};
-  const Provenance second{{"a.csv", "SHA-256 3"}, {"c.csv", "SHA-256 4"}};
-  const std::string page =
-      comparison_page({{fit.study, fit.result, {}, first}, {fit.study, fit.result, {}, second}});
-  EXPECT_TRUE(contains(page, "<td>contents of a.csv; without b.csv; with c.csv</td>"));
-}
-
-TEST(ComparisonPage, SaysInWhatFitsDiffer) {
-  const auto one = test::fit_sample();
-  auto two = test::fit_sample();
-  two.result.parameters.pop_back();
-  const Provenance first{{"Command", "havers fit a -o b"}, {"in/a.csv", "SHA-256 12"}};
-  const Provenance second{
-      {"Command", "havers fit a -o c --set=model.x=1 --set 'study.name=it'\\''s one' --seed 2"},
-      {"elsewhere/a.csv", "SHA-256 34"}};
-  const std::string page =
-      comparison_page({{one.study, one.result, {}, first}, {two.study, two.result, {}, second}});
-  expect_sound(page);
-  EXPECT_TRUE(contains(page,
-                       "parameters: E, σ₁; settings: --set model.x=1, --set study.name=it&#39;s "
-                       "one, --seed 2; contents of a.csv<"));
 }
 
 TEST(Provenance, KeepsDigestsFolded) {

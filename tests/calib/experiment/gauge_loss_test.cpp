@@ -43,6 +43,19 @@ TEST(GaugeLoss, GoesOnWithTheCrossheadWhereTheGaugeIsSaturated) {
   EXPECT_NE(detail_of(torn, "gauge fell off"), "");
 }
 
+TEST(GaugeLoss, IsSaidBesideTheSlipsBeforeIt) {
+  RawTest raw = saturated(0.6, 0.01);
+  for (std::size_t i = 0; i < raw.rows(); ++i)
+    if (raw.force[i] > 0.3 * gauged.strength * gauged.area()) raw.strain[i] -= 5e-4;
+  const MeasuredTest test = reduced(raw);
+  EXPECT_NE(detail_of(test, "gauge slip"), "");
+  EXPECT_NE(detail_of(test, "gauge fell off"), "");
+  ASSERT_EQ(test.warnings.size(), 2U);
+  EXPECT_EQ(test.warnings[0],
+            "the gauge slipped (1 jump): strains after that are uncertain by as much");
+  EXPECT_NE(test.warnings[1].find("the gauge fell off"), std::string::npos);
+}
+
 TEST(GaugeLoss, TakesNoNoiseForAGaugeThatStandsStill) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     RawTest raw = record(

@@ -67,5 +67,46 @@ TEST(Differences, HaveNoNoiseWhereABoundIsNotContradicted) {
   EXPECT_EQ(slopes.jacobian(landmark_count + strength, 0), 0.0);
 }
 
+// Some fail on one side only.
+TEST(Differences, DivideTheVarianceOfEachSideByItsOwnReplicates) {
+  auto study = test::synthetic_study({0.0});
+  study.calibrate.parameters = {"head_tail_MPa"};
+  auto simulator = test::ClosedForm{.quasi_static = false}.simulator();
+  simulator.run = [](const sim::Scene& scene) {
+    auto other = scene;
+    other.joints.seed += static_cast<std::uint64_t>(scene.joints.head_tail);
+    auto response = test::ClosedForm{}(other);
+    response.failed = scene.joints.head_tail > 60e6 && scene.joints.seed % 4 == 0;
+    return response;
+  };
+  const FitProblem problem = make_problem(study);
+  SimulationBatch batch(simulator, nullptr, 1);
+  const CalibrationObserver nobody;
+  Trail trail(problem, batch, nobody);
+  trail.set_replicates(16);
+  const Point point = Point::Constant(1, std::log(60.0));
+  const auto start = predict(problem, batch, {point}, 16).front();
+  const Landmarks none = Landmarks::Zero();
+  trail.restart(weigh(problem, start, {none, none}, none), start);
+  const auto slopes = differentiate(trail, trail.best(), {0}, slope_step);
+  ASSERT_FALSE(slopes.failed);
+  const auto sides =
+      predict(problem, batch, moved_points(problem.unknowns, point, {0}, slope_step), 16);
+  const double span = (sides[1].point - sides[0].point).norm();
+  double expected = 0.0;
+  int failed = 0;
+  for (const std::size_t f : {0U, 1U}) {
+    const auto &low = sides[0].predictions[f], &high = sides[1].predictions[f];
+    const Landmarks& sd = trail.weights().sd[f];
+    const Landmarks slope = slopes_of_residuals(low, problem.targets[f], sd) / (span * sd);
+    expected +=
+        ((low.sd.square() / low.usable + high.sd.square() / high.usable) * slope.square()).sum();
+    failed += high.failed();
+    EXPECT_EQ(low.failed(), 0);
+  }
+  EXPECT_GT(failed, 0);
+  EXPECT_NEAR(slopes.independent, expected, 1e-9 * expected);
+}
+
 }  // namespace
 }  // namespace havers::calib

@@ -78,6 +78,19 @@ TEST(SimulationBatch, CountsASimulatorThatThrowsOrGivesNoNumberAsFailed) {
   EXPECT_TRUE(store.find(keys[1]));
 }
 
+// A full disk says nothing of the model.
+TEST(SimulationBatch, PassesOnThatAStoreCannotSave) {
+  class FullStore final : public EvaluationStore {
+   public:
+    std::optional<Response> find(const std::string&) override { return std::nullopt; }
+    void save(const std::string&, const Response&) override {
+      throw std::runtime_error("the disk is full");
+    }
+  } store;
+  SimulationBatch batch(test::ClosedForm{}.simulator(), &store, 1);
+  EXPECT_THROW(batch.run(scenes_with_seeds({1})), std::runtime_error);
+}
+
 // Seed 2 is stopped: 1 is kept, 3 never begins.
 TEST(SimulationBatch, NeitherKeepsNorCountsASimulationThatWasStopped) {
   test::MemoryStore store;

@@ -113,7 +113,10 @@ TEST(Verdict, SaysWhyNothingWasConfirmedInTime) {
   EXPECT_TRUE(
       says(check_confirmation(problem, {}), "not asked for; calibrate.options.confirm = 3"));
   study.calibrate.confirm = 1;
-  EXPECT_TRUE(says(check_confirmation(problem, {}), "step by step in time anyhow"));
+  EXPECT_TRUE(says(check_confirmation(problem, {}), "no parameter was fitted"));
+  CalibrationResult result;
+  result.fitted = {"young_GPa"};
+  EXPECT_TRUE(says(check_confirmation(problem, result), "step by step in time anyhow"));
 }
 
 TEST(Verdict, SaysThatAHeldOutSpecimenIsOff) {
@@ -157,7 +160,20 @@ TEST(Verdict, ComparesAHeldOutSpecimenByTheTermsThereAre) {
   study.specimens[0].test.modulus = std::nan("");
   const auto useless = check_of(test::fit(study), "held-out specimens");
   EXPECT_EQ(useless.outcome, Outcome::fail);
-  EXPECT_TRUE(says(useless, "S1 (nothing to compare)")) << useless.text;
+  EXPECT_EQ(useless.text,
+            "Nothing can be compared of held-out specimens whose simulations failed or whose tests "
+            "tell too little: S1.");
+}
+
+TEST(Verdict, TellsHeldOutSpecimensThatAreOffFromThoseThatNothingIsComparedWith) {
+  CalibrationResult result;
+  const double none = std::nan("");
+  result.specimens = {{.id = "B1", .use = Use::validate, .residual = {1.0, 4.0, none}},
+                      {.id = "B2", .use = Use::validate, .residual = {none, none, none}}};
+  const auto check = check_validation(result, {});
+  EXPECT_EQ(check.outcome, Outcome::fail);
+  EXPECT_TRUE(says(check, "more than three standard deviations: B1 (4.0). ")) << check.text;
+  EXPECT_THAT(check.text, testing::EndsWith(" B2."));
 }
 
 // One step from the answer knows no bounds, and every third strength of a draw may be missing.

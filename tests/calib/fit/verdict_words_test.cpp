@@ -124,6 +124,17 @@ TEST(Verdict, SpeaksOfOneAsOfOne) {
   EXPECT_TRUE(says(check_censored(problem, answer), "1 of 2 specimens does not break"));
 }
 
+TEST(CalibrationResult, SaysWhyItIsNotTrusted) {
+  CalibrationResult result;
+  result.verdict = {{"converged", Outcome::fail, ""}, {"inside bounds", Outcome::pass, ""}};
+  result.status = CalibrationStatus::budget_spent;
+  EXPECT_EQ(why_not_trusted(result), explain(CalibrationStatus::budget_spent));
+  result.status = CalibrationStatus::converged;
+  EXPECT_EQ(why_not_trusted(result), "1 of 2 checks failed (converged)");
+  result.verdict[1].outcome = Outcome::fail;
+  EXPECT_EQ(why_not_trusted(result), "2 of 2 checks failed (converged, inside bounds)");
+}
+
 TEST(CalibrationStatus, HasASentenceEach) {
   std::set<std::string> sentences;
   for (const auto status : {CalibrationStatus::converged, CalibrationStatus::budget_spent,

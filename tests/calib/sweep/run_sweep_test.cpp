@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -101,6 +102,21 @@ TEST(RunSweep, SeesThePatternsOfBrokenJointsWhenAsked) {
   const SweepResult result = run_sweep(sweep, nullptr, 1, {});
   for (const SweepRun& run : result.runs)
     EXPECT_GT(run[Measure::head_tail_broken] + run[Measure::flank_broken], 0.0);
+}
+
+// One whose forces are not determined ends before it has joints.
+TEST(RunSweep, SeesNoPatternOfARunWithoutJoints) {
+  Sweep sweep = small_sweep();
+  sweep.patterns = true;
+  sweep.plan.seeds = 1;
+  sim::AssemblyOptions& wall = sweep.points.back().scene.assembly;
+  wall.orientation = 5.0 * std::numbers::pi / 180.0;
+  wall.layers = 300;
+  wall.fibres = 1;
+  const SweepResult result = run_sweep(sweep, nullptr, 1, {});
+  EXPECT_EQ(result.failed, 1);
+  EXPECT_TRUE(std::isnan(result.runs.back()[Measure::crack_span]));
+  EXPECT_FALSE(std::isnan(result.runs.front()[Measure::crack_span]));
 }
 
 TEST(RunSweep, TakesNoStrengthFromRunsThatDidNotBreak) {

@@ -100,6 +100,11 @@ snapshots = 5
   EXPECT_EQ(file.snapshots, 5);
 }
 
+TEST_F(ReadScene, TakesWholeNumbersOfAnySizeForNumbers) {
+  const SceneFile file = read("[material]\ndensity_kg_m3 = 9223372036854775807\n");
+  EXPECT_EQ(file.scene.material.density, 0x1p63);
+}
+
 TEST_F(ReadScene, RefusesAFileWithoutKeys) {
   for (const char* text : {"", "\n\n", "# layers = 4\n"})
     EXPECT_THAT(complaints(text),

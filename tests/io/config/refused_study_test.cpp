@@ -209,6 +209,10 @@ TEST_F(RefusedStudy, NamesImpossibleValuesWithLineAndRule) {
       {one_specimen + "[calibrate.bounds]\nyoung_GPa = [1]",
        "study.toml:5: calibrate.bounds.young_GPa: must be a list of two numbers (as in [5.0, "
        "30.0])"},
+      {one_specimen + "[calibrate.bounds]\nmodulus_exponent = [1.0, inf]",
+       "study.toml:5: calibrate.bounds.modulus_exponent: is inf, must be finite"},
+      {one_specimen + "[calibrate.bounds]\nyoung_GPa = [9223372036854775807, 5]",
+       "study.toml:5: calibrate.bounds.young_GPa: is [9.223372036854776e+18, 5], must rise"},
       {one_specimen + "[calibrate.level]\nratio = \"bone\"",
        "study.toml:5: calibrate.level.ratio: is \"bone\", must be one of: shared, orientation, "
        "specimen"},

@@ -59,7 +59,8 @@ std::string dicom_element(std::uint32_t group, std::uint32_t element, const std:
 }
 
 // A whole slice, explicit little endian, 8-bit levels spread over 16.
-std::string dicom(const std::string& spacing, const cv::Mat& image) {
+std::string dicom(const std::string& spacing, const cv::Mat& image,
+                  const std::string& at_the_detector = {}) {
   const auto word = [](int value) {
     return number(static_cast<std::uint32_t>(value), 2, Order::little);
   };
@@ -72,12 +73,14 @@ std::string dicom(const std::string& spacing, const cv::Mat& image) {
   const auto size = number(static_cast<std::uint32_t>(meta.size()), 4, Order::little);
   return std::string(128, '\0') + "DICM" + dicom_element(2, 0, "UL", size) + meta +
          dicom_element(8, 0x16, "UI", slice) + dicom_element(8, 0x18, "UI", "1.2.3") +
+         (at_the_detector.empty() ? "" : dicom_element(0x18, 0x1164, "DS", at_the_detector)) +
          dicom_element(0x28, 2, "US", word(1)) + dicom_element(0x28, 4, "CS", "MONOCHROME2") +
          dicom_element(0x28, 0x10, "US", word(image.rows)) +
          dicom_element(0x28, 0x11, "US", word(image.cols)) +
-         dicom_element(0x28, 0x30, "DS", spacing) + dicom_element(0x28, 0x100, "US", word(16)) +
-         dicom_element(0x28, 0x101, "US", word(16)) + dicom_element(0x28, 0x102, "US", word(15)) +
-         dicom_element(0x28, 0x103, "US", word(0)) + dicom_element(0x7FE0, 0x10, "OW", pixels);
+         (spacing.empty() ? "" : dicom_element(0x28, 0x30, "DS", spacing)) +
+         dicom_element(0x28, 0x100, "US", word(16)) + dicom_element(0x28, 0x101, "US", word(16)) +
+         dicom_element(0x28, 0x102, "US", word(15)) + dicom_element(0x28, 0x103, "US", word(0)) +
+         dicom_element(0x7FE0, 0x10, "OW", pixels);
 }
 
 class PixelSizeTag : public testing::Test {
@@ -139,6 +142,13 @@ TEST_F(PixelSizeTag, OfADicomSliceComesWithItsPixels) {
   const auto measured = io::measure_sections(file, {}).front().porosity;
   EXPECT_NEAR(measured.pixel_size, 8.2e-6, 1e-12);
   EXPECT_NEAR(measured.porosity, drawn.porosity, 3e-3);
+}
+
+// The spacing in the body counts, which comes behind that at the detector.
+TEST_F(PixelSizeTag, OfADicomSliceIsTheOneThatIsCalibrated) {
+  const cv::Mat image(4, 4, CV_8U, cv::Scalar(9));
+  EXPECT_NEAR(size_of(dicom("0.0082\\0.0082", image, "0.01\\0.01")), 8.2, 1e-9);
+  EXPECT_NEAR(size_of(dicom("", image, "0.01\\0.01")), 10.0, 1e-9);
 }
 
 // What is given counts; what the file says is compared with it.

@@ -82,6 +82,33 @@ TEST(SectionQuantities, ReadsDensityFromMaterialsOfKnownOne) {
   EXPECT_TRUE(std::isnan(without.density) && std::isnan(without.density_residual));
 }
 
+// Nothing of so narrow a bone is two pixels from its surface.
+TEST(SectionQuantities, HaveNoDensityWhereNoBoneIsSolid) {
+  const test::DrawnSection drawn{
+      .image = cv::Mat(120, 300, CV_8U, cv::Scalar(51)), .bone = {}, .pores = {}};
+  drawn.image(cv::Rect(20, 58, 260, 4)).setTo(204);
+  const auto measured =
+      quantities(drawn, "narrow.png",
+                 {.pixel_size = side_of_pixel,
+                  .mask = test::write(drawn.image > 100, "mask.png"),
+                  .density = {{.grey = 51.0, .density = 0.0}, {.grey = 204.0, .density = 1900.0}}});
+  EXPECT_TRUE(std::isnan(measured.density)) << measured.density;
+  ASSERT_FALSE(measured.warnings.empty());
+  EXPECT_EQ(measured.warnings.back(),
+            "density stays unknown: nowhere is bone two pixels from its surface, pores and cracks");
+}
+
+TEST(SectionQuantities, ReadDensityBesideCracks) {
+  auto drawn = test::draw({.blur = 0.7});
+  const SectionOptions options{
+      .pixel_size = side_of_pixel,
+      .density = {{.grey = 51.0, .density = 0.0}, {.grey = 204.0, .density = 1900.0}}};
+  const double sound = quantities(drawn, "sound.png", options).density;
+  for (int y = 130; y < 480; y += 15) cv::line(drawn.image, {100, y}, {600, y}, 51, 2);
+  EXPECT_GT(quantities(drawn, "cracked.png", options).crack_count, 5);
+  EXPECT_NEAR(quantities(drawn, "cracked.png", options).density, sound, 2.0);
+}
+
 // Saved in colours, a grey image is the same; levels along a colour's own axis are none of a
 // file's.
 TEST(SectionQuantities, HaveNoDensityByGreyLevelsOfAColour) {

@@ -57,6 +57,13 @@ TEST(InputFaults, NamesATruncatedRow) {
             "test.csv:4: the row ends after 2 of 3 columns (the file may be cut off here)");
 }
 
+// As if the table went on below its names, but without the time.
+TEST(InputFaults, NamesATruncatedRowBelowNamesThatAreRepeated) {
+  const std::string names = "Force (N),Extension (mm),Time (s)\n";
+  EXPECT_EQ(complaint_of(names + "1,2,0\n2,3,1\n3,4,2\n" + names + "5,6\n"),
+            "test.csv:6: the row ends after 2 of 3 columns (the file may be cut off here)");
+}
+
 TEST(InputFaults, NamesTextWhereANumberShouldBe) {
   EXPECT_EQ(complaint_of(header + "2,abc,4\n"),
             "test.csv:4: column \"Load\": \"abc\" is not a number");

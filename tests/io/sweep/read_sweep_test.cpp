@@ -177,6 +177,23 @@ TEST(ReadSweep, AsksForNumbersWhereAQuestionIsAboutThem) {
               testing::IsEmpty());
 }
 
+// A line has several terms; a difference is judged over one key, the others held.
+TEST(ReadSweep, AsksForOneKeyWhereAQuestionIsAboutOne) {
+  const ScratchFolder folder;
+  const std::string text =
+      "[sweep.keys]\n\"joints.scatter\" = [0.2, 0.4]\n\"joints.friction\" = [0.1, 0.2]\n"
+      "[[finding]]\nkeys = [\"joints.scatter\", \"joints.friction\"]\ntest = ";
+  const auto complaints = [&](const std::string& test) {
+    const auto file = folder.write("s.toml", text + "\"" + test + "\"\n");
+    return complaints_of(folder, [&] { read_sweep(file); });
+  };
+  for (const char* test : {"same", "matters", "rises", "falls"})
+    EXPECT_THAT(complaints(test),
+                ElementsAre("s.toml:5: finding.keys: names 2 keys, of which one is judged (give "
+                            "each a finding of its own)"));
+  EXPECT_THAT(complaints("linear"), testing::IsEmpty());
+}
+
 TEST(ReadSweep, DrawsNothingBesideGivenThresholds) {
   const ScratchFolder folder;
   folder.write("t.csv", "joint,f_N,f_T\n0,1,1\n1,1,1\n2,1,1\n");

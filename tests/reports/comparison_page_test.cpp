@@ -1,0 +1,53 @@
+// Fits side by side: in what they differ.
+#include <gtest/gtest.h>
+
+#include "reports/pages.hpp"
+#include "tests/reports/sound_page.hpp"
+
+namespace havers::reports {
+namespace {
+
+using test::contains;
+using test::expect_sound;
+
+TEST(ComparisonPage, TellsMissingFilesFromChangedOnes) {
+  const auto fit = test::fit_sample();
+  const Provenance first{{"a.csv", "SHA-256 1"}, {"b.csv", "SHA-256 2"}};
+  const Provenance second{{"a.csv", "SHA-256 3"}, {"c.csv", "SHA-256 4"}};
+  const std::string page =
+      comparison_page({{fit.study, fit.result, {}, first}, {fit.study, fit.result, {}, second}});
+  EXPECT_TRUE(contains(page, "<td>contents of a.csv; without b.csv; with c.csv</td>"));
+}
+
+// Two folders may each hold a d.csv.
+TEST(ComparisonPage, TellsFilesOfOneNameApart) {
+  const auto fit = test::fit_sample();
+  const Provenance first{{"x/d.csv", "SHA-256 1"}, {"y/d.csv", "SHA-256 2"}};
+  const Provenance second{{"x/d.csv", "SHA-256 3"}, {"y/d.csv", "SHA-256 2"}};
+  const Provenance moved{{"u/d.csv", "SHA-256 2"}, {"v/d.csv", "SHA-256 1"}};
+  const auto beside_first = [&](const Provenance& other) {
+    return comparison_page(
+        {{fit.study, fit.result, {}, first}, {fit.study, fit.result, {}, other}});
+  };
+  EXPECT_TRUE(contains(beside_first(second), "<td>contents of d.csv</td>"));
+  EXPECT_TRUE(contains(beside_first(moved), "<td>nothing</td>"));
+}
+
+TEST(ComparisonPage, SaysInWhatFitsDiffer) {
+  const auto one = test::fit_sample();
+  auto two = test::fit_sample();
+  two.result.parameters.pop_back();
+  const Provenance first{{"Command", "havers fit a -o b"}, {"in/a.csv", "SHA-256 12"}};
+  const Provenance second{
+      {"Command", "havers fit a -o c --set=model.x=1 --set 'study.name=it'\\''s one' --seed 2"},
+      {"elsewhere/a.csv", "SHA-256 34"}};
+  const std::string page =
+      comparison_page({{one.study, one.result, {}, first}, {two.study, two.result, {}, second}});
+  expect_sound(page);
+  EXPECT_TRUE(contains(page,
+                       "parameters: E, σ₁; settings: --set model.x=1, --set study.name=it&#39;s "
+                       "one, --seed 2; contents of a.csv<"));
+}
+
+}  // namespace
+}  // namespace havers::reports
