@@ -31,7 +31,7 @@ bool has_ended(const Simulation& run);
 std::optional<double> stress_at(const std::vector<CurvePoint>& curve, double strain);
 
 /// Largest mean of the stress over a stretch of strain that ends at a row; NaN where the curve is
-/// shorter. Strains rise. [Pa]
+/// shorter, the largest stress where the stretch is next to nothing of it. Strains rise. [Pa]
 /// @param span  length of the stretch, > 0. [-]
 double largest_mean_stress(std::span<const double> strain, std::span<const double> stress,
                            double span);

@@ -82,6 +82,15 @@ TEST(LargestMeanStress, IsThatOverAStretchOfStrain) {
   EXPECT_TRUE(std::isnan(largest_mean_stress(strain, stress, 1.5))) << "longer than the curve";
 }
 
+// So little of the strain has no digits in the area under the curve, or none in the strain itself.
+TEST(LargestMeanStress, OverNextToNoStrainIsTheLargestStress) {
+  const std::vector<double> strain{0.0, 0.003, 0.006}, stress{0.0, 40.0, 30.0};
+  for (const double span : {1e-30, 1e-17, 1e-12, 1e-11})
+    EXPECT_NEAR(largest_mean_stress(strain, stress, span), 40.0, 1e-4) << span;
+  EXPECT_TRUE(std::isnan(largest_mean_stress({}, {}, 1e-17)));
+  EXPECT_TRUE(std::isnan(largest_mean_stress(std::vector{0.0}, std::vector{1.0}, 1e-17)));
+}
+
 TEST(StressAt, FollowsTheCurveFromTheOriginToWhereItFirstReachesAStrain) {
   const std::vector<CurvePoint> curve{row(0.002, 20.0, 0.0), row(0.002, 10.0, 0.0),
                                       row(0.001, 5.0, 0.0), row(0.004, 35.0, 0.0)};
