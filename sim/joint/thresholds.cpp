@@ -13,12 +13,11 @@ namespace {
 // What a number is drawn for: draws for one say nothing of draws for the other.
 enum class Stream : std::uint64_t { factor, missing };
 
-// Uniform on (0, 1), both ends excluded. [SMDS11]
+// Of one joint, whatever was drawn before. [SMDS11]
 double uniform(std::uint64_t seed, std::uint64_t joint, Stream stream) {
   const r123::Philox2x64::ctr_type counter{{joint, static_cast<std::uint64_t>(stream)}};
   const r123::Philox2x64::key_type key{{seed}};
-  const std::uint64_t bits = r123::Philox2x64()(counter, key)[0];
-  return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
+  return open_uniform(r123::Philox2x64()(counter, key)[0]);
 }
 
 // Shape k of the Weibull law whose coefficient of variation is `cv`: Γ(1+2/k)/Γ(1+1/k)² = 1 + cv².
@@ -40,6 +39,11 @@ bool in_outer_layer(const Scene& scene, const Joint& joint) {
 }
 
 }  // namespace
+
+// The largest of these numbers would be rounded to 1.
+double open_uniform(std::uint64_t bits) {
+  return std::min((static_cast<double>(bits >> 11) + 0.5) * 0x1p-53, 1.0 - 0x1p-53);
+}
 
 ThresholdFactors::ThresholdFactors(std::uint64_t seed, double scatter, Distribution distribution)
     : seed_(seed), scatter_(scatter), distribution_(distribution) {

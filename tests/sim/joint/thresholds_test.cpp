@@ -43,6 +43,13 @@ TEST(ThresholdFactor, HasTheSameMeanAndDeviationInEveryDistribution) {
     }
 }
 
+TEST(OpenUniform, ExcludesBothEnds) {
+  EXPECT_EQ(open_uniform(0), 0x1p-54);
+  EXPECT_EQ(open_uniform(std::uint64_t{1} << 63U), 0.5);
+  EXPECT_EQ(open_uniform(~std::uint64_t{0} - 0x800), 1.0 - 0x1p-52);
+  EXPECT_EQ(open_uniform(~std::uint64_t{0}), 1.0 - 0x1p-53);
+}
+
 TEST(ThresholdFactor, FillsTheWholeIntervalWhenUniform) {
   const Moments m = moments(0.8, Distribution::uniform);
   EXPECT_GT(m.least, 0.6);
