@@ -57,7 +57,6 @@ Simulation simulate_dynamic(const Scene& scene, const Observer& observer,
                             const StopAsked& stop_asked) {
   if (!scene.solver.step) return run_in_chosen_steps(scene, observer, stop_asked);
   Simulation run = run_in_steps(scene, {*scene.solver.step}, observer, stop_asked);
-  run.step_error.reset();
   run.regime_ground = fmt::format(
       "; the step of {} is given, and its error is not known: a run without step_s chooses its own "
       "and says it",
@@ -71,6 +70,7 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
   Simulation simulation;
   simulation.regime = Regime::dynamic;
   simulation.step = stepping.step;
+  simulation.step_error.reset();
   simulation.end_fraction_used = scene.loading.end_fraction;
   DynamicRun run(scene, assembly, simulation.step, stop_asked);
   simulation.status = follow_in_time(scene, run, stepping, observer, simulation);
