@@ -2,6 +2,7 @@
 
 #include <Random123/philox.h>
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_statistics_double.h>
 
 #include <algorithm>
 #include <cassert>
@@ -80,9 +81,7 @@ double head_tail_strength(const Scene& scene) {
         joint.kind == JointKind::head_tail && !is_missing(given[j]))
       factors.push_back(given[j].normal / mean_threshold(scene, joint).normal);
   if (factors.empty()) return scene.joints.head_tail;
-  const auto median = factors.begin() + static_cast<std::ptrdiff_t>(factors.size() / 2);
-  std::nth_element(factors.begin(), median, factors.end());
-  return *median * scene.joints.head_tail;
+  return gsl_stats_median(factors.data(), 1, factors.size()) * scene.joints.head_tail;
 }
 
 Threshold mean_threshold(const Scene& scene, const Joint& joint) {

@@ -184,5 +184,13 @@ TEST(HeadTailStrength, OfGivenThresholdsIsThatOfTheSceneThatDrewThem) {
   }
 }
 
+TEST(HeadTailStrength, OfTwoJointsIsTheMeanOfBoth) {
+  Scene scene = test::small_scene(0.0, 1, 3);
+  scene.joints.reinforced_boundary = false;
+  const double f1 = scene.joints.head_tail * scene.assembly.fibre_height;
+  scene.joints.thresholds = {{.normal = f1, .tangent = f1}, {.normal = 3.0 * f1, .tangent = f1}};
+  EXPECT_DOUBLE_EQ(head_tail_strength(scene), 2.0 * scene.joints.head_tail);
+}
+
 }  // namespace
 }  // namespace havers::sim
