@@ -34,9 +34,10 @@ double weibull_shape(double cv) {
   return std::sqrt(low * high);
 }
 
-bool in_outer_layer(const Scene& scene, const Joint& joint) {
-  const double height = scene.assembly.fibre_height;
-  return joint.position.y() < height || joint.position.y() > scene.assembly.height() - height;
+// The specimen's sides along which the joint's layer lies: of one layer both.
+int outer_sides(const Scene& scene, const Joint& joint) {
+  const double height = scene.assembly.fibre_height, y = joint.position.y();
+  return (y < height ? 1 : 0) + (y > scene.assembly.height() - height ? 1 : 0);
 }
 
 }  // namespace
@@ -94,7 +95,7 @@ Threshold mean_threshold(const Scene& scene, const Joint& joint) {
   if (head_tail && j.head_tail_shear) full.tangent = *j.head_tail_shear * height;
   if (!head_tail && j.flank_tension) full.normal = *j.flank_tension * half;
   // The outer layers also carry the flanks whose neighbours are not modelled.
-  if (head_tail && reinforced_boundary(scene) && in_outer_layer(scene, joint)) full.normal += f2;
+  if (head_tail && reinforced_boundary(scene)) full.normal += outer_sides(scene, joint) * f2;
 
   const double part = joint.length / (head_tail ? height : half);
   return {full.normal * part, full.tangent * part};

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "sim/simulation.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace havers::sim {
@@ -143,8 +144,16 @@ TEST(MeanThreshold, GivesTheOuterLayersTheMissingFlanksForce) {
   EXPECT_DOUBLE_EQ(normal(JointKind::head_tail, scene.assembly.height() - 0.5 * l), f1 + f2);
   EXPECT_DOUBLE_EQ(normal(JointKind::head_tail, 1.5 * l), f1);
   EXPECT_DOUBLE_EQ(normal(JointKind::flank, 0.0), f1);
+  scene.assembly.layers = 1;
+  EXPECT_DOUBLE_EQ(normal(JointKind::head_tail, 0.5 * l), f1 + 2.0 * f2) << "it is both";
   scene.joints.reinforced_boundary = false;
   EXPECT_DOUBLE_EQ(normal(JointKind::head_tail, 0.5 * l), f1);
+}
+
+TEST(MeanThreshold, LetsOneLayerBearTheResultant) {
+  Scene scene = test::small_scene(0.0, 1, 5);
+  scene.joints.scatter = 0.0;
+  EXPECT_NEAR(simulate(scene).strength / resultant(scene.assembly, scene.joints), 1.0, 1e-9);
 }
 
 TEST(DrawThresholds, ScalesBothThresholdsOfAJointByOneDraw) {
