@@ -67,6 +67,11 @@ TEST(Summarise, TakesTheModulusFromTheSlope) {
   EXPECT_NEAR(simulation.modulus, 13e9, 1.0);
 }
 
+TEST(Summarise, LeavesWithoutABreakWhatItHasNotSeen) {
+  EXPECT_TRUE(std::isnan(Simulation{}.first_break_strain));
+  EXPECT_TRUE(std::isnan(JointOutcome{}.broken_at_strain));
+}
+
 TEST(Worse, ForgetsNoNumberThatIsNone) {
   EXPECT_EQ(worse(1.0, 2.0), 2.0);
   EXPECT_EQ(worse(2.0, 1.0), 2.0);
