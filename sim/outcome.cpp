@@ -24,9 +24,12 @@ std::vector<JointOutcome> initial_outcomes(const std::vector<Threshold>& thresho
   return joints;
 }
 
-bool has_failed(Simulation& simulation, double end_fraction) {
+void take_note_of_strength(Simulation& simulation) {
+  simulation.strength = std::max(simulation.strength, simulation.curve.back().stress_right);
+}
+
+bool has_failed(const Simulation& simulation, double end_fraction) {
   const CurvePoint& last = simulation.curve.back();
-  simulation.strength = std::max(simulation.strength, last.stress_right);
   constexpr double nothing = 1e-9;  // of the strength
   const double limit = std::max(end_fraction, nothing) * simulation.strength;
   return last.broken_joints > 0 && last.stress_right < limit && last.stress_left < limit;

@@ -18,9 +18,11 @@ inline double worse(double a, double b) {
 /// All joints with their thresholds, intact but for those that are missing.
 std::vector<JointOutcome> initial_outcomes(const std::vector<Threshold>& thresholds);
 
-/// Whether both sides have dropped below the end fraction of the strength after a break. Keeps the
-/// strength so far.
-bool has_failed(Simulation& simulation, double end_fraction);
+/// The strength so far, with the last row.
+void take_note_of_strength(Simulation& simulation);
+
+/// Whether both sides have dropped below the end fraction of the strength so far after a break.
+bool has_failed(const Simulation& simulation, double end_fraction);
 
 /// Whether a run came to its end, by a break, at the largest strain or severed from the start: only
 /// then it has a strength.

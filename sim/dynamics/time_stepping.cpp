@@ -37,6 +37,7 @@ SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepp
     if (!solved)
       return run.determined() ? SimulationStatus::not_converged : SimulationStatus::not_determined;
     simulation.curve.push_back(run.point());
+    take_note_of_strength(simulation);
     if (observer)
       observer({simulation.curve.back(), simulation.curve.size() - 1,
                 [&run] { return run.outcomes(); }, [&run] { return run.displacements(); }});
