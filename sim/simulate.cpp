@@ -53,8 +53,7 @@ bool is_severed(const Scene& scene) {
   const std::vector<Threshold> thresholds = draw_thresholds(scene, assembly);
   DisjointSets pieces =
       pieces_of(assembly, [&](std::size_t joint) { return !is_missing(thresholds[joint]); });
-  const std::size_t left = assembly.bodies.size();
-  return pieces.find(left) != pieces.find(left + 1);
+  return !ends_hang_together(assembly, pieces);
 }
 
 // Whether (M5) gives an intact joint a wider cone than its thresholds do.
