@@ -24,9 +24,12 @@ std::vector<JointOutcome> initial_outcomes(const std::vector<Threshold>& thresho
   return joints;
 }
 
-bool has_failed(Simulation& simulation, double end_fraction) {
+void take_note_of_strength(Simulation& simulation) {
+  simulation.strength = std::max(simulation.strength, simulation.curve.back().stress_right);
+}
+
+bool has_failed(const Simulation& simulation, double end_fraction) {
   const CurvePoint& last = simulation.curve.back();
-  simulation.strength = std::max(simulation.strength, last.stress_right);
   constexpr double nothing = 1e-9;  // of the strength
   const double limit = std::max(end_fraction, nothing) * simulation.strength;
   return last.broken_joints > 0 && last.stress_right < limit && last.stress_left < limit;
@@ -50,14 +53,17 @@ std::optional<double> stress_at(const std::vector<CurvePoint>& curve, double str
 double largest_mean_stress(std::span<const double> strain, std::span<const double> stress,
                            double span) {
   assert(span > 0.0);
+  double largest = std::numeric_limits<double>::quiet_NaN();
+  if (strain.empty() || strain.back() - strain.front() < span) return largest;
+  // So short a stretch has few digits in the area, or none in the strain.
+  if (span <= 1e-9 * strain.back()) return *std::ranges::max_element(stress);
   std::vector<double> area{0.0};  // under the curve up to each row
   for (std::size_t i = 1; i < strain.size(); ++i)
     area.push_back(area.back() + 0.5 * (stress[i] + stress[i - 1]) * (strain[i] - strain[i - 1]));
-  double largest = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 1, left = 0; i < strain.size(); ++i) {
     const double begin = strain[i] - span;
     if (begin < strain.front()) continue;
-    while (strain[left + 1] <= begin) ++left;
+    while (left + 1 < i && strain[left + 1] <= begin) ++left;
     const double part = (begin - strain[left]) / (strain[left + 1] - strain[left]);
     const double height = stress[left] + part * (stress[left + 1] - stress[left]);
     const double before = area[left] + 0.5 * (stress[left] + height) * (begin - strain[left]);

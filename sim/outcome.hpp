@@ -18,9 +18,11 @@ inline double worse(double a, double b) {
 /// All joints with their thresholds, intact but for those that are missing.
 std::vector<JointOutcome> initial_outcomes(const std::vector<Threshold>& thresholds);
 
-/// Whether both sides have dropped below the end fraction of the strength after a break. Keeps the
-/// strength so far.
-bool has_failed(Simulation& simulation, double end_fraction);
+/// The strength so far, with the last row.
+void take_note_of_strength(Simulation& simulation);
+
+/// Whether both sides have dropped below the end fraction of the strength so far after a break.
+bool has_failed(const Simulation& simulation, double end_fraction);
 
 /// Whether a run came to its end, by a break, at the largest strain or severed from the start: only
 /// then it has a strength.
@@ -31,7 +33,7 @@ bool has_ended(const Simulation& run);
 std::optional<double> stress_at(const std::vector<CurvePoint>& curve, double strain);
 
 /// Largest mean of the stress over a stretch of strain that ends at a row; NaN where the curve is
-/// shorter. Strains rise. [Pa]
+/// shorter, the largest stress where the stretch is next to nothing of it. Strains rise. [Pa]
 /// @param span  length of the stretch, > 0. [-]
 double largest_mean_stress(std::span<const double> strain, std::span<const double> stress,
                            double span);

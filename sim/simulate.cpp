@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -52,8 +53,13 @@ bool is_severed(const Scene& scene) {
   const std::vector<Threshold> thresholds = draw_thresholds(scene, assembly);
   DisjointSets pieces =
       pieces_of(assembly, [&](std::size_t joint) { return !is_missing(thresholds[joint]); });
-  const std::size_t left = assembly.bodies.size();
-  return pieces.find(left) != pieces.find(left + 1);
+  return !ends_hang_together(assembly, pieces);
+}
+
+// Whether (M5) gives an intact joint a wider cone than its thresholds do.
+bool is_widened(const JointOutcome& joint) {
+  constexpr double but_for_rounding = 1.0 - 1e-9;
+  return joint.threshold.tangent < but_for_rounding * least_friction * joint.threshold.normal;
 }
 
 // Section 7: what the scene and its regime do without; a run adds its own omissions.
@@ -63,6 +69,10 @@ std::vector<LeftOut> left_out_by_choice(const Scene& scene, const Simulation& si
   if (scene.joints.friction < least_friction)
     list.push_back({"friction below 0.001",
                     "it counts as 0.001: without any, rounding decides which way a joint slides"});
+  if (std::ranges::any_of(simulation.joints, is_widened))
+    list.push_back(
+        {"shear thresholds below 0.001 of those in tension",
+         "they count as 0.001 of these: with none, rounding decides which way a joint slides"});
   if (scene.loading.lateral == Lateral::free)
     list.push_back({"periodic ties", "the sides are free"});
   if (simulation.dropped > 0)

@@ -10,7 +10,7 @@ namespace havers::sim {
 /// The regime a scene will be run in. Never automatic.
 struct RegimeChoice {
   Regime regime = Regime::dynamic;
-  double inertia_number = 0.0;  ///< I = ε̇ (W/c) / (σ₁/E), c = sqrt(E/ρ) (M12). [-]
+  double inertia_number = 0.0;  ///< I = ε̇ (W/c) / (σ₁/E), c of the softer layers (M12). [-]
   std::string ground;           ///< Why, in one sentence.
 };
 

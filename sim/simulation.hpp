@@ -48,12 +48,12 @@ struct CurvePoint {
 
 /// A joint at the end of a run.
 struct JointOutcome {
-  Threshold threshold;            ///< [N/m]
-  bool broken = false;            ///< From the start where it is missing.
-  double broken_at_strain = 0.0;  ///< NaN while bonded. [-]
+  Threshold threshold;  ///< [N/m]
+  bool broken = false;  ///< From the start where it is missing.
+  double broken_at_strain = std::numeric_limits<double>::quiet_NaN();  ///< NaN while bonded. [-]
   double reaction_normal = 0.0;   ///< R_N, compression positive. [N/m]
   double reaction_tangent = 0.0;  ///< R_T. [N/m]
-  double gap = 0.0;               ///< g ≥ 0. [m]
+  double gap = 0.0;               ///< g; below 0 where it penetrates, or by rounding. [m]
 
   /// In this run: it was not missing from the start.
   [[nodiscard]] bool broke() const { return broken && !is_missing(threshold); }
@@ -89,9 +89,11 @@ struct Simulation {
   /// By how much the strength is more than that mean and what the specimen's modulus adds to it in
   /// half the time of a wave: waves that ring. NaN as above. [-]
   double ringing = std::numeric_limits<double>::quiet_NaN();
-  double failure_strain = 0.0;      ///< Strain of the strength. [-]
-  double modulus = 0.0;             ///< Slope from 0.1 to 0.5 of the first break's strain. [Pa]
-  double first_break_strain = 0.0;  ///< NaN when nothing broke. [-]
+  double failure_strain = 0.0;  ///< Strain of the strength. [-]
+  /// Slope from 0.1 to 0.5 of the first break's strain, or of the last row's without one. [Pa]
+  double modulus = 0.0;
+  /// NaN when nothing broke. [-]
+  double first_break_strain = std::numeric_limits<double>::quiet_NaN();
   int broken_joints = 0;  ///< Of the last row: what an avalanche breaks thereafter is not counted.
   /// Part of the strength down to which the run was followed: the scene's `end_fraction`, or more
   /// where the rest of an avalanche is left out. Section 6. [-]

@@ -1,7 +1,6 @@
 // Stiff and extreme scenes whose answer is known before they are run.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <limits>
 #include <set>
@@ -118,12 +119,27 @@ double force_error(const WatchedRun& run, const WatchedRun& reference) {
   return (run.forces_at_break[n - 1] - reference.forces_at_break[n - 1]).norm() / largest;
 }
 
+namespace {
+
+// Of the height or, across the load, of the width: the part that every second layer takes.
+double share_of_second_layers(const AssemblyOptions& assembly) {
+  if (assembly.orientation == 0.0) {
+    const int seconds = assembly.layers / 2;
+    return static_cast<double>(seconds) / assembly.layers;
+  }
+  // Turned by 90° layer −1 is the first in the specimen, and a second one; the last may be cut.
+  const double layers = assembly.width() / assembly.fibre_height;
+  const double pairs = std::floor(0.5 * layers);
+  return (pairs + std::min(1.0, layers - 2.0 * pairs)) / layers;
+}
+
+}  // namespace
+
 double bonded_modulus(const Scene& scene) {
-  const auto& [assembly, material, joints, loading, solver] = scene;
-  const bool along = assembly.orientation == 0.0;
-  const int seconds = assembly.layers / 2;
-  const double second = along ? static_cast<double>(seconds) / assembly.layers : 0.5;
-  const double first = 1.0 - second, contrast = material.layer_contrast;
+  const Material& material = scene.material;
+  const double second = share_of_second_layers(scene.assembly), first = 1.0 - second;
+  const double contrast = material.layer_contrast;
+  const bool along = scene.assembly.orientation == 0.0;
   const double mean = along ? first + second * contrast : 1.0 / (first + second / contrast);
   return mean * material.young * plane_stiffening(material);
 }

@@ -16,6 +16,8 @@ class DynamicRun {
   /// @param step  h [s]
   DynamicRun(const Scene& scene, const Assembly& assembly, double step,
              const StopAsked& stop_asked = {});
+  DynamicRun(const DynamicRun&) = delete;  // its solver knows its bodies
+  DynamicRun& operator=(const DynamicRun&) = delete;
 
   /// One step on; false when the joints' problem was not solved, or its solver was stopped.
   bool advance();

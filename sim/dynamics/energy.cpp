@@ -17,7 +17,7 @@ double kinetic_energy(const Eigen::VectorXd& v, const Eigen::VectorXd& mass) {
 void EnergyBalance::start(const Motion& motion, const Eigen::VectorXd& mass) {
   kinetic = kinetic_energy(motion.v, mass);
   elastic = 0.5 * motion.q.dot(motion.Kq);
-  external = largest_ = kinetic + elastic;
+  external = largest_ = kinetic + elastic + joints + viscous + numerical;
 }
 
 void EnergyBalance::add(const Step& step, const Motion& before, const Motion& after,

@@ -25,7 +25,8 @@ struct EnergyBalance {
   double numerical = 0.0;        ///< Taken by implicit Euler. [J/m]
   double relative_defect = 0.0;  ///< Largest so far, relative to the largest energy so far. [-]
 
-  /// Starts the account with the energies of the present state; what was taken before stays.
+  /// Starts the account, or starts it again, with the energies of the present state; what was taken
+  /// before stays, and is part of the work.
   void start(const Motion& motion, const Eigen::VectorXd& mass);
 
   /// What one step did.

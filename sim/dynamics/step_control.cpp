@@ -113,7 +113,8 @@ Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer,
       show_again(scene, stepping, observer, stop_asked, run);
       break;
     }
-    const StepError before = std::exchange(change, error_of(finer, run));  // run: twice the step
+    // Beside a run of twice the step or, where that has no answer, four times.
+    const StepError before = std::exchange(change, error_of(finer, run));
     run = std::move(finer);
     without_answer = 0;
     run.step_error = larger_of(change, before);

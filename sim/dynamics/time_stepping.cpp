@@ -37,6 +37,7 @@ SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepp
     if (!solved)
       return run.determined() ? SimulationStatus::not_converged : SimulationStatus::not_determined;
     simulation.curve.push_back(run.point());
+    take_note_of_strength(simulation);
     if (observer)
       observer({simulation.curve.back(), simulation.curve.size() - 1,
                 [&run] { return run.outcomes(); }, [&run] { return run.displacements(); }});
@@ -57,7 +58,6 @@ Simulation simulate_dynamic(const Scene& scene, const Observer& observer,
                             const StopAsked& stop_asked) {
   if (!scene.solver.step) return run_in_chosen_steps(scene, observer, stop_asked);
   Simulation run = run_in_steps(scene, {*scene.solver.step}, observer, stop_asked);
-  run.step_error.reset();
   run.regime_ground = fmt::format(
       "; the step of {} is given, and its error is not known: a run without step_s chooses its own "
       "and says it",
@@ -71,6 +71,7 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
   Simulation simulation;
   simulation.regime = Regime::dynamic;
   simulation.step = stepping.step;
+  simulation.step_error.reset();
   simulation.end_fraction_used = scene.loading.end_fraction;
   DynamicRun run(scene, assembly, simulation.step, stop_asked);
   simulation.status = follow_in_time(scene, run, stepping, observer, simulation);

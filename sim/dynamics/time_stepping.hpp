@@ -16,6 +16,9 @@ struct Stepping {
   int most = most_steps_of_a_run;  ///< After so many it ends, broken or not.
 };
 
+/// One run in steps of one length, whatever the scene's own, in SI units. Its status is that of the
+/// row where it ends: broken, the strain limit, or why it went no further. What the step errs by is
+/// not known (`step_error` is none), and the ground of the regime is left to the caller.
 Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Observer& observer = {},
                         const StopAsked& stop_asked = {});
 

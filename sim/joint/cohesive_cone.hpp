@@ -32,7 +32,8 @@ struct JointLaw {
 /// slides.
 constexpr double least_friction = 1e-3;
 
-/// The law of (M5) and that of (M7).
+/// The law of (M5) and that of (M7). Neither is narrower than `least_friction`: a shear threshold
+/// counts as that part of the one in tension at least.
 JointLaw intact_law(const Threshold& threshold);
 JointLaw broken_law(double friction);
 

@@ -2,6 +2,7 @@
 
 #include <Random123/philox.h>
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_statistics_double.h>
 
 #include <algorithm>
 #include <cassert>
@@ -13,12 +14,11 @@ namespace {
 // What a number is drawn for: draws for one say nothing of draws for the other.
 enum class Stream : std::uint64_t { factor, missing };
 
-// Uniform on (0, 1), both ends excluded. [SMDS11]
+// Of one joint, whatever was drawn before. [SMDS11]
 double uniform(std::uint64_t seed, std::uint64_t joint, Stream stream) {
   const r123::Philox2x64::ctr_type counter{{joint, static_cast<std::uint64_t>(stream)}};
   const r123::Philox2x64::key_type key{{seed}};
-  const std::uint64_t bits = r123::Philox2x64()(counter, key)[0];
-  return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
+  return open_uniform(r123::Philox2x64()(counter, key)[0]);
 }
 
 // Shape k of the Weibull law whose coefficient of variation is `cv`: Γ(1+2/k)/Γ(1+1/k)² = 1 + cv².
@@ -34,12 +34,18 @@ double weibull_shape(double cv) {
   return std::sqrt(low * high);
 }
 
-bool in_outer_layer(const Scene& scene, const Joint& joint) {
-  const double height = scene.assembly.fibre_height;
-  return joint.position.y() < height || joint.position.y() > scene.assembly.height() - height;
+// The specimen's sides along which the joint's layer lies: of one layer both.
+int outer_sides(const Scene& scene, const Joint& joint) {
+  const double height = scene.assembly.fibre_height, y = joint.position.y();
+  return (y < height ? 1 : 0) + (y > scene.assembly.height() - height ? 1 : 0);
 }
 
 }  // namespace
+
+// The largest of these numbers would be rounded to 1.
+double open_uniform(std::uint64_t bits) {
+  return std::min((static_cast<double>(bits >> 11) + 0.5) * 0x1p-53, 1.0 - 0x1p-53);
+}
 
 ThresholdFactors::ThresholdFactors(std::uint64_t seed, double scatter, Distribution distribution)
     : seed_(seed), scatter_(scatter), distribution_(distribution) {
@@ -76,9 +82,7 @@ double head_tail_strength(const Scene& scene) {
         joint.kind == JointKind::head_tail && !is_missing(given[j]))
       factors.push_back(given[j].normal / mean_threshold(scene, joint).normal);
   if (factors.empty()) return scene.joints.head_tail;
-  const auto median = factors.begin() + static_cast<std::ptrdiff_t>(factors.size() / 2);
-  std::nth_element(factors.begin(), median, factors.end());
-  return *median * scene.joints.head_tail;
+  return gsl_stats_median(factors.data(), 1, factors.size()) * scene.joints.head_tail;
 }
 
 Threshold mean_threshold(const Scene& scene, const Joint& joint) {
@@ -91,7 +95,7 @@ Threshold mean_threshold(const Scene& scene, const Joint& joint) {
   if (head_tail && j.head_tail_shear) full.tangent = *j.head_tail_shear * height;
   if (!head_tail && j.flank_tension) full.normal = *j.flank_tension * half;
   // The outer layers also carry the flanks whose neighbours are not modelled.
-  if (head_tail && reinforced_boundary(scene) && in_outer_layer(scene, joint)) full.normal += f2;
+  if (head_tail && reinforced_boundary(scene)) full.normal += outer_sides(scene, joint) * f2;
 
   const double part = joint.length / (head_tail ? height : half);
   return {full.normal * part, full.tangent * part};

@@ -9,6 +9,9 @@
 
 namespace havers::sim {
 
+/// A number in (0, 1), both ends excluded, from 64 random bits.
+double open_uniform(std::uint64_t bits);
+
 /// Factors w of mean 1 and standard deviation d/√12 (M8), each a function of (seed, joint) alone:
 /// parameters stretch the draw but never reshuffle it. [-]
 class ThresholdFactors {

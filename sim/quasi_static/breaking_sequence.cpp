@@ -55,7 +55,7 @@ SimulationStatus follow_events(const Scene& scene, BreakingRun& run, const Obser
     simulation.curve.push_back(run.point());
     const double stress = simulation.curve.back().stress_right;
     if (!std::isfinite(stress)) return SimulationStatus::not_finite;
-    has_failed(simulation, end_fraction);  // takes note of the strength
+    take_note_of_strength(simulation);
     if (stress >= simulation.strength) {
       simulation.without_contact_to_strength = run.without_contact();
       run.take_note_of_strength(event);
@@ -66,6 +66,7 @@ SimulationStatus follow_events(const Scene& scene, BreakingRun& run, const Obser
       return stop_is_asked(stop_asked) ? SimulationStatus::cancelled
                                        : SimulationStatus::not_converged;
     simulation.curve.push_back(run.point());
+    take_note_of_strength(simulation);
     ++simulation.steps;
     if (observer)
       observer({simulation.curve.back(), simulation.curve.size() - 1,

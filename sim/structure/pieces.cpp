@@ -17,4 +17,14 @@ std::vector<std::vector<int>> joints_of_bodies(const Assembly& assembly) {
   return joints;
 }
 
+bool ends_hang_together(const Assembly& assembly, DisjointSets& pieces) {
+  const std::size_t left = assembly.bodies.size();
+  return pieces.find(left) == pieces.find(left + 1);
+}
+
+bool hangs_on_an_end(const Assembly& assembly, DisjointSets& pieces, std::size_t body) {
+  const std::size_t left = assembly.bodies.size(), piece = pieces.find(body);
+  return piece == pieces.find(left) || piece == pieces.find(left + 1);
+}
+
 }  // namespace havers::sim

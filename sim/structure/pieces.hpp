@@ -29,4 +29,10 @@ DisjointSets pieces_of(const Assembly& assembly, const IsBonded& is_bonded) {
   return pieces;
 }
 
+/// Whether these pieces lead from end to end.
+bool ends_hang_together(const Assembly& assembly, DisjointSets& pieces);
+
+/// Whether a body is of a piece that hangs on an end.
+bool hangs_on_an_end(const Assembly& assembly, DisjointSets& pieces, std::size_t body);
+
 }  // namespace havers::sim

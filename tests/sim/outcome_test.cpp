@@ -24,15 +24,17 @@ CurvePoint row(double strain, double right, double left, int broken = 0) {
 
 TEST(HasFailed, NeedsABreakAndBothSidesLow) {
   Simulation simulation = run_with({row(0.001, 10.0, 10.0)});
+  take_note_of_strength(simulation);
   EXPECT_FALSE(has_failed(simulation, 0.3));
   simulation.curve.push_back(row(0.002, 2.0, 2.0));
+  take_note_of_strength(simulation);
+  EXPECT_EQ(simulation.strength, 10.0);
   EXPECT_FALSE(has_failed(simulation, 0.3)) << "nothing has broken";
   simulation.curve.push_back(row(0.003, 2.0, 4.0, 1));
   EXPECT_FALSE(has_failed(simulation, 0.3)) << "the left side still carries";
   simulation.curve.push_back(row(0.004, 2.0, 2.0, 1));
   EXPECT_TRUE(has_failed(simulation, 0.3));
   EXPECT_FALSE(has_failed(simulation, 0.1));
-  EXPECT_EQ(simulation.strength, 10.0);
 }
 
 TEST(Summarise, ReadsTheCurveAndTheJoints) {
@@ -67,6 +69,11 @@ TEST(Summarise, TakesTheModulusFromTheSlope) {
   EXPECT_NEAR(simulation.modulus, 13e9, 1.0);
 }
 
+TEST(Summarise, LeavesWithoutABreakWhatItHasNotSeen) {
+  EXPECT_TRUE(std::isnan(Simulation{}.first_break_strain));
+  EXPECT_TRUE(std::isnan(JointOutcome{}.broken_at_strain));
+}
+
 TEST(Worse, ForgetsNoNumberThatIsNone) {
   EXPECT_EQ(worse(1.0, 2.0), 2.0);
   EXPECT_EQ(worse(2.0, 1.0), 2.0);
@@ -80,6 +87,15 @@ TEST(LargestMeanStress, IsThatOverAStretchOfStrain) {
   EXPECT_NEAR(largest_mean_stress(strain, stress, 0.1), 3.0, 1e-9);
   EXPECT_NEAR(largest_mean_stress(strain, stress, 1.0), 1.2, 1e-9);
   EXPECT_TRUE(std::isnan(largest_mean_stress(strain, stress, 1.5))) << "longer than the curve";
+}
+
+// So little of the strain has no digits in the area under the curve, or none in the strain itself.
+TEST(LargestMeanStress, OverNextToNoStrainIsTheLargestStress) {
+  const std::vector<double> strain{0.0, 0.003, 0.006}, stress{0.0, 40.0, 30.0};
+  for (const double span : {1e-30, 1e-17, 1e-12, 1e-11})
+    EXPECT_NEAR(largest_mean_stress(strain, stress, span), 40.0, 1e-4) << span;
+  EXPECT_TRUE(std::isnan(largest_mean_stress({}, {}, 1e-17)));
+  EXPECT_TRUE(std::isnan(largest_mean_stress(std::vector{0.0}, std::vector{1.0}, 1e-17)));
 }
 
 TEST(StressAt, FollowsTheCurveFromTheOriginToWhereItFirstReachesAStrain) {

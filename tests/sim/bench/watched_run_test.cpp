@@ -21,6 +21,21 @@ TEST_P(FirstBreak, IsThatOfTheUniformStress) {
   }
 }
 
+// The first layer across is a soft one, and the last may be cut: of 50 µm three layers of five are
+// soft, of 63 µm 3.3 of 6.3.
+TEST(BondedModulus, CountsTheLayersThatLieAcrossTheLoad) {
+  for (const double length : {40e-6, 50e-6, 47e-6, 63e-6}) {
+    Scene scene = test::small_scene(90.0, 4, 1);
+    scene.assembly.fibre_length = length;
+    scene.material.layer_contrast = 0.01;
+    scene.material.poisson = 0.0;
+    scene.loading.max_strain = 1.0;
+    const Simulation run = simulate(scene);
+    EXPECT_NEAR(bonded_modulus(scene) / run.modulus, 1.0, 1e-9) << length;
+    EXPECT_NEAR(first_break_by_uniform_stress(scene) / run.first_break_strain, 1.0, 1e-9) << length;
+  }
+}
+
 TEST(WatchedRun, TakesNoMissingJointForTheFirstBreak) {
   Scene scene = test::small_scene(20.0);
   const double first = first_break_by_uniform_stress(scene);

@@ -44,6 +44,22 @@ TEST_F(Oscillator, BalancesItsEnergyEachStep) {
   EXPECT_NEAR(motion.q(0), pull / stiffness, 0.01);  // at rest in the end
 }
 
+// As after a leap, whose viscous work is known.
+TEST_F(Oscillator, StartsAgainWithTheWorkOfWhatWasTaken) {
+  Motion motion = at(1.0, -0.5);
+  EnergyBalance energy;
+  energy.start(motion, mass);
+  for (int step = 0; step < 10; ++step) {
+    const Motion after = next(motion);
+    energy.add({h, viscosity, pull * h * after.v(0), 0.0}, motion, after, mass);
+    motion = after;
+  }
+  energy.viscous += 0.3;
+  energy.start(motion, mass);
+  EXPECT_DOUBLE_EQ(energy.external,
+                   energy.kinetic + energy.elastic + energy.viscous + energy.numerical);
+}
+
 TEST_F(Oscillator, MissesWorkThatIsNotAccountedFor) {
   const Motion before = at(1.0, -0.5), after = next(before);
   EnergyBalance energy;

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+
+#include "sim/simulation.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace havers::sim {
 namespace {
@@ -40,6 +44,32 @@ TEST(CohesiveCone, IsCoulombsWhenBroken) {
   const JointLaw law = broken_law(0.3);
   EXPECT_DOUBLE_EQ(cone_margin({10.0, 3.0}, law), 0.0);
   EXPECT_LT(cone_margin({-1e-9, 0.0}, law), 0.0);
+}
+
+// A cone without width leaves to rounding which way its joint slides, and a run says what it did.
+TEST(CohesiveCone, IsNoNarrowerThanTheLeastFriction) {
+  EXPECT_EQ(intact_law({.normal = 1000.0, .tangent = 0.1}).friction, least_friction);
+  const auto is_said = [](const Scene& scene) {
+    return std::ranges::any_of(simulate(scene).left_out, [](const LeftOut& part) {
+      return part.what == "shear thresholds below 0.001 of those in tension";
+    });
+  };
+  for (Scene scene : {test::small_scene(0.0, 2, 2), test::dynamic_scene()}) {
+    EXPECT_FALSE(is_said(scene));
+    scene.loading.max_strain = 1e-3;
+    scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 1000.0);
+    scene.joints.reinforced_boundary = false;
+    EXPECT_FALSE(is_said(scene)) << "it is just as wide";
+    scene.joints.flank *= 0.99;
+    EXPECT_TRUE(is_said(scene));
+    const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
+    scene.joints.thresholds.assign(assembly.joints.size(), {.normal = 1000.0, .tangent = 1000.0});
+    EXPECT_FALSE(is_said(scene));
+    scene.joints.thresholds.back() = {.normal = 0.0, .tangent = 0.0};
+    EXPECT_FALSE(is_said(scene)) << "it is missing";
+    scene.joints.thresholds.back() = {.normal = 1000.0, .tangent = 0.5};
+    EXPECT_TRUE(is_said(scene));
+  }
 }
 
 TEST(CohesiveCone, IsMetAtTheStrainWhereNoMarginIsLeft) {

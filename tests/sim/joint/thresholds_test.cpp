@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "sim/simulation.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace havers::sim {
@@ -41,6 +42,13 @@ TEST(ThresholdFactor, HasTheSameMeanAndDeviationInEveryDistribution) {
       EXPECT_NEAR(m.deviation / deviation, 1.0, 0.02);
       EXPECT_GT(m.least, 0.0);
     }
+}
+
+TEST(OpenUniform, ExcludesBothEnds) {
+  EXPECT_EQ(open_uniform(0), 0x1p-54);
+  EXPECT_EQ(open_uniform(std::uint64_t{1} << 63U), 0.5);
+  EXPECT_EQ(open_uniform(~std::uint64_t{0} - 0x800), 1.0 - 0x1p-52);
+  EXPECT_EQ(open_uniform(~std::uint64_t{0}), 1.0 - 0x1p-53);
 }
 
 TEST(ThresholdFactor, FillsTheWholeIntervalWhenUniform) {
@@ -136,8 +144,16 @@ TEST(MeanThreshold, GivesTheOuterLayersTheMissingFlanksForce) {
   EXPECT_DOUBLE_EQ(normal(JointKind::head_tail, scene.assembly.height() - 0.5 * l), f1 + f2);
   EXPECT_DOUBLE_EQ(normal(JointKind::head_tail, 1.5 * l), f1);
   EXPECT_DOUBLE_EQ(normal(JointKind::flank, 0.0), f1);
+  scene.assembly.layers = 1;
+  EXPECT_DOUBLE_EQ(normal(JointKind::head_tail, 0.5 * l), f1 + 2.0 * f2) << "it is both";
   scene.joints.reinforced_boundary = false;
   EXPECT_DOUBLE_EQ(normal(JointKind::head_tail, 0.5 * l), f1);
+}
+
+TEST(MeanThreshold, LetsOneLayerBearTheResultant) {
+  Scene scene = test::small_scene(0.0, 1, 5);
+  scene.joints.scatter = 0.0;
+  EXPECT_NEAR(simulate(scene).strength / resultant(scene.assembly, scene.joints), 1.0, 1e-9);
 }
 
 TEST(DrawThresholds, ScalesBothThresholdsOfAJointByOneDraw) {
@@ -175,6 +191,14 @@ TEST(HeadTailStrength, OfGivenThresholdsIsThatOfTheSceneThatDrewThem) {
     for (Threshold& threshold : scene.joints.thresholds) threshold.normal *= 0.5;
     EXPECT_NEAR(head_tail_strength(scene) / scene.joints.head_tail, 0.5, 1e-14) << layers;
   }
+}
+
+TEST(HeadTailStrength, OfTwoJointsIsTheMeanOfBoth) {
+  Scene scene = test::small_scene(0.0, 1, 3);
+  scene.joints.reinforced_boundary = false;
+  const double f1 = scene.joints.head_tail * scene.assembly.fibre_height;
+  scene.joints.thresholds = {{.normal = f1, .tangent = f1}, {.normal = 3.0 * f1, .tangent = f1}};
+  EXPECT_DOUBLE_EQ(head_tail_strength(scene), 2.0 * scene.joints.head_tail);
 }
 
 }  // namespace
