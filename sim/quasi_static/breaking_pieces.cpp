@@ -21,8 +21,7 @@ bool BreakingRun::severed() const {
     const Joint& between = intact_->assembly().joints[static_cast<std::size_t>(loose_.joints()[i])];
     all.unite(static_cast<std::size_t>(between.body_a), static_cast<std::size_t>(between.body_b));
   }
-  const std::size_t left = intact_->assembly().bodies.size();
-  return all.find(left) != all.find(left + 1);
+  return !ends_hang_together(intact_->assembly(), all);
 }
 
 // Whether few bonded joints lead from one side of a broken joint to the other, so that no piece has
@@ -55,12 +54,9 @@ std::vector<char> BreakingRun::apart() {
   joints_in_pieces_ = loose_.size();
   if (!as_before) {
     DisjointSets pieces = this->pieces();
-    const std::size_t left = assembly.bodies.size();
     adrift_.clear();
-    for (std::size_t body = 0; body < left; ++body) {
-      const std::size_t piece = pieces.find(body);
-      adrift_.push_back(piece == pieces.find(left) || piece == pieces.find(left + 1) ? 0 : 1);
-    }
+    for (std::size_t body = 0; body < assembly.bodies.size(); ++body)
+      adrift_.push_back(hangs_on_an_end(assembly, pieces, body) ? 0 : 1);
   }
   std::vector<char> apart;
   for (const int joint : loose_.joints()) {

@@ -28,6 +28,9 @@ class BreakingRun {
  public:
   BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact, Care care,
               const StopAsked& stop_asked = {});
+  BreakingRun(const BreakingRun&) = delete;  // its parts know each other
+  BreakingRun& operator=(const BreakingRun&) = delete;
+  ~BreakingRun() = default;
 
   /// Takes away the joints that are missing from the start; false when no answer without them was
   /// found, or the search was stopped.

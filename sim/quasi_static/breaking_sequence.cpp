@@ -163,7 +163,8 @@ Simulation simulate_quasi_static(const Scene& scene, const Observer& observer,
     of_best = care;
   }
   // A watcher sees the answer last.
-  return observer && of_best != last ? run(of_best) : best;
+  if (observer && of_best != last) return run(of_best);
+  return best;
 }
 
 }  // namespace havers::sim
