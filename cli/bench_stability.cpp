@@ -1,7 +1,6 @@
 // havers bench --stability: stiff and extreme scenes whose answer is known.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/bench.hpp"
@@ -15,20 +14,21 @@
 namespace havers::cli {
 namespace {
 
-std::vector<sim::StabilityResult> run_all(const CommonOptions& common) {
+sim::StabilityBench run_all(const CommonOptions& common) {
   ProgressLine line(common);
-  std::vector<sim::StabilityResult> results;
+  sim::StabilityBench bench;
   for (const sim::StabilityScene& scene : sim::stability_scenes()) {
     if (interrupted()) break;
     if (line.due()) line.show(scene.name);
-    results.push_back(sim::run_stability_scene(scene, interrupted));
+    bench.scenes.push_back(sim::run_stability_scene(scene, interrupted));
   }
-  return results;
+  bench.complete = !interrupted();
+  return bench;
 }
 
-void print_summary(const std::vector<sim::StabilityResult>& results) {
-  fmt::print("{}\n", sim::summary(results));
-  for (const sim::StabilityResult& result : results)
+void print_summary(const sim::StabilityBench& bench) {
+  fmt::print("{}\n", summary(bench));
+  for (const sim::StabilityResult& result : bench.scenes)
     if (!result.as_it_must)
       fmt::print("{:<8} {}: {}\n", to_string(result.outcome), result.name, result.reason);
 }
@@ -38,16 +38,15 @@ void print_summary(const std::vector<sim::StabilityResult>& results) {
 int bench_stability(const BenchArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   OutputFolder output(arguments.folder, common.force);
-  const std::vector<sim::StabilityResult> results = run_all(common);
+  const sim::StabilityBench bench = run_all(common);
   const io::Provenance provenance = provenance_of(common, {}, watch);
-  const nlohmann::json result = io::stability_json(results, provenance);
+  const nlohmann::json result = io::stability_json(bench, provenance);
   output.write("result.json", io::json_text(result));
-  output.write("stability.csv", io::stability_csv(results));
+  output.write("stability.csv", io::stability_csv(bench.scenes));
   if (reports::available())
-    output.write("report.html", reports::stability_page(results, page_facts(provenance)));
-  answer(common, &output, result, page_or("result.json"), [&] { print_summary(results); });
-  const bool good = std::ranges::all_of(results, &sim::StabilityResult::as_it_must);
-  return good && !interrupted() ? done : answer_is_no;
+    output.write("report.html", reports::stability_page(bench, page_facts(provenance)));
+  answer(common, &output, result, page_or("result.json"), [&] { print_summary(bench); });
+  return bench.good() ? done : answer_is_no;
 }
 
 }  // namespace havers::cli

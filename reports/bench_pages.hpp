@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "calib/porosity/method_comparison.hpp"
 #include "calib/synthetic/chain_benchmark.hpp"
@@ -19,8 +18,7 @@ std::string work_precision_svg(const sim::WorkPrecision& study);
 
 std::string work_precision_page(const sim::Scene& scene, const sim::WorkPrecision& study,
                                 const Provenance& provenance);
-std::string stability_page(const std::vector<sim::StabilityResult>& results,
-                           const Provenance& provenance);
+std::string stability_page(const sim::StabilityBench& bench, const Provenance& provenance);
 std::string methods_page(const calib::MethodComparison& comparison, const Provenance& provenance);
 /// Precondition: the benchmark is complete.
 std::string chains_page(const calib::ChainBenchmark& benchmark, const Provenance& provenance);

@@ -44,8 +44,7 @@ std::string work_precision_page(const sim::Scene& /*scene*/, const sim::WorkPrec
                                 const Provenance& /*facts*/) {
   return how_to_get_pages();
 }
-std::string stability_page(const std::vector<sim::StabilityResult>& /*results*/,
-                           const Provenance& /*facts*/) {
+std::string stability_page(const sim::StabilityBench& /*bench*/, const Provenance& /*facts*/) {
   return how_to_get_pages();
 }
 std::string methods_page(const calib::MethodComparison& /*comparison*/,

@@ -135,12 +135,12 @@ nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPreci
           {"provenance", provenance_object(provenance)}};
 }
 
-nlohmann::json stability_json(const std::vector<sim::StabilityResult>& results,
-                              const Provenance& provenance) {
+nlohmann::json stability_json(const sim::StabilityBench& bench, const Provenance& provenance) {
   nlohmann::json scenes = nlohmann::json::array();
-  for (const sim::StabilityResult& result : results)
+  for (const sim::StabilityResult& result : bench.scenes)
     scenes.push_back(object_of({"name", result.name}, stability_cells(result)));
-  return {{"summary", sim::summary(results)},
+  return {{"summary", summary(bench)},
+          {"complete", bench.complete},
           {"scenes", scenes},
           {"provenance", provenance_object(provenance)}};
 }

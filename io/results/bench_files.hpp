@@ -16,8 +16,7 @@ namespace havers::io {
 
 nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPrecision& study,
                                    const Provenance& provenance);
-nlohmann::json stability_json(const std::vector<sim::StabilityResult>& results,
-                              const Provenance& provenance);
+nlohmann::json stability_json(const sim::StabilityBench& bench, const Provenance& provenance);
 
 nlohmann::json methods_json(const calib::MethodComparison& comparison,
                             const Provenance& provenance);

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "reports/bench_pages.hpp"
@@ -136,16 +135,14 @@ std::string work_precision_page(const sim::Scene& scene, const sim::WorkPrecisio
       provenance);
 }
 
-std::string stability_page(const std::vector<sim::StabilityResult>& results,
-                           const Provenance& provenance) {
+std::string stability_page(const sim::StabilityBench& bench, const Provenance& provenance) {
   mstch::array rows;
-  for (const sim::StabilityResult& result : results) rows.emplace_back(stability_row(result));
-  const bool good = std::ranges::all_of(results, &sim::StabilityResult::as_it_must);
+  for (const sim::StabilityResult& result : bench.scenes) rows.emplace_back(stability_row(result));
   return render_page("havers bench: stiff and extreme scenes", "stability",
-                     {{"sentence", text(sim::summary(results))},
+                     {{"sentence", text(summary(bench))},
                       {"detail", text("h c/L is the time step over L/c, the time that a wave takes "
                                       "along a fibre.")},
-                      {"grade", text(good ? "good" : "bad")},
+                      {"grade", text(bench.good() ? "good" : "bad")},
                       {"rows", mstch::node{rows}}},
                      provenance);
 }

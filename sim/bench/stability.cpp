@@ -88,9 +88,15 @@ std::string to_string(StabilityOutcome outcome) {
   return words.at(static_cast<std::size_t>(outcome));
 }
 
-std::string summary(const std::vector<StabilityResult>& results) {
-  const auto good = std::ranges::count(results, true, &StabilityResult::as_it_must);
-  return fmt::format("{} of {} scenes solved or refused as they must be.", good, results.size());
+bool StabilityBench::good() const {
+  return complete && std::ranges::all_of(scenes, &StabilityResult::as_it_must);
+}
+
+std::string summary(const StabilityBench& bench) {
+  const auto good = std::ranges::count(bench.scenes, true, &StabilityResult::as_it_must);
+  return fmt::format("{}{} of {} scenes solved or refused as they must be.",
+                     bench.complete ? "" : "Stopped before all scenes were run: ", good,
+                     bench.scenes.size());
 }
 
 StabilityResult run_stability_scene(const StabilityScene& scene, const StopAsked& stop_asked) {

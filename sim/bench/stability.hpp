@@ -44,7 +44,15 @@ struct StabilityResult {
 
 StabilityResult run_stability_scene(const StabilityScene& scene, const StopAsked& stop_asked = {});
 
+struct StabilityBench {
+  std::vector<StabilityResult> scenes;
+  bool complete = false;  ///< false: stopped before the last scene.
+
+  /// Whether all did what they must.
+  [[nodiscard]] bool good() const;
+};
+
 /// How many did what they must, in a sentence.
-std::string summary(const std::vector<StabilityResult>& results);
+std::string summary(const StabilityBench& bench);
 
 }  // namespace havers::sim

@@ -71,6 +71,7 @@ TEST(Bench, RunsTheStabilityScenesWithoutAScene) {
   const auto answer = run_havers(folder, "bench --stability -o out --json");
   const auto result = nlohmann::json::parse(answer.out);
   EXPECT_GE(result["scenes"].size(), 40U);
+  EXPECT_EQ(result["complete"], true);
   const bool good = std::ranges::all_of(
       result["scenes"], [](const auto& scene) { return scene["as_it_must"].template get<bool>(); });
   EXPECT_EQ(answer.exit_code, good ? 0 : 1);

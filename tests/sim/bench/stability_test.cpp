@@ -19,16 +19,21 @@ TEST(Stability, HasFortyScenesOfDistinctNames) {
 }
 
 TEST(Stability, EverySceneIsSolvedOrRefusedAsItMust) {
-  std::vector<StabilityResult> results;
+  StabilityBench bench{.complete = true};
   for (const StabilityScene& scene : stability_scenes()) {
     const StabilityResult result = run_stability_scene(scene);
     EXPECT_NE(result.outcome, StabilityOutcome::wrong) << result.name << ": " << result.reason;
     EXPECT_EQ(result.outcome == StabilityOutcome::refused, scene.refused) << result.name;
     EXPECT_TRUE(result.as_it_must) << result.name << ": " << result.reason;
     EXPECT_EQ(result.reason.empty(), result.outcome == StabilityOutcome::solved) << result.name;
-    results.push_back(result);
+    bench.scenes.push_back(result);
   }
-  EXPECT_EQ(summary(results).substr(0, 2), std::to_string(results.size()));
+  EXPECT_TRUE(bench.good());
+  EXPECT_EQ(summary(bench).substr(0, 2), std::to_string(bench.scenes.size()));
+  bench.complete = false;
+  bench.scenes.pop_back();
+  EXPECT_FALSE(bench.good()) << "those left may not be as they must";
+  EXPECT_TRUE(summary(bench).starts_with("Stopped"));
 }
 
 TEST(Stability, CallsAMissedAnswerWrong) {
