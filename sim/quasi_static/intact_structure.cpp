@@ -161,18 +161,28 @@ std::shared_ptr<const IntactStructure> intact_structure(const Scene& scene) {
                 scene.material.plane,
                 scene.material.layer_contrast,
                 scene.solver.leave_out};
+  struct Entry {
+    Key key;
+    std::once_flag once;  // others need not wait while one is made
+    std::shared_ptr<const IntactStructure> made;
+  };
   static std::mutex mutex;
-  static std::list<std::pair<Key, std::shared_ptr<const IntactStructure>>> recent;
+  static std::list<std::shared_ptr<Entry>> recent;
 
-  const std::scoped_lock lock(mutex);
-  for (auto entry = recent.begin(); entry != recent.end(); ++entry)
-    if (entry->first == key) {
-      recent.splice(recent.begin(), recent, entry);
-      return entry->second;
-    }
-  recent.emplace_front(key, std::make_shared<IntactStructure>(scene));
-  if (recent.size() > kept) recent.pop_back();
-  return recent.front().second;
+  std::shared_ptr<Entry> entry;
+  {
+    const std::scoped_lock lock(mutex);
+    const auto found = std::ranges::find_if(
+        recent, [&](const std::shared_ptr<Entry>& one) { return one->key == key; });
+    if (found == recent.end())
+      recent.emplace_front(std::make_shared<Entry>())->key = key;
+    else
+      recent.splice(recent.begin(), recent, found);
+    if (recent.size() > kept) recent.pop_back();
+    entry = recent.front();
+  }
+  std::call_once(entry->once, [&] { entry->made = std::make_shared<IntactStructure>(scene); });
+  return entry->made;
 }
 
 }  // namespace havers::sim
