@@ -48,7 +48,7 @@ class LooseJoints {
   std::vector<SharedJump> jumps_;  // at each
   SharedJump held_;                // what was last asked about; none since joints have come
   Eigen::Matrix2Xd of_held_;       // its reactions
-  Eigen::MatrixXd stiffness_;      // and more; grows by doubling
+  Eigen::MatrixXd stiffness_;      // in its first rows and columns; grows by doubling
 };
 
 }  // namespace havers::sim
