@@ -154,7 +154,8 @@ double Refinement::add_rows(const ClockFit& fit, RowSums& sums) {
 
 // A symmetric matrix without its negative part.
 Eigen::Matrix2d positive_part(const Eigen::Matrix2d& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(matrix);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+  eigen.computeDirect(matrix);
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
          eigen.eigenvectors().transpose();
 }
@@ -184,10 +185,12 @@ Eigen::Vector2d Refinement::move_clocks(ClockSums sums, int clocks, ClockFit& fi
     add({1.0, since}, evidence_.broke->machine_time - fit.offset - fit.rate * since,
         evidence_.broke->standard_error);
   }
-  const auto told = sums.told.topLeftCorner(clocks, clocks).inverse().eval();
-  const Eigen::MatrixXd covariance = told * sums.rows.topLeftCorner(clocks, clocks) * told;
-  Eigen::Vector2d change = Eigen::Vector2d::Zero();
-  change.head(clocks) = told * sums.right.head(clocks);
+  if (clocks == 1) {
+    sums.told(0, 1) = sums.told(1, 0) = sums.right[1] = 0.0;
+  }
+  const Eigen::Matrix2d told = sums.told.inverse();
+  const Eigen::Matrix2d covariance = told * sums.rows * told;
+  Eigen::Vector2d change = told * sums.right;
   change[0] = std::clamp(change[0], -evidence_.step, evidence_.step);
   change[1] = std::clamp(change[1], -0.01, 0.01);
   fit.offset += change[0];

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gsl/gsl_cdf.h>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -83,8 +83,7 @@ std::optional<double> chance(const FitProblem& problem, const Answer& answer, Ei
       residuals[group.rows[i]] *= factor;
       jacobian.row(group.rows[i]) *= factor;
     }
-  if (jacobian.cols() > 0)
-    residuals -= jacobian * jacobian.completeOrthogonalDecomposition().solve(residuals).eval();
+  residuals -= followed(jacobian, residuals);
   const Eigen::VectorXd spent = leverage(jacobian);
   for (const auto& [orientation, group] : groups) between -= spent(group.rows).sum();
   if (between < least_freedom) return std::nullopt;

@@ -1,6 +1,6 @@
 #include "calib/fit/specimen_effect.hpp"
 
-#include <Eigen/SVD>
+#include <Eigen/QR>
 #include <cmath>
 
 #include "calib/fit/bound.hpp"
@@ -35,8 +35,15 @@ double variance_between(const Sample& sample, double freedom) {
 
 Eigen::VectorXd leverage(const Eigen::MatrixXd& jacobian) {
   if (jacobian.cols() == 0) return Eigen::VectorXd::Zero(jacobian.rows());
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeThinU);
-  return svd.matrixU().leftCols(svd.rank()).rowwise().squaredNorm();
+  const Eigen::MatrixXd inverse = jacobian.completeOrthogonalDecomposition().pseudoInverse();
+  return jacobian.cwiseProduct(inverse.transpose()).rowwise().sum();
+}
+
+Eigen::VectorXd followed(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals) {
+  if (jacobian.cols() == 0) return Eigen::VectorXd::Zero(residuals.size());
+  const Eigen::MatrixXd inverse = jacobian.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::VectorXd step = inverse * residuals;
+  return jacobian * step;
 }
 
 Landmarks parameters_spent(const FitProblem& problem, const Evaluation& at,

@@ -22,6 +22,8 @@ inline constexpr double least_freedom = 0.5;
 
 /// How much of the columns' directions each row of J has: the sum of all is their number. [-]
 Eigen::VectorXd leverage(const Eigen::MatrixXd& jacobian);
+/// What of the residuals the columns can follow: their projection, by least squares.
+Eigen::VectorXd followed(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals);
 
 /// Parameters spent on each landmark, by the leverage of those of its residuals that tell how much
 /// specimens differ (F9).

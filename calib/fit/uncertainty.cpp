@@ -81,10 +81,7 @@ double distance_to_minimum(const FitProblem& problem, const Evaluation& at, cons
   for (std::size_t i = 0; i < active.size(); ++i)
     if (!at_bound(problem.unknown(active[i]), at.point[active[i]]))
       movable.push_back(static_cast<Eigen::Index>(i));
-  if (movable.empty()) return 0.0;
-  const Eigen::MatrixXd columns = jacobian(Eigen::all, movable);
-  return 0.5 *
-         (columns * columns.completeOrthogonalDecomposition().solve(at.residuals)).squaredNorm();
+  return 0.5 * followed(jacobian(Eigen::all, movable), at.residuals).squaredNorm();
 }
 
 }  // namespace

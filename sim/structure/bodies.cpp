@@ -166,7 +166,8 @@ VectorXd Bodies::stiffness_times(const VectorXd& q) const {
     for (Index row = moved.rows() - 1; row >= 0; --row) moved.row(row) -= moved.row(row % 2);
     const auto& [stiffness, mass, motions] = group.op.matrices;
     MatrixXd forces = stiffness * moved;
-    forces -= motions * (motions.transpose() * forces);
+    const MatrixXd along = motions.transpose() * forces;
+    forces.noalias() -= motions * along;
     scatter(forces, group, y);
   }
   return y;

@@ -27,7 +27,8 @@ MatrixXd motions_left(const MatrixXd& motions, const std::vector<char>& held) {
   Eigen::FullPivLU<MatrixXd> of_fixed(motions(fixed, Eigen::all));
   of_fixed.setThreshold(1e-10);
   if (of_fixed.dimensionOfKernel() == 0) return motions.leftCols(0);
-  return motions * of_fixed.kernel();
+  const MatrixXd kernel = of_fixed.kernel();
+  return motions * kernel;
 }
 
 // Splits the free displacements by the ports: δ = B⁺ p + Q c, and finds what no displacement can do
@@ -46,11 +47,18 @@ PortSplit split_by_ports(const MatrixXd& ports) {
   Index rank = 0;
   while (rank < values.size() && values(rank) > 1e-10) ++rank;
   PortSplit split;
-  split.inverse = svd.matrixV().leftCols(rank) * values.head(rank).cwiseInverse().asDiagonal() *
-                  svd.matrixU().leftCols(rank).transpose();
+  const MatrixXd scaled =
+      svd.matrixV().leftCols(rank) * values.head(rank).cwiseInverse().asDiagonal();
+  split.inverse = scaled * svd.matrixU().leftCols(rank).transpose();
   split.interior = svd.matrixV().rightCols(ports.cols() - rank);
   split.impossible = svd.matrixU().rightCols(ports.rows() - rank).transpose();
   return split;
+}
+
+// TᵀAT, by products of two, which compile in less time.
+MatrixXd congruent(const MatrixXd& A, const MatrixXd& T) {
+  const MatrixXd AT = A * T;
+  return T.transpose() * AT;
 }
 
 }  // namespace
@@ -69,11 +77,11 @@ BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
   const MatrixXd& Q = split.interior;
   // (S2): the interior follows the ports and the loads. Each is corrected once, for bodies so
   // slender or incompressible that digits are lost.
-  MatrixXd G = Q * (Q.transpose() * A * Q).llt().solve(Q.transpose());
-  G += G - G * A * G;
-  MatrixXd T = split.inverse - G * (A * split.inverse);
-  T -= G * (A * T);
-  const MatrixXd Z = T.transpose() * A * T;
+  MatrixXd G = Q * MatrixXd(congruent(A, Q).llt().solve(Q.transpose()));
+  G += G - G * MatrixXd(A * G);
+  MatrixXd T = split.inverse;
+  for (int i = 0; i < 2; ++i) T -= G * MatrixXd(A * T);
+  const MatrixXd Z = congruent(A, T);
 
   body.compliance = MatrixXd::Zero(n, n);
   body.compliance(free, free) = 0.5 * (G + G.transpose());
@@ -87,10 +95,12 @@ BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
   if (body.at_rest() && motions.cols() > 0) {
     const Eigen::ColPivHouseholderQR<MatrixXd> at_ports(ports * motions);
     body.rigid = MatrixXd(at_ports.householderQ()).leftCols(at_ports.rank());
-    const MatrixXd moved = motions * at_ports.solve(body.rigid);
+    const MatrixXd moved = motions * MatrixXd(at_ports.solve(body.rigid));
     // T moves the ports like that, but the interior lags behind its own inertia.
-    const MatrixXd inertia = (shift.alpha * (matrices.mass.asDiagonal() * moved))(free, Eigen::all);
-    body.inertia = T.transpose() * (inertia - A * (G * inertia));
+    MatrixXd inertia = shift.alpha * (matrices.mass.asDiagonal() * moved);
+    inertia = MatrixXd(inertia(free, Eigen::all));
+    inertia -= A * MatrixXd(G * inertia);
+    body.inertia = T.transpose() * inertia;
   }
   body.at_once =
       body.impedance + (body.inertia - body.impedance * body.rigid) * body.rigid.transpose();

@@ -1,4 +1,4 @@
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -30,11 +30,12 @@ constexpr double least_in_single_precision = 1e-5;  // likewise
 constexpr double least_inertia = 1e-5;
 constexpr double determined = 0.01;  // least share of a joint in multipliers to give them a pivot
 
-// Least share of a direction in a set of orthonormal rows, where only some columns are looked at.
-double least_share(const MatrixXd& rows) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(rows * rows.transpose(), Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .minCoeff();
+// Whether each direction in a set of orthonormal rows has that share or more, where only some
+// columns are looked at.
+bool all_have(double share, const MatrixXd& rows) {
+  MatrixXd beyond = rows * rows.transpose();
+  beyond.diagonal().array() -= share;
+  return beyond.llt().info() == Eigen::Success;
 }
 
 }  // namespace
@@ -56,7 +57,7 @@ std::vector<char> Structure::conducting() const {
     // Two ports of each joint, then those of ties.
     for (Index i = 0; i < N.cols() && N.rows() > 0; i += 2) {
       if (bodies_->ports()[static_cast<std::size_t>(first + i)].unknown >= 2 * joints()) break;
-      all = all && least_share(N.middleCols<2>(i)) >= determined;
+      all = all && all_have(determined, N.middleCols<2>(i));
     }
     for (const int body : group.bodies) conducts[static_cast<std::size_t>(body)] = all ? 1 : 0;
   }
