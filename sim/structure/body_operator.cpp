@@ -57,8 +57,8 @@ PortSplit split_by_ports(const MatrixXd& ports) {
 
 // TᵀAT, by products of two, which compile in less time.
 MatrixXd congruent(const MatrixXd& A, const MatrixXd& T) {
-  const MatrixXd AT = A * T;
-  return T.transpose() * AT;
+  const MatrixXd TA = T.transpose() * A;
+  return TA * T;
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
   // (S2): the interior follows the ports and the loads. Each is corrected once, for bodies so
   // slender or incompressible that digits are lost.
   MatrixXd G = Q * MatrixXd(congruent(A, Q).llt().solve(Q.transpose()));
-  G += G - G * MatrixXd(A * G);
+  G += G - MatrixXd(G * A) * G;
   MatrixXd T = split.inverse;
   for (int i = 0; i < 2; ++i) T -= G * MatrixXd(A * T);
   const MatrixXd Z = congruent(A, T);
