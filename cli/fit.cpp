@@ -55,6 +55,7 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
   for (const std::string& doubt : loaded.all_notes()) note(common, "note: " + doubt);
 
   Digests inputs = digests_of(loaded.inputs);
+  catch_interrupts();
   const bool resumes = was_stopped(arguments.folder);
   OutputFolder output(arguments.folder, common.force || resumes);
   if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());

@@ -153,6 +153,7 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
   for (const std::string& warning : file.warnings) note(common, "note: " + warning);
   if (const std::string doubt = sim::doubt_about_steps(file.scene); !doubt.empty())
     note(common, "note: " + doubt);
+  catch_interrupts();
   io::SnapshotRecorder snapshots(file.snapshots);
   OutputFolder output(arguments.folder, common.force);
   if (!reports::available())
