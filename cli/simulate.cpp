@@ -12,7 +12,6 @@
 #include "cli/progress_line.hpp"
 #include "cli/provenance.hpp"
 #include "io/snapshots/snapshots.hpp"
-#include "reports/figures/avalanche.hpp"
 #include "sim/dynamics/step_control.hpp"
 
 namespace havers::cli {

@@ -4,7 +4,6 @@
 
 #include <limits>
 
-#include "reports/figures/avalanche.hpp"
 #include "reports/sweep/sweep_figure.hpp"
 #include "reports/sweep/sweep_words.hpp"
 #include "tests/support/sweeps.hpp"
