@@ -10,7 +10,8 @@
 
 namespace havers::cli {
 
-/// Stages result.json, the calibrated scene.toml, curves/, overlays/ and report.html.
+/// Stages result.json, the calibrated scene.toml, terms.csv, replicates.csv, curves/ and overlays/;
+/// tests/ and report.html where this build makes pages.
 void write_fit(const OutputFolder& output, const LoadedStudy& loaded,
                const calib::CalibrationResult& result, const io::Provenance& provenance);
 
