@@ -11,8 +11,8 @@
 namespace havers::reports {
 namespace {
 
-using support::deviation;
-using support::KnownSweep;
+using test::deviation;
+using test::KnownSweep;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
