@@ -153,7 +153,7 @@ TEST(SweepPage, HasADashForTheInertiaNumberOfTheQuasiStaticLimit) {
 TEST(SweepWords, PutTheUnitBehindTheValue) {
   EXPECT_EQ(place("assembly.orientation_deg", "45"), "θ\u00a0=\u00a045°");
   EXPECT_EQ(place("joints.ratio", "3"), "ratio r\u00a0=\u00a03");
-  EXPECT_EQ(place("joints.distribution", "\"weibull\""), "distribution\u00a0=\u00a0weibull");
+  EXPECT_EQ(place("joints.distribution", "weibull"), "distribution\u00a0=\u00a0weibull");
 }
 
 TEST(SweepFigures, HaveAPanelForEveryValueOfPer) {
