@@ -9,6 +9,7 @@
 #include <memory>
 #include <string_view>
 
+#include "cli/interrupt.hpp"
 #include "cli/number_check.hpp"
 #include "io/input_error.hpp"
 
@@ -70,6 +71,7 @@ int run_mode(const CLI::App& parser, const Mode& mode, const BenchArguments& arg
   refuse_idle_options(parser, mode);
   if (&mode != &of_scene)
     refuse_settings(common, fmt::format("{} has settings of its own", mode.name));
+  catch_interrupts();
   return mode.run(arguments, common);
 }
 

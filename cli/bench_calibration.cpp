@@ -111,7 +111,7 @@ int bench_coverage(const BenchArguments& arguments, const CommonOptions& common)
   const auto designs = calib::coverage_designs();
   FitCounter counter(common, designs.size() * static_cast<std::size_t>(studies));
   const calib::Coverage coverage =
-      calib::measure_coverage(designs, studies, common.threads, std::ref(counter));
+      calib::measure_coverage(designs, studies, common.threads, std::ref(counter), interrupted);
   const io::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::coverage_json(coverage, provenance);
   output.write("result.json", io::json_text(result));

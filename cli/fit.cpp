@@ -55,6 +55,7 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
   for (const std::string& doubt : loaded.all_notes()) note(common, "note: " + doubt);
 
   Digests inputs = digests_of(loaded.inputs);
+  catch_interrupts();
   const bool resumes = was_stopped(arguments.folder);
   OutputFolder output(arguments.folder, common.force || resumes);
   if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
@@ -69,9 +70,8 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
                                       output.folder().string()));
 
   const io::Provenance provenance = provenance_of(common, std::move(inputs), watch);
-  write_fit(output, loaded, result, provenance);
-  answer(common, &output, io::calibration_json(loaded.study, result, provenance),
-         page_or("result.json"),
+  const nlohmann::json json = write_fit(output, loaded, result, provenance);
+  answer(common, &output, json, page_or("result.json"),
          [&] { print_fit_summary(result, provenance.wall_seconds, common.verbose); });
   return result.trusted() ? done : answer_is_no;
 }

@@ -65,8 +65,8 @@ std::string scene_file(const calib::CalibrationResult& result) {
 
 }  // namespace
 
-void write_fit(const OutputFolder& output, const LoadedStudy& loaded,
-               const calib::CalibrationResult& result, const io::Provenance& provenance) {
+nlohmann::json write_fit(const OutputFolder& output, const LoadedStudy& loaded,
+                         const calib::CalibrationResult& result, const io::Provenance& provenance) {
   for (const calib::SpecimenResult& specimen : result.specimens) {
     io::write_band(output.stage(io::band_file(specimen.id)), specimen.band);
     io::write_measured(output.stage(io::measured_file(specimen.id)), specimen.measured);
@@ -78,8 +78,9 @@ void write_fit(const OutputFolder& output, const LoadedStudy& loaded,
       output.write(overlay_file(id, i), {images[i].begin(), images[i].end()});
   output.write("scene.toml", scene_file(result));
   if (reports::available()) write_page(output, loaded, result, provenance);
-  output.write("result.json",
-               io::json_text(io::calibration_json(loaded.study, result, provenance)));
+  nlohmann::json json = io::calibration_json(loaded.study, result, provenance);
+  output.write("result.json", io::json_text(json));
+  return json;
 }
 
 reports::FitReport FinishedFit::report() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 
 #include "cli/load_study.hpp"
 #include "cli/output_folder.hpp"
@@ -10,9 +11,11 @@
 
 namespace havers::cli {
 
-/// Stages result.json, the calibrated scene.toml, curves/, overlays/ and report.html.
-void write_fit(const OutputFolder& output, const LoadedStudy& loaded,
-               const calib::CalibrationResult& result, const io::Provenance& provenance);
+/// Stages result.json, the calibrated scene.toml, terms.csv, replicates.csv, curves/ and overlays/;
+/// tests/ and report.html where this build makes pages.
+/// Returns what is in result.json.
+nlohmann::json write_fit(const OutputFolder& output, const LoadedStudy& loaded,
+                         const calib::CalibrationResult& result, const io::Provenance& provenance);
 
 /// A finished fit, read back from its folder.
 struct FinishedFit {

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "cli/command.hpp"
-#include "cli/interrupt.hpp"
 #include "cli/version.hpp"
 #include "io/config/nearest.hpp"
 #include "io/input_error.hpp"
@@ -131,7 +130,6 @@ int program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return answer(app, error);
   }
-  catch_interrupts();
   for (const Command& command : commands)
     if (command.parser->parsed()) return run(command, common);
   return bad_input;

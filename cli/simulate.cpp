@@ -12,7 +12,6 @@
 #include "cli/progress_line.hpp"
 #include "cli/provenance.hpp"
 #include "io/snapshots/snapshots.hpp"
-#include "reports/figures/avalanche.hpp"
 #include "sim/dynamics/step_control.hpp"
 
 namespace havers::cli {
@@ -46,9 +45,11 @@ sim::Simulation watched_run(const sim::Scene& scene, io::SnapshotRecorder& snaps
   return sim::simulate(scene, show, interrupted);
 }
 
-void write_results(const OutputFolder& output, const io::SceneFile& file,
-                   const sim::Simulation& simulation, const io::SnapshotRecorder& snapshots,
-                   const io::Provenance& provenance) {
+// Returns what is in result.json.
+nlohmann::json write_results(const OutputFolder& output, const io::SceneFile& file,
+                             const sim::Simulation& simulation,
+                             const io::SnapshotRecorder& snapshots,
+                             const io::Provenance& provenance) {
   const sim::Scene& scene = file.scene;
   const sim::Assembly assembly = sim::build_assembly(scene.assembly, scene.loading.lateral);
   io::write_curve(output.stage("curve.csv"), simulation);
@@ -64,7 +65,9 @@ void write_results(const OutputFolder& output, const io::SceneFile& file,
                                            provenance.wall_seconds,
                                            file.inputs.front().filename().string()}));
   }
-  output.write("result.json", io::json_text(io::simulation_json(file, simulation, provenance)));
+  nlohmann::json json = io::simulation_json(file, simulation, provenance);
+  output.write("result.json", io::json_text(json));
+  return json;
 }
 
 // No time without its error. The runs of longer steps were timed too.
@@ -153,6 +156,7 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
   for (const std::string& warning : file.warnings) note(common, "note: " + warning);
   if (const std::string doubt = sim::doubt_about_steps(file.scene); !doubt.empty())
     note(common, "note: " + doubt);
+  catch_interrupts();
   io::SnapshotRecorder snapshots(file.snapshots);
   OutputFolder output(arguments.folder, common.force);
   if (!reports::available())
@@ -167,8 +171,8 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
                     sim::explain(simulation.status)));
   snapshots.finish(simulation);
   const io::Provenance provenance = provenance_of(common, std::move(inputs), watch);
-  write_results(output, file, simulation, snapshots, provenance);
-  answer(common, &output, io::simulation_json(file, simulation, provenance), page_or("result.json"),
+  const nlohmann::json json = write_results(output, file, simulation, snapshots, provenance);
+  answer(common, &output, json, page_or("result.json"),
          [&] { print_summary(file.scene, simulation, provenance.wall_seconds, common.verbose); });
   if (simulation.status == sim::SimulationStatus::cancelled)
     note(common,

@@ -125,8 +125,9 @@ nlohmann::json json_of_all(const std::vector<Done>& all, const io::Provenance& p
           {"provenance", io::provenance_object(provenance)}};
 }
 
-void write_all(const OutputFolder& output, const SweepArguments& arguments,
-               const std::vector<Done>& all, const io::Provenance& provenance) {
+// Returns what is in result.json.
+nlohmann::json write_all(const OutputFolder& output, const SweepArguments& arguments,
+                         const std::vector<Done>& all, const io::Provenance& provenance) {
   std::vector<reports::SweepReport> parts;
   for (const Done& one : all) {
     output.write(fs::path(one.stem) / "runs.csv", io::runs_csv(one.sweep, one.result));
@@ -138,7 +139,9 @@ void write_all(const OutputFolder& output, const SweepArguments& arguments,
   if (reports::available())
     output.write("report.html", reports::sweep_page(arguments.title, parts, page_facts(provenance),
                                                     provenance.wall_seconds));
-  output.write("result.json", io::json_text(json_of_all(all, provenance)));
+  nlohmann::json json = json_of_all(all, provenance);
+  output.write("result.json", io::json_text(json));
+  return json;
 }
 
 // "strength 12.3 % (11.9 to 12.7)", to two digits of the interval's width or one more; a dash where
@@ -187,6 +190,7 @@ int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   std::vector<Done> all = read_all(arguments, common);
   Digests inputs = digests_of(inputs_of(all));
+  catch_interrupts();
   const bool resumes = was_stopped(arguments.folder);
   OutputFolder output(arguments.folder, common.force || resumes);
   if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
@@ -202,8 +206,8 @@ int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
                     patterns ? ", but those of sweeps with patterns, which begin anew" : ""));
   }
   const io::Provenance provenance = provenance_of(common, std::move(inputs), watch);
-  write_all(output, arguments, all, provenance);
-  answer(common, &output, json_of_all(all, provenance), page_or("result.json"),
+  const nlohmann::json json = write_all(output, arguments, all, provenance);
+  answer(common, &output, json, page_or("result.json"),
          [&] { print_summary(all, provenance.wall_seconds); });
   return trusted(all) ? done : answer_is_no;
 }

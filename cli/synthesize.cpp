@@ -234,6 +234,7 @@ int run_synthesize(const SynthesizeArguments& arguments, const CommonOptions& co
   if (common.seed) file.study.calibrate.seed = *common.seed;
   if (auto problems = problems_of(arguments.study, file); !problems.empty())
     throw io::InputError(std::move(problems));
+  catch_interrupts();
   OutputFolder output(arguments.folder, common.force);
 
   for (const fs::path& input : file.inputs)  // as they are now

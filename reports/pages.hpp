@@ -59,6 +59,10 @@ struct PorosityReport {
 /// The broken assembly: fibres displaced, broken joints by kind. SVG.
 std::string fracture_svg(const sim::Assembly& assembly, const sim::Simulation& simulation);
 
+/// Every joint as a line; the broken ones coloured by the moment of breaking, and shown one after
+/// the other by an animation inside the SVG. Viewers without animation show all of them.
+std::string avalanche_svg(const sim::Assembly& assembly, const sim::Simulation& simulation);
+
 /// One measured test as read and as used. SVG; the id keeps it apart from others on its page.
 std::string test_svg(const ImportReport& report, const std::string& id = "test");
 

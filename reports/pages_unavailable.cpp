@@ -1,6 +1,7 @@
 // Stands in for the pages in a build without mstch.
 #include "reports/bench_pages.hpp"
 #include "reports/pages.hpp"
+#include "reports/sweep/sweep_page.hpp"
 
 namespace havers::reports {
 namespace {
@@ -19,6 +20,10 @@ bool available() {
 std::string fracture_svg(const sim::Assembly& /*assembly*/, const sim::Simulation& /*simulation*/) {
   return how_to_get_pages();
 }
+std::string avalanche_svg(const sim::Assembly& /*assembly*/,
+                          const sim::Simulation& /*simulation*/) {
+  return how_to_get_pages();
+}
 std::string test_svg(const ImportReport& /*report*/, const std::string& /*id*/) {
   return how_to_get_pages();
 }
@@ -29,6 +34,10 @@ std::string simulation_page(const SimulationReport& /*report*/) {
   return how_to_get_pages();
 }
 std::string fit_page(const FitReport& /*report*/) {
+  return how_to_get_pages();
+}
+std::string sweep_page(const std::string& /*title*/, const std::vector<SweepReport>& /*sweeps*/,
+                       const Provenance& /*facts*/, double /*wall_seconds*/) {
   return how_to_get_pages();
 }
 std::string import_page(const std::vector<ImportReport>& /*reports*/, const Provenance& /*facts*/) {

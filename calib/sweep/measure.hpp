@@ -34,7 +34,7 @@ inline constexpr std::size_t measure_count = all_measures.size();
 
 /// A point of a sweep: the values of its keys, and the scene they make.
 struct SweepPoint {
-  std::vector<std::string> values;  ///< As TOML values, in the order of the plan's keys.
+  std::vector<std::string> values;  ///< Texts without quotes, in the order of the plan's keys.
   std::vector<double> numbers;      ///< The same as numbers; NaN for words.
   sim::Scene scene;
   int level = 1;

@@ -10,8 +10,8 @@
 namespace havers::calib {
 namespace {
 
-void add_rows(const Design& design, int number, const KnownStudy& known, Coverage& coverage) {
-  const CalibrationResult result = calibrate(known.study);
+void add_rows(const Design& design, int number, const KnownStudy& known,
+              const CalibrationResult& result, Coverage& coverage) {
   for (std::size_t k = 0; k < known.parameters.size(); ++k) {
     const std::string name = known.parameters.at(k);
     const auto parameter = std::ranges::find(result.parameters, name, &CalibratedParameter::name);
@@ -93,7 +93,7 @@ std::vector<Design> coverage_designs() {
 }
 
 Coverage measure_coverage(const std::vector<Design>& designs, int studies, int threads,
-                          const std::function<bool()>& go_on) {
+                          const std::function<bool()>& go_on, const sim::StopAsked& stop_asked) {
   Coverage coverage;
   for (const Design& design : designs)
     for (int number = 1; number <= studies; ++number) {
@@ -102,7 +102,10 @@ Coverage measure_coverage(const std::vector<Design>& designs, int studies, int t
       KnownStudy known = known_study(design, number);
       known.study.calibrate.threads = threads;
       known.study.calibrate.profiles = true;
-      add_rows(design, number, known, coverage);
+      const CalibrationResult result = calibrate(known.study, nullptr, {}, stop_asked);
+      coverage.complete = result.status != CalibrationStatus::cancelled;
+      if (!coverage.complete) break;
+      add_rows(design, number, known, result, coverage);
     }
   for (const Design& design : designs)
     for (const char* parameter : design.parameters)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calib/synthetic/known_study.hpp"
+#include "sim/stop_asked.hpp"
 
 namespace havers::calib {
 
@@ -60,8 +61,10 @@ struct Coverage {
 /// Specimens at 0° and 90°, and at 0°, 45° and 90°; alike, and 10 % apart.
 std::vector<Design> coverage_designs();
 
-/// Fits `studies` known studies of each design. `go_on` is asked before every fit; false ends.
+/// Fits `studies` known studies of each design. `go_on` is asked before every fit, false ends;
+/// `stop_asked` inside the simulations, true ends, without the rows of the study that is stopped.
 Coverage measure_coverage(const std::vector<Design>& designs, int studies, int threads,
-                          const std::function<bool()>& go_on);
+                          const std::function<bool()>& go_on,
+                          const sim::StopAsked& stop_asked = {});
 
 }  // namespace havers::calib

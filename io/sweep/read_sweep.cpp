@@ -147,9 +147,14 @@ void read_questions(TableReader& top, calib::Sweep& sweep) {
   }
 }
 
+// A TOML value as a reader of results knows it: a text without its quotes.
+std::string without_quotes(const std::string& value) {
+  return parse_toml({}, {"value=" + value})["value"].value_or(value);
+}
+
 // The scene with a point's values on top, as if they were given by --set.
 calib::SweepPoint read_point(SweepFile& read, Overrides overrides,
-                             std::vector<std::string> values) {
+                             const std::vector<std::string>& values) {
   const calib::SweepPlan& plan = read.sweep.plan;
   for (std::size_t i = 0; i < values.size(); ++i)
     overrides.push_back(fmt::format("{}={}", plan.keys[i].name, values[i]));
@@ -164,8 +169,10 @@ calib::SweepPoint read_point(SweepFile& read, Overrides overrides,
   config.finish();
   for (const std::filesystem::path& input : config.inputs())
     if (std::ranges::find(read.inputs, input) == read.inputs.end()) read.inputs.push_back(input);
-  for (const std::string& value : values) point.numbers.push_back(calib::number_in(value));
-  point.values = std::move(values);
+  for (const std::string& value : values) {
+    point.numbers.push_back(calib::number_in(value));
+    point.values.push_back(without_quotes(value));
+  }
   point.inertia_number = calib::inertia_of(point.scene);
   return point;
 }
@@ -207,9 +214,9 @@ SweepFile read_sweep(const std::filesystem::path& file, const Overrides& overrid
   if (sweep.name.empty()) sweep.name = file.stem().string();
 
   std::vector<Problem> problems = settings_of_varied_keys(overrides, sweep.plan);
-  for (std::vector<std::string>& values : points_of(sweep.plan)) {
+  for (const std::vector<std::string>& values : points_of(sweep.plan)) {
     try {
-      sweep.points.push_back(read_point(read, overrides, std::move(values)));
+      sweep.points.push_back(read_point(read, overrides, values));
     } catch (const InputError& error) {
       for (const Problem& problem : error.problems()) {
         add_if_new(of_sweep(problem, file, sweep.plan), problems);

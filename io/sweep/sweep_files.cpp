@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/input_error.hpp"
-#include "io/results/csv_numbers.hpp"
+#include "io/results/csv_row.hpp"
 #include "io/results/json_table.hpp"
 #include "io/sweep/sweep_keys.hpp"
 
@@ -17,17 +17,18 @@ namespace {
 
 using calib::Measure;
 
-// TOML texts keep their quotes, which hold a comma together in CSV as well.
-std::string point_cells(const calib::SweepPoint& point, std::size_t index) {
-  std::string cells = fmt::format("{},{}", index, point.level);
-  for (const std::string& value : point.values) cells += "," + value;
-  return cells;
+CsvRow row_of(const calib::Sweep& sweep, const calib::SweepPoint& point, std::size_t index) {
+  CsvRow row("point", std::to_string(index));
+  row.key("level", point.level);
+  for (std::size_t k = 0; k < point.values.size(); ++k)
+    row.key(sweep.plan.keys[k].name.c_str(), point.values[k]);
+  return row;
 }
 
-std::string point_header(const calib::Sweep& sweep) {
-  std::string header = "point,level";
-  for (const calib::SweepKey& key : sweep.plan.keys) header += "," + key.name;
-  return header;
+// A number, a truth value or a list; what is none of these is a word.
+nlohmann::json json_of_value(const std::string& value) {
+  nlohmann::json json = nlohmann::json::parse(value, nullptr, false);
+  return json.is_discarded() ? nlohmann::json(value) : json;
 }
 
 }  // namespace
@@ -39,30 +40,33 @@ std::string name_of(Measure m) {
 
 std::string runs_csv(const calib::Sweep& sweep, const calib::SweepResult& result) {
   const std::vector<Measure> known = result.known();
-  std::string text = point_header(sweep) + ",seed,outcome";
-  for (const Measure m : known) text += fmt::format(",{}", name_of(m));
-  text += '\n';
+  CsvTable table;
   for (const calib::SweepRun& run : result.runs) {
-    const std::string_view outcome = run.failed ? "failed" : run.broke ? "broken" : "unbroken";
-    text += fmt::format("{},{},{}", point_cells(result.points[run.point], run.point), run.seed,
-                        outcome);
-    for (const Measure m : known) text += fmt::format(",{}", csv_number(run[m]));
-    text += '\n';
+    CsvRow row = row_of(sweep, result.points[run.point], run.point);
+    row.key("seed", run.seed);
+    row.key("outcome", std::string(run.failed ? "failed" : run.broke ? "broken" : "unbroken"));
+    for (const Measure m : known) row.key(name_of(m).c_str(), run[m]);
+    table.add(row);
   }
-  return text;
+  return table.text;
 }
 
 std::string summary_csv(const calib::Sweep& sweep, const calib::SweepResult& result) {
-  std::string text = point_header(sweep) + ",inertia_number,measure,n,mean,sd,standard_error\n";
+  CsvTable table;
   for (std::size_t point = 0; point < result.points.size(); ++point)
     for (const Measure m : calib::all_measures) {
       const calib::Statistics& s = result.summaries[point][m];
-      if (s.n == 0) continue;
-      text += fmt::format("{},{},{},{},{},{},{}\n", point_cells(result.points[point], point),
-                          csv_number(result.points[point].inertia_number), name_of(m), s.n,
-                          csv_number(s.mean), csv_number(s.sd), csv_number(s.standard_error()));
+      CsvRow row = row_of(sweep, result.points[point], point);
+      row.key("inertia_number", result.points[point].inertia_number);
+      row.key("measure", name_of(m));
+      row.key("n", s.n);
+      row.key("mean", s.mean);
+      row.key("sd", s.sd);
+      row.key("standard_error", s.standard_error());
+      if (table.text.empty()) table.text = row.names();  // also where all runs failed
+      if (s.n > 0) table.add(row);
     }
-  return text;
+  return table.text;
 }
 
 nlohmann::json laws_json(const calib::SweepResult& result) {
@@ -109,10 +113,7 @@ nlohmann::json sweep_json(const calib::Sweep& sweep, const calib::SweepResult& r
     const calib::PointSummary& summary = result.summaries[i];
     nlohmann::json values, measures;
     for (std::size_t k = 0; k < point.values.size(); ++k)
-      values[sweep.plan.keys[k].name] =
-          point.values[k].front() == '"' || point.values[k].front() == '\''
-              ? nlohmann::json(point.values[k].substr(1, point.values[k].size() - 2))
-              : nlohmann::json::parse(point.values[k], nullptr, false);
+      values[sweep.plan.keys[k].name] = json_of_value(point.values[k]);
     for (const Measure m : calib::all_measures) {
       const calib::Statistics& s = summary[m];
       if (s.n > 0)

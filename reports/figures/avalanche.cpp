@@ -1,5 +1,3 @@
-#include "reports/figures/avalanche.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "reports/figures/gnuplot.hpp"
+#include "reports/pages.hpp"
 #include "reports/text/format.hpp"
 
 namespace havers::reports {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "calib/count.hpp"
 #include "reports/bench_pages.hpp"
 #include "reports/figures/figures.hpp"
 #include "reports/pages/page.hpp"
@@ -42,11 +43,10 @@ std::string methods_page(const calib::MethodComparison& comparison, const Proven
       {{"grade", text(!comparison.good() ? "bad"
                       : complete         ? "good"
                                          : "mixed")},
-       {"sentence",
-        text(fmt::format("{}On {} drawn sections {} errs by {} points of porosity at most.",
-                         complete ? "" : "Stopped before all sections were measured. ",
-                         comparison.trials.size(), to_string(ours.method),
-                         points(ours.worst_error)))},
+       {"sentence", text(fmt::format("{}On {} {} errs by {} points of porosity at most.",
+                                     complete ? "" : "Stopped before all sections were measured. ",
+                                     calib::count(comparison.trials.size(), "drawn section"),
+                                     to_string(ours.method), points(ours.worst_error)))},
        {"detail", text("Asked: at most 0.3 points, and 0.05 where there are no pores.")},
        {"figure", text(draw(methods_figure(comparison, "methods")))},
        {"methods", mstch::node{methods}},

@@ -47,7 +47,7 @@ std::string search_sentence(const FitReport& report);
 /// The numbers of a section below its overlay.
 std::string section_caption(const calib::SectionPorosity& section);
 
-/// "12.3 s", "4 min 12 s"; a dash when not recorded.
+/// "12.3 s", "4 min 12 s"; "unrecorded" for what is not finite.
 std::string duration(double seconds);
 
 /// An angle in degrees.

@@ -30,7 +30,7 @@ struct Panel {
 };
 
 std::string title_of(const Panel& panel, const std::string& value) {
-  return panel.wanted.series.empty() ? "" : plain(typeset(bare(value)));
+  return panel.wanted.series.empty() ? "" : plain(typeset(value));
 }
 
 // The series' values beside the graph, under the name of their key.

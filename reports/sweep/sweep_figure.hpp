@@ -11,7 +11,7 @@ namespace havers::reports {
 
 /// A figure for each panel, in the order of its value.
 struct SweepPanel {
-  std::string at;  ///< "angle θ = 45"; empty for the only one.
+  std::string at;  ///< "θ = 45°"; empty for the only one.
   Figure figure;
 };
 std::vector<SweepPanel> sweep_figures(const calib::Sweep& sweep, const calib::SweepResult& result,

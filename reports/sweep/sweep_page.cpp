@@ -107,7 +107,7 @@ mstch::node point_row(const SweepReport& report, std::size_t i) {
   const calib::StrengthLaw& law = report.result.strengths[i];
   mstch::array cells;
   if (report.sweep.levels > 1) cells.push_back(cell(std::to_string(point.level)));
-  for (const std::string& value : point.values) cells.push_back(cell(typeset(bare(value))));
+  for (const std::string& value : point.values) cells.push_back(cell(typeset(value)));
   cells.push_back(cell(number(point.inertia_number, 2)));
   cells.push_back(cell(std::to_string(summary.runs - summary.failed)));
   cells.push_back(cell(std::to_string(summary.failed)));

@@ -30,12 +30,7 @@ std::string place(const std::string& key, const std::string& value) {
   const auto found = with_unit.find(key);
   const auto& [name, unit] =
       found == with_unit.end() ? std::pair{name_of_key(key), std::string()} : found->second;
-  return name + "\u00a0=\u00a0" + typeset(bare(value)) + unit;
-}
-
-std::string bare(const std::string& value) {
-  const bool quoted = value.size() >= 2 && (value.front() == '"' || value.front() == '\'');
-  return quoted ? value.substr(1, value.size() - 2) : value;
+  return name + "\u00a0=\u00a0" + typeset(value) + unit;
 }
 
 }  // namespace havers::reports

@@ -72,9 +72,8 @@ TEST(Bench, RunsTheStabilityScenesWithoutAScene) {
   const auto result = nlohmann::json::parse(answer.out);
   EXPECT_GE(result["scenes"].size(), 40U);
   EXPECT_EQ(result["complete"], true);
-  const bool good = std::ranges::all_of(
-      result["scenes"], [](const auto& scene) { return scene["as_it_must"].template get<bool>(); });
-  EXPECT_EQ(answer.exit_code, good ? 0 : 1);
+  for (const auto& scene : result["scenes"]) EXPECT_EQ(scene["as_it_must"], true) << scene.dump();
+  EXPECT_EQ(answer.exit_code, 0);
   EXPECT_TRUE(fs::exists(folder / "out/stability.csv"));
 }
 
@@ -112,8 +111,6 @@ TEST(Bench, ComparesChainsOfOptimisersWithoutAScene) {
   const auto answer = run_havers(folder, "bench --calibration --studies 1 -o out --json");
   ASSERT_NE(answer.exit_code, 2) << answer.err;
   const auto result = nlohmann::json::parse(answer.out);
-  const bool usual = result["winner"] == result["chains"][0]["chain"];
-  EXPECT_EQ(answer.exit_code, usual ? 0 : 1);
   EXPECT_EQ(result["fits"], result["chains"].size());
   for (const auto& chain : result["chains"]) {
     EXPECT_LT(chain["error_10_50_90"][1], 0.2) << chain["chain"];

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
+#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_havers.hpp"
@@ -53,6 +54,18 @@ TEST(Usage, KnownDensitiesAreZeroOrMore) {
         run_havers(own_folder(), "porosity --density 140=1200 --density " + wrong + " a.png")
             .err.starts_with("havers: --density " + wrong + ": is not understood (write "))
         << wrong;
+}
+
+// They wait for a file that nobody writes; timeout kills what a signal does not end.
+TEST(Usage, ASignalEndsCommandsThatHaveNothingToLeave) {
+  for (const std::string command : {"check", "import"})
+    EXPECT_EQ(run_havers(own_folder(),
+                         "-h >help; mkfifo never; timeout --preserve-status -k 20 0.5 "
+                         "'" HAVERS_PROGRAM "' " +
+                             command + " never #")
+                  .exit_code,
+              128 + SIGTERM)
+        << command;
 }
 
 TEST(Usage, VersionSaysWhatIsBuiltIn) {

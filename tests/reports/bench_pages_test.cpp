@@ -39,7 +39,8 @@ TEST(MethodsPage, SaysThatItWasStopped) {
   comparison.complete = false;
   const std::string page = methods_page(comparison, {});
   EXPECT_TRUE(contains(page, "verdict mixed"));
-  EXPECT_TRUE(contains(page, "Stopped before all sections were measured. On 1 drawn sections"));
+  EXPECT_TRUE(
+      contains(page, "Stopped before all sections were measured. On 1 drawn section havers"));
 }
 
 calib::ChainRow chain_row(const std::string& chain, double error, long simulations) {

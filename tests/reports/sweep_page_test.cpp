@@ -4,7 +4,6 @@
 
 #include <limits>
 
-#include "reports/figures/avalanche.hpp"
 #include "reports/sweep/sweep_figure.hpp"
 #include "reports/sweep/sweep_words.hpp"
 #include "tests/support/sweeps.hpp"
@@ -12,8 +11,8 @@
 namespace havers::reports {
 namespace {
 
-using support::deviation;
-using support::KnownSweep;
+using test::deviation;
+using test::KnownSweep;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
@@ -154,7 +153,7 @@ TEST(SweepPage, HasADashForTheInertiaNumberOfTheQuasiStaticLimit) {
 TEST(SweepWords, PutTheUnitBehindTheValue) {
   EXPECT_EQ(place("assembly.orientation_deg", "45"), "θ\u00a0=\u00a045°");
   EXPECT_EQ(place("joints.ratio", "3"), "ratio r\u00a0=\u00a03");
-  EXPECT_EQ(place("joints.distribution", "\"weibull\""), "distribution\u00a0=\u00a0weibull");
+  EXPECT_EQ(place("joints.distribution", "weibull"), "distribution\u00a0=\u00a0weibull");
 }
 
 TEST(SweepFigures, HaveAPanelForEveryValueOfPer) {

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "reports/pages.hpp"
+#include "reports/sweep/sweep_page.hpp"
 
 namespace havers::reports {
 namespace {
@@ -8,6 +8,8 @@ namespace {
 TEST(UnavailablePages, SayHowToGetThem) {
   EXPECT_FALSE(available());
   EXPECT_THAT(import_page({}, {}), testing::HasSubstr("libmstch-dev"));
+  EXPECT_THAT(avalanche_svg({}, {}), testing::HasSubstr("libmstch-dev"));
+  EXPECT_THAT(sweep_page("", {}, {}, 0.0), testing::HasSubstr("libmstch-dev"));
   EXPECT_THAT(comparison_page({}), testing::HasSubstr("gnuplot"));
 }
 

@@ -7,7 +7,7 @@
 
 #include "calib/sweep/measure.hpp"
 
-namespace havers::support {
+namespace havers::test {
 
 /// Points and runs of a plan of one strength: value(point, k) for run k of each point.
 struct KnownSweep {
@@ -42,4 +42,4 @@ inline double deviation(int k) {
   return 1.7 * (k % 20 - 9.5) / 10.0;
 }
 
-}  // namespace havers::support
+}  // namespace havers::test

@@ -9,8 +9,8 @@
 namespace havers::calib {
 namespace {
 
-using support::deviation;
-using support::KnownSweep;
+using test::deviation;
+using test::KnownSweep;
 
 // Strengths of mean 100 + slope x with the standard deviation sd.
 Finding found(FindingTest test, double slope, double sd, double margin = 0.05) {

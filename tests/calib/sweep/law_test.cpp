@@ -9,8 +9,8 @@
 namespace havers::calib {
 namespace {
 
-using support::deviation;
-using support::KnownSweep;
+using test::deviation;
+using test::KnownSweep;
 
 const std::vector<SweepKey> two_keys{{"d", {"0.2", "0.4", "0.8"}}, {"r", {"1", "3"}}};
 

@@ -1,34 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
-#include <mutex>
 #include <numbers>
-#include <optional>
 #include <string>
 
 #include "calib/sweep/sweep.hpp"
 #include "sim/simulate.hpp"
+#include "tests/support/memory_store.hpp"
 
 namespace havers::calib {
 namespace {
-
-class MemoryStore : public EvaluationStore {
- public:
-  std::optional<Response> find(const std::string& key) override {
-    const std::scoped_lock lock(mutex_);
-    const auto found = rows_.find(key);
-    return found == rows_.end() ? std::nullopt : std::optional(found->second);
-  }
-  void save(const std::string& key, const Response& response) override {
-    const std::scoped_lock lock(mutex_);
-    rows_[key] = response;
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<std::string, Response> rows_;
-};
 
 Sweep small_sweep() {
   Sweep sweep;
@@ -61,7 +42,7 @@ TEST(RunSweep, GivesEveryRunASeedOfItsOwn) {
 }
 
 TEST(RunSweep, GoesOnWithWhatTheStoreKeeps) {
-  MemoryStore store;
+  test::MemoryStore store;
   EXPECT_TRUE(run_sweep(small_sweep(), &store, 1, [](auto, auto) { return false; }).cancelled);
   const SweepResult again = run_sweep(small_sweep(), &store, 1, {});
   EXPECT_FALSE(again.cancelled);
@@ -72,7 +53,7 @@ TEST(RunSweep, StopsInsideASimulationAndKeepsThoseBefore) {
   for (const bool patterns : {false, true}) {
     Sweep sweep = small_sweep();
     sweep.patterns = patterns;
-    MemoryStore store;
+    test::MemoryStore store;
     int asked = 0;
     const SweepResult stopped = run_sweep(sweep, &store, 1, {}, [&] { return ++asked >= 400; });
     EXPECT_TRUE(stopped.cancelled);

@@ -79,6 +79,15 @@ TEST(Coverage, StopsWhenTold) {
   EXPECT_FALSE(coverage.complete);
 }
 
+TEST(Coverage, StopsInsideAFitWithoutItsRows) {
+  int fits = 0;
+  const Coverage coverage = measure_coverage(
+      {three_orientations()}, 6, 1, [&] { return ++fits > 0; }, [] { return true; });
+  EXPECT_EQ(fits, 1);
+  EXPECT_TRUE(coverage.rows.empty());
+  EXPECT_FALSE(coverage.complete);
+}
+
 Coverage shares_of(const std::vector<int>& held, int informed) {
   Coverage coverage;
   for (const int part : held)

@@ -2,12 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string>
 
-#include "io/sweep/sweep_files.hpp"
 #include "tests/io/config/complaints.hpp"
 
 namespace havers::io {
@@ -259,41 +256,6 @@ TEST(ReadSweep, NamesKeysThatCannotVary) {
   EXPECT_THAT(complaints_of(folder, [&] { read_sweep(file); }),
               testing::IsSupersetOf(
                   {HasSubstr("joints.seed cannot vary"), HasSubstr("sweep.seeds cannot vary")}));
-}
-
-TEST(SweepFiles, HaveARowForEveryRunAndForEveryPointAndMeasure) {
-  const ScratchFolder folder;
-  const calib::Sweep sweep = read_sweep(folder.write("s.toml", good)).sweep;
-  const calib::SweepResult result = calib::run_sweep(sweep, nullptr, 1, {});
-  const std::string runs = runs_csv(sweep, result);
-  EXPECT_THAT(runs, testing::StartsWith("point,level,joints.distribution,joints.scatter,seed,"
-                                        "outcome,strength_Pa,failure_strain,modulus_Pa"));
-  EXPECT_EQ(std::ranges::count(runs, '\n'), 1 + 4 * 3);
-  EXPECT_EQ(std::ranges::count(summary_csv(sweep, result), '\n'), 1 + 4 * 5);
-}
-
-TEST(SweepFiles, ExportTheLawsAndTheFindings) {
-  const ScratchFolder folder;
-  const calib::Sweep sweep = read_sweep(folder.write("s.toml", good)).sweep;
-  const calib::SweepResult result = calib::run_sweep(sweep, nullptr, 1, {});
-  const nlohmann::json laws = laws_json(result);
-  EXPECT_EQ(laws["laws"][0]["terms"][0], "joints.scatter");
-  EXPECT_EQ(laws["laws"][0]["coefficients"].size(), 2U);
-  const std::vector<calib::SweepLaw> read = read_laws(folder.write("laws.json", laws.dump()));
-  ASSERT_EQ(read.size(), 1U);
-  EXPECT_EQ(read[0].terms, result.laws[0].request.terms);
-  EXPECT_EQ(read[0].coefficients, result.laws[0].coefficients);
-  const nlohmann::json json = sweep_json(sweep, result);
-  EXPECT_EQ(json["points"][2]["keys"]["joints.distribution"], "weibull");
-  EXPECT_EQ(json["points"][2]["measures"]["strength_Pa"]["n"], 3);
-  EXPECT_EQ(json["findings"][0]["id"], "A");
-}
-
-TEST(SweepFiles, RefuseWhatIsNoFileOfLaws) {
-  const ScratchFolder folder;
-  for (const char* text : {"", "{}", "[1]", R"({"laws": 3})", R"({"laws": []})",
-                           R"({"laws": [{"response": "failure_strain", "status": "fitted"}]})"})
-    EXPECT_THROW(read_laws(folder.write("laws.json", text)), InputError) << text;
 }
 
 }  // namespace
