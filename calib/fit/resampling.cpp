@@ -34,12 +34,8 @@ struct Normal {
   }
 };
 
-// Residuals are widened by what the fit took from them, landmark by landmark.
-std::vector<Normal> normals_of(const FitProblem& problem, const Answer& answer) {
-  const Landmarks told = residuals_told(problem, answer.best);
-  const Landmarks freedom =
-      (told - parameters_spent(problem, answer.best, answer.slopes.jacobian)).max(1.0);
-  const Landmarks widen = (told / freedom).max(1.0).sqrt();
+std::vector<Normal> normals_of(const FitProblem& problem, const Answer& answer,
+                               const Landmarks& widen) {
   std::vector<Normal> normals;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const Index row = first_row(f);
@@ -48,6 +44,20 @@ std::vector<Normal> normals_of(const FitProblem& problem, const Answer& answer) 
     normals.push_back({rows.transpose() * rows, rows.transpose() * residuals});
   }
   return normals;
+}
+
+// What a draw's residuals lack: the fit took it from them, landmark by landmark.
+Landmarks widening(const FitProblem& problem, const Answer& answer) {
+  const Landmarks told = residuals_told(problem, answer.best);
+  const Landmarks freedom =
+      (told - parameters_spent(problem, answer.best, answer.slopes.jacobian)).max(1.0);
+  return (told / freedom).max(1.0).sqrt();
+}
+
+Normal sum_of(const std::vector<Normal>& normals) {
+  Normal all{0.0 * normals.front().matrix, 0.0 * normals.front().vector};
+  for (const Normal& one : normals) all.add(one, 1.0);
+  return all;
 }
 
 // −(JᵀJ)⁻¹ Jᵀr; NaN where the specimens do not determine it.
@@ -65,14 +75,14 @@ std::size_t pick(std::uint64_t seed, int draw, std::size_t turn, std::size_t cou
   return r123::Philox2x64()(counter, {{seed ^ 0x626f6f74ULL}})[0] % count;
 }
 
-void bootstrap(const std::vector<Normal>& normals, const Normal& all, std::uint64_t seed,
-               Resampling& result) {
+void bootstrap(const std::vector<Normal>& normals, std::uint64_t seed, Resampling& result) {
   const std::size_t n = normals.size();
   if (n < fewest_specimens) {
     result.missing = fmt::format("{} {} too few to draw from, {} are the least",
                                  count(n, "specimen"), n == 1 ? "is" : "are", fewest_specimens);
     return;
   }
+  const Normal all = sum_of(normals);
   std::vector<std::vector<double>> shifts(static_cast<std::size_t>(all.vector.size()));
   const VectorXd here = step_of(all);
   for (int draw = 0; draw < draws; ++draw) {
@@ -102,9 +112,8 @@ void bootstrap(const std::vector<Normal>& normals, const Normal& all, std::uint6
 }  // namespace
 
 Resampling resample(const FitProblem& problem, const Answer& answer) {
-  const auto normals = normals_of(problem, answer);
-  Normal all{0.0 * normals.front().matrix, 0.0 * normals.front().vector};
-  for (const Normal& one : normals) all.add(one, 1.0);
+  const auto normals = normals_of(problem, answer, Landmarks::Ones());
+  const Normal all = sum_of(normals);
 
   Resampling result;
   const VectorXd here = step_of(all);
@@ -114,7 +123,8 @@ Resampling resample(const FitProblem& problem, const Answer& answer) {
     rest.add(normals[f], -1.0);
     result.left_out.row(static_cast<Index>(f)) = (step_of(rest) - here).transpose();
   }
-  bootstrap(normals, all, problem.study.calibrate.seed, result);
+  bootstrap(normals_of(problem, answer, widening(problem, answer)), problem.study.calibrate.seed,
+            result);
   return result;
 }
 

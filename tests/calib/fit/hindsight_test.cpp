@@ -64,6 +64,23 @@ TEST(Hindsight, TellsHowTheAnswerMovesWithoutASpecimen) {
               (without.value - with.value) / with.standard_error, 0.3);
 }
 
+// The answer is the mean of log E: without one of n specimens it is that of the others.
+TEST(Hindsight, TellsExactlyHowOneMeanMovesWithoutASpecimen) {
+  for (const auto& degrees : {std::vector{0.0}, test::three_orientations}) {
+    auto study = test::synthetic_study(degrees, {.specimen_effect = 0.05});
+    study.calibrate.parameters = {"young_GPa"};
+    study.calibrate.terms = {"modulus"};
+    const auto result = test::fit(study);
+    const auto young = test::parameter_of(result, "young_GPa");
+    for (const auto& specimen : result.specimens) {
+      const double above = std::log(specimen.measured.modulus / (1e9 * young.value));
+      const double exact = -above / (static_cast<double>(result.specimens.size()) - 1.0);
+      EXPECT_NEAR(specimen.influence.front().shift * young.standard_error / young.value / exact,
+                  1.0, 0.01);
+    }
+  }
+}
+
 // Not the weights, the draws of the bootstrap, nor the specimen that a further test is made from.
 TEST(Hindsight, IsTheSameForSpecimensInAnyOrder) {
   auto study = test::synthetic_study({0.0, 45.0}, {.specimen_effect = 0.05});
