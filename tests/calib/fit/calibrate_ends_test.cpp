@@ -197,6 +197,34 @@ TEST(Calibrate, StopsInsideAnySimulationAndGoesOnFromTheStore) {
   }
 }
 
+// A disk that is full after a while: whichever search is on then, an optimiser must not make a
+// failure of its own of it, after which the fit would go on.
+TEST(Calibrate, EndsWithWhatTheStoreThrowsInAnySearch) {
+  class FillingStore final : public EvaluationStore {
+   public:
+    explicit FillingStore(long room) : room_(room) {}
+    std::optional<Response> find(const std::string&) override { return std::nullopt; }
+    void save(const std::string&, const Response&) override {
+      if (--room_ < 0) throw std::runtime_error("the disk is full");
+    }
+
+   private:
+    long room_;
+  };
+  auto study = test::synthetic_study({0.0, 45.0});
+  study.calibrate.replicates = 4;
+  for (const auto global : {GlobalSearch::starts, GlobalSearch::mlsl, GlobalSearch::direct}) {
+    study.calibrate.global = global;
+    const long all = test::fit(study).simulated;
+    for (long room = 0; room < all; room += 1 + all / 12) {
+      FillingStore store(room);
+      EXPECT_THROW(calibrate_with(test::ClosedForm{}.simulator(), study, &store),
+                   std::runtime_error)
+          << room << " of " << all;
+    }
+  }
+}
+
 // Two of three replicates fail: what the third says is no cost.
 TEST(Calibrate, HasNoCostWhereNoPointHasAnAnswer) {
   auto simulator = test::ClosedForm{}.simulator();
