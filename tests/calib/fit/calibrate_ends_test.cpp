@@ -197,30 +197,30 @@ TEST(Calibrate, StopsInsideAnySimulationAndGoesOnFromTheStore) {
   }
 }
 
-// A disk that is full after a while: whichever search is on then, an optimiser must not make a
+// A file that is locked for a moment: whichever search is on then, an optimiser must not make a
 // failure of its own of it, after which the fit would go on.
 TEST(Calibrate, EndsWithWhatTheStoreThrowsInAnySearch) {
-  class FillingStore final : public EvaluationStore {
+  class LockedStore final : public EvaluationStore {
    public:
-    explicit FillingStore(long room) : room_(room) {}
+    explicit LockedStore(long saves) : saves_(saves) {}
     std::optional<Response> find(const std::string&) override { return std::nullopt; }
     void save(const std::string&, const Response&) override {
-      if (--room_ < 0) throw std::runtime_error("the disk is full");
+      if (saves_-- == 0) throw std::runtime_error("the file is locked");
     }
 
    private:
-    long room_;
+    long saves_;
   };
   auto study = test::synthetic_study({0.0, 45.0});
   study.calibrate.replicates = 4;
   for (const auto global : {GlobalSearch::starts, GlobalSearch::mlsl, GlobalSearch::direct}) {
     study.calibrate.global = global;
     const long all = test::fit(study).simulated;
-    for (long room = 0; room < all; room += 1 + all / 12) {
-      FillingStore store(room);
+    for (long saves = 0; saves < all; saves += 1 + all / 12) {
+      LockedStore store(saves);
       EXPECT_THROW(calibrate_with(test::ClosedForm{}.simulator(), study, &store),
                    std::runtime_error)
-          << room << " of " << all;
+          << saves << " of " << all;
     }
   }
 }
