@@ -21,7 +21,9 @@ struct Answer {
   std::vector<StageLog> stages;
   std::vector<double> starts;  ///< Costs of all starts, lowest first.
   int replicates = 0;
-  Differences slopes;                 ///< At the best point; failed where it could not be had.
+  Differences slopes;  ///< At the best point; failed where it could not be had.
+  /// The same Jacobian and, beside it, that of what was asked for and left out (F9).
+  Eigen::MatrixXd asked_slopes;
   Uncertainty uncertainty;            ///< Empty when `slopes` failed.
   std::vector<Evaluation> elsewhere;  ///< Along the unknowns asked for that were left out (F22).
   std::vector<Profile> profiles;

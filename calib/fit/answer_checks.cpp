@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "calib/count.hpp"
 #include "calib/fit/model_checks.hpp"
@@ -237,25 +238,34 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
 }
 
 std::string weibull_sentence(const CalibrationResult& result, const std::set<double>& one_sided) {
-  std::vector<double> measured, simulated;
+  struct Strengths {
+    std::vector<double> measured, simulated;  // over that predicted
+  };
+  std::map<double, Strengths> by_orientation;  // a mixture has no modulus
   for (const auto& specimen : result.specimens) {
     if (specimen.use != Use::fit || !specimen.measured.broke || !(specimen.strength.mean > 0.0) ||
         one_sided.contains(specimen.orientation))
       continue;
-    measured.push_back(specimen.measured.strength / specimen.strength.mean);
+    Strengths& strengths = by_orientation[specimen.orientation];
+    strengths.measured.push_back(specimen.measured.strength / specimen.strength.mean);
     for (const auto& replicate : specimen.replicates)
       if (!replicate.failed && replicate.broke)
-        simulated.push_back(replicate.strength / specimen.strength.mean);
+        strengths.simulated.push_back(replicate.strength / specimen.strength.mean);
   }
-  if (measured.size() < 5 || simulated.size() < 5) return "";
-  const Weibull tests = weibull(measured);
-  const auto [least, most] = std::ranges::minmax(simulated);
-  return fmt::format(
-      " The scatter of the measured strengths about those predicted is that of a Weibull modulus "
-      "of {:.3g} (95 % interval {:.3g} to {:.3g}), the replicates {}.",
-      tests.unbiased, tests.interval_95[0], tests.interval_95[1],
-      most - least > 1e-9 ? fmt::format("have one of {:.3g}", weibull(simulated).unbiased)
-                          : "do not scatter");
+  std::string text;
+  for (const auto& [orientation, strengths] : by_orientation) {
+    if (strengths.measured.size() < 5 || strengths.simulated.size() < 5) continue;
+    const Weibull tests = weibull(strengths.measured);
+    const auto [least, most] = std::ranges::minmax(strengths.simulated);
+    text += fmt::format(
+        " The scatter of the strengths measured at {:.4g} deg about those predicted is that of a "
+        "Weibull modulus of {:.3g} (95 % interval {:.3g} to {:.3g}), the replicates {}.",
+        orientation / degree, tests.unbiased, tests.interval_95[0], tests.interval_95[1],
+        most - least > 1e-9
+            ? fmt::format("have one of {:.3g}", weibull(strengths.simulated).unbiased)
+            : "do not scatter");
+  }
+  return text;
 }
 
 }  // namespace havers::calib

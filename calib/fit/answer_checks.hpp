@@ -29,7 +29,8 @@ Check check_intervals(const FitProblem& problem, const CalibrationResult& result
 /// The model describes the strengths better than laws without fibres (F19).
 Check check_plain_law(const FitProblem& problem, const Answer& answer);
 
-/// What spread the strengths show, beside that of the replicates, as Weibull's moduli.
+/// What spread the strengths of each orientation show, beside that of the replicates, as Weibull's
+/// moduli; nothing where fewer than five broke.
 /// @param one_sided  orientations that say nothing of it, from `one_sided_orientations`
 std::string weibull_sentence(const CalibrationResult& result, const std::set<double>& one_sided);
 

@@ -203,8 +203,9 @@ void assess_answer(Trail& trail, Answer& answer) {
   answer.slopes = differentiate(trail, answer.best, answer.active, slope_step);
   answer.best = trail.best();
   if (answer.slopes.failed) return;
+  answer.asked_slopes = with_left_out(trail, answer, answer.slopes);
   answer.uncertainty = uncertainty_of(trail.problem(), answer.weights, answer.best, answer.active,
-                                      with_left_out(trail, answer, answer.slopes));
+                                      answer.asked_slopes);
   for (const Eigen::Index unknown : asked_and_left(trail, answer)) {
     trail.enter("unknowns left out");
     std::ranges::move(walk_along(trail, unknown, answer.active, answer.slopes.jacobian),

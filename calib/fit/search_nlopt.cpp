@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <exception>
 #include <nlopt.hpp>
 
 #include "calib/fit/search.hpp"
@@ -18,7 +19,7 @@ struct Objective {
   const Split& split;
   nlopt::opt& optimiser;
   Evaluation best;
-  int points = 0;
+  std::exception_ptr thrown{};  // NLopt would make a failure of its own of it
 
   double operator()(const std::vector<double>& values) {
     if (trail.stopped()) optimiser.force_stop();
@@ -26,14 +27,20 @@ struct Objective {
     for (std::size_t i = 0; i < values.size(); ++i) point[split.costly[i]] = values[i];
     auto here = trail.evaluate(inside_bounds(trail.problem().unknowns, point));
     if (!here.failed && !split.free.empty()) here = search_ceres(trail, here, split.free).best;
-    ++points;
     if (here.cost < best.cost) best = here;
     return here.failed ? cost_of_failure : std::min(here.cost, cost_of_failure);
   }
 
   static double call(const std::vector<double>& values, std::vector<double>& /*gradient*/,
                      void* self) {
-    return (*static_cast<Objective*>(self))(values);
+    auto& objective = *static_cast<Objective*>(self);
+    try {
+      if (!objective.thrown) return objective(values);
+    } catch (...) {
+      objective.thrown = std::current_exception();
+      objective.optimiser.force_stop();
+    }
+    return cost_of_failure;
   }
 };
 
@@ -124,6 +131,7 @@ SearchResult follow(const Plan& plan, Trail& trail, const Evaluation& start, con
   for (const Eigen::Index k : split.costly) values.push_back(start.point[k]);
 
   result.log.message = run(optimiser, values);
+  if (objective.thrown) std::rethrow_exception(objective.thrown);
   result.best = objective.best;
   result.log.cost_after = result.best.cost;
   result.log.evaluations = trail.points() - points_before;

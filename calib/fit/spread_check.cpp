@@ -2,13 +2,15 @@
 #include <fmt/format.h>
 #include <gsl/gsl_cdf.h>
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
-#include "calib/count.hpp"
 #include "calib/fit/model_checks.hpp"
 #include "calib/fit/specimen_effect.hpp"
 
@@ -25,28 +27,80 @@ std::string left_out_text(const std::set<double>& one_sided) {
                      fmt::join(degrees, ", "));
 }
 
-// (F9) without a specimen effect: what the residuals would be if specimens were alike. Where they
-// differ too much for a model of one bone, that is what rejects it.
-std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer, bool rejected) {
-  if (answer.best.failed || answer.weights.sd.empty()) return "";
-  const auto one_sided = one_sided_orientations(problem, answer.best);
-  double sum = 0.0, terms = 0.0;
+/// Residuals of one landmark at one orientation as they would be if specimens were alike.
+struct AlikeGroup {
+  double squares = 0.0, freedom = 0.0;
+  double replicates = 0.0;  // part of the variance that the replicates' spread makes, × freedom
+  double known = 0.0;       // degrees of freedom of that spread
+
+  // χ² of the chance that an F test gives them, as the replicates are few.
+  [[nodiscard]] double chi_squared() const {
+    const double part = replicates / freedom;
+    const double chance = part * part < 1e-6 * known
+                              ? gsl_cdf_chisq_Q(squares, freedom)
+                              : gsl_cdf_fdist_Q(squares / freedom, freedom, known / (part * part));
+    return gsl_cdf_chisq_Qinv(std::max(chance, 1e-300), freedom);
+  }
+};
+
+// (F9) without a specimen effect, and with the answer moved to where that puts it: by landmark and
+// orientation.
+std::map<std::pair<Eigen::Index, double>, AlikeGroup> alike_groups(
+    const FitProblem& problem, const Answer& answer, const std::set<double>& one_sided) {
+  Eigen::VectorXd residuals = answer.best.residuals;
+  Eigen::MatrixXd jacobian = answer.asked_slopes;
+  if (answer.active.empty()) jacobian.resize(residuals.size(), 0);
+  std::vector<Landmarks> part(problem.fitted.size(), Landmarks::Zero());
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
-    const Landmarks alike =
-        (answer.weights.sd[s].square() - answer.weights.specimen.square()).sqrt();
-    const auto& prediction = answer.best.predictions[f];
-    auto told = tells(prediction, problem.targets[s]);
-    if (one_sided.contains(problem.study.specimens[s].orientation)) told[strength] = false;
-    sum += told.select(difference(prediction, problem.targets[s]) / alike, 0.0).square().sum();
-    terms += static_cast<double>(told.count());
+    const auto& weights = answer.weights;
+    const Landmarks alike = (weights.sd[s].square() - weights.specimen.square()).sqrt();
+    const Landmarks factor = tells(answer.best.predictions[f], problem.targets[s])
+                                 .select(weights.sd[s] / alike, Landmarks(Landmarks::Ones()));
+    residuals.segment<landmark_count>(first_row(f)).array() *= factor;
+    jacobian.middleRows<landmark_count>(first_row(f)).array().colwise() *= factor;
+    part[f] = (weights.replicates[s] / alike).square();
   }
-  const double freedom = terms - static_cast<double>(answer.active.size());
+  residuals -= followed(jacobian, residuals);
+  const Eigen::VectorXd spent = leverage(jacobian);
+
+  std::map<std::pair<Eigen::Index, double>, AlikeGroup> groups;
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+    const double orientation = problem.study.specimens[problem.fitted[f]].orientation;
+    const auto& prediction = answer.best.predictions[f];
+    auto told = tells(prediction, problem.targets[problem.fitted[f]]);
+    if (one_sided.contains(orientation)) told[strength] = false;
+    for (Eigen::Index q = 0; q < landmark_count; ++q) {
+      AlikeGroup& group = groups[{q, orientation}];
+      group.known += std::max(prediction.usable - 1, 1);
+      if (!told[q]) continue;
+      const Eigen::Index row = first_row(f) + q;
+      group.squares += residuals[row] * residuals[row];
+      group.freedom += 1.0 - spent[row];
+      group.replicates += (1.0 - spent[row]) * part[f][q];
+    }
+  }
+  return groups;
+}
+
+// Where specimens differ too much for a model of one bone, that is what rejects it.
+std::string chi_squared_sentence(const FitProblem& problem, const Answer& answer, bool rejected) {
+  constexpr double least_of_group = 0.1;  // what has less was followed
+  if (answer.best.failed || answer.weights.sd.empty()) return "";
+  if (answer.slopes.failed && !answer.active.empty()) return "";
+  const auto one_sided = one_sided_orientations(problem, answer.best);
+  double sum = 0.0, freedom = 0.0;
+  for (const auto& [where, group] : alike_groups(problem, answer, one_sided)) {
+    if (group.freedom < least_of_group) continue;
+    sum += group.chi_squared();
+    freedom += group.freedom;
+  }
   if (freedom < 1.0) return "";
   const double chance = gsl_cdf_chisq_Q(sum, freedom);
   const bool unlike = chance < significance && !answer.active.empty();
-  return fmt::format(" Were they alike, χ² would be {:.3g} on {} of freedom ({}){}{}.", sum,
-                     count(static_cast<long>(freedom), "degree"), chance_text(chance),
+  const std::string degrees = fmt::format("{:.3g}", freedom);
+  return fmt::format(" Were they alike, χ² would be {:.3g} on {} degree{} of freedom ({}){}{}.",
+                     sum, degrees, degrees == "1" ? "" : "s", chance_text(chance),
                      !unlike    ? ""
                      : rejected ? ": they are not"
                                 : ": they are not, which widens the intervals and rejects nothing",

@@ -14,8 +14,9 @@ namespace havers::calib {
 /// when the budget is spent or the user has had enough. An answer is always taken from here, never
 /// from an optimiser.
 ///
-/// The budget counts sets: the replicates of one specimen at one normal form (F3). A set found in
-/// the store counts like one simulated, so that a fit resumed takes the same path.
+/// The budget counts points that need new simulations (F3), as many as all replicates of all
+/// fitted specimens: those with fewer replicates count in proportion. A simulation found in the
+/// store counts like one that is run, so that a fit resumed takes the same path.
 class Trail {
  public:
   Trail(const FitProblem& problem, SimulationBatch& batch, const CalibrationObserver& observer)

@@ -62,7 +62,7 @@ struct CalibrateOptions {
   bool smooth = true;      ///< Least squares by Ceres after the derivative-free search.
   bool profiles = true;    ///< Profile likelihood of every parameter.
   int confirm = 0;         ///< Simulations step by step in time that check the quasi-static answer.
-  int budget = 400;        ///< Simulations of one specimen's set.
+  int budget = 400;        ///< Points with all specimens and replicates that may be simulated.
   std::uint64_t seed = 1;  ///< Of the replicates' seeds and of the optimisers' random starts.
   int threads = 0;         ///< 0: as many as the machine has. Never changes a number.
 

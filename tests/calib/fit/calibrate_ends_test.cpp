@@ -197,6 +197,34 @@ TEST(Calibrate, StopsInsideAnySimulationAndGoesOnFromTheStore) {
   }
 }
 
+// A file that is locked for a moment: whichever search is on then, an optimiser must not make a
+// failure of its own of it, after which the fit would go on.
+TEST(Calibrate, EndsWithWhatTheStoreThrowsInAnySearch) {
+  class LockedStore final : public EvaluationStore {
+   public:
+    explicit LockedStore(long saves) : saves_(saves) {}
+    std::optional<Response> find(const std::string&) override { return std::nullopt; }
+    void save(const std::string&, const Response&) override {
+      if (saves_-- == 0) throw std::runtime_error("the file is locked");
+    }
+
+   private:
+    long saves_;
+  };
+  auto study = test::synthetic_study({0.0, 45.0});
+  study.calibrate.replicates = 4;
+  for (const auto global : {GlobalSearch::starts, GlobalSearch::mlsl, GlobalSearch::direct}) {
+    study.calibrate.global = global;
+    const long all = test::fit(study).simulated;
+    for (long saves = 0; saves < all; saves += 1 + all / 12) {
+      LockedStore store(saves);
+      EXPECT_THROW(calibrate_with(test::ClosedForm{}.simulator(), study, &store),
+                   std::runtime_error)
+          << saves << " of " << all;
+    }
+  }
+}
+
 // Two of three replicates fail: what the third says is no cost.
 TEST(Calibrate, HasNoCostWhereNoPointHasAnAnswer) {
   auto simulator = test::ClosedForm{}.simulator();

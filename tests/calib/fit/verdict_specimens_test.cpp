@@ -9,6 +9,7 @@
 #include "calib/fit/answer_checks.hpp"
 #include "calib/fit/calibrate.hpp"
 #include "calib/fit/model_checks.hpp"
+#include "calib/synthetic/known_study.hpp"
 #include "tests/support/studies.hpp"
 
 namespace havers::calib {
@@ -25,6 +26,19 @@ TEST(Verdict, RejectsSpecimensThatDifferByMoreThanHalf) {
   EXPECT_TRUE(says(check, "exchanged?")) << check.text;
   EXPECT_TRUE(says(check, ": they are not.")) << check.text;
   EXPECT_FALSE(says(check, "rejects nothing")) << check.text;
+}
+
+// Equal weights of a specimen effect pull the answer off the moduli known best, and four replicates
+// hardly know the variance of strengths: neither is a difference of specimens.
+TEST(Verdict, SeldomSaysThatSpecimensThatAreAlikeAreNot) {
+  for (const int number : {15, 57}) {
+    auto known = known_study(three_orientations(), number);
+    known.study.calibrate.threads = 1;
+    known.study.calibrate.profiles = false;
+    const auto check = check_of(calibrate(known.study), "spread between specimens");
+    EXPECT_TRUE(says(check, "Were they alike, χ² would be ")) << number << ": " << check.text;
+    EXPECT_FALSE(says(check, "they are not")) << number << ": " << check.text;
+  }
 }
 
 TEST(Verdict, SaysThatAsManyParametersAsStrengthsLeaveNoSpread) {

@@ -135,6 +135,31 @@ TEST(CalibrationResult, SaysWhyItIsNotTrusted) {
   EXPECT_EQ(why_not_trusted(result), "2 of 2 checks failed (converged, inside bounds)");
 }
 
+// Strengths of two orientations that scatter differently have no modulus together.
+TEST(Verdict, SaysTheWeibullModulusOfOneOrientationAtATime) {
+  CalibrationResult result;
+  const auto test = [&](double degrees, double scatter, int i) {
+    SpecimenResult& specimen = result.specimens.emplace_back();
+    specimen.orientation = degrees * degree;
+    specimen.strength.mean = 1.0;
+    specimen.measured.broke = true;
+    specimen.measured.strength = 1.0 + scatter * (i - 2);
+    ReplicateResult& replicate = specimen.replicates.emplace_back();
+    replicate.failed = false;
+    replicate.broke = true;
+    replicate.strength = specimen.measured.strength;
+  };
+  for (int i = 0; i < 5; ++i) test(0.0, 0.1, i);
+  const auto along = weibull_sentence(result, {});
+  EXPECT_THAT(along, testing::StartsWith(" The scatter of the strengths measured at 0 deg about"));
+  for (int i = 0; i < 4; ++i) test(90.0, 0.001, i);
+  EXPECT_EQ(weibull_sentence(result, {}), along) << "four are too few";
+  test(90.0, 0.001, 4);
+  const auto both = weibull_sentence(result, {});
+  EXPECT_THAT(both, testing::StartsWith(along));
+  EXPECT_THAT(both.substr(along.size()), testing::HasSubstr("measured at 90 deg"));
+}
+
 TEST(CalibrationStatus, HasASentenceEach) {
   std::set<std::string> sentences;
   for (const auto status : {CalibrationStatus::converged, CalibrationStatus::budget_spent,
