@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tests/io/config/complaints.hpp"
+#include "tests/io/sweep/small_sweep.hpp"
 
 namespace havers::io {
 namespace {
@@ -15,33 +16,9 @@ using test::ScratchFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const std::string good = R"(
-[sweep]
-name = "Small"
-sample = "grid"
-seeds = 3
-[sweep.keys]
-"joints.scatter" = [0.2, 0.8]
-"joints.distribution" = ["uniform", "weibull"]
-[assembly]
-layers = 4
-fibres = 3
-[solver]
-regime = "quasi-static"
-[[law]]
-response = "strength"
-terms = ["joints.scatter"]
-[[finding]]
-id = "A"
-test = "falls"
-keys = ["joints.scatter"]
-[[figure]]
-x = "joints.scatter"
-)";
-
 TEST(ReadSweep, SaysWhichKeysChangeNothing) {
   const ScratchFolder folder;
-  const auto file = folder.write("s.toml", good);
+  const auto file = folder.write("s.toml", test::small_sweep);
   EXPECT_THAT(read_sweep(file).warnings, testing::IsEmpty());
   EXPECT_THAT(read_sweep(file, {"joints.seed=3", "sweep.points=9"}).warnings,
               ElementsAre(HasSubstr("joints.seed changes nothing: sweep.seed"),
@@ -57,7 +34,7 @@ TEST(ReadSweep, SaysWhichKeysChangeNothing) {
 // TOML keeps no order: the keys are in that of the alphabet.
 TEST(ReadSweep, MakesASceneOfEveryPoint) {
   const ScratchFolder folder;
-  const calib::Sweep sweep = read_sweep(folder.write("s.toml", good)).sweep;
+  const calib::Sweep sweep = read_sweep(folder.write("s.toml", test::small_sweep)).sweep;
   EXPECT_EQ(sweep.name, "Small");
   EXPECT_EQ(sweep.plan.seeds, 3);
   ASSERT_EQ(sweep.points.size(), 4U);
@@ -89,7 +66,7 @@ thresholds_file = "joints.csv"
 
 TEST(ReadSweep, TakesTheSeedOfTheCommandLine) {
   const ScratchFolder folder;
-  EXPECT_EQ(read_sweep(folder.write("s.toml", good), {}, 7).sweep.plan.seed, 7U);
+  EXPECT_EQ(read_sweep(folder.write("s.toml", test::small_sweep), {}, 7).sweep.plan.seed, 7U);
 }
 
 TEST(ReadSweep, NamesAnImpossibleValueOnceAndByTheSweepsKey) {
@@ -226,7 +203,7 @@ TEST(ReadSweep, NamesAMarginThatCannotBe) {
 
 TEST(ReadSweep, RefusesASettingOfAKeyThatVaries) {
   const ScratchFolder folder;
-  const auto file = folder.write("s.toml", good);
+  const auto file = folder.write("s.toml", test::small_sweep);
   for (const char* setting : {"joints.scatter = 0.3", "joints = {scatter = 0.3}"})
     EXPECT_THAT(complaints_of(folder, [&] { read_sweep(file, {setting}); }),
                 ElementsAre("--set joints.scatter: sets nothing: the sweep varies it (--set "

@@ -10,39 +10,16 @@
 #include "io/machine/csv_rows.hpp"
 #include "io/sweep/read_sweep.hpp"
 #include "tests/io/config/complaints.hpp"
+#include "tests/io/sweep/small_sweep.hpp"
 
 namespace havers::io {
 namespace {
 
 using test::ScratchFolder;
 
-const std::string two_keys = R"(
-[sweep]
-name = "Small"
-sample = "grid"
-seeds = 3
-[sweep.keys]
-"joints.scatter" = [0.2, 0.8]
-"joints.distribution" = ["uniform", "weibull"]
-[assembly]
-layers = 4
-fibres = 3
-[solver]
-regime = "quasi-static"
-[[law]]
-response = "strength"
-terms = ["joints.scatter"]
-[[finding]]
-id = "A"
-test = "falls"
-keys = ["joints.scatter"]
-[[figure]]
-x = "joints.scatter"
-)";
-
 TEST(SweepFiles, HaveARowForEveryRunAndForEveryPointAndMeasure) {
   const ScratchFolder folder;
-  const calib::Sweep sweep = read_sweep(folder.write("s.toml", two_keys)).sweep;
+  const calib::Sweep sweep = read_sweep(folder.write("s.toml", test::small_sweep)).sweep;
   const calib::SweepResult result = calib::run_sweep(sweep, nullptr, 1, {});
   const std::string runs = runs_csv(sweep, result);
   EXPECT_THAT(runs, testing::StartsWith("point,level,joints.distribution,joints.scatter,seed,"
@@ -53,7 +30,7 @@ TEST(SweepFiles, HaveARowForEveryRunAndForEveryPointAndMeasure) {
 
 TEST(SweepFiles, ExportTheLawsAndTheFindings) {
   const ScratchFolder folder;
-  const calib::Sweep sweep = read_sweep(folder.write("s.toml", two_keys)).sweep;
+  const calib::Sweep sweep = read_sweep(folder.write("s.toml", test::small_sweep)).sweep;
   const calib::SweepResult result = calib::run_sweep(sweep, nullptr, 1, {});
   const nlohmann::json laws = laws_json(result);
   EXPECT_EQ(laws["laws"][0]["terms"][0], "joints.scatter");
