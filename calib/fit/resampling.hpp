@@ -10,8 +10,8 @@ namespace havers::calib {
 /// How the active unknowns would move, in the scale of their search.
 struct Resampling {
   Eigen::MatrixXd left_out;  ///< Row f: without fitted specimen f. NaN: not determined then.
-  /// 95 % bootstrap interval of the shift (F16); empty if missing. Six specimens are too few to
-  /// draw from: it is shorter than it should be.
+  /// 95 % bootstrap interval of the shift (F16); empty if missing. Of six specimens, too few to
+  /// draw from, it holds the truth in 78 to 91 % of studies.
   Eigen::VectorXd lower, upper;
   std::string missing;  ///< Why there is no bootstrap interval.
 };
