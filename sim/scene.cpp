@@ -72,10 +72,10 @@ class Checker {
     if (!holds) say(key, fmt::format("is {:g}, must be {}", value, rule), hint);
   }
   void positive(std::string_view key, double value) {
-    require(is_positive(value), key, value, "above 0");
+    require(is_positive(value), key, value, std::isinf(value) ? "finite" : "above 0");
   }
   void not_negative(std::string_view key, double value) {
-    require(is_not_negative(value), key, value, "0 or more");
+    require(is_not_negative(value), key, value, std::isinf(value) ? "finite" : "0 or more");
   }
   void say(std::string_view key, std::string what, std::string_view hint = {}) {
     found_.push_back({std::string(key), std::move(what), std::string(hint)});
@@ -87,7 +87,7 @@ class Checker {
 };
 
 void check_assembly(const AssemblyOptions& assembly, Checker& checker) {
-  constexpr double most_fibres = 1e6, most_cells = 1e7;
+  constexpr double most_fibres = 1e6, most_cells = 1e7, most_slender = 1e6;
   const double fibres = static_cast<double>(assembly.layers) * assembly.fibres;
   checker.require(assembly.layers >= 1, "assembly.layers", assembly.layers, "at least 1");
   checker.require(assembly.fibres >= 1, "assembly.fibres", assembly.fibres, "at least 1");
@@ -111,6 +111,10 @@ void check_assembly(const AssemblyOptions& assembly, Checker& checker) {
     checker.require(assembly.fibre_length >= assembly.fibre_height, "assembly.fibre_length_um",
                     assembly.fibre_length * 1e6, "at least fibre_height_um",
                     "a fibre is longer than it is high");
+  if (is_positive(assembly.fibre_length) && is_positive(assembly.fibre_height))
+    checker.require(assembly.fibre_length <= most_slender * assembly.fibre_height,
+                    "assembly.fibre_length_um", assembly.fibre_length * 1e6,
+                    fmt::format("at most {:g} times fibre_height_um", most_slender));
 
   if (is_positive(assembly.fibre_length) && is_positive(assembly.fibre_height) &&
       !std::isnormal(assembly.fibre_length * assembly.fibre_height))

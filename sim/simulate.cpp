@@ -6,14 +6,12 @@
 #include <cassert>
 #include <cmath>
 
-#include "sim/assembly/assembly.hpp"
 #include "sim/dynamics/time_stepping.hpp"
 #include "sim/joint/cohesive_cone.hpp"
 #include "sim/joint/thresholds.hpp"
 #include "sim/outcome.hpp"
 #include "sim/quasi_static/breaking_sequence.hpp"
 #include "sim/simulation.hpp"
-#include "sim/structure/pieces.hpp"
 
 namespace havers::sim {
 
@@ -44,17 +42,6 @@ RegimeChoice choose_regime(const Scene& scene) {
 }
 
 namespace {
-
-// Whether missing joints leave no chain of bonded ones from end to end. In time its pieces would
-// swing on their own for as long as they are watched.
-bool is_severed(const Scene& scene) {
-  if (!some_are_missing(scene.joints)) return false;
-  const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
-  const std::vector<Threshold> thresholds = draw_thresholds(scene, assembly);
-  DisjointSets pieces =
-      pieces_of(assembly, [&](std::size_t joint) { return !is_missing(thresholds[joint]); });
-  return !ends_hang_together(assembly, pieces);
-}
 
 // Whether (M5) gives an intact joint a wider cone than its thresholds do.
 bool is_widened(const JointOutcome& joint) {
@@ -107,9 +94,11 @@ std::vector<LeftOut> left_out_by_choice(const Scene& scene, const Simulation& si
 Simulation simulate(const Scene& scene, const Observer& observer, const StopAsked& stop_asked) {
   assert(scene.problems().empty());
   RegimeChoice choice = choose_regime(scene);
-  if (choice.regime == Regime::dynamic && is_severed(scene)) {
+  // In time its pieces would swing on their own for as long as they are watched.
+  if (choice.regime == Regime::dynamic && is_severed(scene, stop_asked)) {
     choice.regime = Regime::quasi_static;
-    choice.ground += ", but missing joints sever the specimen, and the limit says so at once";
+    choice.ground +=
+        ", but missing joints leave nothing that bears a load, and the limit says so at once";
   }
   Simulation simulation = choice.regime == Regime::quasi_static
                               ? simulate_quasi_static(scene, observer, stop_asked)
@@ -117,8 +106,7 @@ Simulation simulate(const Scene& scene, const Observer& observer, const StopAske
   simulation.regime_ground = choice.ground + simulation.regime_ground;
   simulation.tolerance = scene.solver.tolerance;
   simulation.step_accuracy = scene.solver.step_accuracy;
-  // Pieces that press on each other may still bear something.
-  if (simulation.strength == 0.0 && has_ended(simulation) && is_severed(scene))
+  if (simulation.strength == 0.0 && has_ended(simulation) && some_are_missing(scene.joints))
     simulation.status = SimulationStatus::severed;
   const std::vector<LeftOut> list = left_out_by_choice(scene, simulation);
   simulation.left_out.insert(simulation.left_out.begin(), list.begin(), list.end());

@@ -19,7 +19,7 @@ namespace havers::sim {
 enum class SimulationStatus {
   broken,          ///< Both sides dropped below the end fraction after a break.
   strain_limit,    ///< The strain limit came first. The strength is a lower bound.
-  severed,         ///< Missing joints leave nothing between the ends: it never bears a load.
+  severed,         ///< Missing joints leave nothing that bears a load from end to end.
   step_limit,      ///< So many steps, and it did not break. The strength is a lower bound.
   not_determined,  ///< More than one set of joint forces bears the intact specimen's load.
   not_converged,   ///< A step or a break has no answer that was found.
@@ -107,15 +107,17 @@ struct Simulation {
   int steps = 0;                ///< Time steps, or events of the quasi-static sequence.
   long iterations = 0;          ///< Of the contact solver, all steps together.
   double energy_defect = 0.0;   ///< Largest relative defect of (M4) over the steps; quasi-static:
-                                ///< that of the last state. [-]
+                                ///< that of the state at the strength. [-]
   double numerical_loss = 0.0;  ///< Part of all energy that implicit Euler took: no bone's. [-]
   double energy_gain = 0.0;     ///< Quasi-static: the most that a break up to the strength added to
                                 ///< the energy stored, of that at the strength. [-]
   double rounding_error = 0.0;  ///< Quasi-static: of the strength or its strain, as far as a solve
                                 ///< of the whole structure in that state shows it. [-]
-  double worst_residual = 0.0;  ///< Largest (M11) over the steps. [-]
-  double tolerance = 0.0;       ///< Of the residual, as asked for. [-]
-  double worst_penetration = 0.0;  ///< Largest −g. [m]
+  double worst_residual = 0.0;  ///< Largest (M11) over the steps or events. [-]
+  double residual_to_strength = 0.0;  ///< The same over the events up to the strength; in time over
+                                      ///< all steps. [-]
+  double tolerance = 0.0;             ///< Of the residual, as asked for. [-]
+  double worst_penetration = 0.0;     ///< Largest −g. [m]
   int events_without_contact =
       0;  ///< Quasi-static: events whose contact had no solution and was left out.
   int without_contact_to_strength = 0;  ///< Those of them before the strength.

@@ -44,6 +44,7 @@ nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& sim
       {"numerical_loss", json_of(simulation.numerical_loss)},
       {"energy_gain", json_of(simulation.energy_gain)},
       {"worst_residual", json_of(simulation.worst_residual)},
+      {"residual_to_strength", json_of(simulation.residual_to_strength)},
       {"worst_penetration_m", json_of(simulation.worst_penetration)},
       {"wall_s", json_of(provenance.wall_seconds)},
       {"left_out", json_of(left_out)},

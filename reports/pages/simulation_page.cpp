@@ -26,7 +26,7 @@ std::string by_step(double error) {
 std::string sentence_of(const sim::Simulation& s) {
   if (!s.trusted()) return fmt::format("Not to be trusted: {}.", typeset(s.why_not_trusted()));
   if (s.status == Status::severed)
-    return "Missing joints sever the specimen: it bears nothing. To be trusted.";
+    return "Missing joints leave nothing that bears a load from end to end. To be trusted.";
   const sim::StepError error = s.error_beyond_accuracy();
   const std::string at = fmt::format(
       "{}{} at {} strain{}", quantity(s.strength / in::MPa, "MPa"), by_step(error.strength),

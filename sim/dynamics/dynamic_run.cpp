@@ -1,6 +1,7 @@
 #include "sim/dynamics/dynamic_run.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "sim/contact/active_set.hpp"
 #include "sim/contact/gauss_seidel.hpp"
@@ -78,6 +79,17 @@ void DynamicRun::move(const JointStepResult& result) {
   motion_.Kv = bodies_.stiffness_times(motion_.v);
 }
 
+// Of all ties on the bodies, in the last step: none but where sweeps leave them apart. [J/m]
+double DynamicRun::work_of_ties(const VectorXd& tie_forces) const {
+  if (tie_forces.size() == 0) return 0.0;
+  const VectorXd moved = bodies_.port_displacements(h_ * motion_.v);
+  const auto ends = std::span(bodies_.ends()).last(assembly_.ties.size());
+  double work = 0.0;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    work += tie_forces(static_cast<Index>(i)) * (moved(ends[i][1]) - moved(ends[i][0]));
+  return work;
+}
+
 // Forces of the machine, from the momentum balance of the held nodes, and the energies.
 void DynamicRun::account(const JointStepResult& result, const Motion& before) {
   const VectorXd inertia = bodies_.mass().cwiseProduct(motion_.v - before.v) / h_;
@@ -96,7 +108,8 @@ void DynamicRun::account(const JointStepResult& result, const Motion& before) {
   energy_.add({.time = h_,
                .viscosity = scene_.material.viscosity,
                .external_work = pull * scene_.loading.strain_rate * assembly_.width * h_,
-               .joint_dissipation = -result.reactions.dot(result.gaps - step_.gaps)},
+               .joint_dissipation = -result.reactions.dot(result.gaps - step_.gaps) -
+                                    work_of_ties(result.tie_forces)},
               before, motion_, bodies_.mass());
 }
 
@@ -195,7 +208,7 @@ void DynamicRun::finish(Simulation& simulation) const {
   simulation.iterations = iterations_;
   simulation.energy_defect = energy_.relative_defect;
   if (energy_.external > 0.0) simulation.numerical_loss = energy_.numerical / energy_.external;
-  simulation.worst_residual = worst_residual_;
+  simulation.worst_residual = simulation.residual_to_strength = worst_residual_;
   simulation.worst_penetration = worst_penetration_;
 }
 

@@ -39,6 +39,7 @@ class DynamicRun {
  private:
   void prepare();
   void move(const JointStepResult& result);
+  [[nodiscard]] double work_of_ties(const Eigen::VectorXd& tie_forces) const;
   void account(const JointStepResult& result, const Motion& before);
   void break_joints(const JointStepResult& result);
   [[nodiscard]] double time() const { return leapt_ + steps_ * h_; }

@@ -73,8 +73,9 @@ double first_step(const Scene& scene) {
   const double wave = wave_speed(scene.material);
   const double transit = may_leap(scene) ? 0.25 * scene.assembly.fibre_height / wave
                                          : 0.5 * scene.assembly.fibre_length / wave;
-  const double strain = 0.02 * head_tail_strength(scene) / scene.material.young;
-  return std::min(transit, strain / scene.loading.strain_rate);
+  const double strain =
+      std::min(head_tail_strength(scene) / scene.material.young, scene.loading.max_strain);
+  return std::min(transit, 0.02 * strain / scene.loading.strain_rate);
 }
 
 std::string doubt_about_steps(const Scene& scene) {

@@ -12,7 +12,8 @@ namespace havers::sim {
 bool may_leap(const Scene& scene);
 
 /// Where halving starts: a quarter of the time a wave takes across a fibre or, where steps cannot
-/// be leapt over, half of that along it; at most a fiftieth of the strain σ₁/E a step. [s]
+/// be leapt over, half of that along it; at most a fiftieth of the strain σ₁/E, and of the
+/// strain limit, a step. [s]
 double first_step(const Scene& scene);
 
 /// That a run in chosen steps may end before its specimen breaks, as a sentence; empty where it has

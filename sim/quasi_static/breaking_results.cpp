@@ -53,13 +53,12 @@ VectorXd BreakingRun::displacements() const {
 }
 
 void BreakingRun::take_note_of_strength(const Event& event) {
-  strongest_ = {event, force_, y_};
+  strongest_ = {event, force_, worst_residual_, y_};
 }
 
 // What a run says of its strength, against the whole structure with the gaps it had there.
-double BreakingRun::missed_at_strength() const {
+double BreakingRun::missed_at_strength(const UnitAnswer& exact) const {
   if (strongest_.gaps.size() == 0 || strongest_.force == 0.0) return 0.0;  // known
-  const UnitAnswer exact = intact_->stretch(gaps(strongest_.gaps));
   double missed = std::abs(strongest_.force / exact.force - 1.0);
   for (const std::size_t j : strongest_.next.joints) {
     const double strain =
@@ -70,9 +69,17 @@ double BreakingRun::missed_at_strength() const {
   return missed;
 }
 
-// What events computed is checked against the refined answer, ½ qᵀKq = ½ (F W ε + r·u) too.
+// Of ½ qᵀKq = ½ (F W ε + r·u), relative.
+double BreakingRun::energy_defect(const UnitAnswer& exact, const VectorXd& y) const {
+  const double work =
+      0.5 * (exact.force * intact_->assembly().width + exact.reactions.dot(gaps(y)));
+  return std::abs(intact_->energy(exact.displacements) / work - 1.0);
+}
+
+// What events computed is checked against whole structures: that at the strength, and the last one.
 void BreakingRun::finish(Simulation& simulation) {
-  const double scale = intact_->answer().reactions.norm(), force = force_;
+  const UnitAnswer& intact = intact_->answer();
+  const double scale = intact.reactions.norm(), force = force_;
   if (!unsolved_) {
     refine();
     if (y_ != y_at_reference_) take_reference();
@@ -85,19 +92,18 @@ void BreakingRun::finish(Simulation& simulation) {
   simulation.joints = outcomes();
   take_note_of_penetration();
   simulation.worst_penetration = worst_penetration_;
-  const double elastic = intact_->energy(last.displacements);
-  const bool bears = force_ != 0.0;
-  const double work =
-      bears ? 0.5 * (last.force * intact_->assembly().width + last.reactions.dot(gaps(y_))) : 0.0;
-  const double energy_scale = std::max(largest_energy_, std::abs(point().elastic));
-  if (energy_scale > 0.0)
-    simulation.energy_defect =
-        scene_.material.young * strain_ * strain_ * std::abs(elastic - work) / energy_scale;
-  simulation.rounding_error = missed_at_strength();
-  for (const double residual :
-       {intact_->answer().residual, last.residual, scale > 0.0 ? worst_residual_ / scale : 0.0,
-        bears ? std::abs(last.force - force_) / intact_->answer().force : 0.0})
-    simulation.worst_residual = worse(simulation.worst_residual, residual);
+  const bool is_intact = strongest_.gaps.size() == 0;
+  const UnitAnswer strongest = is_intact ? intact : intact_->stretch(gaps(strongest_.gaps));
+  if (strongest_.force != 0.0 && !(is_intact && intact_->stress_is_known()))
+    simulation.energy_defect = energy_defect(strongest, strongest_.gaps);
+  simulation.rounding_error = missed_at_strength(strongest);
+  const auto part_of = [](double value, double whole) { return whole > 0.0 ? value / whole : 0.0; };
+  simulation.residual_to_strength =
+      worse(worse(intact.residual, strongest.residual), part_of(strongest_.residual, scale));
+  simulation.worst_residual =
+      worse(worse(simulation.residual_to_strength, last.residual),
+            worse(part_of(worst_residual_, scale),
+                  bears() ? std::abs(last.force - force_) / intact.force : 0.0));
   simulation.iterations = iterations_;
   simulation.events_without_contact = without_contact_;
 }

@@ -71,7 +71,6 @@ bool BreakingRun::break_joints(const std::vector<std::size_t>& breaking) {
     ++broken_;
   }
   const double stored = point().elastic;
-  largest_energy_ = std::max(largest_energy_, stored);
   const VectorXd gaps_before = y_;
   loosen(breaking);
   unsolved_ = !settle();

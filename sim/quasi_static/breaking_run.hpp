@@ -47,6 +47,8 @@ class BreakingRun {
   /// solution that is found, or the search was stopped: then none has broken.
   bool break_joints(const std::vector<std::size_t>& breaking);
 
+  /// Whether it takes a force to stretch it.
+  [[nodiscard]] bool bears() const { return force_ != 0.0; }
   [[nodiscard]] CurvePoint point() const;
   /// The joints, with what they bear and how far they are open by now.
   [[nodiscard]] std::vector<JointOutcome> outcomes() const;
@@ -60,7 +62,8 @@ class BreakingRun {
 
  private:
   void take_note_of_penetration();
-  [[nodiscard]] double missed_at_strength() const;
+  [[nodiscard]] double missed_at_strength(const UnitAnswer& exact) const;
+  [[nodiscard]] double energy_defect(const UnitAnswer& exact, const Eigen::VectorXd& y) const;
   [[nodiscard]] double meets_cone_at(std::size_t joint, const Local& reaction) const;
   struct Glance {
     Eigen::VectorXd reactions;
@@ -97,11 +100,11 @@ class BreakingRun {
   std::shared_ptr<const IntactStructure> intact_;
   std::vector<JointOutcome> joints_;
   double strain_ = 0.0;
-  double dissipated_ = 0.0;      // [J/m]
-  double largest_energy_ = 0.0;  // stored before an event, likewise
+  double dissipated_ = 0.0;  // [J/m]
   struct Strongest {
     Event next;
     double force = 0.0;
+    double residual = 0.0;  // worst_residual_ so far
     Eigen::VectorXd gaps;
   } strongest_;
   int broken_ = 0;

@@ -127,7 +127,7 @@ Simulation break_event_by_event(const Scene& scene,
 }
 
 bool is_enough(const Simulation& run) {
-  return run.trusted() && run.rounding_error <= accurate;
+  return run.trusted() && run.rounding_error <= accurate && run.worst_residual <= run.tolerance;
 }
 
 bool is_no_worse(const Simulation& a, const Simulation& b) {
@@ -141,6 +141,14 @@ bool is_no_worse(const Simulation& a, const Simulation& b) {
 }
 
 }  // namespace
+
+bool is_severed(const Scene& scene, const StopAsked& stop_asked) {
+  if (!some_are_missing(scene.joints)) return false;
+  const std::shared_ptr<const IntactStructure> intact = intact_structure(scene);
+  if (!intact->structure().ok()) return false;
+  BreakingRun run(scene, intact, Care::little, stop_asked);
+  return run.take_missing() && !run.bears();
+}
 
 Simulation simulate_quasi_static(const Scene& scene, const Observer& observer,
                                  const StopAsked& stop_asked) {

@@ -12,6 +12,11 @@ namespace havers::sim {
 /// no joint missing. What follows is most of the work. Section 6. [-]
 double end_fraction_used(const Scene& scene);
 
+/// Whether missing joints leave nothing that bears a load: no way from end to end, or one of hinges
+/// that gives way. Pieces that press on each other may still bear something. False where that is
+/// not found, or the search was stopped.
+bool is_severed(const Scene& scene, const StopAsked& stop_asked = {});
+
 /// Runs a scene in the limit of a vanishing strain rate.
 Simulation simulate_quasi_static(const Scene& scene, const Observer& observer = {},
                                  const StopAsked& stop_asked = {});

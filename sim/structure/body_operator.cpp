@@ -44,8 +44,10 @@ PortSplit split_by_ports(const MatrixXd& ports) {
   if (ports.rows() == 0) return {MatrixXd(n, 0), MatrixXd::Identity(n, n), MatrixXd(0, 0)};
   const Eigen::JacobiSVD<MatrixXd> svd(ports, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::VectorXd& values = svd.singularValues();
+  // What moves the ports by less counts as moving none: held by them, it would bear without bounds.
+  constexpr double least = 1e-5;
   Index rank = 0;
-  while (rank < values.size() && values(rank) > 1e-10) ++rank;
+  while (rank < values.size() && values(rank) > least) ++rank;
   PortSplit split;
   const MatrixXd scaled =
       svd.matrixV().leftCols(rank) * values.head(rank).cwiseInverse().asDiagonal();

@@ -84,7 +84,7 @@ TEST(Synthesize, WritesNoBreakThatTheModelDidNotHave) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"model.loading.max_strain=0.002",
        "specimen B0: does not break within model.loading.max_strain = 0.2 %: raise it\n"},
-      {"model.joints.missing=0.99", "specimen B0: missing joints sever the specimen"}};
+      {"model.joints.missing=0.99", "specimen B0: missing joints leave nothing that bears"}};
   for (const auto& [setting, sentence] : cases) {
     const auto answer = run_havers(folder, "synthesize study.toml -o made --set " + setting);
     EXPECT_EQ(answer.exit_code, 1);

@@ -156,7 +156,7 @@ TEST(SimulationPage, GivesASeveredSpecimenNoBoundOfStrength) {
   auto simulation = test::simulation_sample(assembly);
   simulation.status = sim::SimulationStatus::severed;
   EXPECT_TRUE(contains(simulation_page({sim::Scene{}, assembly, simulation, {}}),
-                       "Missing joints sever the specimen: it bears nothing. To be trusted."));
+                       "Missing joints leave nothing that bears a load from end to end. To be trusted."));
 }
 
 TEST(SimulationPage, SurvivesARunWithoutRows) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "sim/joint/thresholds.hpp"
+#include "sim/simulation.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace havers::sim {
@@ -78,10 +79,28 @@ TEST(Scene, RefusesAStepLongerThanTheTest) {
   EXPECT_TRUE(scene.problems().empty()) << "which takes no steps";
 }
 
+TEST(Scene, ChoosesNoStepLongerThanTheTest) {
+  Scene scene;
+  scene.loading.start = Start::rest;
+  scene.loading.strain_rate = 1e3;
+  scene.loading.max_strain = 1e-7;
+  EXPECT_TRUE(scene.problems().empty());
+  scene.solver.regime = Regime::dynamic;
+  EXPECT_NEAR(simulate(scene).curve.back().strain, 1e-7, 1e-12);
+}
+
 TEST(Scene, RefusesARateWhoseTimesAreNoNumbers) {
   Scene scene;
   scene.loading.strain_rate = 1e-320;
   EXPECT_FALSE(scene.problems().empty());
+}
+
+TEST(Scene, RefusesFibresAMillionTimesAsLongAsHigh) {
+  Scene scene;
+  scene.assembly.layers = scene.assembly.fibres = 1;
+  scene.assembly.fibre_length = 2e6 * scene.assembly.fibre_height;
+  ASSERT_EQ(scene.problems().size(), 1U);
+  EXPECT_EQ(scene.problems().front().key, "assembly.fibre_length_um");
 }
 
 TEST(Scene, RefusesFibresOfNoArea) {

@@ -37,15 +37,25 @@ TEST(Simulation, IsNotTrustedUnlessItsChecksHold) {
   EXPECT_FALSE(simulation.trusted());
   simulation.energy_defect = 0.0;
   simulation.tolerance = 1e-8;
-  simulation.worst_residual = 1e-8;
+  simulation.residual_to_strength = 1e-8;
   EXPECT_TRUE(simulation.trusted());
-  simulation.worst_residual = 2e-8;
+  simulation.residual_to_strength = 2e-8;
   EXPECT_FALSE(simulation.trusted());
   simulation.status = SimulationStatus::severed;  // it bears nothing, however its pieces lie
   EXPECT_TRUE(simulation.trusted());
   simulation.status = SimulationStatus::broken;
-  simulation.worst_residual = 0.0;
+  simulation.residual_to_strength = 0.0;
   EXPECT_TRUE(simulation.trusted());
+  simulation.worst_residual = 5e-4;
+  EXPECT_TRUE(simulation.trusted());
+  simulation.worst_residual = 2e-3;
+  EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("after the strength"));
+  simulation.worst_residual = 0.0;
+  simulation.tolerance = 1e-3;  // of sweeps: joint forces may err by a tenth
+  simulation.residual_to_strength = 1e-4;
+  EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("a tolerance of 1e-6"));
+  simulation.tolerance = 1e-8;
+  simulation.residual_to_strength = 0.0;
   simulation.rounding_error = 2e-4;
   EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("too few digits"));
   simulation.rounding_error = 0.0;

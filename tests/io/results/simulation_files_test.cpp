@@ -118,6 +118,7 @@ TEST(SimulationJson, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(json["steps"], 400);
   EXPECT_EQ(json["energy_defect"], 3.2e-14);
   EXPECT_EQ(json["worst_residual"], 6.1e-10);
+  EXPECT_EQ(json["residual_to_strength"], 5.9e-10);
   EXPECT_TRUE(json["worst_penetration_m"].is_null());
   EXPECT_EQ(json["wall_s"], 1.5);
   EXPECT_EQ(json["regime"], "dynamic");

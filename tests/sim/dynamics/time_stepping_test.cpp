@@ -78,6 +78,20 @@ TEST(SimulateDynamic, GivesTheSameRunByGaussSeidelAsByTheActiveSet) {
 }
 
 // Waves in one fibre whose sides are tied: there is no joint that sweeps could ask.
+// Sweeps leave the ties apart by their tolerance, and what ties do on the way is work (M4).
+TEST(SimulateDynamic, CountsTheWorkOfTiesThatSweepsLeaveApart) {
+  Scene scene = test::small_scene(0.0, 3, 3);
+  scene.loading.lateral = Lateral::periodic;
+  scene.solver.step = 2e-8;
+  scene.solver.tolerance = 1e-6;
+  scene.solver.contact = ContactMethod::gauss_seidel;
+  scene.solver.regime = Regime::dynamic;
+  const Simulation run = simulate(scene);
+  EXPECT_EQ(run.status, SimulationStatus::broken);
+  EXPECT_LE(run.energy_defect, 1e-12);
+  EXPECT_TRUE(run.trusted()) << run.why_not_trusted();
+}
+
 TEST(SimulateDynamic, TiesAFibreAloneByGaussSeidelToo) {
   Scene scene = test::dynamic_scene();
   scene.assembly.layers = scene.assembly.fibres = 1;

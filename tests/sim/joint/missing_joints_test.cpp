@@ -168,7 +168,7 @@ TEST(MissingJoints, LeaveNothingToSimulateInTimeWhereTheyAreAll) {
   EXPECT_EQ(simulation.strength, 0.0);
   EXPECT_EQ(simulation.status, SimulationStatus::severed);
   EXPECT_TRUE(simulation.trusted()) << simulation.why_not_trusted();
-  EXPECT_THAT(simulation.regime_ground, testing::HasSubstr("missing joints sever"));
+  EXPECT_THAT(simulation.regime_ground, testing::HasSubstr("missing joints leave nothing"));
   scene.joints.thresholds.front() = {500.0, 500.0};  // of two pieces
   EXPECT_EQ(simulate(scene).status, SimulationStatus::severed);
 }
@@ -186,6 +186,33 @@ TEST(MissingJoints, SeverAChain) {
     EXPECT_EQ(simulation.status, SimulationStatus::severed);
     EXPECT_EQ(simulation.strength, 0.0);
     EXPECT_EQ(simulation.curve.back().stress_right, 0.0);
+  }
+}
+
+// Of two layers of two fibres there are left the lower left fibre, the upper middle one, hung on it
+// at the middle of its lower side, and the upper right half, which ends that one half a height
+// further up: what is pulled turns the middle one and meets no resistance.
+TEST(MissingJoints, MayLeaveHingesThatBearNothing) {
+  for (const Regime regime : {Regime::quasi_static, Regime::dynamic}) {
+    Scene scene = test::dynamic_scene();
+    scene.assembly.layers = scene.assembly.fibres = 2;
+    scene.loading.lateral = Lateral::free;
+    scene.solver.regime = regime;
+    const AssemblyOptions& wall = scene.assembly;
+    for (const Joint& joint : build_assembly(wall, scene.loading.lateral).joints) {
+      const Eigen::Vector2d at(joint.position.x() / wall.fibre_length,
+                               joint.position.y() / wall.fibre_height);
+      const bool hinge = (at - Eigen::Vector2d(0.75, 1.0)).norm() < 1e-9 ||
+                         (at - Eigen::Vector2d(1.5, 1.5)).norm() < 1e-9;
+      scene.joints.thresholds.push_back(hinge ? Threshold{500.0, 500.0} : Threshold{});
+    }
+    ASSERT_EQ(std::ranges::count_if(scene.joints.thresholds,
+                                    [](const Threshold& t) { return !is_missing(t); }),
+              2);
+    const Simulation simulation = simulate(scene);
+    EXPECT_EQ(simulation.status, SimulationStatus::severed);
+    EXPECT_EQ(simulation.strength, 0.0);
+    EXPECT_TRUE(simulation.trusted()) << simulation.why_not_trusted();
   }
 }
 

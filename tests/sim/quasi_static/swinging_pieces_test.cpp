@@ -183,7 +183,7 @@ TEST(SwingingPieces, BreakNothingWhereTheSpecimenBearsNothing) {
   EXPECT_EQ(simulation.strength, 0.0);
 }
 
-// What rounding leaves is more than that: the run says so, and its answer stays the same.
+// What rounding leaves is more than that: the residual says so, and the answer stays the same.
 TEST(SwingingPieces, KeepTheirContactsWhateverTheTolerance) {
   Scene scene;
   scene.solver.regime = Regime::quasi_static;
@@ -192,7 +192,7 @@ TEST(SwingingPieces, KeepTheirContactsWhateverTheTolerance) {
   scene.solver.tolerance = 1e-14;
   const Simulation strict = simulate(scene);
   EXPECT_TRUE(usual.trusted());
-  EXPECT_FALSE(strict.trusted());
+  EXPECT_GT(strict.worst_residual, scene.solver.tolerance);
   EXPECT_EQ(strict.broken_joints, usual.broken_joints);
   EXPECT_EQ(strict.events_without_contact, 0);
   EXPECT_NEAR(strict.strength, usual.strength, 1e-9 * usual.strength);
