@@ -129,6 +129,46 @@ RecordEnd unloaded_at(const Fall& fall, std::size_t peak) {
   return end;
 }
 
+// Rows from the first to the last of the largest stress, where that is the end of the load cell's
+// range: nearly all of them show it to the last digit, as many before were rising to it, and the
+// specimen was stretched on as it had been. None otherwise.
+std::size_t rows_at_range_end(std::span<const double> stress, std::span<const double> strain) {
+  constexpr std::size_t fewest = 10;
+  constexpr double nearly_all = 0.8, steps = 20.0, least_rise = 0.01, least_stretch = 0.5;
+  const std::size_t first = largest_row(stress);
+  const double largest = stress[first];
+  std::size_t last = first, alike = 0;
+  for (std::size_t row = first; row < stress.size(); ++row) {
+    if (stress[row] != largest) continue;
+    ++alike;
+    last = row;
+  }
+  const std::size_t rows = last - first + 1;
+  if (rows < fewest || rows > first ||
+      static_cast<double>(alike) < nearly_all * static_cast<double>(rows))
+    return 0;
+  double step = largest;  // the smallest that the record shows
+  for (std::size_t row = 1; row <= first; ++row)
+    if (const double change = std::abs(stress[row] - stress[row - 1]); change > 0.0)
+      step = std::min(step, change);
+  const double rise = largest - stress[first - rows];
+  const double stretch = strain[last] - strain[first];
+  const bool rising = rise > std::max(steps * step, least_rise * largest);
+  return rising && stretch > least_stretch * (strain[first] - strain[first - rows]) ? rows : 0;
+}
+
+RecordEnd beyond_range(const Fall& fall, std::size_t rows) {
+  RecordEnd end{.broke = false, .rows = largest_row(fall.stress) + 1, .cut = {}, .warnings = {}};
+  end.cut = {"cut at the end of the load cell's range",
+             fmt::format("{} of {} rows, from the second of the largest stress",
+                         fall.stress.size() - end.rows, fall.stress.size())};
+  end.warnings.push_back(
+      fmt::format("the load stays at its largest value to the last digit in {} while the specimen "
+                  "is stretched on: the end of the load cell's range; {}",
+                  count(rows, "row"), lower_bounds));
+  return end;
+}
+
 RecordEnd stopped(const Fall& fall) {
   const double left = fall.stress.back() / std::ranges::max(fall.stress);
   return {
@@ -146,6 +186,8 @@ RecordEnd stopped(const Fall& fall) {
 RecordEnd end_of_record(const MeasuredTest& test, std::span<const double> crosshead,
                         double break_part) {
   const Fall fall{test.stress, test.time, break_part};
+  if (const std::size_t rows = rows_at_range_end(test.stress, test.strain); rows > 0)
+    return beyond_range(fall, rows);
   if (const std::optional<std::size_t> row = fall.parting()) {
     const std::size_t peak = largest_row(fall.stress.first(*row));
     const std::size_t fallen = std::min(*row, fall.stress.size() - 1);

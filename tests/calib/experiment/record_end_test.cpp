@@ -82,6 +82,35 @@ TEST(RecordEnd, KnowsATestThatWasStopped) {
   }
 }
 
+// The load cell shows no more than its range, and the specimen breaks somewhere beyond.
+TEST(RecordEnd, KnowsTheEndOfALoadCellsRange) {
+  for (const double noise : {0.0, 0.5}) {
+    TensileTruth truth = the_bar;
+    truth.rows_after_break = 20;
+    truth.force_noise = noise;
+    const auto clipped_at = [&](double part) {
+      RawTest raw = record(truth);
+      raw.stress.clear();
+      for (double& force : raw.force) force = std::min(force, part * truth.strength * truth.area());
+      return reduced(raw);
+    };
+    EXPECT_TRUE(clipped_at(2.0).broke);
+    const MeasuredTest test = clipped_at(0.8);
+    EXPECT_FALSE(test.broke);
+    EXPECT_TRUE(warns(test, "the end of the load cell's range; strength"));
+    EXPECT_NE(detail_of(test, "cut at the end of the load cell's range"), "");
+    EXPECT_NEAR(test.strength / (0.8 * truth.strength), 1.0, 1e-9);
+    EXPECT_NEAR(test.modulus / truth.young, 1.0, noise > 0.0 ? 0.01 : 1e-6);
+  }
+}
+
+// A load that is held is no end of a range: the specimen hardly stretches.
+TEST(RecordEnd, TakesNoHeldLoadForTheEndOfARange) {
+  RawTest raw = record(the_bar);
+  for (int row = 0; row < 30; ++row) add_row(raw, 1.0, 1.0, 0.0);
+  EXPECT_FALSE(warns(reduced(raw), "range"));
+}
+
 TEST(RecordEnd, KnowsATestThatWasUnloaded) {
   for (const double speed : {0.3, 1.0, 3.0, 10.0}) {
     SCOPED_TRACE(speed);
