@@ -59,6 +59,7 @@ std::string times_text(double least, double most) {
 
 Check check_randomness(const CalibrationResult& result) {
   constexpr const char* name = "fresh seeds";
+  constexpr double other_width = 2.0;
   const Randomness& r = result.randomness;
   if (result.fitted.empty()) return not_fitted(name);
   if (!std::isfinite(r.fresh_shift))
@@ -74,10 +75,15 @@ Check check_randomness(const CalibrationResult& result) {
                 r.common_gain)
           : "";
   const std::string numbers = fmt::format(
-      "{} fresh seeds per specimen move no parameter by more than {:.2g} standard errors, their "
-      "cost is {:.3g}; the replicates' chance makes {} of the variance.{}",
-      r.replicates, r.fresh_shift, r.fresh_cost, percent_text(r.simulator_share), gain);
-  if (r.fresh_shift <= 1.0 && r.simulator_share <= 0.5) return {name, Outcome::pass, numbers};
+      "{} fresh seeds per specimen move no parameter by more than {:.2g} standard errors, the "
+      "interval that changes most is {:.2g} times as wide, their cost is {:.3g}; the replicates' "
+      "chance makes {} of "
+      "the variance.{}",
+      r.replicates, r.fresh_shift, r.fresh_width, r.fresh_cost, percent_text(r.simulator_share),
+      gain);
+  const bool as_wide = r.fresh_width <= other_width && r.fresh_width >= 1.0 / other_width;
+  if (r.fresh_shift <= 1.0 && r.simulator_share <= 0.5 && as_wide)
+    return {name, Outcome::pass, numbers};
   return {name, Outcome::warn,
           numbers + fmt::format(" Raise calibrate.options.replicates to {}.",
                                 std::max(r.replicates_needed, 2 * r.replicates))};

@@ -150,6 +150,9 @@ struct Randomness {
   /// With fresh seeds: the cost, and the largest shift of a parameter in standard errors. [-]
   double fresh_cost = std::numeric_limits<double>::quiet_NaN();
   double fresh_shift = std::numeric_limits<double>::quiet_NaN();
+  /// Half width of an interval that the fresh seeds' weights make, over that of the answer: of the
+  /// parameter in which these differ most. [-]
+  double fresh_width = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// One replicate in the quasi-static limit and step by step in time.

@@ -9,8 +9,6 @@
 #include <map>
 #include <numbers>
 
-#include "calib/study/study.hpp"
-
 namespace havers::calib {
 namespace {
 
@@ -75,8 +73,9 @@ double strength_by(std::span<const SweepLaw> laws, const Broken& specimen) {
 double aicc(double sum_of_squares, double specimens, double parameters) {
   const double k = parameters + 1.0;
   if (specimens - k - 1.0 < 0.5) return std::numeric_limits<double>::infinity();
-  return specimens * std::log(std::max(sum_of_squares, 1e-30) / specimens) + 2.0 * k +
-         2.0 * k * (k + 1.0) / (specimens - k - 1.0);
+  constexpr double least_error = 1e-3;  // of the best class of machines (F5)
+  const double square = std::max(sum_of_squares / specimens, least_error * least_error);
+  return specimens * std::log(square) + 2.0 * k + 2.0 * k * (k + 1.0) / (specimens - k - 1.0);
 }
 
 PlainLaw best_plain_law(std::span<const Broken> specimens, double model_parameters,

@@ -4,7 +4,8 @@
 #include <array>
 #include <span>
 #include <string>
-#include <vector>
+
+#include "calib/study/study.hpp"
 
 namespace havers::calib {
 
@@ -15,14 +16,6 @@ struct Broken {
   double ratio = 1.0;        ///< r that the fitted model has. [-]
   double strength = 0.0;     ///< log of the measured strength.
   double model = 0.0;        ///< log of the strength that the fitted model gives.
-};
-
-/// A law of strength that a sweep found: Σ coefficient · term + constant, for one value of a key.
-struct SweepLaw {
-  std::string per;  ///< assembly.orientation_deg, joints.ratio, or empty: it holds everywhere.
-  double at = 0.0;  ///< Its value of that key.
-  std::vector<std::string> terms;    ///< joints.scatter, joints.ratio.
-  std::vector<double> coefficients;  ///< Those of the terms, then the constant. [Pa]
 };
 
 /// The strength by the law that holds at the specimen's orientation or nearest to its ratio; NaN

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/fit/specimen_effect.hpp"
+
 namespace havers::calib {
 namespace {
 
@@ -41,6 +43,36 @@ VectorXd variance_of_mean(const FitProblem& problem, const Answer& answer) {
   return variance;
 }
 
+// Half widths of the intervals with the weights that the fresh seeds would have led to (F6, F9),
+// the answer moved to where its slopes say that it would be.
+VectorXd fresh_half_width(const FitProblem& problem, const Answer& answer,
+                          const Evaluation& fresh) {
+  constexpr int rounds = 5;  // of weights that depend on the answer, and it on them
+  Landmarks effect = answer.weights.specimen;
+  for (int round = 1;; ++round) {
+    const Weights weights = weigh(problem, fresh, answer.weights.scatter, effect);
+    Eigen::MatrixXd slopes = answer.asked_slopes;
+    const auto each_specimen = [&](const auto& visit) {
+      for (std::size_t f = 0; f < problem.fitted.size(); ++f)
+        visit(f, weights.sd[problem.fitted[f]]);
+    };
+    each_specimen([&](std::size_t f, const Landmarks& sd) {
+      slopes.middleRows<landmark_count>(first_row(f)).array().colwise() *=
+          answer.weights.sd[problem.fitted[f]] / sd;
+    });
+    Evaluation moved = fresh;
+    score(problem, weights, moved);
+    const VectorXd by = followed(slopes, moved.residuals);
+    each_specimen([&](std::size_t f, const Landmarks& sd) {
+      moved.predictions[f].mean -= by.segment<landmark_count>(first_row(f)).array() * sd;
+    });
+    score(problem, weights, moved);
+    if (round == rounds)
+      return uncertainty_of(problem, weights, moved, answer.active, slopes).half_width;
+    effect = specimen_effect(problem, weights, moved, slopes);
+  }
+}
+
 }  // namespace
 
 Randomness randomness_of(SimulationBatch& batch, const FitProblem& problem, const Answer& answer) {
@@ -58,6 +90,11 @@ Randomness randomness_of(SimulationBatch& batch, const FitProblem& problem, cons
   result.fresh_cost = fresh.cost;
   const VectorXd shift = follow * (fresh.residuals - answer.best.residuals);
   result.fresh_shift = (shift.array().abs() / answer.uncertainty.standard_error.array()).maxCoeff();
+  const VectorXd widths =
+      (fresh_half_width(problem, answer, fresh).array() / answer.uncertainty.half_width.array());
+  Index most = 0;
+  widths.array().log().abs().maxCoeff(&most);
+  result.fresh_width = widths[most];
   return result;
 }
 

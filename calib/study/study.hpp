@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "calib/experiment/measured_test.hpp"
-#include "calib/fit/plain_law.hpp"
 #include "calib/porosity/scatter_map.hpp"
 #include "sim/scene.hpp"
 
@@ -73,6 +72,14 @@ struct CalibrateOptions {
   };
   /// All that is wrong; empty when usable.
   [[nodiscard]] std::vector<Problem> problems() const;
+};
+
+/// A law of strength that a sweep found: Σ coefficient · term + constant, for one value of a key.
+struct SweepLaw {
+  std::string per;  ///< assembly.orientation_deg, joints.ratio, or empty: it holds everywhere.
+  double at = 0.0;  ///< Its value of that key.
+  std::vector<std::string> terms;    ///< joints.scatter, joints.ratio.
+  std::vector<double> coefficients;  ///< Those of the terms, then the constant. [Pa]
 };
 
 struct Study {

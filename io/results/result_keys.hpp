@@ -182,6 +182,7 @@ void keys(Table& table, calib::Randomness& randomness) {
   table.key("simulator_share", randomness.simulator_share);
   table.key("fresh_cost", randomness.fresh_cost);
   table.key("fresh_shift", randomness.fresh_shift);
+  table.key("fresh_width", randomness.fresh_width);
 }
 
 template <class Table>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/fit/plain_law.hpp"
+#include "calib/study/study.hpp"
 #include "calib/sweep/sweep.hpp"
 #include "io/results/result_files.hpp"
 

@@ -15,6 +15,7 @@ TEST(Confirmation, SaysHowMuchTheLimitDiffersFromTimeStepsAtEachOrientation) {
   Study study = known_study(three_orientations(), 3).study;
   study.calibrate.seed = 1;
   study.calibrate.confirm = 3;
+  study.model.solver.step_accuracy = 0.01;  // finer steps take ten times as long
   const CalibrationResult result = calibrate(study);
   ASSERT_EQ(result.confirmations.size(), 3U);
   std::set<std::string> specimens;

@@ -190,6 +190,22 @@ TEST(Verdict, TellsHeldOutSpecimensThatAreOffFromThoseThatNothingIsComparedWith)
   EXPECT_THAT(check.text, testing::EndsWith(" B2."));
 }
 
+// One draw in ten may be as strong, whatever their standard deviation says.
+TEST(Verdict, RejectsNoStrengthThatAReplicateHas) {
+  SpecimenResult specimen{.id = "B1", .use = Use::validate, .residual = {1.0, 4.0, 0.5}};
+  specimen.measured.strength = 60e6;
+  for (const double strength : {40e6, 41e6, 61e6})
+    specimen.replicates.push_back({.failed = false, .broke = true, .strength = strength});
+  CalibrationResult result;
+  result.specimens = {specimen};
+  EXPECT_EQ(check_validation(result, {}).outcome, Outcome::pass);
+  result.specimens[0].residual[0] = 4.0;
+  EXPECT_EQ(check_validation(result, {}).outcome, Outcome::fail) << "by its modulus";
+  result.specimens = {specimen};
+  result.specimens[0].replicates.pop_back();
+  EXPECT_EQ(check_validation(result, {}).outcome, Outcome::fail) << "stronger than any";
+}
+
 // One step from the answer knows no bounds, and every third strength of a draw may be missing.
 TEST(Verdict, SaysWhereTheBootstrapIsWiderAndKeepsItInsideTheBounds) {
   auto study = test::synthetic_study(test::three_orientations, {.specimen_effect = 0.1});
