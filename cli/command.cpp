@@ -16,6 +16,11 @@
 #include "reports/pages.hpp"
 
 namespace havers::cli {
+namespace {
+
+constexpr int most_threads = 1024;  // more than a machine has, fewer than it refuses
+
+}  // namespace
 
 CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& name,
                       const std::string& sentence, const std::string& examples) {
@@ -29,7 +34,7 @@ CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& n
   command->add_flag("-v,--verbose", common.verbose, "what a run or fit left out, too");
   command->add_option("--threads", common.threads, "threads; never changes a number (default: all)")
       ->type_name("N")
-      ->check(count());
+      ->check(count(most_threads));
   command->add_option("--seed", common.seed, "instead of the input's seed")
       ->type_name("N")
       ->check(seed_number());

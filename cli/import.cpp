@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -153,21 +154,25 @@ void print_columns(const io::TestFile& file) {
     fmt::print("  {:<34}{:<10}{}\n", column.name, column.unit, io::to_string(column.quantity));
 }
 
+std::string error_text(double error) {
+  return std::isfinite(error) ? fmt::format("{:.2g}", error) : "-";
+}
+
 void print_test(const Imported& imported) {
   print_columns(imported.file);
   const calib::MeasuredTest& test = imported.reduction.test;
   if (!test.strain.empty()) {
     fmt::print(
-        "  strength {}{:.3f} +- {} MPa at a strain of {:.4f} %{}\n", test.broke ? "" : "at least ",
-        1e-6 * test.strength, cell(1e-6 * test.strength_standard_error, 3),
+        "  strength {}{:.4g} +- {} MPa at a strain of {:.4g} %{}\n", test.broke ? "" : "at least ",
+        1e-6 * test.strength, error_text(1e-6 * test.strength_standard_error),
         100.0 * test.failure_strain,
         test.max_force > 0.0 && test.area > 0.0
             ? fmt::format(", largest force {:.2f} N on {:.4f} mm2", test.max_force, 1e6 * test.area)
             : "");
-    fmt::print("  energy to failure {:.4f} MJ/m3{}\n", 1e-6 * test.energy_to_failure,
+    fmt::print("  energy to failure {:.4g} MJ/m3{}\n", 1e-6 * test.energy_to_failure,
                test.time.empty() ? "" : fmt::format(", strain rate {:.4g} 1/s", test.strain_rate));
-    fmt::print("  modulus {:.3f} +- {} GPa between strains of {:.4f} and {:.4f} %\n",
-               1e-9 * test.modulus, cell(1e-9 * test.modulus_standard_error, 3),
+    fmt::print("  modulus {:.4g} +- {} GPa between strains of {:.4g} and {:.4g} %\n",
+               1e-9 * test.modulus, error_text(1e-9 * test.modulus_standard_error),
                100.0 * test.window_low, 100.0 * test.window_high);
   }
   for (const calib::Correction& correction : test.corrections)

@@ -179,6 +179,8 @@ void leave_out_rim(const io::SectionOptions& options, const std::string& name, c
     throw io::InputError(name, "the rim to leave out is less than half a pixel",
                          "give more, or none");
   bone = eroded_by(bone, reach);
+  if (cv::countNonZero(bone) == 0)
+    throw io::InputError(name, "the rim to leave out takes all of the bone", "give less, or none");
 }
 
 std::string method_of(io::Threshold threshold) {

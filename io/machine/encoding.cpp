@@ -94,6 +94,8 @@ std::string guess(std::string_view bytes) {
 Encoding find_encoding(std::string_view bytes) {
   using std::string_view_literals::operator""sv;
   if (bytes.starts_with("\xEF\xBB\xBF")) return {"UTF-8 with BOM", false, 3};
+  if (bytes.starts_with("\xFF\xFE\0\0"sv)) return {"UTF-32LE", true, 4};
+  if (bytes.starts_with("\0\0\xFE\xFF"sv)) return {"UTF-32BE", true, 4};
   if (bytes.starts_with("\xFF\xFE"sv)) return {"UTF-16LE", true, 2};
   if (bytes.starts_with("\xFE\xFF"sv)) return {"UTF-16BE", true, 2};
   if (const std::string wide = utf16_by_zeros(bytes); !wide.empty()) return {wide, true, 0};

@@ -96,7 +96,7 @@ mstch::array influence_rows(const calib::CalibrationResult& result) {
     if (specimen.influence.empty()) continue;
     mstch::array cells;
     for (const calib::Influence& one : specimen.influence)
-      cells.push_back(text(number(one.shift, 2)));
+      cells.push_back(text(number(without_rounding(one.shift), 2)));
     rows.emplace_back(mstch::map{{"id", text(specimen.id)}, {"cells", mstch::node{cells}}});
   }
   return rows;

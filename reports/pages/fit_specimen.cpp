@@ -20,6 +20,7 @@ struct Compared {
   double measured, measured_error;
   calib::Spread simulated;
   double residual;
+  bool bound = false;  // the test was stopped before
 };
 
 std::vector<Compared> compared(const calib::SpecimenResult& s) {
@@ -27,13 +28,18 @@ std::vector<Compared> compared(const calib::SpecimenResult& s) {
   return {{"Modulus", "GPa", in::GPa, s.measured.modulus, s.measured.modulus_standard_error,
            s.modulus, s.residual[0]},
           {"Strength", "MPa", in::MPa, s.measured.strength, s.measured.strength_standard_error,
-           s.strength, s.residual[1]},
+           s.strength, s.residual[1], !s.measured.broke},
           {"Failure strain", "%", in::percent, s.measured.failure_strain, not_measured,
-           s.failure_strain, s.residual[2]}};
+           s.failure_strain, s.residual[2], !s.measured.broke}};
+}
+
+std::string or_more(const Compared& c, const std::string& value) {
+  return c.bound && std::isfinite(c.measured) ? "≥ " + value : value;
 }
 
 std::string measured_text(const Compared& c) {
-  const std::string value = plus_minus(c.measured / c.scale, c.measured_error / c.scale);
+  const std::string value =
+      or_more(c, plus_minus(c.measured / c.scale, c.measured_error / c.scale));
   return std::isfinite(c.measured) && std::isnan(c.measured_error)
              ? value + " (error not estimated)"
              : value;
@@ -54,7 +60,7 @@ mstch::array comparison_rows(const calib::SpecimenResult& specimen) {
 mstch::array overview_cells(const calib::SpecimenResult& specimen) {
   mstch::array cells;
   for (const Compared& c : compared(specimen)) {
-    cells.push_back(text(number(c.measured / c.scale)));
+    cells.push_back(text(or_more(c, number(c.measured / c.scale))));
     cells.push_back(text(number(c.simulated.mean / c.scale)));
   }
   return cells;
@@ -78,11 +84,6 @@ mstch::array section_items(const FitReport& report, const std::string& id) {
         mstch::map{{"png", text(i < images ? base64(found->second[i]) : "")},
                    {"caption", text(i < numbers ? section_caption(specimen->sections[i]) : "")}});
   return items;
-}
-
-// What is left of a logarithm of 1.
-double without_rounding(double logarithm) {
-  return std::abs(logarithm) < 1e-12 ? 0.0 : logarithm;
 }
 
 // What a landmark (F4) is the logarithm of, where it is one.

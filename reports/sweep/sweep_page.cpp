@@ -127,14 +127,19 @@ mstch::array figures_of(const SweepReport& report) {
   mstch::array figures;
   for (const calib::SweepFigure& wanted : report.sweep.figures) {
     mstch::array panels;
-    const std::string intervals =
-        wanted.x.empty() ? "" : " Bars and bands: 95\u00a0% intervals of the means.";
+    const std::string shown =
+        wanted.x.empty()
+            ? " Each curve is one run: the first seed, at the first value of every key "
+              "that the figure does not tell apart."
+            : " Bars and bands: 95\u00a0% intervals of the means.";
+    const bool ended = wanted.caption.empty() || wanted.caption.ends_with('.');
     const std::string id = fmt::format("{}-{}", report.id, figures.size());
     for (const SweepPanel& panel : sweep_figures(report.sweep, report.result, wanted, id))
       panels.emplace_back(mstch::map{{"svg", text(draw(panel.figure))}, {"at", text(panel.at)}});
-    figures.emplace_back(mstch::map{{"layout", text(panels.size() > 1 ? "images" : "one")},
-                                    {"panels", mstch::node{panels}},
-                                    {"caption", text(typeset(wanted.caption) + intervals)}});
+    figures.emplace_back(
+        mstch::map{{"layout", text(panels.size() > 1 ? "images" : "one")},
+                   {"panels", mstch::node{panels}},
+                   {"caption", text(typeset(wanted.caption) + (ended ? "" : ".") + shown)}});
   }
   return figures;
 }

@@ -80,6 +80,10 @@ std::string number(double value, int digits) {
   return power_of_ten(text.substr(0, text.find('e')), exponent);
 }
 
+double without_rounding(double value) {
+  return std::abs(value) <= 1e-12 ? 0.0 : value;
+}
+
 std::string setting(double value, std::string_view unit, int digits) {
   if (!std::isfinite(value)) return std::string(unknown);
   const std::string text = typeset(fmt::format("{:.{}g}", value, digits));

@@ -81,6 +81,8 @@ TEST(ReadTest, ReadsEveryEncoding) {
            {encoded(french, "ISO-8859-1"), "ISO-8859-1"},
            {"\xFF\xFE" + encoded(french, "UTF-16LE"), "UTF-16LE"},
            {"\xFE\xFF" + encoded(french, "UTF-16BE"), "UTF-16BE"},
+           {std::string("\xFF\xFE\0\0", 4) + encoded(french, "UTF-32LE"), "UTF-32LE"},
+           {std::string("\0\0\xFE\xFF", 4) + encoded(french, "UTF-32BE"), "UTF-32BE"},
            {encoded(french, "UTF-16LE"), "UTF-16LE"},
            {encoded(french, "UTF-16BE"), "UTF-16BE"},
            {encoded(replaced(french, "0038", "“38”"), "WINDOWS-1252"), "WINDOWS-1252"}}) {
