@@ -115,12 +115,12 @@ Scene nearly_severed(double missing) {
   return scene;
 }
 
-// No way solves an event of some of these walls, two in a thousand.
+// No way solves an event of some of these walls, one in thousands: that of seed 5982 is the first.
 TEST(SwingingPieces, EndInTheLastRowWhereAnEventIsNotSolved) {
   Scene scene = nearly_severed(0.3);
   scene.joints.friction = 0.05;
   int unsolved = 0;
-  for (scene.joints.seed = 1; scene.joints.seed <= 6000 && unsolved == 0; ++scene.joints.seed) {
+  for (scene.joints.seed = 5901; scene.joints.seed <= 12000 && unsolved == 0; ++scene.joints.seed) {
     std::vector<JointOutcome> last;
     double strain = 0.0;
     const Simulation simulation = simulate(scene, [&](const Progress& progress) {
