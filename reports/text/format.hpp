@@ -21,7 +21,8 @@ inline constexpr double GPa = 1e9;   ///< [Pa]
 /// `digits` significant digits: "38.21", "0.004100", "3.21 × 10⁻¹⁴"; "–" when not finite.
 std::string number(double value, int digits = 4);
 
-/// 0 for the 1e-12 and less that rounding leaves of a logarithm of 1, or of a difference of nothing.
+/// 0 for the 1e-12 and less that rounding leaves of a logarithm of 1, or of a difference of
+/// nothing.
 double without_rounding(double value);
 
 /// A number somebody chose, as they would write it: "13", "0.33", "10⁻⁸". Fewer digits for what

@@ -155,8 +155,9 @@ TEST(SimulationPage, GivesASeveredSpecimenNoBoundOfStrength) {
   const auto assembly = small_assembly();
   auto simulation = test::simulation_sample(assembly);
   simulation.status = sim::SimulationStatus::severed;
-  EXPECT_TRUE(contains(simulation_page({sim::Scene{}, assembly, simulation, {}}),
-                       "Missing joints leave nothing that bears a load from end to end. To be trusted."));
+  EXPECT_TRUE(
+      contains(simulation_page({sim::Scene{}, assembly, simulation, {}}),
+               "Missing joints leave nothing that bears a load from end to end. To be trusted."));
 }
 
 TEST(SimulationPage, SurvivesARunWithoutRows) {
