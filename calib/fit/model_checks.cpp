@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -139,7 +140,8 @@ constexpr double largest_off = 3.0;
 
 // Strengths of replicates may have a long tail, and one of them be as far from their mean.
 bool is_among_replicates(const SpecimenResult& specimen) {
-  double lowest = INFINITY, highest = -INFINITY;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  double lowest = infinite, highest = -infinite;
   for (const ReplicateResult& one : specimen.replicates) {
     if (one.failed) continue;
     lowest = std::min(lowest, one.strength);
