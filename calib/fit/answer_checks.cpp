@@ -77,8 +77,7 @@ Check check_randomness(const CalibrationResult& result) {
   const std::string numbers = fmt::format(
       "{} fresh seeds per specimen move no parameter by more than {:.2g} standard errors, the "
       "interval that changes most is {:.2g} times as wide, their cost is {:.3g}; the replicates' "
-      "chance makes {} of "
-      "the variance.{}",
+      "chance makes {} of the variance.{}",
       r.replicates, r.fresh_shift, r.fresh_width, r.fresh_cost, percent_text(r.simulator_share),
       gain);
   const bool as_wide = r.fresh_width <= other_width && r.fresh_width >= 1.0 / other_width;

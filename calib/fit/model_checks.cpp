@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -243,11 +244,10 @@ Check check_validation(const CalibrationResult& result, const std::vector<std::s
     if (specimen.use != Use::validate) continue;
     ++held_out;
     double worst = std::nan("");
-    for (std::size_t q = 0; q < specimen.residual.size(); ++q)
-      if (q != strength || !is_among_replicates(specimen))
-        worst = std::fmax(worst, std::abs(specimen.residual[q]));
-      else
-        worst = std::fmax(worst, std::min(std::abs(specimen.residual[q]), largest_off));
+    std::array<double, 3> residual = specimen.residual;
+    if (is_among_replicates(specimen))
+      residual[strength] = std::clamp(residual[strength], -largest_off, largest_off);
+    for (const double one : residual) worst = std::fmax(worst, std::abs(one));
     if (std::isnan(worst)) unknown.push_back(specimen.id);
     if (worst > largest_off) off.push_back(fmt::format("{} ({:.1f})", specimen.id, worst));
   }

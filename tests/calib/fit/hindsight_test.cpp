@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "calib/fit/answer_checks.hpp"
 #include "calib/fit/calibrate.hpp"
 #include "tests/support/studies.hpp"
 
@@ -124,6 +126,24 @@ TEST(Hindsight, LooksAtTheAnswerWithFreshSeeds) {
   EXPECT_LT(result.randomness.fresh_shift, 1.5);
   EXPECT_GT(result.randomness.simulator_share, 0.0);
   EXPECT_LT(result.randomness.simulator_share, 0.5);
+  EXPECT_NEAR(std::log(result.randomness.fresh_width), 0.0, std::log(3.0));
+}
+
+TEST(Hindsight, WarnsWhereFreshSeedsMakeOtherIntervals) {
+  CalibrationResult result;
+  result.fitted = {"young_GPa"};
+  result.randomness = {.replicates = 8,
+                       .replicates_needed = 4,
+                       .simulator_share = 0.1,
+                       .fresh_cost = 3.0,
+                       .fresh_shift = 0.1};
+  for (const auto& [width, outcome] : {std::pair(1.0, Outcome::pass),
+                                       {1.9, Outcome::pass},
+                                       {4.7, Outcome::warn},
+                                       {0.2, Outcome::warn}}) {
+    result.randomness.fresh_width = width;
+    EXPECT_EQ(check_randomness(result).outcome, outcome) << width;
+  }
 }
 
 // Seeds of each point's own: differences keep all of the noise, and the slopes are worse.
