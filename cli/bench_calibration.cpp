@@ -91,12 +91,12 @@ int bench_calibration(const BenchArguments& arguments, const CommonOptions& comm
   FitCounter counter(common, fits);
   const calib::ChainBenchmark benchmark =
       calib::benchmark_chains(costly, studies, common.threads, std::ref(counter));
-  const io::Provenance provenance = provenance_of(common, {}, watch);
+  const calib::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::chains_json(benchmark, provenance);
   output.write("result.json", io::json_text(result));
   output.write("chains.csv", io::chains_csv(benchmark));
   const bool page = reports::available() && !benchmark.summaries.empty();
-  if (page) output.write("report.html", reports::chains_page(benchmark, page_facts(provenance)));
+  if (page) output.write("report.html", reports::chains_page(benchmark, provenance));
   answer(common, &output, result, page ? "report.html" : "result.json",
          [&] { print_chains(benchmark); });
   const bool usual_wins =
@@ -112,12 +112,12 @@ int bench_coverage(const BenchArguments& arguments, const CommonOptions& common)
   FitCounter counter(common, designs.size() * static_cast<std::size_t>(studies));
   const calib::Coverage coverage =
       calib::measure_coverage(designs, studies, common.threads, std::ref(counter), interrupted);
-  const io::Provenance provenance = provenance_of(common, {}, watch);
+  const calib::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::coverage_json(coverage, provenance);
   output.write("result.json", io::json_text(result));
   output.write("coverage.csv", io::coverage_csv(coverage));
   if (reports::available())
-    output.write("report.html", reports::coverage_page(coverage, page_facts(provenance)));
+    output.write("report.html", reports::coverage_page(coverage, provenance));
   answer(common, &output, result, page_or("result.json"), [&] { print_coverage(coverage); });
   return coverage.holds() && coverage.complete ? done : answer_is_no;
 }

@@ -49,12 +49,12 @@ int bench_porosity(const BenchArguments& arguments, const CommonOptions& common)
   OutputFolder output(arguments.folder, common.force);
   const calib::MethodComparison comparison =
       try_all(arguments, common, output.stage("section.png"));
-  const io::Provenance provenance = provenance_of(common, {}, watch);
+  const calib::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::methods_json(comparison, provenance);
   output.write("result.json", io::json_text(result));
   output.write("porosity.csv", io::methods_csv(comparison));
   if (reports::available())
-    output.write("report.html", reports::methods_page(comparison, page_facts(provenance)));
+    output.write("report.html", reports::methods_page(comparison, provenance));
   answer(common, &output, result, page_or("result.json"), [&] { print_methods(comparison); });
   return comparison.good() && comparison.complete ? done : answer_is_no;
 }

@@ -39,12 +39,11 @@ int bench_stability(const BenchArguments& arguments, const CommonOptions& common
   const Stopwatch watch;
   OutputFolder output(arguments.folder, common.force);
   const sim::StabilityBench bench = run_all(common);
-  const io::Provenance provenance = provenance_of(common, {}, watch);
+  const calib::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::stability_json(bench, provenance);
   output.write("result.json", io::json_text(result));
   output.write("stability.csv", io::stability_csv(bench.scenes));
-  if (reports::available())
-    output.write("report.html", reports::stability_page(bench, page_facts(provenance)));
+  if (reports::available()) output.write("report.html", reports::stability_page(bench, provenance));
   answer(common, &output, result, page_or("result.json"), [&] { print_summary(bench); });
   return bench.good() ? done : answer_is_no;
 }

@@ -69,7 +69,7 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
                                       "same command goes on from there",
                                       output.folder().string()));
 
-  const io::Provenance provenance = provenance_of(common, std::move(inputs), watch);
+  const calib::Provenance provenance = provenance_of(common, std::move(inputs), watch);
   const nlohmann::json json = write_fit(output, loaded, result, provenance);
   answer(common, &output, json, page_or("result.json"),
          [&] { print_fit_summary(result, provenance.wall_seconds, common.verbose); });

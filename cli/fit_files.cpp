@@ -40,13 +40,12 @@ TestFigures draw_tests(const LoadedStudy& loaded) {
 }
 
 void write_page(const OutputFolder& output, const LoadedStudy& loaded,
-                const calib::CalibrationResult& result, const io::Provenance& provenance) {
+                const calib::CalibrationResult& result, const calib::Provenance& provenance) {
   const TestFigures tests = draw_tests(loaded);
   for (const auto& [id, figures] : tests)
     for (std::size_t i = 0; i < figures.size(); ++i) output.write(test_file(id, i), figures[i]);
   output.write("report.html",
-               reports::fit_page({loaded.study, result, loaded.overlays, page_facts(provenance),
-                                  provenance.wall_seconds, tests}));
+               reports::fit_page({loaded.study, result, loaded.overlays, provenance, tests}));
 }
 
 // One scene is one specimen: which, a comment says.
@@ -66,7 +65,8 @@ std::string scene_file(const calib::CalibrationResult& result) {
 }  // namespace
 
 nlohmann::json write_fit(const OutputFolder& output, const LoadedStudy& loaded,
-                         const calib::CalibrationResult& result, const io::Provenance& provenance) {
+                         const calib::CalibrationResult& result,
+                         const calib::Provenance& provenance) {
   for (const calib::SpecimenResult& specimen : result.specimens) {
     io::write_band(output.stage(io::band_file(specimen.id)), specimen.band);
     io::write_measured(output.stage(io::measured_file(specimen.id)), specimen.measured);
@@ -84,8 +84,7 @@ nlohmann::json write_fit(const OutputFolder& output, const LoadedStudy& loaded,
 }
 
 reports::FitReport FinishedFit::report() const {
-  return {fit.study, fit.result, overlays, page_facts(fit.provenance), fit.provenance.wall_seconds,
-          tests};
+  return {fit.study, fit.result, overlays, fit.provenance, tests};
 }
 
 fs::path folder_of_fit(const fs::path& result) {

@@ -15,7 +15,8 @@ namespace havers::cli {
 /// tests/ and report.html where this build makes pages.
 /// Returns what is in result.json.
 nlohmann::json write_fit(const OutputFolder& output, const LoadedStudy& loaded,
-                         const calib::CalibrationResult& result, const io::Provenance& provenance);
+                         const calib::CalibrationResult& result,
+                         const calib::Provenance& provenance);
 
 /// A finished fit, read back from its folder.
 struct FinishedFit {

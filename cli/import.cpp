@@ -193,7 +193,7 @@ std::string figure_name(const std::vector<Imported>& tests, std::size_t i) {
 }
 
 void write_figures(const OutputFolder& output, const std::vector<Imported>& tests,
-                   const reports::Provenance& facts) {
+                   const calib::Provenance& provenance) {
   std::vector<reports::ImportReport> pages;
   pages.reserve(tests.size());
   for (const Imported& test : tests)
@@ -207,15 +207,14 @@ void write_figures(const OutputFolder& output, const std::vector<Imported>& test
     write(figure_name(tests, i), reports::test_svg(pages[i]));
     if (pages[i].clocks != nullptr) write("clocks", reports::clocks_svg(*pages[i].clocks));
   }
-  output.write("report.html", reports::import_page(pages, facts));
+  output.write("report.html", reports::import_page(pages, provenance));
 }
 
 void write_results(const OutputFolder& output, const ImportArguments& arguments,
                    ImportFindings& found, const CommonOptions& common, const Stopwatch& watch) {
   if (arguments.gauge) found.read.push_back(*arguments.gauge);
   if (reports::available())
-    write_figures(output, found.tests,
-                  page_facts(provenance_of(common, digests_of(found.read), watch)));
+    write_figures(output, found.tests, provenance_of(common, digests_of(found.read), watch));
   else
     note(common, "no figures and no page: this build makes none (havers --version)");
 }

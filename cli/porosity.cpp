@@ -173,7 +173,7 @@ void write_page(const OutputFolder& output, const PorosityFindings& found,
     page.histograms.push_back(section.measured.histogram);
   }
   page.mean = mean_of(found.sections);
-  page.provenance = page_facts(provenance_of(common, digests_of(found.read), watch));
+  page.provenance = provenance_of(common, digests_of(found.read), watch);
   if (reports::available()) output.write("report.html", reports::porosity_page(page));
 }
 

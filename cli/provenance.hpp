@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "calib/provenance.hpp"
 #include "cli/command.hpp"
-#include "io/results/result_files.hpp"
-#include "reports/pages.hpp"
 
 namespace havers::cli {
 
@@ -30,9 +29,7 @@ using Digests = std::map<std::string, std::string>;
 Digests digests_of(const std::vector<std::filesystem::path>& inputs);
 
 /// The command as typed, the inputs' digests, and the time so far.
-io::Provenance provenance_of(const CommonOptions& common, Digests inputs, const Stopwatch& watch);
-
-/// The same as facts for the foot of a page.
-reports::Provenance page_facts(const io::Provenance& provenance);
+calib::Provenance provenance_of(const CommonOptions& common, Digests inputs,
+                                const Stopwatch& watch);
 
 }  // namespace havers::cli

@@ -49,7 +49,7 @@ sim::Simulation watched_run(const sim::Scene& scene, io::SnapshotRecorder& snaps
 nlohmann::json write_results(const OutputFolder& output, const io::SceneFile& file,
                              const sim::Simulation& simulation,
                              const io::SnapshotRecorder& snapshots,
-                             const io::Provenance& provenance) {
+                             const calib::Provenance& provenance) {
   const sim::Scene& scene = file.scene;
   const sim::Assembly assembly = sim::build_assembly(scene.assembly, scene.loading.lateral);
   io::write_curve(output.stage("curve.csv"), simulation);
@@ -61,8 +61,7 @@ nlohmann::json write_results(const OutputFolder& output, const io::SceneFile& fi
     output.write("fracture.svg", reports::fracture_svg(assembly, simulation));
     output.write("avalanche.svg", reports::avalanche_svg(assembly, simulation));
     output.write("report.html",
-                 reports::simulation_page({scene, assembly, simulation, page_facts(provenance),
-                                           provenance.wall_seconds,
+                 reports::simulation_page({scene, assembly, simulation, provenance,
                                            file.inputs.front().filename().string()}));
   }
   nlohmann::json json = io::simulation_json(file, simulation, provenance);
@@ -170,7 +169,7 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
                     "not hold together as one structure",
                     sim::explain(simulation.status)));
   snapshots.finish(simulation);
-  const io::Provenance provenance = provenance_of(common, std::move(inputs), watch);
+  const calib::Provenance provenance = provenance_of(common, std::move(inputs), watch);
   const nlohmann::json json = write_results(output, file, simulation, snapshots, provenance);
   answer(common, &output, json, page_or("result.json"),
          [&] { print_summary(file.scene, simulation, provenance.wall_seconds, common.verbose); });

@@ -111,7 +111,7 @@ bool trusted(const std::vector<Done>& all) {
   return std::ranges::all_of(all, [](const Done& one) { return one.result.trusted(); });
 }
 
-nlohmann::json json_of_all(const std::vector<Done>& all, const io::Provenance& provenance) {
+nlohmann::json json_of_all(const std::vector<Done>& all, const calib::Provenance& provenance) {
   nlohmann::json sweeps = nlohmann::json::array();
   for (const Done& one : all) sweeps.push_back(io::sweep_json(one.sweep, one.result));
   return {{"status", "finished"},
@@ -127,7 +127,7 @@ nlohmann::json json_of_all(const std::vector<Done>& all, const io::Provenance& p
 
 // Returns what is in result.json.
 nlohmann::json write_all(const OutputFolder& output, const SweepArguments& arguments,
-                         const std::vector<Done>& all, const io::Provenance& provenance) {
+                         const std::vector<Done>& all, const calib::Provenance& provenance) {
   std::vector<reports::SweepReport> parts;
   for (const Done& one : all) {
     output.write(fs::path(one.stem) / "runs.csv", io::runs_csv(one.sweep, one.result));
@@ -137,8 +137,7 @@ nlohmann::json write_all(const OutputFolder& output, const SweepArguments& argum
     parts.push_back({one.stem, one.sweep, one.result});
   }
   if (reports::available())
-    output.write("report.html", reports::sweep_page(arguments.title, parts, page_facts(provenance),
-                                                    provenance.wall_seconds));
+    output.write("report.html", reports::sweep_page(arguments.title, parts, provenance));
   nlohmann::json json = json_of_all(all, provenance);
   output.write("result.json", io::json_text(json));
   return json;
@@ -205,7 +204,7 @@ int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
                     output.folder().string(),
                     patterns ? ", but those of sweeps with patterns, which begin anew" : ""));
   }
-  const io::Provenance provenance = provenance_of(common, std::move(inputs), watch);
+  const calib::Provenance provenance = provenance_of(common, std::move(inputs), watch);
   const nlohmann::json json = write_all(output, arguments, all, provenance);
   answer(common, &output, json, page_or("result.json"),
          [&] { print_summary(all, provenance.wall_seconds); });

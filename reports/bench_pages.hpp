@@ -17,11 +17,13 @@ namespace havers::reports {
 std::string work_precision_svg(const sim::WorkPrecision& study);
 
 std::string work_precision_page(const sim::Scene& scene, const sim::WorkPrecision& study,
-                                const Provenance& provenance);
-std::string stability_page(const sim::StabilityBench& bench, const Provenance& provenance);
-std::string methods_page(const calib::MethodComparison& comparison, const Provenance& provenance);
+                                const calib::Provenance& provenance);
+std::string stability_page(const sim::StabilityBench& bench, const calib::Provenance& provenance);
+std::string methods_page(const calib::MethodComparison& comparison,
+                         const calib::Provenance& provenance);
 /// Precondition: the benchmark is complete.
-std::string chains_page(const calib::ChainBenchmark& benchmark, const Provenance& provenance);
-std::string coverage_page(const calib::Coverage& coverage, const Provenance& provenance);
+std::string chains_page(const calib::ChainBenchmark& benchmark,
+                        const calib::Provenance& provenance);
+std::string coverage_page(const calib::Coverage& coverage, const calib::Provenance& provenance);
 
 }  // namespace havers::reports

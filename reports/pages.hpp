@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "calib/experiment/clocks.hpp"
 #include "calib/fit/calibration.hpp"
+#include "calib/provenance.hpp"
 #include "sim/simulation.hpp"
 
 namespace havers::reports {
@@ -17,15 +16,11 @@ namespace havers::reports {
 /// Whether this build can make pages.
 bool available();
 
-/// Facts for the foot of every page: key and value, in order.
-using Provenance = std::vector<std::pair<std::string, std::string>>;
-
 struct SimulationReport {
   const sim::Scene& scene;
   const sim::Assembly& assembly;
   const sim::Simulation& simulation;
-  Provenance provenance;
-  double wall_seconds = std::numeric_limits<double>::quiet_NaN();  ///< NaN where not recorded. [s]
+  calib::Provenance provenance;
   std::string file{};  ///< Of the scene; empty: the page does without its name.
 };
 
@@ -33,8 +28,7 @@ struct FitReport {
   const calib::Study& study;
   const calib::CalibrationResult& result;
   std::map<std::string, std::vector<std::vector<std::uint8_t>>> overlays;  ///< Specimen id to PNGs.
-  Provenance provenance;
-  double wall_seconds = std::numeric_limits<double>::quiet_NaN();  ///< NaN where not recorded. [s]
+  calib::Provenance provenance;
   /// Specimen id to SVGs: its test as read and as used, the clocks of a second logger.
   std::map<std::string, std::vector<std::string>> tests{};
 };
@@ -53,7 +47,7 @@ struct PorosityReport {
   std::vector<double> scatter;                      ///< d, one per section; NaN: unknown. [-]
   std::vector<calib::DepthHistogram> histograms;    ///< One per section.
   calib::SpecimenPorosity mean;                     ///< Over all sections.
-  Provenance provenance;
+  calib::Provenance provenance;
 };
 
 /// The broken assembly: fibres displaced, broken joints by kind. SVG.
@@ -71,7 +65,8 @@ std::string clocks_svg(const calib::ClockFit& clocks, const std::string& id = "c
 
 std::string simulation_page(const SimulationReport& report);
 std::string fit_page(const FitReport& report);
-std::string import_page(const std::vector<ImportReport>& reports, const Provenance& provenance);
+std::string import_page(const std::vector<ImportReport>& reports,
+                        const calib::Provenance& provenance);
 std::string porosity_page(const PorosityReport& report);
 
 /// Several fits side by side.

@@ -37,10 +37,11 @@ std::string fit_page(const FitReport& /*report*/) {
   return how_to_get_pages();
 }
 std::string sweep_page(const std::string& /*title*/, const std::vector<SweepReport>& /*sweeps*/,
-                       const Provenance& /*facts*/, double /*wall_seconds*/) {
+                       const calib::Provenance& /*provenance*/) {
   return how_to_get_pages();
 }
-std::string import_page(const std::vector<ImportReport>& /*reports*/, const Provenance& /*facts*/) {
+std::string import_page(const std::vector<ImportReport>& /*reports*/,
+                        const calib::Provenance& /*provenance*/) {
   return how_to_get_pages();
 }
 std::string porosity_page(const PorosityReport& /*report*/) {
@@ -50,20 +51,23 @@ std::string work_precision_svg(const sim::WorkPrecision& /*study*/) {
   return how_to_get_pages();
 }
 std::string work_precision_page(const sim::Scene& /*scene*/, const sim::WorkPrecision& /*study*/,
-                                const Provenance& /*facts*/) {
+                                const calib::Provenance& /*provenance*/) {
   return how_to_get_pages();
 }
-std::string stability_page(const sim::StabilityBench& /*bench*/, const Provenance& /*facts*/) {
+std::string stability_page(const sim::StabilityBench& /*bench*/,
+                           const calib::Provenance& /*provenance*/) {
   return how_to_get_pages();
 }
 std::string methods_page(const calib::MethodComparison& /*comparison*/,
-                         const Provenance& /*facts*/) {
+                         const calib::Provenance& /*provenance*/) {
   return how_to_get_pages();
 }
-std::string chains_page(const calib::ChainBenchmark& /*benchmark*/, const Provenance& /*facts*/) {
+std::string chains_page(const calib::ChainBenchmark& /*benchmark*/,
+                        const calib::Provenance& /*provenance*/) {
   return how_to_get_pages();
 }
-std::string coverage_page(const calib::Coverage& /*coverage*/, const Provenance& /*facts*/) {
+std::string coverage_page(const calib::Coverage& /*coverage*/,
+                          const calib::Provenance& /*provenance*/) {
   return how_to_get_pages();
 }
 std::string comparison_page(const std::vector<FitReport>& /*reports*/) {

@@ -73,9 +73,6 @@ void search(Trail& trail, const Active& active, bool polish, Answer& answer) {
   answer.stages.push_back(search_nlopt(trail, trail.best(), split, Stride::polish).log);
 }
 
-constexpr const char* kept_where_found =
-    "; kept where the fit found it, for the study's value contradicts the specimens";
-
 // Unknowns that turn out uninformed at the answer go back to where the study has them, unless the
 // specimens contradict that: then what they do not tell would be wrong, and spoil what they do.
 void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
@@ -87,8 +84,7 @@ void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
   search_ceres(trail, trail.best(), answer.active);
   // A trail that was stopped may have no simulation of where the study has them.
   if (trail.best().failed || trail.best().cost > found.cost + contradicts) {
-    for (auto& one : left)
-      if (!trail.stopped()) one.because += kept_where_found;
+    for (auto& one : left) one.kept_where_found = !trail.stopped();
     trail.restart(trail.weights(), found);
   }
   answer.left.insert(answer.left.end(), left.begin(), left.end());
@@ -105,7 +101,7 @@ bool mend_left_out(Trail& trail, const Eigen::MatrixXd& jacobian, Answer& answer
     Active along = answer.active;
     along.push_back(one.unknown);
     trail.restart(trail.weights(), search_ceres(trail, *lowest, along).best);
-    if (!one.because.ends_with(kept_where_found)) one.because += kept_where_found;
+    one.kept_where_found = true;
     return true;
   }
   return false;

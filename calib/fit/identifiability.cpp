@@ -154,6 +154,12 @@ Eigen::Index last_uninformed(const FitProblem& problem, const Active& active,
 
 }  // namespace
 
+std::string LeftUnknown::reason() const {
+  return because + (kept_where_found ? "; kept where the fit found it, for the study's value "
+                                       "contradicts the specimens"
+                                     : "");
+}
+
 std::vector<LeftUnknown> uninformed(const FitProblem& problem, const Point& at, Active active,
                                     const Differences& slopes) {
   Differences rest = slopes;

@@ -13,6 +13,10 @@ struct LeftUnknown {
   std::string because;  ///< Half a sentence, after "left out because".
   /// The unknown with which only a combination is determined; −1 where nothing changes with it.
   Eigen::Index partner = -1;
+  bool kept_where_found = false;  ///< For the study's value contradicts the specimens.
+
+  /// The whole of why it stands where it does.
+  [[nodiscard]] std::string reason() const;
 };
 
 /// Unknowns that the residuals' slopes do not inform (F10), the last of the documentation's order

@@ -97,7 +97,7 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer,
   bool conditional = false;
   for (const LeftUnknown& one : answer.left) {
     const Unknown& unknown = problem.unknown(one.unknown);
-    text += fmt::format("{} is left out: {}. It stays at {}. ", unknown.label, one.because,
+    text += fmt::format("{} is left out: {}. It stays at {}. ", unknown.label, one.reason(),
                         where_left(unknown, answer.best.point[one.unknown]));
     if (asked || std::ranges::count(answer.active, one.partner) == 0) continue;
     conditional = true;

@@ -53,7 +53,7 @@ std::vector<CalibratedParameter> parameters_of(const FitProblem& problem, const 
     const auto index = static_cast<Eigen::Index>(k);
     auto parameter = unfitted(unknown, answer.best.point[index]);
     const auto left = std::ranges::find(answer.left, index, &LeftUnknown::unknown);
-    if (left != answer.left.end()) parameter.left_out_because = left->because;
+    if (left != answer.left.end()) parameter.left_out_because = left->reason();
 
     const auto active = std::ranges::find(answer.active, index);
     if (active != answer.active.end()) {
@@ -75,7 +75,7 @@ std::vector<sim::LeftOut> left_out_of(const FitProblem& problem, const Simulatio
                                       const Answer& answer) {
   std::vector<sim::LeftOut> list;
   for (const LeftUnknown& one : answer.left)
-    list.push_back({problem.unknown(one.unknown).label, one.because});
+    list.push_back({problem.unknown(one.unknown).label, one.reason()});
   for (std::size_t s = 0; s < problem.targets.size(); ++s)
     if (!problem.targets[s].usable)
       list.push_back({"specimen " + problem.study.specimens[s].id,

@@ -113,13 +113,11 @@ Check check_failures(const CalibrationResult& result) {
   if (share <= 0.05)
     return {"simulations", Outcome::pass,
             text + "; the replicates that answered stand in for them."};
-  // Behind a semicolon, as all reasons do.
-  const bool says_what_helps = result.most_failed_because.find("; ") != std::string::npos;
-  return {"simulations", share <= 0.2 ? Outcome::warn : Outcome::fail,
-          fmt::format("{}, most often so: {}.{}", text, result.most_failed_because,
-                      says_what_helps ? ""
-                                      : " Narrow calibrate.bounds to where the model can be "
-                                        "simulated.")};
+  return {
+      "simulations", share <= 0.2 ? Outcome::warn : Outcome::fail,
+      fmt::format("{}, most often so: {}. None would within calibrate.bounds that keep to where "
+                  "the model can be simulated.",
+                  text, result.most_failed_because)};
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ nlohmann::json summaries_of(
 }  // namespace
 
 nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPrecision& study,
-                                   const Provenance& provenance) {
+                                   const calib::Provenance& provenance) {
   nlohmann::json rows = nlohmann::json::array(), cheapest = nlohmann::json::array();
   for (const sim::BenchRow& row : study.rows)
     rows.push_back(object_of({"text", to_string(row.setting)}, row_cells(row)));
@@ -135,7 +135,8 @@ nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPreci
           {"provenance", provenance_object(provenance)}};
 }
 
-nlohmann::json stability_json(const sim::StabilityBench& bench, const Provenance& provenance) {
+nlohmann::json stability_json(const sim::StabilityBench& bench,
+                              const calib::Provenance& provenance) {
   nlohmann::json scenes = nlohmann::json::array();
   for (const sim::StabilityResult& result : bench.scenes)
     scenes.push_back(object_of({"name", result.name}, stability_cells(result)));
@@ -158,7 +159,7 @@ std::string stability_csv(const std::vector<sim::StabilityResult>& results) {
 }
 
 nlohmann::json methods_json(const calib::MethodComparison& comparison,
-                            const Provenance& provenance) {
+                            const calib::Provenance& provenance) {
   nlohmann::json hardships;
   for (const auto& [hardship, methods] : comparison.hardships)
     hardships.push_back({{"hardship", hardship}, {"methods", summaries_of(methods)}});

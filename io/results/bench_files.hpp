@@ -15,14 +15,16 @@
 namespace havers::io {
 
 nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPrecision& study,
-                                   const Provenance& provenance);
-nlohmann::json stability_json(const sim::StabilityBench& bench, const Provenance& provenance);
+                                   const calib::Provenance& provenance);
+nlohmann::json stability_json(const sim::StabilityBench& bench,
+                              const calib::Provenance& provenance);
 
 nlohmann::json methods_json(const calib::MethodComparison& comparison,
-                            const Provenance& provenance);
+                            const calib::Provenance& provenance);
 
-nlohmann::json chains_json(const calib::ChainBenchmark& benchmark, const Provenance& provenance);
-nlohmann::json coverage_json(const calib::Coverage& coverage, const Provenance& provenance);
+nlohmann::json chains_json(const calib::ChainBenchmark& benchmark,
+                           const calib::Provenance& provenance);
+nlohmann::json coverage_json(const calib::Coverage& coverage, const calib::Provenance& provenance);
 
 /// One line a setting, a scene, a section by a method; a fit by a chain, an interval of a study.
 std::string work_precision_csv(const sim::WorkPrecision& study);

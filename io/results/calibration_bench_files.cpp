@@ -32,7 +32,8 @@ std::string chains_csv(const calib::ChainBenchmark& benchmark) {
   return table.text;
 }
 
-nlohmann::json chains_json(const calib::ChainBenchmark& benchmark, const Provenance& provenance) {
+nlohmann::json chains_json(const calib::ChainBenchmark& benchmark,
+                           const calib::Provenance& provenance) {
   nlohmann::json chains = nlohmann::json::array();
   for (const calib::ChainSummary& summary : benchmark.summaries)
     chains.push_back({{"chain", summary.chain},
@@ -68,7 +69,7 @@ std::string coverage_csv(const calib::Coverage& coverage) {
   return table.text;
 }
 
-nlohmann::json coverage_json(const calib::Coverage& coverage, const Provenance& provenance) {
+nlohmann::json coverage_json(const calib::Coverage& coverage, const calib::Provenance& provenance) {
   nlohmann::json summaries = nlohmann::json::array();
   for (const calib::CoverageSummary& summary : coverage.summaries) {
     summaries.push_back({{"design", summary.design},

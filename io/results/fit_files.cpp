@@ -68,7 +68,7 @@ void read_curves(const std::filesystem::path& folder, calib::SpecimenResult& spe
 }  // namespace
 
 nlohmann::json calibration_json(const calib::Study& study, const calib::CalibrationResult& result,
-                                const Provenance& provenance) {
+                                const calib::Provenance& provenance) {
   calib::CalibrationResult answer = result;
   calib::Study question = study;
   nlohmann::json json = json_of(answer);

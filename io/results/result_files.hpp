@@ -2,12 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "calib/fit/calibration.hpp"
+#include "calib/provenance.hpp"
 #include "io/config/read_scene.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/machine/read_test.hpp"
@@ -20,24 +20,14 @@ namespace havers::io {
 std::string version();
 std::string compiler_version();
 
-/// Where a result comes from.
-struct Provenance {
-  std::string havers = version();
-  std::string compiler = compiler_version();
-  std::string command;                        ///< As typed.
-  std::map<std::string, std::string> inputs;  ///< File name to SHA-256.
-  double wall_seconds = 0.0;
-  double cpu_seconds = 0.0;
-};
-
 /// The `provenance` object of a result.json.
-nlohmann::json provenance_object(Provenance provenance);
+nlohmann::json provenance_object(calib::Provenance provenance);
 
 /// The objects of result.json and of --json.
 nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& simulation,
-                               const Provenance& provenance);
+                               const calib::Provenance& provenance);
 nlohmann::json calibration_json(const calib::Study& study, const calib::CalibrationResult& result,
-                                const Provenance& provenance);
+                                const calib::Provenance& provenance);
 nlohmann::json import_json(const TestFile& file, const calib::Reduction& reduction);
 nlohmann::json porosity_json(const calib::SectionPorosity& section, double scatter);
 
@@ -81,7 +71,7 @@ std::string json_text(const nlohmann::json& json);
 struct FitFolder {
   calib::Study study;  ///< Name, options and porosity; specimens as far as the report shows them.
   calib::CalibrationResult result;
-  Provenance provenance;
+  calib::Provenance provenance;
 };
 /// Of a fit's folder or its result.json, whatever its name, with curves/ beside it.
 /// @throws InputError where these are not there, or not of a fit.

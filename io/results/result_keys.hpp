@@ -28,7 +28,7 @@ void keys(Table& table, sim::LeftOut& left_out) {
 }
 
 template <class Table>
-void keys(Table& table, Provenance& provenance) {
+void keys(Table& table, calib::Provenance& provenance) {
   table.key("havers", provenance.havers);
   table.key("compiler", provenance.compiler);
   table.key("command", provenance.command);

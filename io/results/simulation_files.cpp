@@ -12,7 +12,7 @@
 namespace havers::io {
 
 nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& simulation,
-                               const Provenance& provenance) {
+                               const calib::Provenance& provenance) {
   nlohmann::json scene = scene_json(file.scene);
   scene["output"]["snapshots"] = file.snapshots;
   const sim::StepError error = simulation.step_error.value_or(sim::StepError{NAN, NAN});

@@ -107,7 +107,7 @@ mstch::map stability_row(const sim::StabilityResult& result) {
 }  // namespace
 
 std::string work_precision_page(const sim::Scene& scene, const sim::WorkPrecision& study,
-                                const Provenance& provenance) {
+                                const calib::Provenance& provenance) {
   mstch::array rows;
   for (const sim::BenchRow& row : study.rows)
     rows.emplace_back(work_row(row, rows.empty(), study.time_limit));
@@ -135,7 +135,7 @@ std::string work_precision_page(const sim::Scene& scene, const sim::WorkPrecisio
       provenance);
 }
 
-std::string stability_page(const sim::StabilityBench& bench, const Provenance& provenance) {
+std::string stability_page(const sim::StabilityBench& bench, const calib::Provenance& provenance) {
   mstch::array rows;
   for (const sim::StabilityResult& result : bench.scenes) rows.emplace_back(stability_row(result));
   return render_page("havers bench: stiff and extreme scenes", "stability",

@@ -66,7 +66,8 @@ std::string what_shares_say(const std::set<calib::IntervalWidth>& widths) {
 
 }  // namespace
 
-std::string chains_page(const calib::ChainBenchmark& benchmark, const Provenance& provenance) {
+std::string chains_page(const calib::ChainBenchmark& benchmark,
+                        const calib::Provenance& provenance) {
   const auto& summaries = benchmark.summaries;
   const calib::ChainSummary& winner = benchmark.winner();
   const bool usual = winner.chain == summaries.front().chain;
@@ -98,7 +99,7 @@ std::string chains_page(const calib::ChainBenchmark& benchmark, const Provenance
       provenance);
 }
 
-std::string coverage_page(const calib::Coverage& coverage, const Provenance& provenance) {
+std::string coverage_page(const calib::Coverage& coverage, const calib::Provenance& provenance) {
   mstch::array rows;
   int inside = 0, informed = 0;
   std::set<calib::IntervalWidth> widths;

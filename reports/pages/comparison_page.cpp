@@ -68,16 +68,13 @@ std::vector<std::string> shell_words(const std::string& command) {
 // What was given on the command line beside the study: "--set model.x=1", "--seed 2".
 std::string settings_of(const FitReport& fit) {
   std::vector<std::string> settings;
-  for (const auto& [name, value] : fit.provenance) {
-    if (name != "Command") continue;
-    const std::vector<std::string> words = shell_words(value);
-    for (std::size_t i = 0; i < words.size(); ++i)
-      for (const std::string option : {"--set", "--seed"})
-        if (words[i] == option && i + 1 < words.size())
-          settings.push_back(fmt::format("{} {}", option, words[++i]));
-        else if (words[i].starts_with(option + "="))
-          settings.push_back(fmt::format("{} {}", option, words[i].substr(option.size() + 1)));
-  }
+  const std::vector<std::string> words = shell_words(fit.provenance.command);
+  for (std::size_t i = 0; i < words.size(); ++i)
+    for (const std::string option : {"--set", "--seed"})
+      if (words[i] == option && i + 1 < words.size())
+        settings.push_back(fmt::format("{} {}", option, words[++i]));
+      else if (words[i].starts_with(option + "="))
+        settings.push_back(fmt::format("{} {}", option, words[i].substr(option.size() + 1)));
   return settings.empty() ? "none" : joined(settings);
 }
 
@@ -97,8 +94,7 @@ std::string specimens_of(const FitReport& fit) {
 // Digests of the files that a fit read, by their names, which those of several folders may share.
 std::map<std::string, std::set<std::string>> digests_of(const FitReport& fit) {
   std::map<std::string, std::set<std::string>> files;
-  for (const auto& [name, value] : fit.provenance)
-    if (value.starts_with("SHA-256")) files[base_name(name)].insert(value);
+  for (const auto& [name, digest] : fit.provenance.inputs) files[base_name(name)].insert(digest);
   return files;
 }
 
@@ -122,9 +118,7 @@ std::vector<std::string> files_unlike(const FitReport& fit, const FitReport& fir
 }
 
 std::string program_of(const FitReport& fit) {
-  for (const auto& [name, value] : fit.provenance)
-    if (name == "Program") return value;
-  return "";
+  return fmt::format("havers {}, {}", fit.provenance.havers, fit.provenance.compiler);
 }
 
 // In what a fit differs from the first of the page, but for its outcome.
@@ -152,7 +146,7 @@ mstch::map fit_content(const FitReport& fit, const FitReport& first) {
           {"cost", text(number(result.cost))},
           {"specimens", text(std::to_string(result.specimens.size()))},
           {"evaluations", text(std::to_string(result.evaluations))},
-          {"wall", text(duration(fit.wall_seconds))},
+          {"wall", text(duration(fit.provenance.wall_seconds))},
           {"checks", check_section(result.verdict)}};
 }
 
@@ -182,18 +176,17 @@ mstch::map verdict_of_fits(const std::vector<FitReport>& fits) {
 
 std::string comparison_page(const std::vector<FitReport>& reports) {
   mstch::array fits;
-  Provenance provenance;
+  Footer footer;
   for (const FitReport& fit : reports) {
     fits.emplace_back(fit_content(fit, reports.front()));
-    for (const auto& [name, value] : fit.provenance)
-      provenance.emplace_back(fmt::format("{}: {}", fit.study.name, name), value);
+    footer.add(fit.provenance, fit.study.name + ": ");
   }
   mstch::map content = verdict_of_fits(reports);
   content["fits"] = mstch::node{fits};
   content["intervals"] = text(draw(intervals_figure(reports, "intervals")));
   content["parameters"] = mstch::node{parameter_rows(reports)};
   return render_page(fmt::format("havers report: {} side by side", count(reports.size(), "fit")),
-                     "comparison", content, provenance);
+                     "comparison", content, footer);
 }
 
 }  // namespace havers::reports

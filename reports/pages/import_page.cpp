@@ -133,7 +133,8 @@ std::string clocks_svg(const calib::ClockFit& clocks, const std::string& id) {
   return draw(clocks_figure(clocks, id));
 }
 
-std::string import_page(const std::vector<ImportReport>& reports, const Provenance& provenance) {
+std::string import_page(const std::vector<ImportReport>& reports,
+                        const calib::Provenance& provenance) {
   mstch::array tests;
   for (std::size_t i = 0; i < reports.size(); ++i) tests.emplace_back(content_of(reports[i], i));
   mstch::map content = verdict_of_tests(reports);

@@ -30,7 +30,8 @@ mstch::map hardship_row(const calib::HardshipSummary& hardship) {
 
 }  // namespace
 
-std::string methods_page(const calib::MethodComparison& comparison, const Provenance& provenance) {
+std::string methods_page(const calib::MethodComparison& comparison,
+                         const calib::Provenance& provenance) {
   const calib::MethodSummary& ours = comparison.methods.back();
   mstch::array methods, hardships;
   for (const calib::MethodSummary& method : comparison.methods)

@@ -102,7 +102,7 @@ std::string search_sentence(const FitReport& report) {
       count(result.evaluations, "simulation"), result.simulated,
       result.distinct_simulations - result.simulated,
       result.evaluations - result.distinct_simulations, result.failed_simulations,
-      duration(report.wall_seconds));
+      duration(report.provenance.wall_seconds));
 }
 
 std::string section_caption(const calib::SectionPorosity& section) {
@@ -132,25 +132,40 @@ std::string base_name(const std::string& path) {
   return path.substr(path.rfind('/') + 1);
 }
 
+void Footer::add(const calib::Provenance& provenance, const std::string& whose) {
+  const auto add_fact = [&](const char* name, const std::string& value) {
+    facts.emplace_back(whose + name, value);
+  };
+  if (!provenance.command.empty()) add_fact("Command", provenance.command);
+  if (!provenance.havers.empty())
+    add_fact("Program", fmt::format("havers {}, {}", provenance.havers, provenance.compiler));
+  if (std::isfinite(provenance.wall_seconds))
+    add_fact("Wall time", fmt::format("{:.3g} s", provenance.wall_seconds));
+  if (std::isfinite(provenance.cpu_seconds))
+    add_fact("CPU time", fmt::format("{:.3g} s", provenance.cpu_seconds));
+  for (const auto& [file, digest] : provenance.inputs) digests.emplace_back(whose + file, digest);
+}
+
 std::string render_page(const std::string& title, const std::string& name, mstch::map content,
-                        const Provenance& provenance) {
-  constexpr std::string_view digest = "SHA-256 ";
-  Facts facts, digests;
-  for (const auto& [fact, value] : provenance)
-    if (value.starts_with(digest))
-      digests.emplace_back(fact, value.substr(digest.size()));
-    else
-      facts.emplace_back(fact, value);
+                        const Footer& footer) {
   const std::string body = mstch::render(templates().at(name), content, templates());
-  return mstch::render(templates().at("page"),
-                       mstch::map{{"title", text(title)},
-                                  {"body", text(body)},
-                                  {"has_provenance", mstch::node{!provenance.empty()}},
-                                  {"provenance", mstch::node{fact_list(facts)}},
-                                  {"has_digests", mstch::node{!digests.empty()}},
-                                  {"digest_count", text(count(digests.size(), "input file"))},
-                                  {"digests", mstch::node{fact_list(digests)}}},
-                       templates());
+  return mstch::render(
+      templates().at("page"),
+      mstch::map{{"title", text(title)},
+                 {"body", text(body)},
+                 {"has_provenance", mstch::node{!footer.facts.empty()}},
+                 {"provenance", mstch::node{fact_list(footer.facts)}},
+                 {"has_digests", mstch::node{!footer.digests.empty()}},
+                 {"digest_count", text(count(footer.digests.size(), "input file"))},
+                 {"digests", mstch::node{fact_list(footer.digests)}}},
+      templates());
+}
+
+std::string render_page(const std::string& title, const std::string& name, mstch::map content,
+                        const calib::Provenance& provenance) {
+  Footer footer;
+  footer.add(provenance);
+  return render_page(title, name, std::move(content), footer);
 }
 
 }  // namespace havers::reports

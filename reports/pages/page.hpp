@@ -56,8 +56,19 @@ std::string degrees(double radians);
 /// The file behind the last slash, or the whole when there is none.
 std::string base_name(const std::string& path);
 
+/// The foot of a page: where its results come from, and the digests of the files they were made of.
+struct Footer {
+  Facts facts, digests;
+
+  /// @param whose  Stands before each name, where a page has several results.
+  void add(const calib::Provenance& provenance, const std::string& whose = "");
+};
+
 /// A whole page: the template of that name filled, in the common frame.
 std::string render_page(const std::string& title, const std::string& name, mstch::map content,
-                        const Provenance& provenance);
+                        const Footer& footer);
+/// The same of one result.
+std::string render_page(const std::string& title, const std::string& name, mstch::map content,
+                        const calib::Provenance& provenance);
 
 }  // namespace havers::reports

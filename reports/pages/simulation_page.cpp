@@ -66,9 +66,9 @@ std::string cost_of(const SimulationReport& report) {
   return fmt::format(
       "Status {}: {}. {} wall time, for a relative energy defect of {}, a residual of at most {} "
       "and a penetration of at most {}.{}",
-      to_string(s.status), explain(s), duration(report.wall_seconds), number(s.energy_defect, 3),
-      number(s.worst_residual, 3), quantity(s.worst_penetration / in::um, "µm", 3),
-      step_error_of(s));
+      to_string(s.status), explain(s), duration(report.provenance.wall_seconds),
+      number(s.energy_defect, 3), number(s.worst_residual, 3),
+      quantity(s.worst_penetration / in::um, "µm", 3), step_error_of(s));
 }
 
 // Of a run that did not break the strain of the largest stress says nothing.

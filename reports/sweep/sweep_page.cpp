@@ -172,7 +172,7 @@ mstch::node sweep_part(const SweepReport& report) {
 }  // namespace
 
 std::string sweep_page(const std::string& title, const std::vector<SweepReport>& sweeps,
-                       const Provenance& provenance, double wall_seconds) {
+                       const calib::Provenance& provenance) {
   const std::vector<FindingRow> rows = findings_of(sweeps);
   long runs = 0, simulated = 0, failed = 0, unbroken = 0;
   mstch::array parts;
@@ -196,7 +196,7 @@ std::string sweep_page(const std::string& title, const std::vector<SweepReport>&
         text(fmt::format(
             "{}, {} failed, {} did not break; {} of them simulated now, in {} wall time. Seeds are "
             "not shared between points.",
-            count(runs, "run"), failed, unbroken, simulated, duration(wall_seconds)))},
+            count(runs, "run"), failed, unbroken, simulated, duration(provenance.wall_seconds)))},
        {"has_findings", mstch::node{!rows.empty()}},
        {"findings", mstch::node{finding_rows(rows)}},
        {"sweeps", mstch::node{parts}}},

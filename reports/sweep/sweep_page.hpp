@@ -15,8 +15,7 @@ struct SweepReport {
   const calib::SweepResult& result;
 };
 
-/// @param wall_seconds  NaN where not recorded. [s]
 std::string sweep_page(const std::string& title, const std::vector<SweepReport>& sweeps,
-                       const Provenance& provenance, double wall_seconds);
+                       const calib::Provenance& provenance);
 
 }  // namespace havers::reports

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_havers.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers {
 namespace {
@@ -17,6 +18,7 @@ std::string header_of(const std::string& table) {
 }
 
 TEST(Bench, LeavesPageFigureTableAndResult) {
+  HAVERS_SLOW;
   const fs::path folder = test::folder_with_scene();
   const auto answer = run_havers(folder, "bench scene.toml -o out --seeds 1");
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
@@ -67,6 +69,7 @@ TEST(Bench, RefusesWhatItsModeDoesNotUse) {
 }
 
 TEST(Bench, RunsTheStabilityScenesWithoutAScene) {
+  HAVERS_SLOW;
   const fs::path folder = own_folder();
   const auto answer = run_havers(folder, "bench --stability -o out --json");
   const auto result = nlohmann::json::parse(answer.out);
@@ -78,6 +81,7 @@ TEST(Bench, RunsTheStabilityScenesWithoutAScene) {
 }
 
 TEST(Bench, ComparesWaysToMeasurePorosityWithoutAScene) {
+  HAVERS_SLOW;
   if (!test::reads_images()) GTEST_SKIP() << "this build reads no images";
   const fs::path folder = own_folder();
   const auto answer = run_havers(folder, "bench --porosity --seeds 1 -o out --json");
@@ -107,6 +111,7 @@ TEST(Bench, SaysThatItWasStoppedAmongSections) {
 }
 
 TEST(Bench, ComparesChainsOfOptimisersWithoutAScene) {
+  HAVERS_SLOW;
   const fs::path folder = own_folder();
   const auto answer = run_havers(folder, "bench --calibration --studies 1 -o out --json");
   ASSERT_NE(answer.exit_code, 2) << answer.err;
@@ -120,6 +125,7 @@ TEST(Bench, ComparesChainsOfOptimisersWithoutAScene) {
 }
 
 TEST(Bench, MeasuresWhatIntervalsHoldWithoutAScene) {
+  HAVERS_SLOW;
   const fs::path folder = own_folder();
   const auto answer = run_havers(folder, "bench --coverage --studies 1 -o out --json");
   ASSERT_NE(answer.exit_code, 2) << answer.err;

@@ -7,6 +7,7 @@
 
 #include "io/machine/read_test.hpp"
 #include "tests/cli/run_havers.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers {
 namespace {
@@ -46,6 +47,7 @@ TEST(StoppedTest, IsSaidToBeNoneThatBroke) {
 
 // At 0.6 of its strength nothing had failed: the other specimen tells the strength of the joints.
 TEST(StoppedTest, IsALowerBoundOfTheFit) {
+  HAVERS_SLOW;
   const fs::path folder = folder_with_tests();
   stop(folder / "made/B0.csv", 0.6);
   const auto fitted = [&](const std::string& study, const std::string& output) {
@@ -67,6 +69,7 @@ TEST(StoppedTest, IsALowerBoundOfTheFit) {
 
 // Neither passed nor failed; and what was left out is counted when all is done.
 TEST(FitSummary, TicksNoCheckThatWasNotDoneAndCountsSimulationsOnce) {
+  HAVERS_SLOW;
   const fs::path folder = folder_with_tests();
   EXPECT_THAT(run_havers(folder, "fit made/study.toml -o out").out,
               HasSubstr("\n  -    held-out specimens: Not checked"));
@@ -91,6 +94,7 @@ TEST(Check, DoubtsExchangedTestsAndAnglesInRadians) {
 
 // The page's first line and the terminal's say the same.
 TEST(FitSummary, NamesTheChecksThatFailed) {
+  HAVERS_SLOW;
   const fs::path folder = folder_with_tests();
   const auto answer =
       run_havers(folder, "fit made/study.toml -o out --set model.loading.max_strain=0.0002");

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/cli/run_havers.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers {
 namespace {
@@ -74,6 +75,7 @@ double pooled_sd(const nlohmann::json& specimens, const std::vector<Row>& replic
 }
 
 TEST(Objective, CanBeComputedByHandFromTheFilesOfAFit) {
+  HAVERS_SLOW;
   const fs::path folder = test::own_folder();
   const auto answer = test::run_havers(
       folder, "fit '" HAVERS_SOURCE_DIR

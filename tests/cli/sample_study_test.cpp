@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_havers.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers {
 namespace {
@@ -18,6 +19,7 @@ using testing::HasSubstr;
 const fs::path bars = HAVERS_SOURCE_DIR "/data_samples/bone_bars";
 
 TEST(SampleStudy, FindsTheTruthAgainAndIsTrusted) {
+  HAVERS_SLOW;
   const fs::path folder = own_folder();
   const auto answer =
       run_havers(folder, "fit '" + (bars / "study.toml").string() + "' -o out --json");
@@ -98,6 +100,7 @@ TEST(SampleStudy, IsWhatItsCommandMakes) {
 
 // One image is all that there is, however often it is named.
 TEST(SampleStudy, SectionsThatAreListedTwiceAreDoubted) {
+  HAVERS_SLOW;
   const std::string section = "'" + (bars / "A1_section.png").string() + "'";
   const auto answer =
       run_havers(own_folder(), "porosity " + section + " " + section + " --pixel-size-um 2 --json");
@@ -118,6 +121,7 @@ TEST(SampleStudy, SectionsThatAreListedTwiceAreDoubted) {
 }
 
 TEST(SampleStudy, DoubtsPixelsThatMakePoresLargerThanFibres) {
+  HAVERS_SLOW;
   const fs::path folder = own_folder();
   fs::copy(bars, folder / "bars");
   std::string study = test::contents(bars / "study.toml");
@@ -149,6 +153,7 @@ TEST(SampleStudy, SaysWhichScatterIsTakenWithoutAPixelSizeAndWhoHasTheSameSectio
 }
 
 TEST(SampleStudy, SectionsHaveThePorosityThatWasDrawn) {
+  HAVERS_SLOW;
   const auto truth = nlohmann::json::parse(test::contents(bars / "truth.json"));
   for (const auto& specimen : truth["specimens"]) {
     const auto id = specimen["id"].get<std::string>();
@@ -178,6 +183,7 @@ TEST(SampleScenes, HaveNoProblemsAndRunToTheBreak) {
 
 // Complete failure in some 200 steps, the same bytes each time.
 TEST(SampleScenes, ImpactBreaksTheSameWayAgainAndForAnyNumberOfThreads) {
+  HAVERS_SLOW;
   const fs::path folder = own_folder();
   const std::string scene = HAVERS_SOURCE_DIR "/data_samples/scenes/impact.toml";
   std::string first;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_havers.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers {
 namespace {
@@ -45,6 +46,7 @@ TEST(Simulate, SummaryPutsTheVerdictFirstAndThePathLast) {
 
 // No time without the error of what it bought.
 TEST(Simulate, PrintsTheStepsErrorBesideTheTime) {
+  HAVERS_SLOW;
   const fs::path folder = test::folder_with_scene();
   const auto time_of = [&](const std::string& settings) {
     const std::string out = run_havers(folder, "simulate scene.toml -o out --force" + settings).out;
@@ -126,6 +128,7 @@ TEST(Simulate, SetAndSeedReplaceTheScenesValues) {
 }
 
 TEST(Simulate, GivesTheSameBytesAgainAndForAnyNumberOfThreads) {
+  HAVERS_SLOW;
   const fs::path folder = test::folder_with_scene();
   for (const std::string regime : {"", impact}) {
     for (const std::string threads : {"1", "1", "2", "4"}) {

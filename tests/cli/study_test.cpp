@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_havers.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers {
 namespace {
@@ -56,6 +57,7 @@ TEST(Synthesize, RefusesFilesInThePlaceOfItsOwn) {
 }
 
 TEST(Synthesize, RefusesPorosityThatASectionCannotHold) {
+  HAVERS_SLOW;
   if (!test::reads_images()) GTEST_SKIP() << "this build reads no images";
   const fs::path folder = test::folder_with_study();
   test::write_text(folder / "study.toml",
@@ -137,6 +139,7 @@ TEST(Fit, WritesItsFilesAndResumesOnlyWhatHasNoResult) {
 }
 
 TEST(Fit, GivesTheSameAnswerAgainAndForAnyNumberOfThreads) {
+  HAVERS_SLOW;
   const fs::path folder = test::folder_with_study();
   ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
   nlohmann::json first;

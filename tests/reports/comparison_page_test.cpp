@@ -12,8 +12,8 @@ using test::expect_sound;
 
 TEST(ComparisonPage, TellsMissingFilesFromChangedOnes) {
   const auto fit = test::fit_sample();
-  const Provenance first{{"a.csv", "SHA-256 1"}, {"b.csv", "SHA-256 2"}};
-  const Provenance second{{"a.csv", "SHA-256 3"}, {"c.csv", "SHA-256 4"}};
+  const calib::Provenance first{.inputs = {{"a.csv", "1"}, {"b.csv", "2"}}};
+  const calib::Provenance second{.inputs = {{"a.csv", "3"}, {"c.csv", "4"}}};
   const std::string page =
       comparison_page({{fit.study, fit.result, {}, first}, {fit.study, fit.result, {}, second}});
   EXPECT_TRUE(contains(page, "<td>contents of a.csv; without b.csv; with c.csv</td>"));
@@ -22,10 +22,10 @@ TEST(ComparisonPage, TellsMissingFilesFromChangedOnes) {
 // Two folders may each hold a d.csv.
 TEST(ComparisonPage, TellsFilesOfOneNameApart) {
   const auto fit = test::fit_sample();
-  const Provenance first{{"x/d.csv", "SHA-256 1"}, {"y/d.csv", "SHA-256 2"}};
-  const Provenance second{{"x/d.csv", "SHA-256 3"}, {"y/d.csv", "SHA-256 2"}};
-  const Provenance moved{{"u/d.csv", "SHA-256 2"}, {"v/d.csv", "SHA-256 1"}};
-  const auto beside_first = [&](const Provenance& other) {
+  const calib::Provenance first{.inputs = {{"x/d.csv", "1"}, {"y/d.csv", "2"}}};
+  const calib::Provenance second{.inputs = {{"x/d.csv", "3"}, {"y/d.csv", "2"}}};
+  const calib::Provenance moved{.inputs = {{"u/d.csv", "2"}, {"v/d.csv", "1"}}};
+  const auto beside_first = [&](const calib::Provenance& other) {
     return comparison_page(
         {{fit.study, fit.result, {}, first}, {fit.study, fit.result, {}, other}});
   };
@@ -37,10 +37,10 @@ TEST(ComparisonPage, SaysInWhatFitsDiffer) {
   const auto one = test::fit_sample();
   auto two = test::fit_sample();
   two.result.parameters.pop_back();
-  const Provenance first{{"Command", "havers fit a -o b"}, {"in/a.csv", "SHA-256 12"}};
-  const Provenance second{
-      {"Command", "havers fit a -o c --set=model.x=1 --set 'study.name=it'\\''s one' --seed 2"},
-      {"elsewhere/a.csv", "SHA-256 34"}};
+  const calib::Provenance first{.command = "havers fit a -o b", .inputs = {{"in/a.csv", "12"}}};
+  const calib::Provenance second{
+      .command = "havers fit a -o c --set=model.x=1 --set 'study.name=it'\\''s one' --seed 2",
+      .inputs = {{"elsewhere/a.csv", "34"}}};
   const std::string page =
       comparison_page({{one.study, one.result, {}, first}, {two.study, two.result, {}, second}});
   expect_sound(page);

@@ -4,6 +4,7 @@
 
 #include "reports/pages.hpp"
 #include "tests/reports/sound_page.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::reports {
 namespace {
@@ -13,7 +14,8 @@ using test::expect_sound;
 
 TEST(FitPage, GivesTheVerdictBeforeAnyNumber) {
   const auto sample = test::fit_sample();
-  const std::string page = fit_page({sample.study, sample.result, {}, {{"havers", "0.1.0"}}, 38.2});
+  const std::string page =
+      fit_page({sample.study, sample.result, {}, {.havers = "0.1.0", .wall_seconds = 38.2}});
   expect_sound(page);
   const std::size_t verdict = page.find("The fit can be trusted, with 1 reservation.");
   ASSERT_NE(verdict, std::string::npos);
@@ -22,10 +24,11 @@ TEST(FitPage, GivesTheVerdictBeforeAnyNumber) {
 }
 
 TEST(FitPage, TicksNoCheckThatWasNotDone) {
+  HAVERS_SLOW;
   auto sample = test::fit_sample();
   for (const bool done : {true, false}) {
     sample.result.verdict = {{"held-out specimens", calib::Outcome::pass, "none was kept", done}};
-    const std::string page = fit_page({sample.study, sample.result, {}, {}, 1.0});
+    const std::string page = fit_page({sample.study, sample.result, {}, {}});
     EXPECT_EQ(contains(page, "✓"), done);
     EXPECT_EQ(contains(page, "– not done"), !done);
   }
@@ -34,7 +37,7 @@ TEST(FitPage, TicksNoCheckThatWasNotDone) {
 TEST(FitPage, ShowsEverySpecimenParameterCheckAndStage) {
   const auto sample = test::fit_sample();
   const std::string page =
-      fit_page({sample.study, sample.result, {{"A2", {test::tiny_png()}}}, {{"seed", "1"}}, 38.2});
+      fit_page({sample.study, sample.result, {{"A2", {test::tiny_png()}}}, {.wall_seconds = 38.2}});
   for (const auto& specimen : sample.result.specimens)
     EXPECT_TRUE(contains(page, "<h3>" + specimen.id + " "));
   for (const auto& parameter : sample.result.parameters)
@@ -62,6 +65,7 @@ TEST(FitPage, BreaksTheLinesOfReasonsInTheTableOfIntervals) {
 
 // Beside "2 specimens are too few to draw from" it would speak of a fit of six.
 TEST(FitPage, SaysWhatABootstrapIsWorthWhereThereIsOne) {
+  HAVERS_SLOW;
   auto sample = test::fit_sample();
   sample.result.fitted = {"young_GPa"};
   const std::string worth = "over six they hold the truth in 78 to 91&nbsp;%";
@@ -138,6 +142,7 @@ TEST(FitPage, SaysHowASearchEndedThatDidNotConverge) {
 }
 
 TEST(FitPage, NamesNoCostWhereThereIsNoAnswer) {
+  HAVERS_SLOW;
   auto sample = test::fit_sample();
   EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), "Cost ½ Σ residual² = "));
   sample.result.cost = std::numeric_limits<double>::infinity();
@@ -151,7 +156,7 @@ TEST(FitPage, EscapesWhatUsersWrote) {
   sample.study.name = "<script>alert(1)</script> & \"co\"";
   sample.result.specimens.front().id = "<b>A1</b>";
   sample.result.specimens.front().measured.warnings = {"1 < 2 & 3"};
-  const std::string page = fit_page({sample.study, sample.result, {}, {{"command", "a <b> 'c'"}}});
+  const std::string page = fit_page({sample.study, sample.result, {}, {.command = "a <b> 'c'"}});
   expect_sound(page);
   EXPECT_FALSE(contains(page, "<b>A1"));
   EXPECT_TRUE(contains(page, "&lt;script&gt;"));
@@ -187,6 +192,7 @@ TEST(FitPage, TellsTheDoubtsAboutStudyTestsAndSections) {
 
 // An interval holds wherever the parameter that was left out may be, the curve at its value alone.
 TEST(FitPage, SaysWhyAnIntervalReachesBeyondItsProfile) {
+  HAVERS_SLOW;
   auto sample = test::fit_sample();
   sample.result.fitted = {"young_GPa"};
   sample.result.profiles = {{"young_GPa", {12.9, 13.1, 13.3}, {2.0, 0.0, 2.0}, 1.9, {12.0, 14.0}}};
@@ -216,6 +222,7 @@ TEST(FitPage, LeavesAnIntervalOpenWhereItsProfileHasNoEnd) {
 }
 
 TEST(FitPage, SpeaksOfAFlatStretchOnlyWhereThereIsOne) {
+  HAVERS_SLOW;
   auto sample = test::fit_sample();
   sample.result.starts = {8.0, 8.1, 20.0};
   EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), "The flat stretch"));
@@ -233,6 +240,7 @@ TEST(FitPage, NamesTheTermThatStandsForTheFailureStrainByWhatItIs) {
 }
 
 TEST(FitPage, SpeaksOfBoundsOnlyWhereATestWasStopped) {
+  HAVERS_SLOW;
   auto sample = test::fit_sample();
   sample.result.specimens.front().terms = {{.term = "strength"}};
   EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), "is but a bound"));
@@ -243,7 +251,7 @@ TEST(FitPage, SpeaksOfBoundsOnlyWhereATestWasStopped) {
 TEST(Provenance, KeepsDigestsFolded) {
   const auto sample = test::fit_sample();
   const std::string page =
-      fit_page({sample.study, sample.result, {}, {{"Program", "havers"}, {"a", "SHA-256 12"}}});
+      fit_page({sample.study, sample.result, {}, {.command = "havers", .inputs = {{"a", "12"}}}});
   expect_sound(page);
   EXPECT_LT(page.find("<summary>SHA-256 of 1 input file"), page.find("<td class=\"hash\">12"));
 }

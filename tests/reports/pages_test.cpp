@@ -22,7 +22,7 @@ TEST(PorosityPage, ShowsEverySectionWithItsOverlay) {
                         .scatter = {0.41, 0.41},
                         .histograms = {histogram, histogram},
                         .mean = calib::pool_sections({section, section}),
-                        .provenance = {{"seed", "1"}}};
+                        .provenance = {.command = "havers porosity a.png"}};
   const std::string page = porosity_page(report);
   expect_sound(page);
   EXPECT_TRUE(contains(page, "4.80\u00a0±\u00a00.21"));
@@ -88,8 +88,8 @@ TEST(ComparisonPage, PutsFitsSideBySide) {
   b.result.parameters.pop_back();
   b.result.parameters.front().value = 14.2;
   b.result.verdict.front().outcome = calib::Outcome::fail;
-  const std::string page = comparison_page({{a.study, a.result, {}, {{"seed", "1"}}, 38.2},
-                                            {b.study, b.result, {}, {{"seed", "2"}}, 61.0}});
+  const std::string page = comparison_page({{a.study, a.result, {}, {.wall_seconds = 38.2}},
+                                            {b.study, b.result, {}, {.wall_seconds = 61.0}}});
   expect_sound(page);
   EXPECT_EQ(after(page, "<p class=\"sentence\">", "<").front(),
             "1 of 2 fits cannot be trusted (bovine femur B), 1 with reservations.");
@@ -99,7 +99,7 @@ TEST(ComparisonPage, PutsFitsSideBySide) {
   EXPECT_EQ(test::after(page, "<th>E (GPa) <", ">").size(), 1U);
   EXPECT_TRUE(contains(page, "The fit cannot be trusted: 1 of 4 checks failed (search)."));
   EXPECT_TRUE(contains(page, "1\u00a0min 1\u00a0s"));
-  EXPECT_TRUE(contains(page, "bovine femur B: seed"));
+  EXPECT_TRUE(contains(page, "bovine femur B: Wall time"));
   expect_sound(comparison_page({}));
 }
 

@@ -18,7 +18,7 @@ TEST(SimulationPage, PutsTheErrorBesideTheTime) {
   const auto simulation = test::simulation_sample(assembly);
   const sim::Scene scene;
   const std::string page =
-      simulation_page({scene, assembly, simulation, {{"havers", "0.1.0"}}, 12.34});
+      simulation_page({scene, assembly, simulation, {.havers = "0.1.0", .wall_seconds = 12.34}});
   expect_sound(page);
   EXPECT_TRUE(
       contains(page, "The specimen broke: strength 38.90\u00a0MPa at 0.300\u00a0% strain."));
@@ -78,7 +78,7 @@ TEST(SimulationPage, NamesTheScenesFile) {
   const auto assembly = small_assembly();
   const auto simulation = test::simulation_sample(assembly);
   const std::string page =
-      simulation_page({sim::Scene{}, assembly, simulation, {}, 1.0, "bar & wall.toml"});
+      simulation_page({sim::Scene{}, assembly, simulation, {}, "bar & wall.toml"});
   EXPECT_TRUE(contains(page, "<title>havers simulate: bar &amp; wall.toml</title>"));
   EXPECT_TRUE(contains(page, "<h1>havers simulate: bar &amp; wall.toml</h1>"));
 }

@@ -48,7 +48,7 @@ struct Case {
 
 TEST(SweepPage, SaysTheOutcomeFirstAndEscapesWhatUsersWrote) {
   const Case known;
-  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
+  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {});
   EXPECT_THAT(page, HasSubstr("Of 1 finding: 1 agrees (F7)."));
   EXPECT_THAT(page, HasSubstr("80 runs, 0 failed"));
   EXPECT_THAT(page, HasSubstr("A &lt;sweep&gt;"));
@@ -57,10 +57,10 @@ TEST(SweepPage, SaysTheOutcomeFirstAndEscapesWhatUsersWrote) {
 
 TEST(SweepPage, IsGreenOnlyWhereEveryFindingAgrees) {
   Case known;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
               HasSubstr("verdict good"));
   known.result.findings.back().outcome = calib::FindingOutcome::undecided;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
               AllOf(HasSubstr("verdict mixed"), HasSubstr("Of 1 finding: 1 is undecided (F7)")));
 }
 
@@ -68,18 +68,18 @@ TEST(SweepPage, SaysThatAFindingDiffersByRow) {
   Case known;
   known.result.findings.push_back(known.result.findings.front());
   known.result.findings.back().outcome = calib::FindingOutcome::undecided;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
               HasSubstr("Of 1 finding in 2 rows: 1 differs by row (F7)."));
 }
 
 TEST(SweepPage, IsRedWhereRunsDidNotBreakAndTellsWhich) {
   Case known;
   known.result.summaries.back().unbroken = 5;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
               AllOf(HasSubstr("verdict bad"), HasSubstr("80 runs, 0 failed, 5 did not break"),
                     HasSubstr("Did not break</th>"), HasSubstr("the modulus alone is drawn")));
   known.result.summaries.back().unbroken = 4;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
               HasSubstr("verdict good"));
 }
 
@@ -87,7 +87,7 @@ TEST(SweepPage, SaysHowManyRunsFailedAndWhy) {
   Case known;
   known.result.summaries.back().failed = 3;
   known.result.most_failed_because = "nothing holds the specimen together";
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
               AllOf(HasSubstr("80 runs, 3 failed"), HasSubstr("<th class=\"n\">Failed</th>"),
                     HasSubstr("most often so: nothing holds the specimen together.")));
 }
@@ -98,7 +98,7 @@ TEST(SweepPage, HasADashAloneWhereNothingCouldBeCompared) {
   finding.value = finding.low = finding.high = std::numeric_limits<double>::quiet_NaN();
   finding.what.clear();
   known.result.laws.front().lack_of_fit = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
               AllOf(HasSubstr("Strength, difference: –<br><span class=\"note\">asked: "),
                     HasSubstr("<td class=\"n\">–</td><td class=\"n\">40</td>")));
 }
@@ -112,23 +112,23 @@ TEST(SweepPage, HasADigitMoreWhereRoundingWouldHideWhyAFindingDoesNotAgree) {
   finding.high = 0.0502;
   finding.asked_low = -0.05;
   finding.asked_high = 0.05;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
               HasSubstr("1.31\u00a0% (−2.41 to 5.02)"));
 }
 
 TEST(SweepPage, GivesEveryLawWithItsIntervals) {
   const Case known;
-  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
+  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {});
   EXPECT_THAT(page, HasSubstr("scatter d: −10.0 ("));
   EXPECT_THAT(page, HasSubstr("ratio r\u00a0=\u00a03"));
 }
 
 TEST(SweepPage, SaysBesideTheIntervalsThatALawDoesNotFit) {
   Case known;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
               Not(HasSubstr("The law does not fit")));
   known.result.laws.front().lack_of_fit_p = 0.001;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
               HasSubstr("). The law does not fit: "));
 }
 
@@ -137,7 +137,7 @@ TEST(SweepPage, TypesetsClaimsAndChancesThatAreNextToNothing) {
   known.result.findings.front().claim = "and grows with d (1.8e-6 d)";
   known.result.laws.front().lack_of_fit = 709.0;
   known.result.laws.front().lack_of_fit_p = 0.0;
-  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
+  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {});
   EXPECT_THAT(page, HasSubstr("1.8\u00a0×\u00a010⁻⁶ d"));
   EXPECT_THAT(page, HasSubstr("709 (p &lt; 10⁻⁶)"));
 }
@@ -146,8 +146,7 @@ TEST(SweepPage, HasADashForTheInertiaNumberOfTheQuasiStaticLimit) {
   Case known;
   const double none = std::numeric_limits<double>::quiet_NaN();
   known.result.findings.front().inertia_low = known.result.findings.front().inertia_high = none;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0),
-              HasSubstr("I = –<"));
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}), HasSubstr("I = –<"));
 }
 
 TEST(SweepWords, PutTheUnitBehindTheValue) {
@@ -195,9 +194,7 @@ TEST(SweepFigures, ShowBothOfTwoSeriesThatCoincide) {
 TEST(SweepFigures, SayWhatBarsAndBandsAre) {
   Case known;
   known.sweep.figures = {{.caption = "As in fig. 12.", .x = "joints.ratio"}};
-  const auto page = [&] {
-    return sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
-  };
+  const auto page = [&] { return sweep_page("Title", {{"a", known.sweep, known.result}}, {}); };
   EXPECT_THAT(page(),
               HasSubstr("As in fig. 12. Bars and bands: 95\u00a0% intervals of the means."));
   known.sweep.figures.front().x = "";
@@ -208,7 +205,7 @@ TEST(SweepFigures, WriteTheirSeriesAsTheTextDoes) {
   Case known;
   for (calib::SweepPoint& point : known.result.points) point.values[1] = "1e-07";
   known.sweep.figures = {{.caption = "c", .x = "joints.ratio", .series = "joints.scatter"}};
-  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {}, 1.0);
+  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {});
   EXPECT_THAT(page, AllOf(HasSubstr("10⁻⁷"), Not(HasSubstr("1e-07"))));
 }
 

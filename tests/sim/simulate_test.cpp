@@ -10,6 +10,7 @@
 #include "sim/simulation.hpp"
 #include "tests/support/broken_joints.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
@@ -154,6 +155,7 @@ TEST(Simulate, SaysWhenANumberLeftItsRange) {
 
 // Wherever it is: between two rows or, where sets and paths are looked for, within one.
 TEST(Simulate, StopsWhenAskedToWithTheRowsItHas) {
+  HAVERS_SLOW;
   Scene jammed = test::small_scene(2.0, 4, 3);
   jammed.joints.scatter = 1.0;
   jammed.joints.seed = 8;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calib/experiment/clocks.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::calib {
 namespace {
@@ -137,6 +138,7 @@ INSTANTIATE_TEST_SUITE_P(Clocks, ClocksOf, testing::ValuesIn(situations()),
                          [](const auto& test) { return test.param.name; });
 
 TEST_P(ClocksOf, LieWithinTheErrorTheyComeWith) {
+  HAVERS_SLOW;
   constexpr int draws = 25;
   int within_two = 0, within_three = 0, rates_within_three = 0;
   for (unsigned seed = 1; seed <= draws; ++seed) {

@@ -13,6 +13,7 @@
 #include "calib/experiment/measured_test.hpp"
 #include "calib/experiment/signal_rates.hpp"
 #include "tests/support/machine_files.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::calib {
 namespace {
@@ -62,6 +63,7 @@ ClockFit fitted(const RawTest& machine, const RawTest& logger) {
 }
 
 TEST(Clocks, RecoversOffsetAndRateWithinTheErrorItStates) {
+  HAVERS_SLOW;
   const Clocks truth;
   int within_two = 0, rate_within_two = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) {
@@ -129,6 +131,7 @@ TEST(Clocks, RefusesCyclesThatFitAnywhere) {
 // Steady loading and a break in the last rows: nothing but the break tells the clocks. A gauge that
 // was lost on the way falls as suddenly, and not to where the load's line meets zero.
 TEST(Clocks, TakeTheBreakWhereItIsPlainInBothAndNoLostGaugeForIt) {
+  HAVERS_SLOW;
   const Clocks truth;
   const auto records = [&](double lost_at, unsigned seed) {
     RawTest machine = machine_record(seed), logger = logger_record(truth, seed, 0.0, 60.4);

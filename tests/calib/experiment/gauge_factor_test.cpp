@@ -7,6 +7,7 @@
 #include <random>
 
 #include "calib/experiment/join_logger.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::calib {
 namespace {
@@ -48,6 +49,7 @@ StatedFactor factor_beside_a_wandering_strain(unsigned seed) {
 }
 
 TEST(GaugeFactor, LiesWithinTheErrorItStatesWhereRowsErrAlike) {
+  HAVERS_SLOW;
   int within_two = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) {
     const StatedFactor factor = factor_beside_a_wandering_strain(seed);

@@ -7,6 +7,7 @@
 #include "calib/experiment/measured_test.hpp"
 #include "tests/support/machine_files.hpp"
 #include "tests/support/reduction.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::calib {
 namespace {
@@ -57,6 +58,7 @@ TEST(GaugeLoss, IsSaidBesideTheSlipsBeforeIt) {
 }
 
 TEST(GaugeLoss, TakesNoNoiseForAGaugeThatStandsStill) {
+  HAVERS_SLOW;
   for (unsigned seed = 1; seed <= 10; ++seed) {
     RawTest raw = record(
         {.toe = 3e-4, .force_noise = 2.0, .strain_noise = 1e-5, .strain_rate = 2e-6, .seed = seed});

@@ -8,6 +8,7 @@
 #include "calib/experiment/measured_test.hpp"
 #include "tests/support/machine_files.hpp"
 #include "tests/support/reduction.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::calib {
 namespace {
@@ -99,6 +100,7 @@ Scatter scatter(const TensileTruth& truth, double kept) {
 // Load cells are filtered: half of real exports have a correlation of 0.85 to 0.91 between rows.
 // With a window of 415 rows, and of 2300, whose means are fitted.
 TEST(Modulus, StatesItsErrorTrulyWhereRowsErrAlike) {
+  HAVERS_SLOW;
   for (const double rate : {3.3e-5, 6e-6})
     for (const double kept : {0.0, 0.9}) {
       const Scatter all = scatter({.strain_rate = rate}, kept);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calib/experiment/channel_noise.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::calib {
 namespace {
@@ -48,6 +49,7 @@ TEST(RobustLine, DoesNotCountSpikes) {
 
 // Of 1000 fits, 68 % within one standard error and 95 % within two, as far as 60 points can.
 TEST(RobustLine, StatesItsErrorTruly) {
+  HAVERS_SLOW;
   int within_one = 0, within_two = 0;
   for (unsigned seed = 1; seed <= 1000; ++seed) {
     const Points points = noisy_line(1e5, seed);

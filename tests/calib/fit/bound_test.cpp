@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calib/fit/specimen_effect.hpp"
+#include "tests/support/slow.hpp"
 #include "tests/support/studies.hpp"
 
 namespace havers::calib {
@@ -74,6 +75,7 @@ Study stopped_at_the_mean(const std::vector<double>& degrees, unsigned draw) {
 }
 
 TEST(Bound, FindsTheThresholdOfBarsThatWereStoppedAtTheirMeanStrength) {
+  HAVERS_SLOW;
   constexpr int studies = 31, bars = 12;
   constexpr double truth = test::Truth{}.head_tail_MPa;
   std::vector<double> errors;

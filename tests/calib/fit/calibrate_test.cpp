@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/support/memory_store.hpp"
+#include "tests/support/slow.hpp"
 #include "tests/support/studies.hpp"
 
 namespace havers::calib {
@@ -58,16 +59,19 @@ void expect_coverage(const test::Truth& truth) {
 }
 
 TEST(Calibrate, GivesIntervalsThatHoldTheTruth) {
+  HAVERS_SLOW;
   expect_coverage({});
 }
 
 TEST(Calibrate, GivesIntervalsThatHoldTheTruthAmongUnequalSpecimens) {
+  HAVERS_SLOW;
   expect_coverage({.specimen_effect = 0.1});
 }
 
 // Strengths at 0 degrees are known to 7 % and at 45 degrees to 4 %: only the two at 90 degrees tell
 // that specimens differ by 3 %, and where they agree by chance they are believed.
 TEST(Calibrate, GivesIntervalsThatHoldTheTruthWhereFewSpecimensTellHowMuchTheyDiffer) {
+  HAVERS_SLOW;
   int inside = 0;
   for (unsigned draw = 1; draw <= 100; ++draw) {
     const auto study = test::unequally_known_study(draw, {.specimen_effect = 0.03});
@@ -78,6 +82,7 @@ TEST(Calibrate, GivesIntervalsThatHoldTheTruthWhereFewSpecimensTellHowMuchTheyDi
 }
 
 TEST(Calibrate, EstimatesHowMuchSpecimensDiffer) {
+  HAVERS_SLOW;
   double sum = 0.0;
   for (unsigned draw = 1; draw <= 20; ++draw)
     sum += std::pow(
@@ -199,6 +204,7 @@ TEST(Calibrate, CountsTheErrorOfAScatterInHeldOutSpecimensToo) {
 
 // Every chain comes to the same answer, and none simulates outside the bounds.
 TEST(Calibrate, AnyOptimisersFindTheSame) {
+  HAVERS_SLOW;
   auto study = test::synthetic_study(test::three_orientations);
   study.calibrate.bounds["ratio"] = {0.5, 2.2};
   study.calibrate.threads = 1;

@@ -7,11 +7,13 @@
 #include <set>
 
 #include "calib/synthetic/known_study.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::calib {
 namespace {
 
 TEST(Confirmation, SaysHowMuchTheLimitDiffersFromTimeStepsAtEachOrientation) {
+  HAVERS_SLOW;
   Study study = known_study(three_orientations(), 3).study;
   study.calibrate.seed = 1;
   study.calibrate.confirm = 3;

@@ -7,6 +7,7 @@
 #include "calib/fit/normal_form.hpp"
 #include "calib/fit/simulation_batch.hpp"
 #include "calib/study/parameter.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::calib {
 namespace {
@@ -58,6 +59,7 @@ TEST(FibreModel, HasNoAnswerWhereNoJointIsLeft) {
 }
 
 TEST(FibreModel, StopsInsideARunInStepsAndInTheLimit) {
+  HAVERS_SLOW;
   for (const double rate : {1e-4, 1000.0}) {
     auto scene = small_scene(0.0);
     scene.assembly.layers = 3;

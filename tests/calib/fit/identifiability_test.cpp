@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "calib/fit/calibrate.hpp"
+#include "tests/support/slow.hpp"
 #include "tests/support/studies.hpp"
 
 namespace havers::calib {
@@ -84,6 +85,7 @@ TEST(Identifiability, LeavesWhatTheStudyHasWrongWhereTheFitFoundIt) {
 }
 
 TEST(Identifiability, IsStoppedAtAnyPointAndKeepsTheBestOne) {
+  HAVERS_SLOW;
   auto study = test::synthetic_study({0.0, 90.0});
   study.calibrate.profiles = false;
   const auto calls_until = [&](int last) {

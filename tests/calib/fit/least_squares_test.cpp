@@ -11,6 +11,8 @@
 #include <numeric>
 #include <sstream>
 
+#include "tests/support/slow.hpp"
+
 namespace havers::calib {
 namespace {
 
@@ -196,6 +198,7 @@ LeastSquaresResult better_of_two(const LeastSquares& problem, const VectorXd& st
 }
 
 TEST(LeastSquares, FindsNistsCertifiedValues) {
+  HAVERS_SLOW;
   const auto sets = certified_sets();
   ASSERT_EQ(sets.size(), 27U);
   double sum = 0.0;

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/slow.hpp"
 #include "tests/support/studies.hpp"
 
 namespace havers::calib {
@@ -52,6 +53,7 @@ std::array<double, 2> shares_below(const std::array<double, 3>& noise, double be
 
 // Strengths are known to 7, 4 and 0.3 %, moduli alike; specimens are alike, or 0.3 to 10 % apart.
 TEST(PorosityTrend, IsAsRareInTrueModelsAsItSays) {
+  HAVERS_SLOW;
   for (const double between : {0.0, 0.003, 0.03, 0.1}) {
     const auto [at_1, at_5] = shares_below({0.07, 0.04, 0.003}, between, 2);
     EXPECT_LT(at_1, 0.02) << between;  // 0.01 and three standard errors
@@ -123,6 +125,7 @@ TEST(Verdict, AsksForALawOfPorosityWhereOneIsMissing) {
 }
 
 TEST(Verdict, RejectsFewTrueModelsByPorosity) {
+  HAVERS_SLOW;
   int rejected = 0;
   for (unsigned draw = 1; draw <= 40; ++draw) {
     const Study study = study_of_porous_bars(draw % 2 == 0 ? 0.05 : 0.0, draw);

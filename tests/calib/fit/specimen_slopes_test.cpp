@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/support/slow.hpp"
 #include "tests/support/studies.hpp"
 
 namespace havers::calib {
@@ -13,6 +14,7 @@ namespace {
 // r rests on one specimen at 45 degrees, which errs like the other: half of what parts the two is
 // the fit's.
 TEST(HeldOutSpecimen, IsAsFarOffAsItsStandardDeviationSays) {
+  HAVERS_SLOW;
   constexpr int studies = 100;
   double sum = 0.0;
   for (unsigned draw = 1; draw <= studies; ++draw) {

@@ -10,6 +10,7 @@
 #include "calib/fit/calibrate.hpp"
 #include "calib/fit/model_checks.hpp"
 #include "calib/synthetic/known_study.hpp"
+#include "tests/support/slow.hpp"
 #include "tests/support/studies.hpp"
 
 namespace havers::calib {
@@ -31,6 +32,7 @@ TEST(Verdict, RejectsSpecimensThatDifferByMoreThanHalf) {
 // Equal weights of a specimen effect pull the answer off the moduli known best, and four replicates
 // hardly know the variance of strengths: neither is a difference of specimens.
 TEST(Verdict, SeldomSaysThatSpecimensThatAreAlikeAreNot) {
+  HAVERS_SLOW;
   for (const int number : {15, 57}) {
     auto known = known_study(three_orientations(), number);
     known.study.calibrate.threads = 1;

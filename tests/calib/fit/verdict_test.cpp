@@ -5,6 +5,7 @@
 
 #include "calib/fit/answer.hpp"
 #include "calib/fit/calibrate.hpp"
+#include "tests/support/slow.hpp"
 #include "tests/support/studies.hpp"
 
 namespace havers::calib {
@@ -173,6 +174,7 @@ TEST(Verdict, SeesAModulusThatDiffersBetweenOrientations) {
 // A spread between specimens that chance gave moves the answer off the strengths that are known
 // best: that is no misfit. Of 40 true models 2 were rejected.
 TEST(Verdict, RejectsStrengthsThatDifferBetweenOrientationsAndNoneOfATrueModel) {
+  HAVERS_SLOW;
   int of_true = 0, of_false = 0;
   const auto rejected = [](const Study& study) {
     const auto check = check_of(test::fit(study), "residuals unstructured");

@@ -8,6 +8,7 @@
 #include "calib/fit/calibration.hpp"
 #include "calib/synthetic/chain_benchmark.hpp"
 #include "calib/synthetic/coverage.hpp"
+#include "tests/support/slow.hpp"
 #include "tests/support/studies.hpp"
 
 namespace havers::calib {
@@ -29,6 +30,7 @@ void expect_left_out(const CalibrationResult& result, const std::string& name) {
 
 // Flanks that are weak beside the head-tail joints: along the fibres only the latter decide.
 TEST(KnownStudy, AlongTheFibresTheRatioCannotBeToldWhereItIsWellAboveOne) {
+  HAVERS_SLOW;
   KnownStudy known = known_study(along, 1, {15.0, 80.0, 4.0});
   known.study.calibrate.parameters = {"young_GPa", "head_tail_MPa", "ratio"};
   known.study.model.joints.flank =
@@ -45,6 +47,7 @@ TEST(KnownStudy, HasNoSpecimensThatDidNotBreak) {
 }
 
 TEST(KnownStudy, OneSpecimenDoesNotTellTheScatter) {
+  HAVERS_SLOW;
   KnownStudy known = known_study({.name = "one", .degrees = {0.0}}, 1);
   known.study.calibrate.parameters = {"young_GPa", "head_tail_MPa", "scatter"};
   const auto result = calibrate(known.study);
@@ -56,6 +59,7 @@ TEST(KnownStudy, OneSpecimenDoesNotTellTheScatter) {
 // A few studies of what havers bench --coverage does a hundred times. Of 18 intervals fewer than 14
 // would hold by chance once in a thousand.
 TEST(Coverage, OfAFewStudiesHoldsTheTruth) {
+  HAVERS_SLOW;
   const Coverage coverage = measure_coverage({three_orientations()}, 6, 1, [] { return true; });
   ASSERT_EQ(coverage.rows.size(), 18U);
   EXPECT_TRUE(coverage.complete);
@@ -72,6 +76,7 @@ TEST(Coverage, OfAFewStudiesHoldsTheTruth) {
 }
 
 TEST(Coverage, StopsWhenTold) {
+  HAVERS_SLOW;
   int asked = 0;
   const Coverage coverage =
       measure_coverage({three_orientations()}, 6, 1, [&] { return ++asked < 2; });
@@ -80,6 +85,7 @@ TEST(Coverage, StopsWhenTold) {
 }
 
 TEST(Coverage, StopsInsideAFitWithoutItsRows) {
+  HAVERS_SLOW;
   int fits = 0;
   const Coverage coverage = measure_coverage(
       {three_orientations()}, 6, 1, [&] { return ++fits > 0; }, [] { return true; });
@@ -190,6 +196,7 @@ TEST(ChainBenchmark, IsNotWonByWhatLosesAStudyOrErrsMore) {
 
 // What BOBYQA is for: ratio and scatter both move the order of breaks.
 TEST(ChainBenchmark, HasStudiesInWhichTwoUnknownsCostSimulations) {
+  HAVERS_SLOW;
   KnownStudy known = known_study(unknown_scatter(), 1);
   known.study.calibrate.threads = 1;
   const auto result = calibrate(known.study);
@@ -204,6 +211,7 @@ TEST(ChainBenchmark, HasStudiesInWhichTwoUnknownsCostSimulations) {
 }
 
 TEST(ChainBenchmark, KeepsTheRowsOfAnUnfinishedOne) {
+  HAVERS_SLOW;
   int asked = 0;
   const auto benchmark = benchmark_chains(CostlyUnknowns::one, 1, 1, [&] { return ++asked < 3; });
   EXPECT_EQ(benchmark.rows.size(), 2U);

@@ -8,6 +8,7 @@
 
 #include "io/images/windows.hpp"
 #include "tests/support/sections.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::io {
 namespace {
@@ -57,6 +58,7 @@ void expect_porosity_within(double points, SectionTruth section, const std::stri
 }
 
 TEST_P(UnderHardship, PorosityIsRightToThreeTenthsOfAPoint) {
+  HAVERS_SLOW;
   unsigned seed = 0;
   for (const Outline outline : {Outline::filled, Outline::bar, Outline::tilted_bar, Outline::ring})
     for (const double porosity : {0.01, 0.05, 0.2}) {
@@ -72,6 +74,7 @@ TEST_P(UnderHardship, PorosityIsRightToThreeTenthsOfAPoint) {
 
 // Where nothing surrounds the bone, the user has to say that there is any.
 TEST_P(UnderHardship, ASectionWithoutPoresHasNone) {
+  HAVERS_SLOW;
   for (const Outline outline :
        {Outline::filled, Outline::bar, Outline::tilted_bar, Outline::ring}) {
     SectionTruth section = GetParam().section;
@@ -193,6 +196,7 @@ TEST(Section, TakesAGivenPolarity) {
 
 // The interval must hold the drawn porosity in nineteen of twenty sections.
 TEST(Section, StandardErrorCoversTheTruth) {
+  HAVERS_SLOW;
   int covered = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const auto drawn = test::draw({.width = 350,

@@ -7,6 +7,7 @@
 
 #include "io/images/measure_section.hpp"
 #include "tests/support/sections.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::io {
 namespace {
@@ -41,6 +42,7 @@ INSTANTIATE_TEST_SUITE_P(, OfAllLevels,
                          [](const auto& levels) { return levels.param.name; });
 
 TEST_P(OfAllLevels, PoresAreFound) {
+  HAVERS_SLOW;
   unsigned seed = 0;
   for (const test::Outline outline :
        {test::Outline::bar, test::Outline::tilted_bar, test::Outline::ring})
@@ -118,6 +120,7 @@ struct Narrow {
 
 // Bars of 1:1 to 1:30 in images as narrow, and in wide ones.
 TEST(NarrowBar, IsMeasuredAsItIs) {
+  HAVERS_SLOW;
   unsigned seed = 0;
   for (const auto& [width, height, bar_height] : {Narrow{800, 800, 0.8},
                                                   {1000, 200, 0.5},

@@ -4,6 +4,7 @@
 #include "io/input_error.hpp"
 #include "io/machine/read_test.hpp"
 #include "tests/support/machine_files.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::io {
 namespace {
@@ -114,6 +115,7 @@ TEST(InputFaults, NamesAFileWithoutForce) {
 }
 
 TEST(InputFaults, NamesAQuoteThatIsNeverClosed) {
+  HAVERS_SLOW;
   const std::string sentence =
       "a quote is opened and never closed (the file may be cut off or damaged here)";
   EXPECT_EQ(complaint_of(header + "2,\"3,4\n3,4,5\n"), "test.csv:4: " + sentence);
@@ -162,6 +164,7 @@ TEST(InputFaults, NamesAFirstLineOfMegabytes) {
 }
 
 TEST(InputFaults, ShowsTheBeginningOfALongCell) {
+  HAVERS_SLOW;
   EXPECT_EQ(complaint_of(header + "2," + std::string(500'000, 'z') + ",4\n"),
             "test.csv:4: column \"Load\": \"" + std::string(60, 'z') + "...\" is not a number");
 }

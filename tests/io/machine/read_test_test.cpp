@@ -7,6 +7,7 @@
 
 #include "io/input_error.hpp"
 #include "tests/support/machine_files.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::io {
 namespace {
@@ -246,6 +247,7 @@ TEST(ReadTest, WarnsOfAHeaderLineItCannotUse) {
 
 // More than one block of the source, so that rows and characters lie across its borders.
 TEST(ReadTest, ReadsALongFileAsAShortOne) {
+  HAVERS_SLOW;
   std::string rows = "Temps (s);Déplacement (mm);Force (N)\n";
   for (int i = 0; i < 60000; ++i) rows += std::to_string(i) + ";0,25;é" + "\n";
   rows = replaced(rows, "é\n",

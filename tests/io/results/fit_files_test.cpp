@@ -14,7 +14,7 @@ using testing::Pointwise;
 
 // As havers fit leaves it: result.json, and the curves beside it.
 void write_folder(const test::ScratchFolder& folder, const test::FitSample& fit,
-                  const Provenance& provenance) {
+                  const calib::Provenance& provenance) {
   folder.write("result.json", calibration_json(fit.study, fit.result, provenance).dump(2));
   std::filesystem::create_directories(folder.path() / "curves");
   for (const calib::SpecimenResult& specimen : fit.result.specimens) {
@@ -41,7 +41,7 @@ test::FitSample sample() {
 TEST(FitFolder, GivesBackTheWholeResult) {
   const test::ScratchFolder folder;
   const test::FitSample fit = sample();
-  Provenance provenance;
+  calib::Provenance provenance;
   provenance.command = "havers fit study.toml -o r";
   provenance.havers = "9.9.9";
   provenance.inputs = {{"study.toml", "abcd"}};
@@ -94,7 +94,7 @@ TEST(FitFolder, GivesBackTheCurves) {
 
 TEST(CalibrationJson, HoldsTheKeysOfTheContract) {
   const test::FitSample fit = sample();
-  Provenance provenance;
+  calib::Provenance provenance;
   provenance.command = "havers fit";
   provenance.wall_seconds = 4.5;
   const nlohmann::json json = calibration_json(fit.study, fit.result, provenance);

@@ -98,7 +98,9 @@ TEST(SimulationJson, HoldsTheKeysOfTheContract) {
   simulation.first_break_strain = test::nan;
   simulation.joints.front() = {.threshold = {0.0, 0.0}, .broken = true};
   simulation.worst_penetration = std::numeric_limits<double>::infinity();
-  Provenance provenance;
+  calib::Provenance provenance;
+  provenance.havers = "0.1.0";
+  provenance.compiler = "GNU 12.2.0";
   provenance.command = "havers simulate s.toml -o r";
   provenance.inputs = {{"s.toml", "abcd"}};
   provenance.wall_seconds = 1.5;
@@ -130,8 +132,8 @@ TEST(SimulationJson, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(json["scene"]["assembly"]["layers"], 4);
   EXPECT_EQ(json["scene"]["joints"]["reinforced_boundary"], true);  // the default at 0°, filled in
   EXPECT_EQ(json["scene"]["output"]["snapshots"], 2);
-  EXPECT_EQ(json["provenance"]["havers"], version());
-  EXPECT_EQ(json["provenance"]["compiler"], compiler_version());
+  EXPECT_EQ(json["provenance"]["havers"], "0.1.0");
+  EXPECT_EQ(json["provenance"]["compiler"], "GNU 12.2.0");
   EXPECT_EQ(json["provenance"]["command"], "havers simulate s.toml -o r");
   EXPECT_EQ(json["provenance"]["inputs"]["s.toml"], "abcd");
   EXPECT_EQ(json["provenance"]["cpu_s"], 2.5);

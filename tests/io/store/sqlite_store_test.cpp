@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "tests/io/config/complaints.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::io {
 namespace {
@@ -129,6 +130,7 @@ pid_t in_a_child(const std::function<void()>& work) {
 
 // Each wants to be the one that makes the file and sets its journal.
 TEST_F(Store, IsCreatedByManyProcessesAtOnce) {
+  HAVERS_SLOW;
   for (int round = 0; round < 60; ++round) {
     std::vector<pid_t> children;
     for (int i = 0; i < 8; ++i)

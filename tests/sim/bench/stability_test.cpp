@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
@@ -19,6 +20,7 @@ TEST(Stability, HasFortyScenesOfDistinctNames) {
 }
 
 TEST(Stability, EverySceneIsSolvedOrRefusedAsItMust) {
+  HAVERS_SLOW;
   StabilityBench bench{.complete = true};
   for (const StabilityScene& scene : stability_scenes()) {
     const StabilityResult result = run_stability_scene(scene);
@@ -37,6 +39,7 @@ TEST(Stability, EverySceneIsSolvedOrRefusedAsItMust) {
 }
 
 TEST(Stability, CallsAMissedAnswerWrong) {
+  HAVERS_SLOW;
   StabilityScene scene{"stepped with a viscosity that the closed form knows",
                        test::dynamic_scene()};
   EXPECT_EQ(run_stability_scene(scene).outcome, StabilityOutcome::solved);

@@ -7,6 +7,7 @@
 
 #include "sim/simulate.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
@@ -22,6 +23,7 @@ Scene tiny(Regime regime) {
 }
 
 TEST(WorkPrecision, FindsTheReferenceWithoutErrorAndTheDirectSolverExactBeforeTheFirstBreak) {
+  HAVERS_SLOW;
   const WorkPrecision study = compare_settings(tiny(Regime::dynamic), {.seeds = 2});
   EXPECT_TRUE(study.complete);
   EXPECT_EQ(study.rows.size(), bench_settings(tiny(Regime::dynamic)).size() + 2);
@@ -47,6 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Regime, BenchOmissions,
                          testing::Values(Regime::dynamic, Regime::quasi_static));
 
 TEST_P(BenchOmissions, ChangeNothingAndHaveACost) {
+  HAVERS_SLOW;
   const WorkPrecision study = compare_settings(tiny(GetParam()), {.seeds = 2});
   ASSERT_TRUE(study.omissions);
   EXPECT_EQ(study.omissions->setting.regime, GetParam());
@@ -60,6 +63,7 @@ TEST_P(BenchOmissions, ChangeNothingAndHaveACost) {
 
 // The rest of an avalanche that is left out is no small part of the cost.
 TEST(WorkPrecision, TakesTheCostOfOmissionsFromRunsNotFromSteps) {
+  HAVERS_SLOW;
   const WorkPrecision study = compare_settings(test::small_scene(0.0, 8, 5), {.seeds = 1});
   ASSERT_TRUE(study.omissions);
   const BenchRow &whole = study.rows[0], &row = study.rows[1];
@@ -68,6 +72,7 @@ TEST(WorkPrecision, TakesTheCostOfOmissionsFromRunsNotFromSteps) {
 }
 
 TEST(WorkPrecision, NamesTheCheapestSettingThatReachesATarget) {
+  HAVERS_SLOW;
   const WorkPrecision study = compare_settings(tiny(Regime::quasi_static), {.seeds = 3});
   ASSERT_EQ(study.cheapest.size(), 12U);
   for (const CheapestSetting& cheapest : study.cheapest) {
@@ -94,6 +99,7 @@ TEST(WorkPrecision, NamesTheCheapestSettingThatReachesATarget) {
 }
 
 TEST(WorkPrecision, TakesForItsReferenceTheFinestRun) {
+  HAVERS_SLOW;
   Scene scene = tiny(Regime::dynamic);
   scene.solver.step.reset();
   scene.solver.step_accuracy = 1e-2;
@@ -113,6 +119,7 @@ TEST(WorkPrecision, TakesForItsReferenceTheFinestRun) {
 
 // A run of twice its step tells what the reference's own error is about.
 TEST(WorkPrecision, NamesNothingForWhatItsReferenceIsNotKnownTo) {
+  HAVERS_SLOW;
   const WorkPrecision study = compare_settings(tiny(Regime::dynamic), {.seeds = 1});
   const auto twice = std::ranges::find_if(study.rows, [&](const BenchRow& row) {
     return row.setting.step && *row.setting.step == 2.0 * *study.reference.step;
@@ -128,6 +135,7 @@ TEST(WorkPrecision, NamesNothingForWhatItsReferenceIsNotKnownTo) {
 
 // A specimen that missing joints sever is answered in the limit, without steps.
 TEST(WorkPrecision, TakesNoStepFromASpecimenThatIsSevered) {
+  HAVERS_SLOW;
   Scene scene = tiny(Regime::dynamic);
   scene.solver.step.reset();
   scene.joints.missing = 0.55;
@@ -148,6 +156,7 @@ TEST(WorkPrecision, EndsWhenAskedTo) {
 }
 
 TEST(WorkPrecision, NamesNothingBeforeItKnowsItsReferencesError) {
+  HAVERS_SLOW;
   const WorkPrecision study =
       compare_settings(tiny(Regime::dynamic), {.seeds = 1}, [](const std::string& next) {
         return next.find("h = 125 ps") == std::string::npos;  // before that of twice its step
@@ -169,6 +178,7 @@ TEST(WorkPrecision, SaysUpToWhereOmissionsAreComparedWithRunsThatWereStopped) {
 }
 
 TEST(WorkPrecision, NamesTheNearestWhereNothingReachesTheTarget) {
+  HAVERS_SLOW;
   WorkPrecision study = compare_settings(tiny(Regime::quasi_static), {.seeds = 1});
   for (CheapestSetting& cheapest : study.cheapest) cheapest.row.reset();
   EXPECT_FALSE(cheapest_for_failure(study));
@@ -187,6 +197,7 @@ TEST(WorkPrecision, NamesTheNearestWhereNothingReachesTheTarget) {
 }
 
 TEST(WorkPrecision, ComparesForcesBeforeAnySeedBreaks) {
+  HAVERS_SLOW;
   Scene scene = tiny(Regime::dynamic);
   scene.joints.scatter = 1.9;
   const auto first_break = [&](std::uint64_t seed) {
@@ -205,6 +216,7 @@ TEST(WorkPrecision, ComparesForcesBeforeAnySeedBreaks) {
 
 // From rest waves run before the first break.
 TEST(WorkPrecision, MeasuresForcesAgainstTheReferenceWhereTheyHaveNoClosedForm) {
+  HAVERS_SLOW;
   Scene scene = tiny(Regime::dynamic);
   scene.loading.start = Start::rest;
   const WorkPrecision study = compare_settings(scene, {.seeds = 1});
@@ -213,6 +225,7 @@ TEST(WorkPrecision, MeasuresForcesAgainstTheReferenceWhereTheyHaveNoClosedForm) 
 }
 
 TEST(WorkPrecision, TellsWhereRunsWereStoppedFromThoseAlone) {
+  HAVERS_SLOW;
   const WorkPrecision stopped =
       compare_settings(tiny(Regime::dynamic), {.seeds = 1, .time_limit = 0.0});
   EXPECT_TRUE(std::isnan(stopped.rows.front().stopped_at.median)) << "the reference has no limit";

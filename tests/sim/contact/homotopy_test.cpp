@@ -10,6 +10,7 @@
 #include "sim/scene.hpp"
 #include "tests/sim/contact/enumerated_contact.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
@@ -76,6 +77,7 @@ TEST_P(FromSticking, AndFromOtherStatesStartsAtAnAnswer) {
 // Most joints of a wall in long steps, any gaps and forces: joints that close have slipped since
 // the branch began.
 TEST(FromStickingInAWall, ArrivesInLongSteps) {
+  HAVERS_SLOW;
   for (const double angle : {0.0, 30.0}) {
     const Scene scene = test::small_scene(angle, 5, 4);
     const Assembly assembly = build_assembly(scene.assembly, Lateral::free);

@@ -13,6 +13,7 @@
 #include "sim/joint/thresholds.hpp"
 #include "sim/structure/structure.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
@@ -158,6 +159,7 @@ TEST_P(EveryJointSolver, AgreesWithTheActiveSet) {
 
 // Friction leaves several answers here, of which sweeps find the nearest to the last step's.
 TEST_P(EveryJointSolver, TakesTheAnswerOfSweepsWhereFrictionIsStrong) {
+  HAVERS_SLOW;
   scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 0.5);
   for (const double strain : {0.0008, 0.001, 0.0015}) {
     const JointStep step = stretch(strain);

@@ -11,6 +11,7 @@
 #include "sim/contact/loose_joints.hpp"
 #include "tests/sim/contact/enumerated_contact.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
@@ -177,6 +178,7 @@ TEST(LocalContact, IsSolvedWherePiecesHangOnAlmostNothing) {
 
 // Half of a wall's joints are broken: pieces hang on nothing but 1e-13 of their stiffness.
 TEST(LocalContact, IsSolvedWhereHalfOfTheJointsAreBroken) {
+  HAVERS_SLOW;
   constexpr double h = 0.1;
   for (const int layers : {3, 4, 5}) {
     const Scene scene = test::small_scene(0.0, layers, 4);

@@ -10,6 +10,7 @@
 #include "sim/dynamics/time_stepping.hpp"
 #include "sim/outcome.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
@@ -45,6 +46,7 @@ TEST(StepLimit, EndsARunThatDoesNotBreakAndIsNotToBeTrusted) {
 // At 0 degrees the strength goes up and down with every halving, and no end is seen: what is said
 // of that is right within a factor of three.
 TEST_P(StepControl, FindsTheAnswerOfMuchSmallerSteps) {
+  HAVERS_SLOW;
   const Scene scene = without_step(GetParam());
   const Simulation run = run_in_chosen_steps(scene, {});
   const StepError said = run.step_error.value();
@@ -59,6 +61,7 @@ TEST_P(StepControl, FindsTheAnswerOfMuchSmallerSteps) {
 
 // Halvings once changed little by chance, far from the limit.
 TEST(StepChosen, FindsTheLimitOfAViscousWall) {
+  HAVERS_SLOW;
   Scene scene = test::small_scene(0.0, 4, 3);
   scene.material.viscosity = 1e-8;
   scene.joints.head_tail = 50e6;
@@ -75,6 +78,7 @@ TEST(StepChosen, FindsTheLimitOfAViscousWall) {
 
 // The stress has its peak at nearly the same strain whatever the step, and is another there.
 TEST(StepChosen, StandsForTheStrengthToo) {
+  HAVERS_SLOW;
   Scene scene = without_step(0.0);
   const Simulation run = run_in_chosen_steps(scene, {});
   const Simulation twice = run_in_steps(scene, {.step = 2.0 * run.step, .leap = true}, {});
@@ -86,6 +90,7 @@ TEST(StepChosen, StandsForTheStrengthToo) {
 
 // τε̇ more stress from the first moment on, and no other motion.
 TEST_P(StepControl, LeapsWithViscosityToo) {
+  HAVERS_SLOW;
   Scene scene = without_step(GetParam());
   scene.material.viscosity = 1e-8;
   scene.loading.strain_rate = 1e4;
@@ -112,6 +117,7 @@ TEST(StepChosen, RingsAfterABreakButLittleInTheMeanOverTheTimeOfAWave) {
 
 // So fast that the stress rises by a fifth while a wave runs through.
 TEST(StepGiven, DoesNotTakeTheRiseOfALoadForRinging) {
+  HAVERS_SLOW;
   Scene scene = test::small_scene(0.0, 10, 20);
   scene.solver.regime = Regime::dynamic;
   scene.loading.strain_rate = 1000.0;
@@ -122,18 +128,21 @@ TEST(StepGiven, DoesNotTakeTheRiseOfALoadForRinging) {
 }
 
 TEST(StepChosen, IsNotLeaptOverWhereTheMotionIsNotUniform) {
+  HAVERS_SLOW;
   Scene scene = without_step(0.0);
   scene.loading.start = Start::rest;
   EXPECT_EQ(run_in_steps(scene, {.step = 1e-8, .leap = true}, {}).leapt_strain, 0.0);
 }
 
 TEST(StepChosen, LeavesNothingOutWhenAskedNotTo) {
+  HAVERS_SLOW;
   Scene scene = without_step(0.0);
   scene.solver.leave_out = false;
   EXPECT_EQ(run_in_chosen_steps(scene, {}).leapt_strain, 0.0);
 }
 
 TEST(StepChosen, SaysWhatItsLastHalvingChanged) {
+  HAVERS_SLOW;
   Scene scene = without_step(0.0);
   scene.solver.step_accuracy = 0.5;
   const Simulation run = simulate(scene);
@@ -146,6 +155,7 @@ TEST(StepChosen, SaysWhatItsLastHalvingChanged) {
 }
 
 TEST(StepChosen, IsNotTrustedWhereItStillChangesTheAnswer) {
+  HAVERS_SLOW;
   Simulation run = run_in_chosen_steps(without_step(90.0), {});
   run.strength = 1.0;
   run.tolerance = 1e-8;
@@ -156,6 +166,7 @@ TEST(StepChosen, IsNotTrustedWhereItStillChangesTheAnswer) {
 
 // The motion is uniform, but rounding of velocities over so short a time is an acceleration.
 TEST(StepChosen, LeapsHoweverShortItIs) {
+  HAVERS_SLOW;
   const Scene scene = without_step(20.0);
   EXPECT_EQ(run_in_steps(scene, {.step = 1e-12, .leap = true, .most = 3}).leapt_strain, 0.0);
   EXPECT_GT(run_in_steps(scene, {.step = 1e-12, .leap = true, .most = 1000}).leapt_strain, 1e-3);
@@ -195,6 +206,7 @@ Scene short_of_sweeps(std::uint64_t seed, int sweeps) {
 }
 
 TEST(StepChosen, KeepsTheAnswerOfALongerStepWhereTwoShorterHaveNone) {
+  HAVERS_SLOW;
   const Scene scene = short_of_sweeps(10, 481);
   double seen = 0.0;
   const Simulation run =
@@ -222,6 +234,7 @@ TEST(StepChosen, KeepsTheAnswerOfALongerStepWhereTwoShorterHaveNone) {
 // 90 sweeps are enough for short steps alone: one of 7.7 ns takes more than 100, half of it fewer
 // than 80.
 TEST(StepChosen, IsShorterThanThoseWithoutAnAnswer) {
+  HAVERS_SLOW;
   Scene scene = test::small_scene(0.0, 3, 3);
   scene.solver.regime = Regime::dynamic;
   scene.loading.strain_rate = 1e4;
@@ -238,6 +251,7 @@ TEST(StepChosen, IsShorterThanThoseWithoutAnAnswer) {
 }
 
 TEST(StepChosen, IsNotTrustedWhereNoShorterStepHasAnAnswer) {
+  HAVERS_SLOW;
   const Scene scene = short_of_sweeps(10, 440);
   const Simulation run = simulate(scene);
   EXPECT_EQ(run.step, first_step(scene));

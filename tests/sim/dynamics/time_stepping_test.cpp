@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
@@ -125,6 +126,7 @@ TEST(SimulateDynamic, StartsFromRestWithTheStressOfAWave) {
 
 // The path of joints that break together goes up beyond λ = 1000 before it comes back.
 TEST(SimulateDynamic, FollowsAPathThatTurnsBackLate) {
+  HAVERS_SLOW;
   Scene scene = test::small_scene(15.0, 14, 14);
   scene.joints.scatter = 0.02;
   scene.loading.strain_rate = 1000.0;
@@ -137,6 +139,7 @@ TEST(SimulateDynamic, FollowsAPathThatTurnsBackLate) {
 // Joints between layers have nearly the same threshold. Paths of so many lead nowhere, and sweeps
 // end one joint from the answer.
 TEST(SimulateDynamic, BreaksHundredsOfJointsInAFewSteps) {
+  HAVERS_SLOW;
   struct Wall {
     double degrees, scatter, step;
     int size;
@@ -160,6 +163,7 @@ TEST(SimulateDynamic, BreaksHundredsOfJointsInAFewSteps) {
 
 // Strong cohesive friction, oblique fibres: a step may have several answers that keep the law.
 TEST(SimulateDynamic, TakesTheAnswerOfSweepsWhereFrictionLeavesSeveral) {
+  HAVERS_SLOW;
   Scene scene = test::small_scene(45.0, 8, 5);
   scene.joints.seed = 4;
   scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 0.5);
@@ -181,6 +185,7 @@ TEST(SimulateDynamic, TakesTheAnswerOfSweepsWhereFrictionLeavesSeveral) {
 }
 
 TEST(SimulateDynamic, GivesTheSameRunWhenNothingIsLeftOut) {
+  HAVERS_SLOW;
   Scene scene = test::dynamic_scene(0.0);
   const Simulation one = simulate_dynamic(scene, {});
   scene.solver.leave_out = false;

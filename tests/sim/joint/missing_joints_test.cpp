@@ -6,6 +6,7 @@
 #include "sim/joint/thresholds.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
@@ -78,6 +79,7 @@ INSTANTIATE_TEST_SUITE_P(, WithMissingJoints,
                          });
 
 TEST_P(WithMissingJoints, TheWallIsSofterAndWeakerTheMoreAreMissing) {
+  HAVERS_SLOW;
   Simulation stronger = run(0.0);
   for (const double missing : {0.05, 0.15, 0.3}) {
     const Simulation weaker = run(missing);

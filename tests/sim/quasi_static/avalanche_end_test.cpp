@@ -5,6 +5,7 @@
 
 #include "sim/quasi_static/breaking_sequence.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 // Wide intervals of thresholds stop many an avalanche below half of what the specimen bore before,
 // and it bears more thereafter.
 TEST(AvalancheEnd, GivesTheSameRunWhenNothingIsLeftOut) {
+  HAVERS_SLOW;
   for (const double degrees : {0.0, 45.0})
     for (const double scatter : {0.2, 1.0, 1.9})
       for (const unsigned seed : {1U, 2U, 3U, 4U}) {
@@ -46,6 +48,7 @@ double deepest_recovered_fall(const Simulation& simulation) {
 
 // Among the walls in which avalanches stopped late, for their size.
 TEST(AvalancheEnd, FollowsAvalanchesThatStopAsFarAsTheyDo) {
+  HAVERS_SLOW;
   struct Wall {
     int layers;
     std::uint64_t seed;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
@@ -52,6 +53,7 @@ TEST(IntactStructure, BearsTheUniformStressWhereFibresAreAllButAlongASide) {
 // Large enough for nested dissection; by minimum degree there are 84 nonzeros a row. Its sides are
 // tied, and the distance common to all ties comes last.
 TEST(IntactStructure, OfALargeWallFillsLessWhereBodiesAreHalved) {
+  HAVERS_SLOW;
   const auto intact = intact_structure(test::small_scene(30.0, 70, 50));
   ASSERT_TRUE(intact->structure().ok());
   ASSERT_FALSE(intact->assembly().ties.empty());
@@ -61,6 +63,7 @@ TEST(IntactStructure, OfALargeWallFillsLessWhereBodiesAreHalved) {
 }
 
 TEST(IntactStructure, OfALargeWallKeepsWhatRepeatsItselfOnce) {
+  HAVERS_SLOW;
   for (const auto& [degrees, part] : {std::pair{0.0, 0.5}, {30.0, 0.8}, {90.0, 0.8}}) {
     SCOPED_TRACE(degrees);
     Scene scene = test::small_scene(degrees, 70, 50);

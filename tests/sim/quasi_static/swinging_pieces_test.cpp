@@ -8,6 +8,7 @@
 #include "sim/simulate.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
@@ -28,6 +29,7 @@ TEST(SwingingPieces, KeepTheEnergyBalance) {
 // Weak flanks and missing joints: more than a hundred loose joints between layers of which many
 // swing, and an event after the strength whose contact has no answer that is found.
 TEST(SwingingPieces, LeaveARunTrustedWhereLayersComeLoose) {
+  HAVERS_SLOW;
   struct Wall {
     double scatter;
     std::uint64_t seed;
@@ -49,6 +51,7 @@ TEST(SwingingPieces, LeaveARunTrustedWhereLayersComeLoose) {
 // Joints of a small regular wall come to their limits at once: a path on which they were to change
 // their states together would lead in circles.
 TEST(SwingingPieces, AreHeldWhereManyJointsChangeAtOnce) {
+  HAVERS_SLOW;
   Scene scene = test::small_scene(0.0, 5, 2);
   scene.joints.flank = 6e6;
   scene.joints.scatter = 1.4;
@@ -85,6 +88,7 @@ TEST(SwingingPieces, AreNoStiffnessWhereColumnsHangOnHinges) {
 // A fibre on its last joint turns between neighbours that hardly rub: its equations have no digits
 // left, and springs that let go of it leave a force of 1e-9.
 TEST(SwingingPieces, AreHeldByTheirNeighboursWithNextToNoFriction) {
+  HAVERS_SLOW;
   Scene scene = test::small_scene(0.0, 3, 8);
   scene.assembly.fibre_length = 12.0 * scene.assembly.fibre_height;
   scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 6.0);
@@ -117,6 +121,7 @@ Scene nearly_severed(double missing) {
 
 // No way solves an event of some of these walls, one in thousands: that of seed 5982 is the first.
 TEST(SwingingPieces, EndInTheLastRowWhereAnEventIsNotSolved) {
+  HAVERS_SLOW;
   Scene scene = nearly_severed(0.3);
   scene.joints.friction = 0.05;
   int unsolved = 0;
@@ -185,6 +190,7 @@ TEST(SwingingPieces, BreakNothingWhereTheSpecimenBearsNothing) {
 
 // What rounding leaves is more than that: the residual says so, and the answer stays the same.
 TEST(SwingingPieces, KeepTheirContactsWhateverTheTolerance) {
+  HAVERS_SLOW;
   Scene scene;
   scene.solver.regime = Regime::quasi_static;
   scene.joints.seed = 3;
@@ -215,6 +221,7 @@ TEST(SwingingPieces, AreSolvedWithCareWhereTheToleranceAsksForIt) {
 
 // Columns of fibres that nothing holds lie anywhere, but not far away.
 TEST(SeveredSpecimen, LiesWhereItWasWhereAllBreakTogether) {
+  HAVERS_SLOW;
   for (const int layers : {6, 9, 14})
     for (const double degrees : {90.0, 89.99}) {
       SCOPED_TRACE(testing::Message() << layers << " layers at " << degrees);
@@ -267,6 +274,7 @@ TEST(SeveredSpecimen, BearsNothingWhereItsPiecesTouch) {
 // Layers far apart in strength at a small angle: a run is done again with more care, and its first
 // answer is now and then the better one.
 TEST(SwingingPieces, AreWatchedLastAsTheyAreAnswered) {
+  HAVERS_SLOW;
   Scene scene = test::small_scene(0.1, 4, 3);
   scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 4.0);
   scene.joints.scatter = 1.2;
