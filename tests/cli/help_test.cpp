@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "tests/cli/run_havers.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers {
 namespace {
@@ -36,6 +37,7 @@ TEST(Help, EveryCommandShowsExamplesAndExitCodes) {
 }
 
 TEST(Help, SaysWhichSeedsAndSettingsAreRefused) {
+  HAVERS_SLOW;
   const auto folder = own_folder();
   for (const std::string command : commands)
     for (const std::string option : {"--seed", "--set"}) {

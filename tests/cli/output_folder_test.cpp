@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "tests/cli/run_havers.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers {
 namespace {
@@ -140,6 +141,7 @@ TEST(OutputFolder, ThatCannotBeMadeIsNamed) {
 
 // A build without pages leaves none; one that another build adds is not the user's.
 TEST(OutputFolder, KnowsAPageThatWasAdded) {
+  HAVERS_SLOW;
   const fs::path folder = test::folder_with_study();
   ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
   const int answer = run_havers(folder, "fit made/study.toml -o out").exit_code;

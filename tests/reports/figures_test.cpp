@@ -16,6 +16,7 @@
 #include "tests/reports/sound_page.hpp"
 #include "tests/support/results.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::reports {
 namespace {
@@ -165,6 +166,7 @@ TEST(Figure, ShowsBothSidesOnlyWhereTheyDiffer) {
 
 // Half way to the first break a quarter of the energy is stored, steps or no steps.
 TEST(Figure, DrawsTheEnergyOfStrainThatWasLeaptOver) {
+  HAVERS_SLOW;
   sim::Scene scene = test::dynamic_scene(90.0);
   scene.solver.step.reset();
   const sim::Assembly assembly = sim::build_assembly(scene.assembly, scene.loading.lateral);

@@ -7,6 +7,7 @@
 #include "sim/joint/thresholds.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
@@ -80,6 +81,7 @@ TEST(Scene, RefusesAStepLongerThanTheTest) {
 }
 
 TEST(Scene, ChoosesNoStepLongerThanTheTest) {
+  HAVERS_SLOW;
   Scene scene;
   scene.loading.start = Start::rest;
   scene.loading.strain_rate = 1e3;

@@ -160,6 +160,7 @@ TEST_P(ClocksOf, LieWithinTheErrorTheyComeWith) {
 
 // Slack in one of the signals moves the beginning, so that it alone tells no clocks.
 TEST(ClocksOfABeginning, AreRefused) {
+  HAVERS_SLOW;
   const Situation beginning{.name = "", .end = 40.0, .strain = late_ramp};
   for (unsigned seed = 1; seed <= 10; ++seed) {
     const TwoRecords two = recorded(beginning, seed);

@@ -132,6 +132,7 @@ TEST(LocalContact, FindsTheSlidingJointThatSetsCycleAround) {
 
 // What stays open whatever its gap has to be open where the path starts, and the same all along it.
 TEST(LocalContact, IsSolvedBesideJointsThatAreApart) {
+  HAVERS_SLOW;
   for (const int joints : {3, 12, 30})
     for (const double friction : {0.3, 20.0})
       for (unsigned seed = 1; seed <= 200; ++seed) {
@@ -147,6 +148,7 @@ TEST(LocalContact, IsSolvedBesideJointsThatAreApart) {
 // Of a wall in long steps, most joints broken, any gaps and forces: pieces hang on nothing but
 // their inertia, 1e-11 to 1e-15 of the stiffness of the others.
 TEST(LocalContact, IsSolvedWherePiecesHangOnAlmostNothing) {
+  HAVERS_SLOW;
   const Scene scene = test::small_scene(0.0, 4, 5);
   const Assembly assembly = build_assembly(scene.assembly, Lateral::periodic);
   int lawful = 0;
