@@ -34,15 +34,23 @@ double settled_noise_of(std::span<const double> values) {
   return noise;
 }
 
-// (X8) Over a twentieth of the record, so that noise between neighbours does not count.
-double median_rate(std::span<const double> values, std::span<const double> time) {
-  assert(values.size() == time.size());
-  const std::size_t span = std::max<std::size_t>(1, values.size() / 20);
-  const std::size_t stride = 1 + values.size() / enough_for_median;
+double loading_rate(std::span<const double> strain, std::span<const double> time) {
+  assert(strain.size() == time.size());
+  if (strain.empty() || strain.back() <= 0.0) return 0.0;
+  constexpr int steps = 20;
+  const double step = strain.back() / steps;
   std::vector<double> rates;
-  for (std::size_t i = 0; i + span < values.size(); i += stride)
-    if (time[i + span] > time[i])
-      rates.push_back((values[i + span] - values[i]) / (time[i + span] - time[i]));
+  double above = time.back();
+  std::size_t i = strain.size() - 1;
+  for (int level = steps - 1; level > 0; --level) {
+    const double at = level * step;
+    while (i > 0 && strain[i] >= at) --i;
+    if (strain[i] >= at) break;  // the record begins above it
+    const double part = (at - strain[i]) / (strain[i + 1] - strain[i]);
+    const double passed = std::lerp(time[i], time[i + 1], part);
+    if (above > passed) rates.push_back(step / (above - passed));
+    above = passed;
+  }
   return median(std::move(rates));
 }
 

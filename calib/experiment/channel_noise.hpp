@@ -21,9 +21,8 @@ double noise_of(std::span<const double> values, std::size_t lag = 1);
 /// The same where rows that are near err alike: over as many rows as it grows with (X7).
 double settled_noise_of(std::span<const double> values);
 
-/// Median rate of a signal over its record (X8); 0 where time does not advance. [unit of values /
-/// s]
-double median_rate(std::span<const double> values, std::span<const double> time);
+/// Strain rate of the loading up to the last row (X8); 0 where time does not advance. [1/s]
+double loading_rate(std::span<const double> strain, std::span<const double> time);
 
 /// How many rows tell as much as one that is independent of the others: what a model leaves of a
 /// record is no white noise. 1 + 2 Σ r(k), r the autocorrelation, up to the first k at which it is

@@ -38,13 +38,29 @@ void take_stress(const RawTest& raw, EngineeringCurve& curve) {
   }
 }
 
+// (X2) Whether the strain is the crosshead's extension over the gauge length, as its name says: a
+// name may err.
+bool is_of_crosshead(const RawTest& raw) {
+  if (!raw.crosshead_strain || raw.extension.empty() || !raw.gauge_length)
+    return raw.crosshead_strain;
+  constexpr double tolerance = 0.02;
+  double largest = 0.0, difference = 0.0;
+  for (std::size_t i = 0; i < raw.strain.size(); ++i) {
+    const double moved = raw.extension[i] / *raw.gauge_length;
+    largest = std::max(largest, std::abs(moved));
+    difference = std::max(difference, std::abs(raw.strain[i] - moved));
+  }
+  return difference <= tolerance * largest;
+}
+
 // (X2) The crosshead's extension over the gauge length, less what the machine gives way.
 void take_crosshead(const RawTest& raw, double machine_compliance, EngineeringCurve& curve) {
-  const bool corrected = machine_compliance > 0.0 && !raw.force.empty();
-  curve.strain.reserve(raw.extension.size());
-  for (std::size_t i = 0; i < raw.extension.size(); ++i) {
-    const double machine = corrected ? machine_compliance * raw.force[i] : 0.0;
-    curve.strain.push_back((raw.extension[i] - machine) / *raw.gauge_length);
+  const bool corrected = machine_compliance > 0.0 && !raw.force.empty() && raw.gauge_length;
+  curve.strain.reserve(raw.rows());
+  for (std::size_t i = 0; i < raw.rows(); ++i) {
+    const double machine = corrected ? machine_compliance * raw.force[i] / *raw.gauge_length : 0.0;
+    curve.strain.push_back(
+        (raw.strain.empty() ? raw.extension[i] / *raw.gauge_length : raw.strain[i]) - machine);
   }
   curve.machine_in_strain = !corrected;
   if (corrected)
@@ -59,8 +75,10 @@ void take_crosshead(const RawTest& raw, double machine_compliance, EngineeringCu
 }
 
 void take_strain(const RawTest& raw, double machine_compliance, EngineeringCurve& curve) {
-  if (!raw.strain.empty()) {
+  if (!raw.strain.empty() && !is_of_crosshead(raw)) {
     curve.strain = raw.strain;
+  } else if (!raw.strain.empty()) {
+    take_crosshead(raw, machine_compliance, curve);
   } else if (raw.extension.empty()) {
     curve.problems.emplace_back("neither strain nor crosshead extension was recorded");
   } else if (!raw.gauge_length || *raw.gauge_length <= 0.0) {

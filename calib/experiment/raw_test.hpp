@@ -19,7 +19,7 @@ struct RawTest {
   std::vector<double> time;       ///< [s]
   std::vector<double> force;      ///< Tension positive. [N]
   std::vector<double> extension;  ///< Of the crosshead. [m]
-  std::vector<double> strain;     ///< Gauge or extensometer. [-]
+  std::vector<double> strain;     ///< Gauge or extensometer, or the machine's own. [-]
   std::vector<double>
       stress;  ///< As the machine computed it; used only where force or area is unknown. [Pa]
   std::vector<double> volts;               ///< Of a gauge whose factor is not known yet. [V]
@@ -27,6 +27,7 @@ struct RawTest {
   std::optional<double> width, thickness;  ///< Of the specimen. [m]
   std::optional<double> area;              ///< Used where width or thickness is unknown. [m²]
   std::optional<double> gauge_length;      ///< [m]
+  bool crosshead_strain = false;           ///< The strain is the crosshead's by its column's name.
   bool load_turned = false;                ///< The load was read negative, and turned (X22).
   std::vector<Correction> corrections;     ///< What was done before the reduction.
   std::vector<std::string> warnings;       ///< What the reader noticed, a sentence each.

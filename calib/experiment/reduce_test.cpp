@@ -179,7 +179,7 @@ void take_failure(MeasuredTest& test) {
   test.energy_to_failure = energy_to(test, peak);
   if (!test.time.empty())
     test.strain_rate =
-        median_rate(std::span(test.strain).first(peak + 1), std::span(test.time).first(peak + 1));
+        loading_rate(std::span(test.strain).first(peak + 1), std::span(test.time).first(peak + 1));
   test.linearity = test.strength / (test.modulus * test.failure_strain);  // (X10)
   doubt_strain(test);
 }

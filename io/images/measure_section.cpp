@@ -93,9 +93,11 @@ void warn_of_background(const cv::Mat& whole, const PoreMap& map, cv::Rect box,
         options.mask ? "make the mask smaller" : "do not say that bone fills the image"));
 }
 
-// As bright as the bone, a strip with a scale or a label passes for a second piece of it.
+// As bright as the bone, a strip with a scale or a label passes for a second piece of it; or, as it
+// has less of the image, for all of it.
 void warn_of_strips(const PoreMap& map, cv::Rect box, cv::Size image, Warnings& warnings) {
-  constexpr int blur = 4;  // [px]
+  constexpr int blur = 4;          // [px]
+  constexpr int widest_label = 3;  // in the image
   const std::vector<Contour> parts = outer_contours(map.bone);
   for (const Contour& part : parts) {
     const cv::Rect at = cv::boundingRect(part) + box.tl();
@@ -103,11 +105,15 @@ void warn_of_strips(const PoreMap& map, cv::Rect box, cv::Size image, Warnings& 
         at.width > image.width - blur && (at.y < blur || at.br().y > image.height - blur);
     const bool stands =
         at.height > image.height - blur && (at.x < blur || at.br().x > image.width - blur);
-    if (parts.size() > 1 && (lies || stands))
-      warnings.push_back(
-          fmt::format("{:.1f} % of the bone is a strip along an edge of the image: "
-                      "if it is a label, cut it off or give a mask",
-                      100.0 * enclosed_area(part) / cv::countNonZero(map.bone)));
+    const bool all = parts.size() == 1;
+    if (!lies && !stands) continue;
+    if (all && widest_label * at.area() > image.area()) continue;
+    warnings.push_back(
+        fmt::format("{} is a strip along an edge of the image: if it is a label, cut it off or "
+                    "give a mask",
+                    all ? "all that is taken for bone"
+                        : fmt::format("{:.1f} % of the bone",
+                                      100.0 * enclosed_area(part) / cv::countNonZero(map.bone))));
   }
 }
 

@@ -33,9 +33,13 @@ struct Candidate {
 };
 enum Rank { of_sensor, by_name, in_doubt, by_unit, ranks };
 
-std::string_view doubt_of_column(const Column& column) {
+std::optional<Dimension> dimension_of_column(const Column& column) {
   const std::optional<Unit> unit = find_unit(column.unit);
-  return doubt_of(column.name, unit && unit->dimension == Dimension::length);
+  return unit ? std::optional(unit->dimension) : std::nullopt;
+}
+
+std::string_view doubt_of_column(const Column& column) {
+  return doubt_of(column.name, dimension_of_column(column));
 }
 
 Candidate classify(const Column& column) {
@@ -47,6 +51,8 @@ Candidate classify(const Column& column) {
                                                      : by_name;
   if (named != Quantity::other && column.unit.empty()) return {named, rank};
   if (named != Quantity::other && unit && fits(named, unit->dimension)) return {named, rank};
+  if (named == Quantity::extension && is_crosshead_strain(column.name, dimension_of_column(column)))
+    return {Quantity::strain, rank};
   if (unit && unit->dimension == Dimension::voltage) return {in_volts(named), by_unit};
   return {quantity_of_unit(column.unit), by_unit};
 }
@@ -226,6 +232,13 @@ void need_load(TestFile& file, const Table& table, const ReadOptions& options, C
 
 void need_gauge(const TestFile& file, const std::string& where, const ReadOptions& options,
                 const Chosen& chosen) {
+  for (const Column& column : file.columns)
+    if (column.quantity == Quantity::strain && !is_usable(column, file.test))
+      throw InputError(
+          where,
+          fmt::format("column \"{}\" is an elongation, and the gauge length is unknown",
+                      column.name),
+          "say gauge_length_mm");
   const bool measures = std::ranges::any_of(chosen, [](const auto& entry) {
     return entry.first != Quantity::time && entry.first != Quantity::stress;
   });
@@ -254,6 +267,11 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
     need_gauge(file, where, options, chosen);
   else
     need_load(file, table, options, chosen);
+  if (const auto strain = chosen.find(Quantity::strain); strain != chosen.end()) {
+    const Column& column = file.columns[strain->second];
+    file.test.crosshead_strain = !options.columns.contains(Quantity::strain) &&
+                                 is_crosshead_strain(column.name, dimension_of_column(column));
+  }
   std::vector<Channel> channels;
   for (const auto& [quantity, column] : chosen)
     channels.push_back({quantity, table.first_column + column, column,

@@ -77,8 +77,12 @@ std::string list_of(const std::vector<TestFile>& tests) {
 
 // The specimen of that name or number.
 TestFile chosen_of(std::vector<TestFile> tests, const std::string& specimen) {
-  for (TestFile& test : tests)
-    if (test.test.specimen_id == specimen) return std::move(test);
+  const auto is_it = [&](const TestFile& test) { return test.test.specimen_id == specimen; };
+  if (std::ranges::count_if(tests, is_it) > 1)
+    throw InputError(tests.front().file, fmt::format("holds several specimens \"{}\"", specimen),
+                     "say which by its number; it holds " + list_of(tests));
+  if (const auto found = std::ranges::find_if(tests, is_it); found != tests.end())
+    return std::move(*found);
   for (std::size_t i = 0; i < tests.size(); ++i)
     if (std::to_string(i + 1) == specimen) return std::move(tests[i]);
   throw InputError(tests.front().file, fmt::format("holds no specimen \"{}\"", specimen),

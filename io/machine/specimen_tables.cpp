@@ -23,8 +23,9 @@ constexpr std::size_t longest_header = 500;
 // The machine's stress must be force over the area that the file states, or one of the three is
 // wrong.
 void check_stress(calib::RawTest& test) {
-  if (test.force.empty() || test.stress.empty() || !test.width || !test.thickness) return;
-  const double area = *test.width * *test.thickness;
+  const bool has_sizes = test.width && test.thickness;
+  if (test.force.empty() || test.stress.empty() || (!has_sizes && !test.area)) return;
+  const double area = has_sizes ? *test.width * *test.thickness : *test.area;
   double largest_stress = 0.0, largest_difference = 0.0;
   for (std::size_t i = 0; i < test.force.size(); ++i) {
     largest_stress = std::max(largest_stress, std::abs(test.stress[i]));
@@ -34,9 +35,22 @@ void check_stress(calib::RawTest& test) {
   constexpr double tolerance = 0.01;
   if (largest_difference > tolerance * largest_stress)
     test.warnings.push_back(
-        fmt::format("the stress column differs from force / (width × thickness) by up to {:.3g} "
-                    "MPa of {:.4g} MPa: the force is used, check width and thickness",
-                    largest_difference * 1e-6, largest_stress * 1e-6));
+        fmt::format("the stress column differs from force / {0} by up to {1:.3g} MPa of {2:.4g} "
+                    "MPa: the force is used, check {3}",
+                    has_sizes ? "(width × thickness)" : "area", largest_difference * 1e-6,
+                    largest_stress * 1e-6, has_sizes ? "width and thickness" : "the area"));
+}
+
+// The header of a specimen beside others: where its own columns begin with a key, that and what
+// follows it; what stands left of all is of all.
+std::vector<PreviewRow> header_of(const Table& part, std::span<const PreviewRow> header) {
+  std::vector<PreviewRow> own(header.begin(), header.end());
+  if (part.first_column == 0) return own;
+  for (PreviewRow& row : own)
+    if (row.cells.size() > part.first_column + 1 && fact_of_key(row.cells[part.first_column]))
+      row.cells.erase(row.cells.begin(),
+                      row.cells.begin() + static_cast<std::ptrdiff_t>(part.first_column));
+  return own;
 }
 
 // Sizes that are there before the header is read stay.
@@ -64,7 +78,7 @@ void SpecimenTables::begin(const Table& table, std::span<const PreviewRow> heade
     specimen.file = common_;
     specimen.file.layout = table.layout;
     take_given_sizes(options_, specimen.file.test);
-    read_facts(header, specimen.file.test);
+    read_facts(header_of(part, header), specimen.file.test);
     if (!part.title.empty()) specimen.file.test.specimen_id = part.title;
     specimen.channels = find_channels(specimen.file, part, options_);
     specimen.values.resize(specimen.channels.size());

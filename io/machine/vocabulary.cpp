@@ -101,6 +101,7 @@ constexpr std::array quantity_words{
     QuantityWord{"czas", time},
     QuantityWord{"时间", time},
     QuantityWord{"extension", extension},
+    QuantityWord{"elongation", extension},
     QuantityWord{"displacement", extension},
     QuantityWord{"crosshead", extension},
     QuantityWord{"stroke", extension},
@@ -126,9 +127,10 @@ constexpr std::array quantity_words{
     QuantityWord{"位移", extension},
 };
 
-constexpr std::array<std::string_view, 16> no_reading_words{
-    "transvers", "trasvers", "querdehn", "lateral",   "poprzeczn", "横向",   "command", "comando",
-    "consign",   "soll",     "setpoint", "set point", "set-point", "target", "zadan",   "指令"};
+constexpr std::array<std::string_view, 18> no_reading_words{
+    "transvers", "trasvers", "querdehn", "lateral", "poprzeczn", "横向",
+    "command",   "comando",  "consign",  "soll",    "setpoint",  "set point",
+    "set-point", "target",   "zadan",    "指令",    "maximum",   "maximal"};
 constexpr std::array<std::string_view, 2> no_reading_alone{"peak", "demand"};
 constexpr std::array<std::string_view, 10> sensor_words{
     "gauge",    "gage",     "extenso",   "jauge",  "galga",
@@ -230,15 +232,22 @@ bool counts_compression(std::string_view name) {
   return contains_any(text, compression_words) && !contains_any(text, tension_words);
 }
 
-std::string_view doubt_of(std::string_view name, bool elongation) {
+bool is_crosshead_strain(std::string_view name, std::optional<Dimension> unit) {
   const std::string text = lower(name);
-  if (contains(text, "absol", Match::anywhere)) return "an absolute position";
-  if (contains_any(text, true_words)) return "true and not engineering";
   const bool travels = std::ranges::any_of(quantity_words, [&](const QuantityWord& known) {
     return known.quantity == extension && contains(text, known.word, known.match);
   });
-  if (travels && !elongation && quantity_of_name(name) == strain)
-    return "the crosshead's, with the compliance of the machine in it";
+  const Quantity named = quantity_of_name(name);
+  return travels && ((named == strain && unit != Dimension::length) ||
+                     (named == extension && unit == Dimension::strain));
+}
+
+std::string_view doubt_of(std::string_view name, std::optional<Dimension> unit) {
+  const std::string text = lower(name);
+  if (contains(text, "absol", Match::anywhere)) return "an absolute position";
+  if (contains_any(text, true_words)) return "true and not engineering";
+  if (is_crosshead_strain(name, unit))
+    return "the crosshead's by its name, with the compliance of the machine in it";
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "io/machine/read_test.hpp"
+#include "io/machine/units.hpp"
 
 namespace havers::io {
 
@@ -21,9 +22,13 @@ bool is_of_sensor(std::string_view name);
 /// Whether the name says that the column counts compression: "Compressive load", "Druckkraft".
 bool counts_compression(std::string_view name);
 
+/// Whether a column of that name and unit holds a strain of the crosshead: "Strain (Displacement)",
+/// an "Extension" in percent.
+bool is_crosshead_strain(std::string_view name, std::optional<Dimension> unit);
+
 /// Why a column is taken only where no other holds its quantity: an absolute position, a strain of
-/// the crosshead, a true strain. Empty for most. `elongation`: its unit is a length.
-std::string_view doubt_of(std::string_view name, bool elongation);
+/// the crosshead, a true strain. Empty for most.
+std::string_view doubt_of(std::string_view name, std::optional<Dimension> unit);
 
 /// Whether the name is that of a result of a whole test: "Maximum load", "Tensile strength", ...
 bool is_result(std::string_view name);

@@ -37,6 +37,7 @@ nlohmann::json porosity_json(const calib::SectionPorosity& section, double scatt
   calib::SectionPorosity copy = section;
   nlohmann::json json = json_of(copy);
   json["scatter"] = json_of(scatter);
+  json["doubtful"] = section.doubtful;
   return json;
 }
 

@@ -130,7 +130,7 @@ nlohmann::json sweep_json(const calib::Sweep& sweep, const calib::SweepResult& r
                       {"failed", summary.failed},
                       {"unbroken", summary.unbroken},
                       {"measures", measures},
-                      {"strength_law", json_of(strength)}});
+                      {"strength_law", strength.runs > 0 ? json_of(strength) : nlohmann::json()}});
   }
   std::vector<calib::Law> laws = result.laws;
   std::vector<calib::Finding> findings = result.findings;

@@ -33,13 +33,30 @@ std::string title_of(const Panel& panel, const std::string& value) {
   return panel.wanted.series.empty() ? "" : plain(typeset(value));
 }
 
-// The series' values beside the graph, under the name of their key.
+double width_of(const calib::SweepFigure& wanted) {
+  return wanted.per.empty() ? 640 : 420;
+}
+
+// Of a text in the figures' font, roughly. [px]
+double width_of(std::string_view text) {
+  constexpr double character = 7.5;
+  const auto is_first_byte = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+  return character * static_cast<double>(std::ranges::count_if(text, is_first_byte));
+}
+
+// The series' values beside the graph, under the name of their key, which leaves them room.
 std::string key_of(const Panel& panel) {
   if (panel.wanted.series.empty()) return "set tmargin at screen 0.96\n";
-  const double edge = panel.wanted.per.empty() ? 0.82 : 0.74;
+  constexpr double sample = 58, margin = 12;  // [px]
+  double room = width_of(name_of_key(panel.wanted.series));
+  for (const PointGroup& series :
+       calib::groups_of(panel.result.points, panel.sweep.plan, panel.wanted.series))
+    room = std::max(room, sample + width_of(title_of(panel, series.value)));
+  const double widest = panel.wanted.per.empty() ? 0.82 : 0.74;
+  const double edge = std::clamp(1.0 - (room + margin) / width_of(panel.wanted), 0.5, widest);
   return fmt::format(
       "set tmargin at screen 0.96\nset rmargin at screen {}\n"
-      "set key at screen {}, screen 0.96 left top vertical title '{}' left\n",
+      "set key at screen {}, screen 0.96 left top vertical title '{}' noenhanced left\n",
       edge, edge + 0.01, plain(name_of_key(panel.wanted.series)));
 }
 
@@ -156,7 +173,7 @@ std::string mean_commands(const Panel& panel) {
   const calib::MeasureWords words = calib::words_of(panel.wanted.response);
   return data + axes(lines) + key_of(panel) +
          fmt::format(
-             "set xlabel '{}' offset 0,0.4\nset ylabel '{}{}' offset 0.5,0\n"
+             "set xlabel '{}' offset 0,0.4 noenhanced\nset ylabel '{}{}' offset 0.5,0\n"
              "plot {}{}\n",
              plain(name_of_key(panel.wanted.x)), plain(words.name),
              words.unit.empty() ? "" : fmt::format(" ({})", words.unit), bands, marks);
@@ -170,7 +187,7 @@ std::string curve_commands(const Panel& panel) {
     if (series.points.empty()) continue;
     const auto run =
         std::ranges::find(panel.result.runs, series.points.front(), &calib::SweepRun::point);
-    if (run == panel.result.runs.end() || run->strain.empty()) continue;
+    if (run == panel.result.runs.end() || run->failed || run->strain.empty()) continue;
     const Points points = thin(run->strain, run->stress);
     data += data_block(fmt::format("s{}", i), {points.x, points.y});
     plots +=
@@ -197,7 +214,7 @@ std::vector<SweepPanel> sweep_figures(const calib::Sweep& sweep, const calib::Sw
     SweepPanel made{.at = wanted.per.empty() ? "" : place(wanted.per, group.value),
                     .figure = {.id = fmt::format("{}-{}", id, panels.size()),
                                .description = wanted.caption,
-                               .width = wanted.per.empty() ? 640 : 420,
+                               .width = static_cast<int>(width_of(wanted)),
                                .height = wanted.per.empty() ? 360 : 340}};
     made.figure.commands = wanted.x.empty() ? curve_commands(panel) : mean_commands(panel);
     if (!wanted.per.empty() && !made.figure.commands.empty())

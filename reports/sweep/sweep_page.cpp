@@ -123,23 +123,25 @@ mstch::node point_row(const SweepReport& report, std::size_t i) {
   return mstch::map{{"cells", mstch::node{cells}}};
 }
 
+// Words of a user, as sentences before others.
+std::string ended(const std::string& text) {
+  return text.empty() ? "" : typeset(text) + (text.ends_with('.') ? " " : ". ");
+}
+
 mstch::array figures_of(const SweepReport& report) {
   mstch::array figures;
   for (const calib::SweepFigure& wanted : report.sweep.figures) {
     mstch::array panels;
     const std::string shown =
-        wanted.x.empty()
-            ? " Each curve is one run: the first seed, at the first value of every key "
-              "that the figure does not tell apart."
-            : " Bars and bands: 95\u00a0% intervals of the means.";
-    const bool ended = wanted.caption.empty() || wanted.caption.ends_with('.');
+        wanted.x.empty() ? "Each curve is one run: the first seed, at the first value of every key "
+                           "that the figure does not tell apart."
+                         : "Bars and bands: 95\u00a0% intervals of the means.";
     const std::string id = fmt::format("{}-{}", report.id, figures.size());
     for (const SweepPanel& panel : sweep_figures(report.sweep, report.result, wanted, id))
       panels.emplace_back(mstch::map{{"svg", text(draw(panel.figure))}, {"at", text(panel.at)}});
-    figures.emplace_back(
-        mstch::map{{"layout", text(panels.size() > 1 ? "images" : "one")},
-                   {"panels", mstch::node{panels}},
-                   {"caption", text(typeset(wanted.caption) + (ended ? "" : ".") + shown)}});
+    figures.emplace_back(mstch::map{{"layout", text(panels.size() > 1 ? "images" : "one")},
+                                    {"panels", mstch::node{panels}},
+                                    {"caption", text(ended(wanted.caption) + shown)}});
   }
   return figures;
 }
@@ -149,8 +151,8 @@ std::string about(const SweepReport& report) {
   const bool open = std::ranges::any_of(
       report.result.summaries, [](const calib::PointSummary& s) { return s.unbroken > 0; });
   return fmt::format(
-      "{} {}, {} each.{}{}", typeset(report.sweep.text),
-      count(report.result.points.size(), "point"), count(report.sweep.plan.seeds, "run"),
+      "{}{}, {} each.{}{}", ended(report.sweep.text), count(report.result.points.size(), "point"),
+      count(report.sweep.plan.seeds, "run"),
       why.empty() ? "" : fmt::format(" Runs that failed, most often so: {}.", typeset(why)),
       open ? " Of points with runs that did not break the modulus alone is drawn." : "");
 }
@@ -164,7 +166,7 @@ mstch::node sweep_part(const SweepReport& report) {
                     {"figures", mstch::node{figures_of(report)}},
                     {"has_laws", mstch::node{!report.result.laws.empty()}},
                     {"laws", mstch::node{law_rows(report.result.laws)}},
-                    {"count", text(std::to_string(report.result.points.size()))},
+                    {"count", text(count(report.result.points.size(), "point"))},
                     {"heads", mstch::node{point_heads(report)}},
                     {"rows", mstch::node{rows}}};
 }

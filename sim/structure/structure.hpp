@@ -205,7 +205,10 @@ class Structure {
   [[nodiscard]] Eigen::MatrixXd add_rows(int body, std::vector<int>& rows) const;
   void factorise(Precision precision);
   [[nodiscard]] std::vector<char> conducting() const;
-  [[nodiscard]] std::vector<Branch> network(const std::vector<int>& place) const;
+  [[nodiscard]] std::vector<Branch> network(const std::vector<int>& place,
+                                            const std::vector<char>& conducts) const;
+  [[nodiscard]] std::vector<int> places_of_others(const std::vector<int>& place,
+                                                  const std::vector<char>& others) const;
   [[nodiscard]] Eigen::Index first_multiplier(std::size_t body) const {
     return factorised_.unknowns + bodies_->first_compatibility(static_cast<int>(body));
   }

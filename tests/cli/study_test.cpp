@@ -70,12 +70,13 @@ TEST(Synthesize, RefusesPorosityThatASectionCannotHold) {
 
 TEST(Synthesize, RefusesWhatItDoesNotMake) {
   const fs::path folder = test::folder_with_study();
-  test::write_text(folder / "study.toml", test::small_study() +
-                                              "gauge = \"g.csv\"\nmask = \"m.png\"\n"
-                                              "specimen_in_file = 2\n");
+  test::write_text(folder / "study.toml",
+                   test::small_study() +
+                       "gauge = \"g.csv\"\nmask = \"m.png\"\n"
+                       "specimen_in_file = 2\ncolumns.force_unit = \"kN\"\n");
   const auto answer = run_havers(folder, "synthesize study.toml -o made");
   EXPECT_EQ(answer.exit_code, 2);
-  for (const char* key : {"a gauge", "a mask", "specimen_in_file"})
+  for (const char* key : {"a gauge", "a mask", "specimen_in_file", "columns"})
     EXPECT_THAT(answer.err,
                 HasSubstr("study.toml: specimen B90: has " + std::string(key) + ", which is"));
   EXPECT_FALSE(fs::exists(folder / "made"));

@@ -186,6 +186,34 @@ TEST(ReduceTest, UsesTheCrossheadWhereThereIsNoGaugeAndWarns) {
   EXPECT_FALSE(reduced(record(truth)).machine_in_strain);
 }
 
+// A column of it holds no more than the extension: the machine is taken off it, or said to be in
+// it.
+TEST(ReduceTest, TakesTheMachineOffTheStrainOfACrosshead) {
+  const TensileTruth truth;
+  RawTest raw = record(truth);
+  const double compliance = 2e-7;  // [m/N]
+  for (std::size_t i = 0; i < raw.rows(); ++i) {
+    raw.extension[i] = raw.strain[i] * *raw.gauge_length + compliance * raw.force[i];
+    raw.strain[i] = raw.extension[i] / *raw.gauge_length;
+  }
+  raw.crosshead_strain = true;
+  EXPECT_TRUE(reduced(raw).machine_in_strain);
+  EXPECT_LT(reduced(raw).modulus, 0.9 * truth.young);
+  for (const bool has_extension : {true, false}) {
+    if (!has_extension) raw.extension.clear();
+    const MeasuredTest test = reduced(raw, {.machine_compliance = compliance});
+    EXPECT_FALSE(test.machine_in_strain);
+    EXPECT_NEAR(test.modulus, truth.young, 1e-6 * truth.young);
+  }
+  // A gauge by what it shows, whatever its name.
+  RawTest gauge = record(truth);
+  for (double& moved : gauge.extension) moved *= 2.0;
+  gauge.crosshead_strain = true;
+  const MeasuredTest test = reduced(gauge, {.machine_compliance = compliance});
+  EXPECT_FALSE(test.machine_in_strain);
+  EXPECT_NEAR(test.modulus, truth.young, 1e-6 * truth.young);
+}
+
 TEST(ReduceTest, UsesTheMachinesStressWhereForceOrAreaIsUnknown) {
   const TensileTruth truth;
   RawTest raw = record(truth);

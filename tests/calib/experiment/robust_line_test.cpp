@@ -122,8 +122,36 @@ TEST(ChannelNoise, RateIsDeafToAHold) {
     time.push_back(0.1 * i + (i > 200 ? 20.0 : 0.0));
     strain.push_back(1e-5 * i);
   }
-  EXPECT_NEAR(median_rate(strain, time), 1e-4, 1e-12);
-  EXPECT_EQ(median_rate(strain, std::vector<double>(strain.size(), 1.0)), 0.0);
+  EXPECT_NEAR(loading_rate(strain, time), 1e-4, 1e-12);
+  EXPECT_EQ(loading_rate(strain, std::vector<double>(strain.size(), 1.0)), 0.0);
+}
+
+// A record may begin long before the loading, and be as long at rest between cycles of preload.
+TEST(ChannelNoise, RateIsThatOfTheLoadingHoweverLongTheMachineWaits) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> noise(0.0, 2e-6);
+  std::vector<double> strain, time;
+  const auto add = [&](int rows, double from, double to) {
+    for (int i = 0; i < rows; ++i) {
+      time.push_back(0.01 * static_cast<double>(time.size()));
+      strain.push_back(from + (to - from) * i / rows + noise(random));
+    }
+  };
+  add(3000, 0.0, 0.0);
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    add(200, 0.0, 4e-4);
+    add(200, 4e-4, 0.0);
+  }
+  add(500, 0.0, 5e-3);
+  EXPECT_NEAR(loading_rate(strain, time), 1e-3, 1e-5);
+}
+
+// Of a fast test there may be fewer rows than steps.
+TEST(ChannelNoise, RateOfFewRowsIsTheirs) {
+  EXPECT_NEAR(loading_rate(std::vector{0.0, 0.001, 0.002, 0.003}, std::vector{1.0, 2.0, 3.0, 4.0}),
+              1e-3, 1e-15);
+  EXPECT_EQ(loading_rate(std::vector{0.0, -1.0}, std::vector{1.0, 2.0}), 0.0);
+  EXPECT_EQ(loading_rate({}, {}), 0.0);
 }
 
 TEST(ChannelNoise, MedianTakesTheMiddle) {

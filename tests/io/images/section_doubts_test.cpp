@@ -105,6 +105,18 @@ TEST(SectionDoubt, WarnsOfAStripAlongTheEdge) {
   EXPECT_TRUE(labelled.doubtful);
 }
 
+// Where bone fills the rest, the bar is what a background leaves.
+TEST(SectionDoubt, WarnsOfADataBarThatPassesForTheBone) {
+  cv::Mat image(600, 800, CV_8U, cv::Scalar(170));
+  for (int i = 0; i < 40; ++i)
+    cv::circle(image, {40 + 97 * (i % 8), 40 + 95 * (i / 8)}, 12, 30, cv::FILLED);
+  image.rowRange(520, 600).setTo(0);
+  cv::putText(image, "20 kV  100 um", {40, 575}, cv::FONT_HERSHEY_SIMPLEX, 1.4, 255, 3);
+  const auto measured = doubted({.image = image}, "data_bar.png");
+  EXPECT_TRUE(warns(measured, "all that is taken for bone is a strip along an edge"));
+  EXPECT_TRUE(measured.doubtful);
+}
+
 TEST(SectionDoubt, WarnsOfLinesDrawnIntoTheBoneAndOfNoStain) {
   const auto stained = test::draw({.blur = 0.8, .colour = true});
   EXPECT_FALSE(warns(doubted(stained, "stain.png"), "is coloured"));

@@ -29,9 +29,10 @@ TEST(ColumnChoice, TakesTheBetterColumnWhereverItStands) {
     const TestFile file = choice_of("Load (N)," + names + "\n1,7,2\n2,8,3\n3,9,4\n");
     EXPECT_EQ(file.test.strain, (std::vector{0.02, 0.03, 0.04})) << names;
   }
-  for (const std::string names : {"Peak load (N),Load (N)", "Command force (N),Force (N)",
-                                  "Kraft Sollwert (N),Kraft (N)", "Force consigne (N),Force (N)",
-                                  "Force setpoint (N),Force (N)", "Force (N),Load cell (N)"}) {
+  for (const std::string names :
+       {"Peak load (N),Load (N)", "Command force (N),Force (N)", "Kraft Sollwert (N),Kraft (N)",
+        "Force consigne (N),Force (N)", "Force setpoint (N),Force (N)", "Maximum load (N),Load (N)",
+        "Force (N),Load cell (N)"}) {
     const TestFile file = choice_of(names + "\n7,2\n8,3\n");
     EXPECT_EQ(file.test.force, (std::vector{2.0, 3.0})) << names;
   }
@@ -49,10 +50,40 @@ TEST(ColumnChoice, SaysWhatIsUsedForWantOfBetter) {
   EXPECT_EQ(file.test.strain, (std::vector{0.02, 0.03}));
   EXPECT_EQ(file.test.warnings.at(0),
             "column \"Strain 1 (Displacement)\" is used for want of a better one: it is the "
-            "crosshead's, with the compliance of the machine in it");
+            "crosshead's by its name, with the compliance of the machine in it");
+  EXPECT_TRUE(file.test.crosshead_strain);
+  EXPECT_FALSE(choice_of("Load (N),Strain (%)\n1,2\n2,3\n").test.crosshead_strain);
   EXPECT_EQ(choice_of("Load (N),True strain (%),True stress (MPa)\n1,2,1\n2,3,2\n").test.warnings,
             std::vector<std::string>{"column \"True strain\" is used for want of a better one: it "
                                      "is true and not engineering"});
+}
+
+// What travels is no strain but in the unit of one, and then the crosshead's unless the user says.
+TEST(ColumnChoice, TakesAnElongationInPercentForAStrainOfTheCrosshead) {
+  for (const char* name : {"Elongation (%)", "Extension (%)", "Allongement (%)"}) {
+    const test::TemporaryFile content("Load (N)," + std::string(name) + "\n1,2\n2,3\n");
+    const TestFile file = read_test(content.path());
+    EXPECT_EQ(file.test.strain, (std::vector{0.02, 0.03})) << name;
+    EXPECT_TRUE(file.test.crosshead_strain) << name;
+    ReadOptions options;
+    options.columns[Quantity::strain].column = "2";
+    const TestFile said = read_test(content.path(), options);
+    EXPECT_EQ(said.test.strain, (std::vector{0.02, 0.03})) << name;
+    EXPECT_FALSE(said.test.crosshead_strain) << name;
+  }
+  EXPECT_EQ(choice_of("Load (N),Elongation (%),Strain (%)\n1,7,2\n2,8,3\n").test.strain,
+            (std::vector{0.02, 0.03}));
+}
+
+TEST(ColumnChoice, AsksForTheGaugeLengthOfALoggersElongation) {
+  const test::TemporaryFile file("Time (s),Extensometer (mm)\n0,1\n1,2\n");
+  try {
+    read_test(file.path(), {.logger = true});
+    FAIL() << "it was read";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().front().what,
+              "column \"Extensometer\" is an elongation, and the gauge length is unknown");
+  }
 }
 
 // The better known is the unit; what follows from it has to be seen.

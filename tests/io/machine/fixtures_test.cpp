@@ -119,6 +119,12 @@ TEST(Fixtures, OneOfSeveralSpecimensIsChosenByNameOrNumber) {
   EXPECT_EQ(complaint({}),
             "holds 2 specimens; say which by specimen_in_file, its name or number: 1 \"North\", 2 "
             "\"South\"");
+  options.specimen = "A";
+  const test::TemporaryFile twice(
+      "Specimen ID,A\nTime (s),Load (N)\n0,1\n1,2\nSpecimen ID,A\nTime (s),Load (N)\n0,3\n1,4\n");
+  EXPECT_THROW(read_test(twice.path(), options), InputError);
+  options.specimen = "2";
+  EXPECT_EQ(read_test(twice.path(), options).test.force, (std::vector{3.0, 4.0}));
   options.specimen = "West";
   EXPECT_EQ(complaint(options), "holds no specimen \"West\"; it holds 1 \"North\", 2 \"South\"");
 }

@@ -28,6 +28,20 @@ TEST(OddExports, EndWithWhatIsNotRead) {
   }
 }
 
+// Each has its sizes above its own columns; what stands left of all is of all.
+TEST(OddExports, HaveASpecimensSizesAboveItsColumns) {
+  const auto tests = tests_of(
+      "Specimen ID,A1,,Specimen ID,A2,\nWidth,4.00,mm,Width,3.00,mm\n"
+      "Thickness,2.00,mm,,,\n\nTime,Load,Strain,Time,Load,Strain\n(s),(N),(%),(s),(N),(%)\n"
+      "0,1,0.1,0,1,0.1\n1,2,0.2,1,2,0.2\n");
+  ASSERT_EQ(tests.size(), 2U);
+  EXPECT_EQ(tests[0].test.specimen_id, "A1");
+  EXPECT_EQ(tests[1].test.specimen_id, "A2");
+  EXPECT_NEAR(*tests[0].test.width, 4e-3, 1e-12);
+  EXPECT_NEAR(*tests[1].test.width, 3e-3, 1e-12);
+  for (const TestFile& test : tests) EXPECT_NEAR(*test.test.thickness, 2e-3, 1e-12);
+}
+
 // Names alone and a time that goes on are a page of the same test; a time that begins again, or
 // leaps, is another's.
 TEST(OddExports, RepeatTheirNamesOnEveryPage) {

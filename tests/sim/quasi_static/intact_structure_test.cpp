@@ -62,6 +62,15 @@ TEST(IntactStructure, OfALargeWallFillsLessWhereBodiesAreHalved) {
   EXPECT_NEAR(intact->answer().force / intact->assembly().height, 1.0, 1e-9);
 }
 
+// All fibres of one oblique layer are cut off, and each is tied to several others.
+TEST(IntactStructure, OfAThinObliqueWallFillsByItsLength) {
+  const auto nonzeros = [](int fibres) {
+    return static_cast<double>(
+        intact_structure(test::small_scene(30.0, 1, fibres))->structure().factor().nonzeros());
+  };
+  EXPECT_LT(nonzeros(60) / nonzeros(30), 2.3);
+}
+
 TEST(IntactStructure, OfALargeWallKeepsWhatRepeatsItselfOnce) {
   HAVERS_SLOW;
   for (const auto& [degrees, part] : {std::pair{0.0, 0.5}, {30.0, 0.8}, {90.0, 0.8}}) {
