@@ -174,7 +174,8 @@ void name_contradictions(TestFile& file, const ReadOptions& options, const Chose
     const Column& column = file.columns[i];
     const Quantity named = quantity_of_name(column.name), held = column.quantity;
     if (named == Quantity::other || held == Quantity::other || held == named ||
-        held == in_volts(named) || options.columns.contains(held))
+        held == in_volts(named) || options.columns.contains(held) ||
+        is_crosshead_strain(column.name, dimension_of_column(column)))
       continue;
     if (chosen.contains(named) && chosen.at(held) != i) continue;
     file.test.warnings.push_back(fmt::format(
