@@ -238,8 +238,10 @@ bool is_crosshead_strain(std::string_view name, std::optional<Dimension> unit) {
     return known.quantity == extension && contains(text, known.word, known.match);
   });
   const Quantity named = quantity_of_name(name);
-  return travels && ((named == strain && unit != Dimension::length) ||
-                     (named == extension && unit == Dimension::strain));
+  // ISO 527: nominal strain is that between the grips.
+  const bool between_grips = travels || contains(text, "nominal", Match::anywhere);
+  return (named == strain && between_grips && unit != Dimension::length) ||
+         (named == extension && unit == Dimension::strain);
 }
 
 std::string_view doubt_of(std::string_view name, std::optional<Dimension> unit) {

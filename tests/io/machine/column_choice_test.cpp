@@ -17,6 +17,7 @@ TestFile choice_of(const std::string& content) {
 TEST(ColumnChoice, TakesTheBetterColumnWhereverItStands) {
   const std::vector<std::string> strains{"Strain 1 (Displacement) (%),Strain 2 (%)",
                                          "Crosshead strain (%),Strain (%)",
+                                         "Nominal strain (%),Strain (%)",
                                          "True strain (%),Engineering strain (%)",
                                          "Transverse strain (%),Axial strain (%)",
                                          "Strain (%),Extensometer strain (%)",
