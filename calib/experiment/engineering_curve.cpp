@@ -46,9 +46,9 @@ bool is_of_crosshead(const RawTest& raw) {
   constexpr double tolerance = 0.02;
   double largest = 0.0, difference = 0.0;
   for (std::size_t i = 0; i < raw.strain.size(); ++i) {
-    const double moved = raw.extension[i] / *raw.gauge_length;
+    const double moved = (raw.extension[i] - raw.extension[0]) / *raw.gauge_length;
     largest = std::max(largest, std::abs(moved));
-    difference = std::max(difference, std::abs(raw.strain[i] - moved));
+    difference = std::max(difference, std::abs(raw.strain[i] - raw.strain[0] - moved));
   }
   return difference <= tolerance * largest;
 }
@@ -75,19 +75,17 @@ void take_crosshead(const RawTest& raw, double machine_compliance, EngineeringCu
 }
 
 void take_strain(const RawTest& raw, double machine_compliance, EngineeringCurve& curve) {
-  if (!raw.strain.empty() && !is_of_crosshead(raw)) {
+  const bool recorded = !raw.strain.empty();
+  if (recorded && !is_of_crosshead(raw))
     curve.strain = raw.strain;
-  } else if (!raw.strain.empty()) {
-    take_crosshead(raw, machine_compliance, curve);
-  } else if (raw.extension.empty()) {
+  else if (!recorded && raw.extension.empty())
     curve.problems.emplace_back("neither strain nor crosshead extension was recorded");
-  } else if (!raw.gauge_length || *raw.gauge_length <= 0.0) {
+  else if (!recorded && (!raw.gauge_length || *raw.gauge_length <= 0.0))
     curve.problems.emplace_back(
         "no strain was recorded, and the gauge length that would turn extension into strain is "
         "unknown");
-  } else {
+  else
     take_crosshead(raw, machine_compliance, curve);
-  }
 }
 
 bool all_finite(const std::vector<double>& values) {
