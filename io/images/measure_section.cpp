@@ -95,17 +95,19 @@ void warn_of_background(const cv::Mat& whole, const PoreMap& map, cv::Rect box,
 
 // As bright as the bone, a strip with a scale or a label passes for a second piece of it; or, as it
 // has less of the image, for all of it.
-void warn_of_strips(const PoreMap& map, cv::Rect box, cv::Size image, Warnings& warnings) {
+// @return whether for all of it.
+bool warn_of_strips(const PoreMap& map, cv::Rect box, cv::Size image, Warnings& warnings) {
   constexpr int blur = 4;          // [px]
   constexpr int widest_label = 3;  // in the image
   const std::vector<Contour> parts = outer_contours(map.bone);
+  const bool all = parts.size() == 1;
+  bool warned = false;
   for (const Contour& part : parts) {
     const cv::Rect at = cv::boundingRect(part) + box.tl();
     const bool lies =
         at.width > image.width - blur && (at.y < blur || at.br().y > image.height - blur);
     const bool stands =
         at.height > image.height - blur && (at.x < blur || at.br().x > image.width - blur);
-    const bool all = parts.size() == 1;
     if (!lies && !stands) continue;
     if (all && widest_label * at.area() > image.area()) continue;
     warnings.push_back(
@@ -114,7 +116,9 @@ void warn_of_strips(const PoreMap& map, cv::Rect box, cv::Size image, Warnings& 
                     all ? "all that is taken for bone"
                         : fmt::format("{:.1f} % of the bone",
                                       100.0 * enclosed_area(part) / cv::countNonZero(map.bone))));
+    warned = true;
   }
+  return all && warned;
 }
 
 // In bone that is grey, colours are somebody's lines and letters.
@@ -255,9 +259,9 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
   measured.porosity.file = name;
   measured.porosity.method = method_of(options.threshold);
   add_density(whole, grey, map, options.density, measured.porosity);
-  warn_of_bone(map, regions.outlined, whole.size(), options, doubts);
+  if (!warn_of_strips(map, regions.box, whole.size(), doubts))
+    warn_of_bone(map, regions.outlined, whole.size(), options, doubts);
   warn_of_background(whole, map, regions.box, options, doubts);
-  warn_of_strips(map, regions.box, whole.size(), doubts);
   warn_of_drawings(map, colours.empty() ? colours : colours(regions.box), doubts);
   warn_of_side(map, !regions.outlined || map.dark == regions.dark_pores, options.pores, doubts);
   warn_of_size(map, measured.porosity, doubts);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -94,6 +95,10 @@ std::string broken_joints_of(const SimulationReport& report) {
   if (s.status == Status::broken && ends_early(report))
     joints +=
         fmt::format(", counted down to {} of the strength", setting(s.end_fraction_used, "", 3));
+  if (const auto missing =
+          std::ranges::count_if(s.joints, sim::is_missing, &sim::JointOutcome::threshold);
+      missing > 0)
+    joints += fmt::format("; {} missing from the start", missing);
   return joints;
 }
 

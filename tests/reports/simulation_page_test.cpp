@@ -98,6 +98,15 @@ TEST(SimulationPage, SaysDownToWhereItWasFollowed) {
     EXPECT_TRUE(contains(page(), words)) << words;
 }
 
+TEST(SimulationPage, CountsTheJointsThatWereMissing) {
+  const auto assembly = small_assembly();
+  auto simulation = test::simulation_sample(assembly);
+  EXPECT_FALSE(contains(simulation_page({{}, assembly, simulation, {}}), "missing from the start"));
+  simulation.joints.back().threshold = {};
+  EXPECT_TRUE(
+      contains(simulation_page({{}, assembly, simulation, {}}), "; 1 missing from the start"));
+}
+
 TEST(SimulationPage, CountsStepsFromTheFirstBreakOnWhereTheRunLeapsToIt) {
   const auto assembly = small_assembly();
   auto simulation = test::simulation_sample(assembly);

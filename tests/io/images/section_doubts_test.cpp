@@ -114,6 +114,10 @@ TEST(SectionDoubt, WarnsOfADataBarThatPassesForTheBone) {
   cv::putText(image, "20 kV  100 um", {40, 575}, cv::FONT_HERSHEY_SIMPLEX, 1.4, 255, 3);
   const auto measured = doubted({.image = image}, "data_bar.png");
   EXPECT_TRUE(warns(measured, "all that is taken for bone is a strip along an edge"));
+  image.rowRange(520, 560).setTo(170);
+  const auto narrow = doubted({.image = image}, "narrow_bar.png");
+  EXPECT_TRUE(warns(narrow, "all that is taken for bone is a strip along an edge"));
+  EXPECT_FALSE(warns(narrow, "--fills-image"));
   EXPECT_TRUE(measured.doubtful);
 }
 
