@@ -96,6 +96,7 @@ void take_elongation(std::vector<double> elongation, JoinedTest& joined) {
   }
   for (double& value : elongation) value /= *joined.test.gauge_length;
   joined.test.strain = std::move(elongation);
+  joined.test.crosshead_strain = false;
 }
 
 void take_channels(const RawTest& logger, JoinedTest& joined) {
@@ -103,13 +104,15 @@ void take_channels(const RawTest& logger, JoinedTest& joined) {
   if (test.force.empty() && !test.load_volts.empty())
     test.force = calibrated(test.load_volts, at_machine_rows(logger.time, logger.force, joined),
                             load_cell, joined);
-  if (!logger.strain.empty())
+  if (!logger.strain.empty()) {
     test.strain = at_machine_rows(logger.time, logger.strain, joined);
-  else if (!logger.extension.empty())
+    test.crosshead_strain = false;
+  } else if (!logger.extension.empty()) {
     take_elongation(at_machine_rows(logger.time, logger.extension, joined), joined);
-  else if (!logger.volts.empty())
+  } else if (!logger.volts.empty()) {
     test.strain =
         calibrated(at_machine_rows(logger.time, logger.volts, joined), test.strain, gauge, joined);
+  }
 }
 
 void list_clocks(const ClockFit& clocks, RawTest& test) {

@@ -94,8 +94,7 @@ void warn_of_background(const cv::Mat& whole, const PoreMap& map, cv::Rect box,
 }
 
 // As bright as the bone, a strip with a scale or a label passes for a second piece of it; or, as it
-// has less of the image, for all of it.
-// @return whether for all of it.
+// has less of the image, for all of it: then true is returned.
 bool warn_of_strips(const PoreMap& map, cv::Rect box, cv::Size image, Warnings& warnings) {
   constexpr int blur = 4;          // [px]
   constexpr int widest_label = 3;  // in the image

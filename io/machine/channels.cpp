@@ -66,6 +66,13 @@ std::string unit_hint_of(Quantity quantity, const ReadOptions& options) {
   return "say " + column_setting(options, to_string(quantity) + "_unit", "...");
 }
 
+InputError without_gauge_length(const std::string& where, const Column& column) {
+  return {
+      where,
+      fmt::format("column \"{}\" is an elongation, and the gauge length is unknown", column.name),
+      "say gauge_length_mm"};
+}
+
 // Factor to SI; the warnings say what was assumed.
 double factor(const Column& column, const std::string& where, const ReadOptions& options,
               calib::RawTest& test) {
@@ -76,12 +83,7 @@ double factor(const Column& column, const std::string& where, const ReadOptions&
     test.warnings.push_back(
         fmt::format("column \"{}\" has no unit, taken as {}", column.name, assumed));
   if (column.quantity == Quantity::strain && unit->dimension == Dimension::length) {
-    if (!test.gauge_length)
-      throw InputError(
-          where,
-          fmt::format("column \"{}\" is an elongation, and the gauge length is unknown",
-                      column.name),
-          "say gauge_length_mm");
+    if (!test.gauge_length) throw without_gauge_length(where, column);
     return unit->to_si / *test.gauge_length;
   }
   return unit->to_si;
@@ -235,11 +237,7 @@ void need_gauge(const TestFile& file, const std::string& where, const ReadOption
                 const Chosen& chosen) {
   for (const Column& column : file.columns)
     if (column.quantity == Quantity::strain && !is_usable(column, file.test))
-      throw InputError(
-          where,
-          fmt::format("column \"{}\" is an elongation, and the gauge length is unknown",
-                      column.name),
-          "say gauge_length_mm");
+      throw without_gauge_length(where, column);
   const bool measures = std::ranges::any_of(chosen, [](const auto& entry) {
     return entry.first != Quantity::time && entry.first != Quantity::stress;
   });

@@ -173,6 +173,22 @@ TEST(JoinLogger, GivesTheTestTheLoggersStrain) {
   EXPECT_NEAR(reduction.test.failure_strain, 4.5e-3, 0.02 * 4.5e-3);
 }
 
+// The machine's own strain may be the crosshead's, the logger's is not.
+TEST(JoinLogger, GivesAGaugeInPlaceOfTheCrosshead) {
+  RawTest machine = machine_record(2), logger = logger_record({}, 2);
+  machine.strain.assign(machine.rows(), 0.0);
+  machine.crosshead_strain = true;
+  const Reduction by_strain = reduce_test(join_logger(machine, logger, {}).test);
+  EXPECT_FALSE(by_strain.test.machine_in_strain);
+  EXPECT_NEAR(by_strain.test.modulus, young, 0.02 * young);
+  logger.extension = std::exchange(logger.strain, {});
+  for (double& elongation : logger.extension) elongation *= 25e-3;
+  machine.gauge_length = 25e-3;
+  const Reduction by_elongation = reduce_test(join_logger(machine, logger, {}).test);
+  EXPECT_FALSE(by_elongation.test.machine_in_strain);
+  EXPECT_NEAR(by_elongation.test.modulus, young, 0.02 * young);
+}
+
 TEST(JoinLogger, FitsWhatAVoltIs) {
   RawTest machine = machine_record(3);
   for (const double time : machine.time) machine.strain.push_back(strain_at(time));
