@@ -1,9 +1,12 @@
 // havers fit: read, reduce, calibrate, check, report.
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "cli/command.hpp"
 #include "cli/fit_files.hpp"
@@ -47,6 +50,17 @@ calib::CalibrationResult watched_fit(const calib::Study& study, calib::Evaluatio
   return calib::calibrate(study, &store, watch, interrupted);
 }
 
+// A test that cannot be used is a reservation: of the bones that were tested the fit knows fewer.
+void tell_left_out(const std::vector<sim::LeftOut>& specimens, calib::CalibrationResult& result) {
+  if (specimens.empty()) return;
+  std::vector<std::string> each;
+  for (const sim::LeftOut& specimen : specimens)
+    each.push_back(fmt::format("{} is left out: {}", specimen.what, specimen.why));
+  result.left_out.insert(result.left_out.begin(), specimens.begin(), specimens.end());
+  result.verdict.push_back(
+      {"tests used", calib::Outcome::warn, fmt::format("{}.", fmt::join(each, ". "))});
+}
+
 int run_fit(const FitArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   LoadedStudy loaded = load_study(arguments.study, common.set);
@@ -62,7 +76,7 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
   const auto store = io::open_store(output.keep("evaluations.sqlite"));
   calib::CalibrationResult result = watched_fit(loaded.study, *store, common);
   result.notes = loaded.notes;
-  result.left_out.insert(result.left_out.begin(), loaded.left_out.begin(), loaded.left_out.end());
+  tell_left_out(loaded.left_out, result);
   if (result.status == calib::CalibrationStatus::cancelled)
     return without_result(common, "cancelled",
                           fmt::format("stopped by you; the simulations so far are kept in {}: the "

@@ -2,10 +2,13 @@
 
 #include <fmt/core.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "calib/count.hpp"
 #include "cli/command.hpp"
@@ -32,19 +35,22 @@ void print_specimen(const calib::SpecimenResult& specimen) {
              specimen.measured.broke ? "" : "  not broken");
 }
 
-std::string reservations_of(const calib::CalibrationResult& result) {
-  const auto warned =
-      std::ranges::count(result.verdict, calib::Outcome::warn, &calib::Check::outcome);
-  if (!result.trusted() || warned == 0) return "";
-  return ", with " + calib::count(warned, "reservation");
+// Whether the fit can be trusted, and what speaks against that.
+std::string headline(const calib::CalibrationResult& result) {
+  if (!result.trusted()) return "NOT to be trusted: " + why_not_trusted(result);
+  std::vector<std::string_view> warned;
+  for (const calib::Check& check : result.verdict)
+    if (check.outcome == calib::Outcome::warn) warned.push_back(check.check);
+  if (warned.empty()) return "to be trusted: " + calib::explain(result.status);
+  return fmt::format("to be trusted, with {}: {}",
+                     calib::count(static_cast<long>(warned.size()), "reservation"),
+                     fmt::join(warned, ", "));
 }
 
 }  // namespace
 
 void print_fit_summary(const calib::CalibrationResult& result, double wall_seconds, bool verbose) {
-  fmt::print("{}{}: {}\n", result.trusted() ? "to be trusted" : "NOT to be trusted",
-             reservations_of(result),
-             result.trusted() ? calib::explain(result.status) : calib::why_not_trusted(result));
+  fmt::print("{}\n", headline(result));
   for (const calib::Check& check : result.verdict)
     fmt::print("  {:<5}{}: {}\n", check.done ? calib::to_string(check.outcome) : "-", check.check,
                check.text);

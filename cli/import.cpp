@@ -151,7 +151,7 @@ void print_columns(const io::TestFile& file) {
              file.layout, file.encoding, file.delimiter == "\t" ? "tab" : file.delimiter,
              file.decimal, file.rows);
   for (const io::Column& column : file.columns)
-    fmt::print("  {:<34}{:<10}{}\n", column.name, column.unit, io::to_string(column.quantity));
+    fmt::print("  {:<34} {:<10} {}\n", column.name, column.unit, io::to_string(column.quantity));
 }
 
 std::string error_text(double error) {

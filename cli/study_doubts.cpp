@@ -115,6 +115,8 @@ void doubt_search(LoadedStudy& loaded) {
 }  // namespace
 
 void doubt_model(bool rate_is_given, LoadedStudy& loaded) {
+  for (const std::string& doubt : loaded.study.model.doubts())
+    loaded.notes.push_back("model." + doubt);
   doubt_scatter(loaded);
   doubt_pores(loaded);
   doubt_rate(rate_is_given, loaded);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 #include "sim/assembly/assembly.hpp"
 #include "sim/dynamics/step_control.hpp"
@@ -251,6 +252,24 @@ bool is_missing(const Threshold& threshold) {
 
 bool some_are_missing(const JointOptions& joints) {
   return joints.missing > 0.0 || std::ranges::any_of(joints.thresholds, is_missing);
+}
+
+std::vector<std::string> Scene::doubts() const {
+  constexpr double stiffest = 1.5e12;     // [Pa], beyond diamond
+  constexpr double largest_strain = 0.2;  // the model is of small strains
+  std::vector<std::string> all;
+  if (material.young > stiffest)
+    all.push_back(
+        fmt::format("material.young_GPa is {:.4g}, stiffer than any material: is it in GPa?",
+                    material.young / 1e9));
+  for (const auto& [key, threshold] :
+       {std::pair("head_tail_MPa", joints.head_tail), std::pair("flank_MPa", joints.flank)})
+    if (threshold > largest_strain * material.young)
+      all.push_back(fmt::format(
+          "joints.{} is {:.4g}, {:.2g} times material.young_GPa: fibres would stretch by as much, "
+          "and the model is of small strains; are both in their units?",
+          key, threshold / 1e6, threshold / material.young));
+  return all;
 }
 
 std::vector<Scene::Problem> Scene::problems() const {

@@ -118,6 +118,8 @@ struct Scene {
   };
   /// What is wrong with the scene; empty when it can be simulated.
   [[nodiscard]] std::vector<Problem> problems() const;
+  /// What can be simulated and is hardly meant, as of a value in another unit; a sentence each.
+  [[nodiscard]] std::vector<std::string> doubts() const;
 };
 
 /// r = f₁/f₂ (M9). [-]

@@ -132,8 +132,9 @@ std::string Simulation::reservation() const {
   if (ringing >= worth_saying)
     reservations.push_back(
         fmt::format("the strength: waves that ring, which steps and meshes change, raise it by "
-                    "{:.2g} %; its mean over the time of one is {:.4g} MPa",
-                    100.0 * ringing, 1e-6 * strength_over_a_wave));
+                    "{:.2g} %, from {:.4g} MPa, its mean over the time of one and half the rise in "
+                    "that time",
+                    100.0 * ringing, 1e-6 * strength / (1.0 + ringing)));
   return fmt::format("{}", fmt::join(reservations, "; "));
 }
 

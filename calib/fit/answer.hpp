@@ -21,6 +21,7 @@ struct Answer {
   std::vector<StageLog> stages;
   std::vector<double> starts;  ///< Costs of all starts, lowest first.
   int replicates = 0;
+  bool agrees = true;  ///< The weights, with what the searches came to by them.
   Differences slopes;  ///< At the best point; failed where it could not be had.
   /// The same Jacobian and, beside it, that of what was asked for and left out (F9).
   Eigen::MatrixXd asked_slopes;

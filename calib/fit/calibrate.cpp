@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "calib/fit/answer.hpp"
+#include "calib/fit/left_out.hpp"
 #include "calib/fit/profile.hpp"
 #include "calib/fit/randomness.hpp"
 #include "calib/fit/search.hpp"
@@ -16,13 +17,19 @@ namespace {
 constexpr double screening_step = 0.2;
 // Replicates that are enough to find the neighbourhood of the answer.
 constexpr int scouting_replicates = 3;
-// As long as nothing says how many are needed.
-constexpr int replicates_before_need = 8;
 constexpr int most_rounds = 8;
 // Cost that a search may leave on the table: a fifth of a standard deviation (½·0.2²).
 constexpr double close_enough = 0.02;
-// Rise of the cost by which specimens contradict a value: chi² of 95 %, halved.
-constexpr double contradicts = 1.92;
+
+// (F6) Of every specimen of the study.
+std::vector<Landmarks> scatter_errors(Trail& trail, const Evaluation& at) {
+  const FitProblem& problem = trail.problem();
+  std::vector<Landmarks> errors(problem.models.size(), Landmarks(Landmarks::Zero()));
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f)
+    errors[problem.fitted[f]] =
+        scatter_error(problem, trail.batch(), at.point, problem.fitted[f], at.predictions[f]);
+  return errors;
+}
 
 // The first of the study's start and the middle of the bounds where the simulations answer.
 bool find_a_start(Trail& trail, int replicates) {
@@ -33,11 +40,8 @@ bool find_a_start(Trail& trail, int replicates) {
               {start_point(problem.unknowns), middle_point(problem.unknowns)}, trail.replicates());
   for (const auto& evaluation : both) {
     if (evaluation.failed) continue;
-    std::vector<Landmarks> scatter(problem.models.size(), Landmarks(Landmarks::Zero()));
-    for (std::size_t f = 0; f < problem.fitted.size(); ++f)
-      scatter[problem.fitted[f]] = scatter_error(problem, trail.batch(), evaluation.point,
-                                                 problem.fitted[f], evaluation.predictions[f]);
-    trail.restart(weigh(problem, evaluation, std::move(scatter), Landmarks::Zero()), evaluation);
+    trail.restart(weigh(problem, evaluation, scatter_errors(trail, evaluation), Landmarks::Zero()),
+                  evaluation);
     return true;
   }
   return false;
@@ -73,68 +77,14 @@ void search(Trail& trail, const Active& active, bool polish, Answer& answer) {
   answer.stages.push_back(search_nlopt(trail, trail.best(), split, Stride::polish).log);
 }
 
-// Unknowns that turn out uninformed at the answer go back to where the study has them, unless the
-// specimens contradict that: then what they do not tell would be wrong, and spoil what they do.
-void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
-  const Evaluation found = trail.best();
-  Point point = found.point;
-  for (const auto& one : left) point[one.unknown] = trail.problem().unknown(one.unknown).start;
-  answer.active = without(answer.active, left);
-  trail.restart(trail.weights(), trail.evaluate(point));
-  search_ceres(trail, trail.best(), answer.active);
-  // A trail that was stopped may have no simulation of where the study has them.
-  if (trail.best().failed || trail.best().cost > found.cost + contradicts) {
-    for (auto& one : left) one.kept_where_found = !trail.stopped();
-    trail.restart(trail.weights(), found);
-  }
-  answer.left.insert(answer.left.end(), left.begin(), left.end());
-}
-
-// What was asked for and left out may be wrong all the same: where the specimens contradict it
-// (F10), it is fitted along and stays there.
-bool mend_left_out(Trail& trail, const Eigen::MatrixXd& jacobian, Answer& answer) {
-  if (trail.problem().study.calibrate.automatic) return false;
-  for (LeftUnknown& one : answer.left) {
-    const auto walked = walk_along(trail, one.unknown, answer.active, jacobian);
-    const auto lowest = std::ranges::min_element(walked, {}, &Evaluation::cost);
-    if (lowest == walked.end() || lowest->cost > trail.best().cost - contradicts) continue;
-    Active along = answer.active;
-    along.push_back(one.unknown);
-    trail.restart(trail.weights(), search_ceres(trail, *lowest, along).best);
-    one.kept_where_found = true;
-    return true;
-  }
-  return false;
-}
-
 bool weights_agree(const Landmarks& before, const Landmarks& now) {
   return ((now - before).abs() <= 0.05 * now + 1e-4).all();
 }
 
-// What the study asks for, and the specimens do not tell; what "auto" leaves out is as the study
-// says.
-Active asked_and_left(const Trail& trail, const Answer& answer) {
-  Active unknowns;
-  if (!trail.problem().study.calibrate.automatic)
-    for (const LeftUnknown& one : answer.left) unknowns.push_back(one.unknown);
-  return unknowns;
-}
-
-// Slopes of what is fitted and, beside them, of what was asked for and left out: its value is a
-// choice too, and takes freedom from the residuals (F9).
-Eigen::MatrixXd with_left_out(Trail& trail, const Answer& answer, const Differences& fitted) {
-  const Evaluation best = trail.best();
-  const auto others = differentiate(trail, best, asked_and_left(trail, answer), slope_step);
-  trail.restart(trail.weights(), best);
-  if (others.failed) return fitted.jacobian;
-  Eigen::MatrixXd all(fitted.jacobian.rows(), fitted.jacobian.cols() + others.jacobian.cols());
-  all << fitted.jacobian, others.jacobian;
-  return all;
-}
-
+// With the scatters' errors as they count at the best point.
 void reweigh(Trail& trail, const Landmarks& effect) {
-  trail.restart(weigh(trail.problem(), trail.best(), trail.weights().scatter, effect),
-                trail.best());
+  const Evaluation best = trail.best();
+  trail.restart(weigh(trail.problem(), best, scatter_errors(trail, best), effect), best);
 }
 
 // By the slopes at the best point; none where these fail.
@@ -162,7 +112,8 @@ bool take_all_replicates(Trail& trail, int replicates) {
 
 // Search, weigh anew, search again, until weights and answer agree. The first weights come from
 // where the scouts ended: without them the first search would chase what is a specimen's own.
-void alternate_search_and_weights(Trail& trail, Answer& answer) {
+// Whether they do.
+bool alternate_search_and_weights(Trail& trail, Answer& answer) {
   bool rough = !trail.problem().study.calibrate.smooth, polished = false;
   Landmarks effect = effect_at_best(trail, answer.active);
   for (int round = 0; round < most_rounds && !trail.stopped(); ++round) {
@@ -174,7 +125,7 @@ void alternate_search_and_weights(Trail& trail, Answer& answer) {
     auto left = uninformed(trail.problem(), trail.best().point, answer.active, slopes);
     if (!left.empty()) {
       leave_out(trail, std::move(left), answer);
-      if (answer.active.empty() || trail.best().failed) return;
+      if (answer.active.empty() || trail.best().failed) return true;
       continue;
     }
     const auto before = effect;
@@ -184,8 +135,9 @@ void alternate_search_and_weights(Trail& trail, Answer& answer) {
         uncertainty_of(trail.problem(), trail.weights(), trail.best(), answer.active, all);
     rough = error.distance >= close_enough && !polished;
     if (!rough && weights_agree(before, effect) && !mend_left_out(trail, slopes.jacobian, answer))
-      return;
+      return true;
   }
+  return false;
 }
 
 // How well the answer is known: slopes, intervals, what was left out, profiles. Where the budget
@@ -223,8 +175,7 @@ CalibrationStatus status_of(const Trail& trail, const Answer& answer) {
 
 Answer solve(Trail& trail) {
   const FitProblem& problem = trail.problem();
-  const int asked = problem.study.calibrate.replicates;
-  const int all = asked == replicates_by_need ? replicates_before_need : asked;
+  const int all = all_replicates(problem.study.calibrate);
   Answer answer{.replicates = all};
   answer.best.point = start_point(problem.unknowns);
   if (problem.fitted.empty() || problem.unknowns.empty()) {
@@ -238,13 +189,15 @@ Answer solve(Trail& trail) {
     answer.active.push_back(static_cast<Eigen::Index>(k));
   answer.left = screen(trail, answer.active);
   answer.active = without(answer.active, answer.left);
+  if (!answer.left.empty()) put_back(trail, answer.left);
   if (!answer.active.empty()) {
     auto [starts, ends, logs] = search_globally(trail, answer.active);
     answer.starts = std::move(starts);
     answer.ends = std::move(ends);
     answer.stages = std::move(logs);
     choose_replicates(trail, answer);
-    if (take_all_replicates(trail, answer.replicates)) alternate_search_and_weights(trail, answer);
+    if (take_all_replicates(trail, answer.replicates))
+      answer.agrees = alternate_search_and_weights(trail, answer);
   }
   assess_answer(trail, answer);
   answer.status = status_of(trail, answer);

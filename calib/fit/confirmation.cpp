@@ -24,7 +24,6 @@ std::vector<RunPair> pairs_of(const FitProblem& problem, const Answer& answer) {
     const std::size_t s = problem.fitted[run * problem.fitted.size() / runs];
     RunPair pair;
     pair.still = replicate_scenes(problem, answer.best.point, s, ++taken[s]).back();
-    pair.still.solver.regime = sim::Regime::automatic;
     const auto choice = sim::choose_regime(pair.still);
     if (choice.regime != sim::Regime::quasi_static) continue;  // it was simulated in time
     pair.moving = pair.still;

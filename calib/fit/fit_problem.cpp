@@ -32,12 +32,16 @@ void follow_fall(const std::vector<std::string>& terms, sim::Scene& scene) {
   if (in_limit) scene.solver.leave_out = false;
 }
 
-sim::Scene scene_at(const FitProblem& problem, const Point& point, std::size_t specimen) {
+SpecimenModel model_at(const FitProblem& problem, const Point& point, std::size_t specimen) {
   PorosityOptions laws = problem.study.porosity;
   for (const auto& info : all_parameters())
     if (const auto value = value_at(problem.unknowns, point, info, specimen))
       apply(laws, info.name, *value);
-  const SpecimenModel model = model_of(problem.study, specimen, laws);
+  return model_of(problem.study, specimen, laws);
+}
+
+sim::Scene scene_at(const FitProblem& problem, const Point& point, std::size_t specimen) {
+  const SpecimenModel model = model_at(problem, point, specimen);
   sim::Scene scene = model.scene;
   for (const auto& info : all_parameters())
     if (const auto value = value_at(problem.unknowns, point, info, specimen))
@@ -181,7 +185,7 @@ std::set<double> one_sided_orientations(const FitProblem& problem, const Evaluat
 
 Landmarks scatter_error(const FitProblem& problem, SimulationBatch& batch, const Point& point,
                         std::size_t specimen, const Prediction& here) {
-  const double error = problem.models[specimen].scatter_standard_error;
+  const double error = model_at(problem, point, specimen).scatter_standard_error;
   if (!(error > 0.0) || searched(problem, "scatter") || !problem.targets[specimen].usable)
     return Landmarks::Zero();
   sim::Scene scene = scene_at(problem, point, specimen);
@@ -192,6 +196,15 @@ Landmarks scatter_error(const FitProblem& problem, SimulationBatch& batch, const
                                         scene, static_cast<int>(here.replicates.size()))));
   if (moved.failed_point()) return Landmarks::Zero();
   return error * ((moved.mean - here.mean) / step).abs();
+}
+
+Landmarks variance_if_alike(const Weights& weights, std::size_t specimen) {
+  return weights.sd[specimen].square() - weights.specimen.square();
+}
+
+int all_replicates(const CalibrateOptions& options) {
+  constexpr int before_need = 8;
+  return options.replicates == replicates_by_need ? before_need : options.replicates;
 }
 
 Weights weigh(const FitProblem& problem, const Evaluation& at, std::vector<Landmarks> scatter,

@@ -45,6 +45,12 @@ struct Weights {
   std::vector<Landmarks> sd;               ///< All of them and the machine's noise together.
 };
 
+/// Variances of a specimen's residuals if specimens were alike.
+Landmarks variance_if_alike(const Weights& weights, std::size_t specimen);
+
+/// Replicates of a specimen, as many as there are before it is known how many are needed.
+int all_replicates(const CalibrateOptions& options);
+
 /// Where the landmark_count rows of the f-th fitted specimen begin, of residuals and of Jacobians.
 constexpr Eigen::Index first_row(std::size_t f) {
   return landmark_count * static_cast<Eigen::Index>(f);

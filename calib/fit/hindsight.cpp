@@ -96,7 +96,9 @@ void set_intervals(const FitProblem& problem, const Answer& answer, const Resamp
       for (const std::size_t end : {0U, 1U}) {
         const bool risen = std::isfinite(profile->interval_95.at(end));
         parameter.interval_95.at(end) = (risen ? profile->interval_95 : parameter.bounds).at(end);
-        if (!risen) parameter.profile_missing = "the cost does not rise enough beside the answer";
+        if (!risen)
+          parameter.profile_missing =
+              "the cost does not rise enough between the answer and the bound";
       }
     }
     parameter.bootstrap_missing = resampling.missing;

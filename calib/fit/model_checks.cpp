@@ -17,6 +17,7 @@
 
 #include "calib/count.hpp"
 #include "calib/fit/specimen_effect.hpp"
+#include "calib/fit/uncertainty.hpp"
 
 namespace havers::calib {
 namespace {
@@ -43,8 +44,7 @@ std::map<double, Group> groups_of(const FitProblem& problem, const Answer& answe
     Group& group = groups[problem.study.specimens[s].orientation];
     group.rows.push_back(first_row(f) + q);
     group.difference.push_back(difference(answer.best.predictions[f], problem.targets[s])[q]);
-    group.variance.push_back(std::pow(answer.weights.sd[s][q], 2) -
-                             std::pow(answer.weights.specimen[q], 2));
+    group.variance.push_back(variance_if_alike(answer.weights, s)[q]);
   }
   if (q == strength)
     for (const double orientation : one_sided_orientations(problem, answer.best))
@@ -76,8 +76,9 @@ std::optional<double> chance(const FitProblem& problem, const Answer& answer, Ei
 
   // The answer by that variance, which a misfit between orientations does not widen.
   Eigen::VectorXd residuals = answer.best.residuals;
-  Eigen::MatrixXd jacobian = answer.slopes.jacobian;
-  if (answer.slopes.failed) jacobian.resize(residuals.size(), 0);
+  Eigen::MatrixXd jacobian(residuals.size(), 0);
+  if (!answer.slopes.failed)
+    jacobian = free_columns(problem, answer.best.point, answer.active, answer.slopes.jacobian);
   for (const auto& [orientation, group] : groups)
     for (std::size_t i = 0; i < group.rows.size(); ++i) {
       const double before = group.variance[i] + std::pow(answer.weights.specimen[q], 2);
@@ -139,16 +140,18 @@ std::string strength_off(const FitProblem& problem, const Answer& answer, double
 // Standard deviations that a specimen kept for validation may be off. [-]
 constexpr double largest_off = 3.0;
 
-// Strengths of replicates may have a long tail, and one of them be as far from their mean.
-bool is_among_replicates(const SpecimenResult& specimen) {
+// Strengths of replicates, and with them failure strains, may have a long tail, and one of them be
+// as far from their mean.
+bool is_among_replicates(const SpecimenResult& specimen, double ReplicateResult::*number,
+                         double measured) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   double lowest = infinite, highest = -infinite;
   for (const ReplicateResult& one : specimen.replicates) {
     if (one.failed) continue;
-    lowest = std::min(lowest, one.strength);
-    highest = std::max(highest, one.strength);
+    lowest = std::min(lowest, one.*number);
+    highest = std::max(highest, one.*number);
   }
-  return lowest <= specimen.measured.strength && specimen.measured.strength <= highest;
+  return lowest <= measured && measured <= highest;
 }
 
 // (F24) What is left out may explain it, and excuses nothing: the model that is handed over has the
@@ -245,8 +248,12 @@ Check check_validation(const CalibrationResult& result, const std::vector<std::s
     ++held_out;
     double worst = std::nan("");
     std::array<double, 3> residual = specimen.residual;
-    if (is_among_replicates(specimen))
-      residual[strength] = std::clamp(residual[strength], -largest_off, largest_off);
+    const auto excuse = [&](double& one, double ReplicateResult::*number, double measured) {
+      if (is_among_replicates(specimen, number, measured))
+        one = std::clamp(one, -largest_off, largest_off);
+    };
+    excuse(residual[1], &ReplicateResult::strength, specimen.measured.strength);
+    excuse(residual[2], &ReplicateResult::failure_strain, specimen.measured.failure_strain);
     for (const double one : residual) worst = std::fmax(worst, std::abs(one));
     if (std::isnan(worst)) unknown.push_back(specimen.id);
     if (worst > largest_off) off.push_back(fmt::format("{} ({:.1f})", specimen.id, worst));

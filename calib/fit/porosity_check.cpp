@@ -69,7 +69,7 @@ PorositySample sample_of(const FitProblem& problem, const Answer& answer, Landma
     const std::size_t f = rows[static_cast<std::size_t>(i)], s = problem.fitted[f];
     const double sd = answer.weights.sd[s][q];
     sample.difference[i] = difference(answer.best.predictions[f], problem.targets[s])[q];
-    sample.variance[i] = sd * sd - std::pow(answer.weights.specimen[q], 2);
+    sample.variance[i] = variance_if_alike(answer.weights, s)[q];
     sample.porosity[i] = problem.models[s].porosity;
     sample.slopes.row(i) = sd * answer.slopes.jacobian.row(first_row(f) + q);
   }

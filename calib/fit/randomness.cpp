@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double small_part = 0.05;  // of a residual's variance that replicates may make
-constexpr int fewest_replicates = 4, most_replicates = 32;
+constexpr int fewest_replicates = 4;
 
 // Every fitted specimen with seeds that no search has seen.
 Evaluation fresh_evaluation(SimulationBatch& batch, const FitProblem& problem,
@@ -62,7 +62,8 @@ VectorXd fresh_half_width(const FitProblem& problem, const Answer& answer,
     });
     Evaluation moved = fresh;
     score(problem, weights, moved);
-    const VectorXd by = followed(slopes, moved.residuals);
+    const VectorXd by =
+        followed(free_columns(problem, moved.point, answer.active, slopes), moved.residuals);
     each_specimen([&](std::size_t f, const Landmarks& sd) {
       moved.predictions[f].mean -= by.segment<landmark_count>(first_row(f)).array() * sd;
     });
@@ -104,13 +105,12 @@ int replicates_needed(const FitProblem& problem, const Weights& weights, const E
     const std::size_t s = problem.fitted[f];
     const auto told = tells(at.predictions[f], problem.targets[s]);
     for (const Landmark q : {modulus, strength}) {
-      // weights.replicates is sd·√(1 + 1/n); the 1/n matters little here.
-      const double part = std::pow(weights.replicates[s][q] / weights.sd[s][q], 2);
+      const double one_draw = 1.0 + 1.0 / at.predictions[f].usable;  // and the mean of n (F6)
+      const double part = std::pow(weights.replicates[s][q] / weights.sd[s][q], 2) / one_draw;
       if (told[q]) worst = std::max(worst, part);
     }
   }
-  return std::clamp(static_cast<int>(std::ceil(worst / small_part)), fewest_replicates,
-                    most_replicates);
+  return std::max(static_cast<int>(std::ceil(worst / small_part)), fewest_replicates);
 }
 
 }  // namespace havers::calib

@@ -27,7 +27,9 @@ void set_error(const Unknown& unknown, const Uncertainty& uncertainty, Eigen::In
   parameter.standard_error = uncertainty.standard_error[i] * (logarithmic ? parameter.value : 1.0);
   parameter.slopes_95 = {from_search(*unknown.info, position + uncertainty.lower[i]),
                          from_search(*unknown.info, position + uncertainty.upper[i])};
-  parameter.interval_95 = parameter.slopes_95;
+  for (const std::size_t end : {0U, 1U})
+    parameter.interval_95.at(end) =
+        std::clamp(parameter.slopes_95.at(end), unknown.bounds.first, unknown.bounds.second);
 }
 
 // (K4) An exponent holds where there was bone to fit it to.

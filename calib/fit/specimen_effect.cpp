@@ -70,8 +70,7 @@ Landmarks specimen_effect(const FitProblem& problem, const Weights& weights, con
       const bool bound = q == strength && has_bound(prediction, target);
       if (!bound && !tells(prediction, target)[q]) continue;
       (bound ? sample.above : sample.difference).push_back(difference(prediction, target)[q]);
-      (bound ? sample.variance_above : sample.variance)
-          .push_back(std::pow(weights.sd[s][q], 2) - std::pow(weights.specimen[q], 2));
+      (bound ? sample.variance_above : sample.variance).push_back(variance_if_alike(weights, s)[q]);
     }
     const double freedom = static_cast<double>(sample.difference.size()) - spent[q];
     effect[q] = std::sqrt(variance_between(sample, freedom));

@@ -121,8 +121,8 @@ std::vector<Simulated> simulate_all(const FitProblem& problem, SimulationBatch& 
 std::vector<Landmarks> spread_of(const FitProblem& problem, const std::vector<Simulated>& all) {
   std::vector<Replicated> replicated;
   for (std::size_t s = 0; s < all.size(); ++s) {
-    // A specimen kept for validation changes nothing of the others: its spread is its own.
-    const bool fitted = problem.study.specimens[s].use == Use::fit;
+    // A specimen that is not fitted changes nothing of the others: its spread is its own.
+    const bool fitted = std::ranges::find(problem.fitted, s) != problem.fitted.end();
     replicated.push_back({.orientation = problem.study.specimens[s].orientation,
                           .scatter = fitted ? all[s].scenes.front().joints.scatter : 0.0,
                           .prediction = &all[s].prediction});

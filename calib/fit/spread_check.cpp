@@ -13,6 +13,7 @@
 
 #include "calib/fit/model_checks.hpp"
 #include "calib/fit/specimen_effect.hpp"
+#include "calib/fit/uncertainty.hpp"
 
 namespace havers::calib {
 namespace {
@@ -48,13 +49,14 @@ struct AlikeGroup {
 std::map<std::pair<Eigen::Index, double>, AlikeGroup> alike_groups(
     const FitProblem& problem, const Answer& answer, const std::set<double>& one_sided) {
   Eigen::VectorXd residuals = answer.best.residuals;
-  Eigen::MatrixXd jacobian = answer.asked_slopes;
-  if (answer.active.empty()) jacobian.resize(residuals.size(), 0);
+  Eigen::MatrixXd jacobian(residuals.size(), 0);
+  if (!answer.active.empty())
+    jacobian = free_columns(problem, answer.best.point, answer.active, answer.asked_slopes);
   std::vector<Landmarks> part(problem.fitted.size(), Landmarks::Zero());
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
     const auto& weights = answer.weights;
-    const Landmarks alike = (weights.sd[s].square() - weights.specimen.square()).sqrt();
+    const Landmarks alike = variance_if_alike(weights, s).sqrt();
     const Landmarks factor = tells(answer.best.predictions[f], problem.targets[s])
                                  .select(weights.sd[s] / alike, Landmarks(Landmarks::Ones()));
     residuals.segment<landmark_count>(first_row(f)).array() *= factor;
@@ -137,8 +139,8 @@ SpreadWords spread_words(const FitProblem& problem, const Answer& answer) {
 
 Check check_specimen_spread(const FitProblem& problem, const Answer& answer) {
   constexpr const char* name = "spread between specimens";
-  const bool few = problem.fitted.size() < 3;
-  if (few && answer.slopes.failed)
+  const bool few = problem.fitted.size() < 3, no_interval = answer.slopes.failed;
+  if (few && no_interval)
     return {
         name, Outcome::warn,
         "Fewer than three specimens: how much they differ beyond noise is not told. Test more."};
@@ -164,10 +166,10 @@ Check check_specimen_spread(const FitProblem& problem, const Answer& answer) {
                 rest};
   if (most > 0.3)
     return {name, Outcome::warn,
-            text + ": are they of one kind?" +
-                (answer.active.empty() ? "" : " The intervals include it.") + rest};
+            text + ": are they of one kind?" + (no_interval ? "" : " The intervals include it.") +
+                rest};
   return {name, untold.empty() ? Outcome::pass : Outcome::warn,
-          text + "; the intervals include it." + rest};
+          text + (no_interval ? "." : "; the intervals include it.") + rest};
 }
 
 }  // namespace havers::calib

@@ -14,7 +14,7 @@ std::string explain(CalibrationStatus status) {
   constexpr std::array sentences{
       "the searches stopped at a minimum",
       "the budget of simulations ended before the searches did; the best point so far is given",
-      "nowhere did the simulations of every specimen give a usable answer",
+      "at no point did all replicates asked for give every specimen a usable answer",
       "the specimens inform none of the parameters",
       "stopped by the user; the next run in the same folder goes on from here"};
   return sentences.at(static_cast<std::size_t>(status));

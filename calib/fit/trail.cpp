@@ -8,7 +8,7 @@ namespace havers::calib {
 std::vector<Evaluation> Trail::evaluate(const std::vector<Point>& points) {
   const auto& options = problem_.study.calibrate;
   const auto whole_point =
-      static_cast<long>(problem_.fitted.size()) * std::max(options.replicates, replicates_);
+      static_cast<long>(problem_.fitted.size()) * std::max(all_replicates(options), replicates_);
   budget_spent_ =
       budget_spent_ || (!budget_lifted_ && batch_.distinct() >= options.budget * whole_point);
   if (stopped()) return std::vector<Evaluation>(points.size());

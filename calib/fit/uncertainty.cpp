@@ -74,21 +74,22 @@ double quantile(const Eigen::VectorXd& shares, const Landmarks& freedom, const L
                         : gsl_cdf_ugaussian_Pinv(0.975);
 }
 
-// (F12) ½ |P r|², P the projection on the columns of the unknowns that are free to move.
-double distance_to_minimum(const FitProblem& problem, const Evaluation& at, const Active& active,
-                           const Eigen::MatrixXd& jacobian) {
-  std::vector<Eigen::Index> movable;
-  for (std::size_t i = 0; i < active.size(); ++i)
-    if (!at_bound(problem.unknown(active[i]), at.point[active[i]]))
-      movable.push_back(static_cast<Eigen::Index>(i));
-  return 0.5 * followed(jacobian(Eigen::all, movable), at.residuals).squaredNorm();
-}
-
 }  // namespace
 
 bool at_bound(const Unknown& unknown, double position) {
   const double margin = 0.005 * unknown.range();
   return position < unknown.lower + margin || position > unknown.upper - margin;
+}
+
+Eigen::MatrixXd free_columns(const FitProblem& problem, const Point& point, const Active& active,
+                             const Eigen::MatrixXd& jacobian) {
+  std::vector<Eigen::Index> movable;
+  for (Eigen::Index k = 0; k < jacobian.cols(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (i >= active.size() || !at_bound(problem.unknown(active[i]), point[active[i]]))
+      movable.push_back(k);
+  }
+  return jacobian(Eigen::all, movable);
 }
 
 Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, const Evaluation& at,
@@ -108,7 +109,9 @@ Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, co
   }
   result.lower = -result.half_width;
   result.upper = result.half_width;
-  result.distance = distance_to_minimum(problem, at, active, jacobian);
+  // (F12) ½ |P r|², P the projection on the columns of the unknowns that are free to move.
+  result.distance =
+      0.5 * followed(free_columns(problem, at.point, active, jacobian), at.residuals).squaredNorm();
   return result;
 }
 

@@ -26,4 +26,9 @@ Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, co
 /// Whether a position lies at a bound of its unknown.
 bool at_bound(const Unknown& unknown, double position);
 
+/// The columns of unknowns that can follow the residuals: of the active ones, which come first,
+/// those that are not at a bound.
+Eigen::MatrixXd free_columns(const FitProblem& problem, const Point& point, const Active& active,
+                             const Eigen::MatrixXd& jacobian);
+
 }  // namespace havers::calib

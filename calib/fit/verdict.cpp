@@ -24,9 +24,13 @@ Check check_convergence(const Answer& answer, double cost) {
   if (answer.status != CalibrationStatus::converged)
     return {"converged", Outcome::fail, "No answer: " + what + "."};
   if (answer.slopes.failed)
-    return {"converged", Outcome::warn,
+    return {"converged", Outcome::fail,
             "The searches stopped, but simulations beside the answer failed, so that no interval "
-            "could be given."};
+            "could be given. Narrow calibrate.bounds to where the model can be simulated."};
+  if (!answer.agrees)
+    return {"converged", Outcome::warn,
+            "The searches stopped, but with what they came to the weights change: more replicates "
+            "make the simulated outcome smoother."};
   if (answer.uncertainty.distance > close_enough)
     return {"converged", Outcome::warn,
             fmt::format("The searches stopped, but the slope promises a cost lower by {:.2g}: more "

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "io/config/file_kind.hpp"
 #include "io/config/scene_tables.hpp"
 #include "io/snapshots/snapshots.hpp"
@@ -30,6 +33,7 @@ SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrid
             "joints.{} changes nothing: thresholds_file gives those of every joint", key));
 
   config.finish();
+  std::ranges::move(read.scene.doubts(), std::back_inserter(read.warnings));
   read.inputs = config.inputs();
   return read;
 }

@@ -17,7 +17,7 @@ struct SceneFile {
   sim::Scene scene;
   int snapshots = 0;                            ///< .vtu files to write.
   std::vector<std::filesystem::path> inputs{};  ///< The scene, and what it names.
-  std::vector<std::string> warnings{};          ///< A sentence for each key that changes nothing.
+  std::vector<std::string> warnings{};          ///< Of keys that change nothing, and of doubts.
 };
 
 /// Whether a reader of the scene writes the snapshots that it asks for, and so needs VTK.

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "io/results/json_table.hpp"
 #include "io/results/measured_keys.hpp"
 #include "io/results/result_files.hpp"
@@ -36,7 +38,9 @@ nlohmann::json import_json(const TestFile& file, const calib::Reduction& reducti
 nlohmann::json porosity_json(const calib::SectionPorosity& section, double scatter) {
   calib::SectionPorosity copy = section;
   nlohmann::json json = json_of(copy);
-  json["scatter"] = json_of(scatter);
+  const calib::SpecimenPorosity alone = calib::pool_sections({section});
+  json["scatter"] = json_of(calib::removes_joints(alone) ? std::nan("") : scatter);
+  json["missing_joints"] = calib::missing_joints(alone);
   json["doubtful"] = section.doubtful;
   return json;
 }
@@ -45,7 +49,8 @@ nlohmann::json mean_porosity_json(const calib::SpecimenPorosity& mean) {
   return {{"porosity", mean.porosity},
           {"porosity_standard_error", mean.porosity_standard_error},
           {"window_sd", json_of(mean.window_sd)},
-          {"scatter", json_of(calib::scatter_of(mean, {}))},
+          {"scatter",
+           json_of(calib::removes_joints(mean) ? std::nan("") : calib::scatter_of(mean, {}))},
           {"missing_joints", calib::missing_joints(mean)}};
 }
 

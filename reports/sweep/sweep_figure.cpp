@@ -100,7 +100,7 @@ Line line_of(const Panel& panel, std::vector<std::size_t> points) {
     // Where some did not break, the others are the weaker ones.
     const bool some_open = summary.unbroken > 0 && calib::needs_break(panel.wanted.response);
     if (s.n == 0 || some_open) continue;
-    const double half = s.n > 1 ? s.half_width() : 0.0;
+    const double half = s.n > 1 ? s.half_width() : std::numeric_limits<double>::quiet_NaN();
     line.x.push_back(x_of(point));
     line.mean.push_back(s.mean / scale);
     line.low.push_back((s.mean - half) / scale);
@@ -131,6 +131,7 @@ std::string axes(const std::vector<Line>& lines) {
   Extent x, y;
   for (const Line& line : lines) {
     x.take(line.x);
+    y.take(line.mean);
     y.take(line.low);
     y.take(line.high);
   }
@@ -143,8 +144,9 @@ std::string axes(const std::vector<Line>& lines) {
                                          y.low >= 0.0 ? "0<" : ""));
 }
 
-// Means with the band of their 95 % intervals, a line for each series. Every line has its
-// dashes and every second large open symbols, so that of two that coincide both are seen.
+// Means with the band of their 95 % intervals, which a single run has not, a line for each series.
+// Every line has its dashes and every second large open symbols, so that of two that coincide both
+// are seen.
 std::string mean_commands(const Panel& panel) {
   std::string data, bands, marks;
   std::vector<Line> lines;

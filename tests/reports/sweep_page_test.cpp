@@ -195,8 +195,9 @@ TEST(SweepFigures, SayWhatBarsAndBandsAre) {
   Case known;
   known.sweep.figures = {{.caption = "As in fig. 12.", .x = "joints.ratio"}};
   const auto page = [&] { return sweep_page("Title", {{"a", known.sweep, known.result}}, {}); };
-  EXPECT_THAT(page(),
-              HasSubstr("As in fig. 12. Bars and bands: 95\u00a0% intervals of the means."));
+  EXPECT_THAT(page(), HasSubstr("As in fig. 12. Bars and bands: 95\u00a0% intervals of the means; "
+                                "that of a single run has "
+                                "none."));
   known.sweep.figures.front().x = "";
   EXPECT_THAT(page(), Not(HasSubstr("Bars and bands")));
 }

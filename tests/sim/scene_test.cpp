@@ -145,6 +145,19 @@ TEST(Scene, CountsStepsToTheGivenThresholds) {
   EXPECT_TRUE(scene.problems().empty());
 }
 
+TEST(Scene, DoubtsValuesThatAreInOtherUnits) {
+  Scene scene;
+  EXPECT_TRUE(scene.doubts().empty());
+  scene.joints.head_tail = 50e12;  // 50e6 where MPa are asked for
+  EXPECT_THAT(scene.doubts(),
+              testing::ElementsAre(testing::StartsWith(
+                  "joints.head_tail_MPa is 5e+07, 3.8e+03 times material.young_GPa")));
+  scene = {};
+  scene.material.young = 13e12;  // MPa where GPa are asked for
+  EXPECT_THAT(scene.doubts(),
+              testing::ElementsAre(testing::StartsWith("material.young_GPa is 1.3e+04, stiffer")));
+}
+
 // A box around a long row that is turned holds the square of its fibres.
 TEST(Scene, RefusesAGridThatIsMuchLargerThanTheSpecimen) {
   Scene scene;

@@ -103,6 +103,34 @@ TEST(Calibrate, SaysThatTheBudgetIsSpentAndKeepsTheBestPoint) {
   EXPECT_LT(result.cost, 1e4);
 }
 
+// The budget is one of points with eight replicates until their number is known, not of scouts.
+TEST(Calibrate, HasItsWholeBudgetWhereNoReplicatesAreAskedFor) {
+  auto study = test::synthetic_study(test::three_orientations);
+  study.calibrate.budget = 20;
+  study.calibrate.replicates = replicates_by_need;
+  const auto result = test::fit(study);
+  EXPECT_EQ(result.status, CalibrationStatus::converged);
+  EXPECT_GT(result.distinct_simulations, 20 * 3 * 6);
+}
+
+// Beside the answer nothing can be simulated.
+TEST(Calibrate, IsNotToBeTrustedWithoutAnInterval) {
+  auto study = test::synthetic_study(test::three_orientations);
+  apply(study.model, "head_tail_MPa", 60.0);
+  auto simulator = test::ClosedForm{.quasi_static = false}.simulator();
+  simulator.run = [](const sim::Scene& scene) {
+    auto response = test::ClosedForm{}(scene);
+    response.failed = std::abs(std::log(scene.joints.head_tail / 60e6)) > 0.02;
+    return response;
+  };
+  const auto result = calibrate_with(simulator, study);
+  EXPECT_EQ(result.status, CalibrationStatus::converged);
+  const auto check = test::check_of(result, "converged");
+  EXPECT_EQ(check.outcome, Outcome::fail) << check.text;
+  EXPECT_FALSE(test::check_of(result, "identifiable").done);
+  EXPECT_FALSE(test::says(test::check_of(result, "spread between specimens"), "intervals include"));
+}
+
 // The last look at the answer is not the searches' any more.
 TEST(Calibrate, EndsWhereTheBudgetWouldEndOnlyItsHindsight) {
   auto study = test::synthetic_study(test::three_orientations);

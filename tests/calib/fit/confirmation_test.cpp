@@ -12,6 +12,18 @@
 namespace havers::calib {
 namespace {
 
+// Which one the study asks for, the limit at any rate or time steps.
+TEST(Confirmation, ComparesWithTheRegimeOfTheFit) {
+  Study study = test::synthetic_study(test::three_orientations);
+  study.calibrate.confirm = 3;
+  study.model.loading.strain_rate = 1e3;
+  for (const auto& [regime, compared] :
+       {std::pair(sim::Regime::quasi_static, 3U), std::pair(sim::Regime::dynamic, 0U)}) {
+    study.model.solver.regime = regime;
+    EXPECT_EQ(test::fit(study).confirmations.size(), compared);
+  }
+}
+
 TEST(Confirmation, SaysHowMuchTheLimitDiffersFromTimeStepsAtEachOrientation) {
   HAVERS_SLOW;
   Study study = known_study(three_orientations(), 3).study;

@@ -74,6 +74,31 @@ TEST(FitProblem, CountsNoBoundAmongTheResiduals) {
   EXPECT_EQ(told(0.0)[linearity], 0.0);
 }
 
+// d goes with the exponent of the strength (K3), and so does its standard error.
+TEST(FitProblem, WeighsTheErrorOfAScatterByTheLawThatIsFitted) {
+  Study study = test::synthetic_study({0.0});
+  SectionPorosity section;
+  section.porosity = 0.05;
+  section.bone_area = 1e-6;
+  section.window_sd = 0.05;
+  section.window_sd_standard_error = 0.01;
+  section.window_area = 1e-9;
+  for (auto& specimen : study.specimens) specimen.sections = {section};
+  study.calibrate.parameters = {"strength_exponent"};
+  const FitProblem problem = make_problem(study);
+  SimulationBatch batch(test::ClosedForm{}.simulator(), nullptr, 1);
+  const auto error_at = [&](double exponent) {
+    const Point point = Point::Constant(1, to_search(*problem.unknowns[0].info, exponent));
+    const auto at = predict(problem, batch, {point}, 4).front();
+    return scatter_error(problem, batch, point, 0, at.predictions[0])[strength];
+  };
+  // Log strength falls by 1/(2 − d) of the scatter.
+  const auto slope = [](double d) { return 1.0 / (2.0 - d); };
+  const double d = std::sqrt(12.0) * 0.05 / 0.95;
+  EXPECT_GT(error_at(1.0), 0.0);
+  EXPECT_NEAR(error_at(2.0) / error_at(1.0), 2.0 * slope(2.0 * d) / slope(d), 0.03);
+}
+
 // In time a run ends by its end fraction alone, and without what it leaves out it takes long.
 TEST(FitProblem, LeavesOutInTimeWhatItDoesOtherwise) {
   Study study = one_oblique_bar();

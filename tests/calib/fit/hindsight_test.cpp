@@ -42,6 +42,16 @@ TEST(Hindsight, NoProfileIsMadeThatWasNotAskedFor) {
   EXPECT_FALSE(test::parameter_of(result, "ratio").profile_missing.empty());
 }
 
+TEST(Hindsight, EndsIntervalsAtTheBoundsWithoutProfilesToo) {
+  auto study = test::synthetic_study({0.0}, {.specimen_effect = 0.05});
+  study.calibrate.parameters = {"young_GPa", "head_tail_MPa"};
+  study.calibrate.bounds["head_tail_MPa"] = {50.0, 80.0};
+  study.calibrate.profiles = false;
+  const auto parameter = test::parameter_of(test::fit(study), "head_tail_MPa");
+  EXPECT_LT(parameter.slopes_95[0], 50.0);
+  EXPECT_EQ(parameter.interval_95[0], 50.0);
+}
+
 TEST(Hindsight, BootstrapIntervalsAreLikeTheOthersOrSayWhyTheyAreMissing) {
   auto study = test::synthetic_study({0.0, 0.0, 0.0, 45.0, 45.0, 45.0, 90.0, 90.0, 90.0},
                                      {.specimen_effect = 0.05});

@@ -166,6 +166,35 @@ TEST(Verdict, FailsAHeldOutSpecimenWhateverIsLeftOut) {
   EXPECT_TRUE(says(check_of(test::fit(study), "held-out specimens"), "do not carry over"));
 }
 
+// Of a strength among those of the replicates the failure strain is the same number.
+TEST(Verdict, ExcusesAHeldOutSpecimenAmongItsReplicates) {
+  CalibrationResult result;
+  SpecimenResult& specimen = result.specimens.emplace_back();
+  specimen.id = "V1";
+  specimen.use = Use::validate;
+  for (const double strength : {50e6, 51e6, 63e6})
+    specimen.replicates.push_back(
+        {.failed = false, .strength = strength, .failure_strain = strength / 14e9});
+  specimen.measured.strength = 62e6;
+  specimen.measured.failure_strain = 62e6 / 14e9;
+  specimen.residual = {0.1, -4.4, -4.3};
+  EXPECT_EQ(check_validation(result, {}).outcome, Outcome::pass);
+  specimen.measured.failure_strain = 70e6 / 14e9;
+  EXPECT_EQ(check_validation(result, {}).outcome, Outcome::fail);
+  specimen.measured.strength = 64e6;
+  EXPECT_EQ(check_validation(result, {}).outcome, Outcome::fail);
+}
+
+// One that is held has followed nothing.
+TEST(Verdict, CountsAParameterAtItsBoundAsHeld) {
+  auto study = test::synthetic_study(test::three_orientations);
+  study.calibrate.parameters = {"young_GPa", "head_tail_MPa"};
+  apply(study.model, "ratio", 2.0);
+  study.calibrate.bounds["head_tail_MPa"] = {10.0, 30.0};
+  const auto spread = check_of(test::fit(study), "spread between specimens");
+  EXPECT_TRUE(says(spread, "(p < 1e-6)")) << spread.text;
+}
+
 TEST(Verdict, ComparesAHeldOutSpecimenByTheTermsThereAre) {
   auto study = test::synthetic_study(test::three_orientations);
   study.calibrate.parameters = {"head_tail_MPa", "ratio"};

@@ -205,6 +205,17 @@ TEST(PorosityJson, HoldsTheKeysOfTheContract) {
                                 {"scatter", 0.4},
                                 {"warnings", nlohmann::json::array()}};
   for (const auto& [key, value] : contract.items()) EXPECT_EQ(json[key], value) << key;
+  EXPECT_EQ(json["missing_joints"], 0.0);
+}
+
+// (K5) Of pores that take joints away no fit would use a scatter.
+TEST(PorosityJson, HasNoScatterWherePoresTakeJointsAway) {
+  calib::SectionPorosity section = test::section_sample("s.png");
+  section.window_area = 1e-9;
+  section.pore_area_ratio = 2e-9;
+  EXPECT_TRUE(porosity_json(section, 0.4)["scatter"].is_null());
+  EXPECT_EQ(porosity_json(section, 0.4)["missing_joints"], 0.048);
+  EXPECT_TRUE(mean_porosity_json(calib::pool_sections({section}))["scatter"].is_null());
 }
 
 }  // namespace

@@ -1,0 +1,80 @@
+#include "calib/fit/left_out.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "calib/fit/search.hpp"
+#include "calib/fit/walk.hpp"
+
+namespace havers::calib {
+namespace {
+
+// Rise of the cost by which specimens contradict a value: chi² of 95 %, halved.
+constexpr double contradicts = 1.92;
+
+}  // namespace
+
+void put_back(Trail& trail, const std::vector<LeftUnknown>& left) {
+  Point point = trail.best().point;
+  for (const LeftUnknown& one : left)
+    point[one.unknown] = trail.problem().unknown(one.unknown).start;
+  if (const Evaluation own = trail.evaluate(point); !own.failed)
+    trail.restart(trail.weights(), own);
+}
+
+void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
+  const Evaluation found = trail.best();
+  Point point = found.point;
+  for (const auto& one : left) point[one.unknown] = trail.problem().unknown(one.unknown).start;
+  answer.active = without(answer.active, left);
+  trail.restart(trail.weights(), trail.evaluate(point));
+  search_ceres(trail, trail.best(), answer.active);
+  // A trail that was stopped may have no simulation of where the study has them.
+  if (trail.best().failed || trail.best().cost > found.cost + contradicts) {
+    for (auto& one : left) one.kept_where_found = !trail.stopped();
+    trail.restart(trail.weights(), found);
+  }
+  answer.left.insert(answer.left.end(), left.begin(), left.end());
+}
+
+bool mend_left_out(Trail& trail, const Eigen::MatrixXd& jacobian, Answer& answer) {
+  if (trail.problem().study.calibrate.automatic) return false;
+  for (LeftUnknown& one : answer.left) {
+    const auto walked = walk_along(trail, one.unknown, answer.active, jacobian);
+    const auto lowest = std::ranges::min_element(walked, {}, &Evaluation::cost);
+    if (lowest == walked.end() || lowest->cost > trail.best().cost - contradicts) continue;
+    Active along = answer.active;
+    along.push_back(one.unknown);
+    trail.restart(trail.weights(), search_ceres(trail, *lowest, along).best);
+    one.kept_where_found = true;
+    return true;
+  }
+  return false;
+}
+
+Active asked_and_left(const Trail& trail, const Answer& answer) {
+  Active unknowns;
+  if (!trail.problem().study.calibrate.automatic)
+    for (const LeftUnknown& one : answer.left) unknowns.push_back(one.unknown);
+  return unknowns;
+}
+
+Eigen::MatrixXd with_left_out(Trail& trail, const Answer& answer, const Differences& fitted) {
+  const Evaluation best = trail.best();
+  const Active left = asked_and_left(trail, answer);
+  const auto others = differentiate(trail, best, left, slope_step);
+  trail.restart(trail.weights(), best);
+  if (others.failed) return fitted.jacobian;
+  std::vector<Eigen::Index> moving;
+  for (Eigen::Index k = 0; k < others.jacobian.cols(); ++k) {
+    const double range = trail.problem().unknown(left[static_cast<std::size_t>(k)]).range();
+    if (others.jacobian.col(k).norm() * range >= 1.0) moving.push_back(k);
+  }
+  const Eigen::MatrixXd beside = others.jacobian(Eigen::all, moving);
+  Eigen::MatrixXd all(fitted.jacobian.rows(), fitted.jacobian.cols() + beside.cols());
+  all << fitted.jacobian, beside;
+  return all;
+}
+
+}  // namespace havers::calib
