@@ -62,6 +62,7 @@ void take_crosshead(const RawTest& raw, double machine_compliance, EngineeringCu
     curve.strain.push_back(
         (raw.strain.empty() ? raw.extension[i] / *raw.gauge_length : raw.strain[i]) - machine);
   }
+  curve.of_crosshead = true;
   curve.machine_in_strain = !corrected;
   if (corrected)
     curve.corrections.push_back(

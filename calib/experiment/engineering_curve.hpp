@@ -13,6 +13,7 @@ struct EngineeringCurve {
   std::vector<double> strain;      ///< [-]
   std::vector<double> stress;      ///< [Pa]
   double area = 0.0;               ///< 0 where unknown. [m²]
+  bool of_crosshead = false;       ///< The strain is the crosshead's (X2).
   bool machine_in_strain = false;  ///< The crosshead's, nothing taken off for the machine.
   std::vector<Correction> corrections;
   std::vector<std::string> warnings;

@@ -44,6 +44,7 @@ struct MeasuredTest {
   double failure_strain = 0.0;           ///< Corrected strain at the strength. [-]
   bool load_turned =
       false;  ///< The load was recorded negative, as a machine may count tension (X22).
+  bool of_crosshead = false;  ///< The strain is the crosshead's, not a gauge's (X2).
   bool machine_in_strain =
       false;                 ///< Strain of the crosshead, nothing taken off for the machine (X2).
   bool broke = true;         ///< false: it was stopped or unloaded; both are lower bounds (X20).

@@ -35,8 +35,7 @@ std::string doubt_of_units(const RawTest& raw, const MeasuredTest& test) {
                        test.strength * 1e-6, not_of_bone, lowest_strength * 1e-6,
                        highest_strength * 1e-6,
                        from_force ? "force_unit, width_mm, thickness_mm" : "stress_unit");
-  const bool crosshead = raw.strain.empty() || raw.crosshead_strain;
-  const double lowest = crosshead ? softest_machine * lowest_modulus : lowest_modulus;
+  const double lowest = test.of_crosshead ? softest_machine * lowest_modulus : lowest_modulus;
   if (test.modulus >= lowest && test.modulus <= highest_modulus) return {};
   return fmt::format(
       "a modulus of {:.5g} GPa with a failure strain of {:.3g} % {} ({:g} to {:g} GPa): "

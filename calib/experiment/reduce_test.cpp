@@ -134,6 +134,7 @@ MeasuredTest uncorrected(RawTest& raw, EngineeringCurve curve) {
   test.stress = std::move(curve.stress);
   test.time = std::move(raw.time);
   test.area = curve.area;
+  test.of_crosshead = curve.of_crosshead;
   test.machine_in_strain = curve.machine_in_strain;
   test.corrections = raw.corrections;
   append(test.corrections, curve.corrections);
@@ -154,7 +155,7 @@ Reduction unreduced(const MeasuredTest& test, std::vector<std::string> problems)
 
 // Only a gauge slips: a crosshead does not.
 std::string mend_gauge(const RawTest& raw, const ReductionOptions& options, MeasuredTest& test) {
-  if (!options.mend_slips || raw.strain.empty()) return {};
+  if (!options.mend_slips || test.of_crosshead) return {};
   const SlipRepair repair = mend_slips(test.strain, test.stress, raw.extension);
   append(test.corrections, repair.corrections);
   append(test.warnings, repair.warnings);

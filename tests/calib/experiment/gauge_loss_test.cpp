@@ -101,6 +101,23 @@ TEST(GaugeLoss, TakesBackAJumpAhead) {
   }
 }
 
+// Not even where a column has its strain: the specimen slid in the grips.
+TEST(GaugeLoss, TakesNoJumpOfTheCrossheadForASlip) {
+  RawTest raw = record(gauged);
+  for (std::size_t i = raw.rows() / 2; i < raw.rows(); ++i)
+    raw.extension[i] += 5e-4 * gauged.gauge_length;
+  for (std::size_t i = 0; i < raw.rows(); ++i)
+    raw.strain[i] = raw.extension[i] / gauged.gauge_length;
+  raw.crosshead_strain = true;
+  RawTest bare = raw;
+  bare.strain.clear();
+  for (const RawTest& recorded : {raw, bare}) {
+    const MeasuredTest test = reduced(recorded);
+    EXPECT_NEAR(test.failure_strain, gauged.failure_strain() + 5e-4, 1e-6);
+    EXPECT_EQ(detail_of(test, "gauge slip"), "");
+  }
+}
+
 // A gap in the record, and a crack that takes load with it, are the specimen's own.
 TEST(GaugeLoss, TakesNoStepOfTheSpecimenForASlip) {
   RawTest gap = record(gauged);
