@@ -34,6 +34,25 @@ double settled_noise_of(std::span<const double> values) {
   return noise;
 }
 
+// (X7) Noise of one channel is not that of the other: together only the specimen goes back.
+std::size_t last_loading(std::span<const double> strain, std::span<const double> stress) {
+  assert(strain.size() == stress.size());
+  constexpr std::size_t fewest = 20;
+  constexpr double part = 0.05, noises = 5.0;
+  if (strain.size() < fewest) return 0;
+  const auto least_fall = [&](std::span<const double> values) {
+    return std::max(part * values.back(), noises * noise_of(values));
+  };
+  const double least_strain = least_fall(strain), least_stress = least_fall(stress);
+  std::size_t lowest = strain.size() - 1;
+  for (std::size_t row = lowest; row-- > 0;) {
+    if (strain[row] < strain[lowest]) lowest = row;
+    if (strain[row] - strain[lowest] > least_strain && stress[row] - stress[lowest] > least_stress)
+      return strain.size() - lowest < fewest ? 0 : lowest;
+  }
+  return 0;
+}
+
 double loading_rate(std::span<const double> strain, std::span<const double> time) {
   assert(strain.size() == time.size());
   if (strain.empty() || strain.back() <= 0.0) return 0.0;

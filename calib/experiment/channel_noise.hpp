@@ -21,6 +21,10 @@ double noise_of(std::span<const double> values, std::size_t lag = 1);
 /// The same where rows that are near err alike: over as many rows as it grows with (X7).
 double settled_noise_of(std::span<const double> values);
 
+/// Row at which the last loading begins of a record that ends at the strength: from there strain
+/// and stress do not go back together (X7). 0 where it has too few rows to tell a noise.
+std::size_t last_loading(std::span<const double> strain, std::span<const double> stress);
+
 /// Strain rate of the loading up to the last row (X8); 0 where time does not advance. [1/s]
 double loading_rate(std::span<const double> strain, std::span<const double> time);
 

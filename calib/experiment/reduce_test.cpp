@@ -175,12 +175,13 @@ void doubt_strain(MeasuredTest& test) {
 
 void take_failure(MeasuredTest& test) {
   const std::size_t peak = row_of_strength(test);
-  test.strength_standard_error = settled_noise_of(std::span(test.stress).first(peak + 1));
+  const auto strain = std::span(test.strain).first(peak + 1);
+  const auto stress = std::span(test.stress).first(peak + 1);
+  test.strength_standard_error = settled_noise_of(stress.subspan(last_loading(strain, stress)));
   test.failure_strain = test.strain[peak];
   test.energy_to_failure = energy_to(test, peak);
   if (!test.time.empty())
-    test.strain_rate =
-        loading_rate(std::span(test.strain).first(peak + 1), std::span(test.time).first(peak + 1));
+    test.strain_rate = loading_rate(strain, std::span(test.time).first(peak + 1));
   test.linearity = test.strength / (test.modulus * test.failure_strain);  // (X10)
   doubt_strain(test);
 }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -26,6 +27,9 @@ struct TensileTruth {
   double strain_rate = 1e-4;
   double sampling = 0.1;  ///< [s]
   int rows_after_break = 5;
+  int cycles = 0;           ///< Sinusoidal, of preload, before the loading.
+  double cycle_part = 0.3;  ///< Their height, part of the failure strain. [-]
+  int rows_per_cycle = 100;
   unsigned seed = 1;
 
   [[nodiscard]] double area() const { return width * thickness; }
@@ -70,10 +74,16 @@ inline calib::RawTest record(const TensileTruth& truth) {
     raw.stress.push_back(raw.force.back() / truth.area());
   };
   const double step = (last - first) / rows;
+  const int cycled = truth.cycles * truth.rows_per_cycle;
+  for (int i = 0; i < cycled; ++i) {
+    const double phase = 2.0 * std::numbers::pi * i / truth.rows_per_cycle;
+    const double strain = first + 0.5 * truth.cycle_part * (last - first) * (1.0 - std::cos(phase));
+    add(i * truth.sampling, strain, stress_with_toe(truth, strain));
+  }
   for (int i = 0; i <= rows; ++i)
-    add(i * truth.sampling, first + i * step, stress_with_toe(truth, first + i * step));
+    add((cycled + i) * truth.sampling, first + i * step, stress_with_toe(truth, first + i * step));
   for (int i = 1; i <= truth.rows_after_break; ++i)
-    add((rows + i) * truth.sampling, last + i * step, 0.02 * truth.strength);
+    add((cycled + rows + i) * truth.sampling, last + i * step, 0.02 * truth.strength);
   return raw;
 }
 
