@@ -1,6 +1,7 @@
 #include "calib/experiment/gauge_slip.hpp"
 
 #include <fmt/format.h>
+#include <gsl/gsl_statistics_double.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,11 +29,17 @@ struct Record {
   [[nodiscard]] static std::size_t some_before(std::size_t row) {
     return row - std::min(row, std::max(fewest_before, row / part_before));
   }
-  // Compliance of the specimen just before a row. [1/Pa]
+  // Compliance of the specimen just before a row: the slope of the strain over the stress, which
+  // turns of the loading leave as it is; of many rows some tell it. [1/Pa]
   [[nodiscard]] double compliance(std::size_t row) const {
-    const std::size_t first = some_before(row);
-    const double rise = stress[row] - stress[first];
-    return rise != 0.0 ? std::max(0.0, (strain[row] - strain[first]) / rise) : 0.0;
+    constexpr std::size_t enough = 1000;
+    const std::size_t first = some_before(row), stride = 1 + (row - first) / enough;
+    const std::size_t rows = 1 + (row - first) / stride;
+    const double variance = gsl_stats_variance(&stress[first], stride, rows);
+    if (!(variance > 0.0)) return 0.0;
+    const double together =
+        gsl_stats_covariance(&stress[first], stride, &strain[first], stride, rows);
+    return std::max(0.0, together / variance);
   }
   // The strain by which the rise of the stress lets expect one row above another. [-]
   [[nodiscard]] double expected(std::size_t from, std::size_t to) const {
@@ -52,7 +59,10 @@ struct Record {
            (row + 1 == peak || jump > alone * step(row + 1)) &&
            stress[row + 1] > stress[row] - 5.0 * noise;
   }
-  [[nodiscard]] bool jumps(std::size_t row) const { return jumps_back(row) || jumps_ahead(row); }
+  [[nodiscard]] bool jumps(std::size_t row) const {
+    const bool moves = std::abs(strain[row + 1] - strain[row]) > smallest_jump;
+    return moves && (jumps_back(row) || jumps_ahead(row));
+  }
 };
 
 // What a gauge that stands still shows is no noise of it: only the rows on the way count.

@@ -1,6 +1,7 @@
 // A known specimen, cycled at low load before it is loaded to its break.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -12,6 +13,7 @@
 namespace havers::calib {
 namespace {
 
+using test::detail_of;
 using test::expect_the_truth;
 using test::record;
 using test::reduced;
@@ -28,7 +30,7 @@ TensileTruth preconditioned(double cycle_part, int rows_per_cycle, unsigned seed
 }
 
 TEST(Preconditioning, IsNoNoiseOfTheStrength) {
-  for (const double part : {0.1, 0.3})
+  for (const double part : {0.1, 0.3, 0.5})
     for (const int rows : {20, 100, 400}) {
       SCOPED_TRACE(testing::Message() << part << ' ' << rows);
       const TensileTruth truth = preconditioned(part, rows);
@@ -64,6 +66,34 @@ TEST(Preconditioning, IsNotSeenInALoadThatHums) {
   for (double& force : raw.force) force += 48.0 * std::sin(phase += 0.4);
   const MeasuredTest test = reduce_test(raw).test;
   EXPECT_GT(test.strength_standard_error, 0.05 * test.strength);
+}
+
+TEST(Preconditioning, IsNoSlipOfTheGauge) {
+  struct Cycles {
+    double part;
+    int rows;
+  };
+  for (const Cycles& cycles : {Cycles{0.1, 10}, {0.1, 20}, {0.2, 40}, {0.3, 60}, {0.5, 100}})
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+      SCOPED_TRACE(testing::Message() << cycles.part << ' ' << cycles.rows << ' ' << seed);
+      const TensileTruth truth = preconditioned(cycles.part, cycles.rows, seed);
+      const MeasuredTest test = reduced(record(truth));
+      EXPECT_EQ(detail_of(test, "gauge slip"), "");
+      expect_the_truth(test, truth, 0.005);
+    }
+}
+
+// On the way up and down in a cycle, and up to the break.
+TEST(Preconditioning, HidesNoSlipOfTheGauge) {
+  const TensileTruth truth = preconditioned(0.3, 100);
+  for (const std::size_t row : {930U, 980U, 2500U}) {
+    RawTest raw = record(truth);
+    for (std::size_t i = row; i < raw.rows(); ++i) raw.strain[i] -= 5e-4;
+    const MeasuredTest test = reduced(raw);
+    expect_the_truth(test, truth, 0.005);
+    ASSERT_EQ(test.warnings.size(), 1U) << row;
+    EXPECT_TRUE(test.warnings[0].starts_with("the gauge slipped (1 jump)")) << test.warnings[0];
+  }
 }
 
 }  // namespace
