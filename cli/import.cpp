@@ -91,15 +91,21 @@ Imported import_joined(io::ImportSettings settings, const ImportArguments& argum
   return imported;
 }
 
+// The file and its specimen, which has a number in it where it has no name.
+std::string title_of(const io::TestFile& file) {
+  if (!file.test.specimen_id.empty())
+    return fmt::format("{}, specimen {}", file.file, file.test.specimen_id);
+  return file.specimens == 1 ? file.file
+                             : fmt::format("{}, specimen {} in it", file.file, file.number);
+}
+
 // What is wrong with one of several specimens names it.
 void collect(const std::vector<Imported>& tests, std::vector<io::Problem>& problems) {
   for (const Imported& test : tests) {
     const calib::RawTest& raw = test.file.test;
     const bool sized = raw.area || (raw.width && raw.thickness) || !raw.stress.empty();
     const bool strained = raw.gauge_length || !raw.strain.empty();
-    const std::string where =
-        tests.size() == 1 ? test.file.file
-                          : fmt::format("{}, specimen \"{}\"", test.file.file, raw.specimen_id);
+    const std::string where = tests.size() == 1 ? test.file.file : title_of(test.file);
     for (const std::string& problem : test.reduction.problems)
       problems.push_back({where, problem,
                           sized && strained
@@ -146,10 +152,9 @@ ImportFindings import_all(const ImportArguments& arguments, const io::ImportSett
 }
 
 void print_columns(const io::TestFile& file) {
-  fmt::print("{}{}\n  {}, {}, delimiter '{}', decimal '{}', {} rows\n", file.file,
-             file.test.specimen_id.empty() ? "" : ", specimen " + file.test.specimen_id,
-             file.layout, file.encoding, file.delimiter == "\t" ? "tab" : file.delimiter,
-             file.decimal, file.rows);
+  fmt::print("{}\n  {}, {}, delimiter '{}', decimal '{}', {} rows\n", title_of(file), file.layout,
+             file.encoding, file.delimiter == "\t" ? "tab" : file.delimiter, file.decimal,
+             file.rows);
   for (const io::Column& column : file.columns)
     fmt::print("  {:<34} {:<10} {}\n", column.name, column.unit, io::to_string(column.quantity));
 }

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "calib/experiment/join_logger.hpp"
@@ -24,6 +25,7 @@ struct Outcome {
   std::vector<io::Problem> problems;
   std::vector<std::string> rejections;  // why the test cannot be used, though it can be read
   TestRecord record;
+  std::size_t number_in_file = 1;  // of the specimen in its test's file
 };
 
 void collect(std::vector<io::Problem>& all, const std::vector<io::Problem>& more) {
@@ -49,12 +51,12 @@ io::ReadOptions with_sizes(io::ReadOptions options, const io::SpecimenFiles& fil
 }
 
 // A file that is not there was complained of with the study.
-std::optional<calib::RawTest> read_file(const std::filesystem::path& file,
-                                        const io::ReadOptions& options, const char* key,
-                                        Outcome& outcome) {
+std::optional<io::TestFile> read_file(const std::filesystem::path& file,
+                                      const io::ReadOptions& options, const char* key,
+                                      Outcome& outcome) {
   if (!std::filesystem::is_regular_file(file)) return std::nullopt;
   try {
-    return io::read_test(file, options).test;
+    return io::read_test(file, options);
   } catch (const io::InputError& error) {
     collect(outcome, error.problems(), file, key);
     return std::nullopt;
@@ -65,13 +67,14 @@ void read_specimen(const io::SpecimenFiles& files, const calib::ReductionOptions
                    Outcome& outcome) {
   io::ReadOptions options = with_sizes(files.columns, files);
   options.has_logger = files.gauge.has_value();
-  std::optional<calib::RawTest> test = read_file(files.test, options, "test", outcome), logger;
+  std::optional<io::TestFile> test = read_file(files.test, options, "test", outcome), logger;
   if (files.gauge)
     logger = read_file(*files.gauge, with_sizes(files.gauge_columns, files), "gauge", outcome);
   if (!test || files.gauge.has_value() != logger.has_value()) return;
-  outcome.record.raw = std::move(*test);
+  outcome.number_in_file = test->number;
+  outcome.record.raw = std::move(test->test);
   if (!logger) return;
-  calib::JoinedTest joined = calib::join_logger(outcome.record.raw, *logger, reduction);
+  calib::JoinedTest joined = calib::join_logger(outcome.record.raw, logger->test, reduction);
   outcome.record.raw = std::move(joined.test);
   outcome.record.clocks = std::move(joined.clocks);
   outcome.rejections = std::move(joined.problems);
@@ -151,6 +154,21 @@ void take_specimen(const io::SpecimenFiles& files, Outcome outcome, LoadedStudy&
   loaded.study.specimens.push_back(std::move(outcome.specimen));
 }
 
+// Whatever the study calls a test in its file.
+void doubt_tests(const std::vector<io::SpecimenFiles>& specimens,
+                 const std::vector<Outcome>& outcomes, LoadedStudy& loaded) {
+  std::map<std::pair<std::filesystem::path, std::size_t>, std::string> tests;
+  for (std::size_t i = 0; i < specimens.size(); ++i) {
+    const io::SpecimenFiles& files = specimens[i];
+    const auto [earlier, fresh] =
+        tests.try_emplace({files.test, outcomes[i].number_in_file}, files.id);
+    if (!fresh)
+      loaded.notes.push_back(
+          fmt::format("specimens {} and {} have the same test, {}: it counts twice",
+                      earlier->second, files.id, files.test.string()));
+  }
+}
+
 // A file that names another specimen of the study than the one that it is given to.
 void doubt_names(const std::vector<io::SpecimenFiles>& specimens,
                  const std::vector<Outcome>& outcomes, LoadedStudy& loaded) {
@@ -203,6 +221,7 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   loaded.inputs = std::move(read.inputs);
   loaded.notes = std::move(read.warnings);
   doubt_specimens(read.specimens, loaded);
+  doubt_tests(read.specimens, outcomes, loaded);
   doubt_names(read.specimens, outcomes, loaded);
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     take_specimen(read.specimens[i], std::move(outcomes[i]), loaded);

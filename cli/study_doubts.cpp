@@ -15,7 +15,6 @@
 namespace havers::cli {
 
 void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStudy& loaded) {
-  std::map<std::pair<std::filesystem::path, std::string>, std::string> tests;
   std::map<std::pair<std::filesystem::path, std::optional<std::filesystem::path>>, std::string>
       owners;  // of sections under their masks
   for (const io::SpecimenFiles& files : specimens) {
@@ -32,11 +31,6 @@ void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStud
         loaded.notes.push_back(fmt::format("specimens {} and {} have the same section, {}", owner,
                                            files.id, section.string()));
     }
-    const auto [earlier, fresh] = tests.try_emplace({files.test, files.columns.specimen}, files.id);
-    if (!fresh)
-      loaded.notes.push_back(
-          fmt::format("specimens {} and {} have the same test, {}: it counts twice",
-                      earlier->second, files.id, files.test.string()));
   }
 }
 

@@ -7,7 +7,7 @@
 
 namespace havers::cli {
 
-/// Tests and sections that count twice, angles that are not said.
+/// Sections that count twice, angles that are not said.
 void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStudy& loaded);
 
 /// Scatter, pores, rate and search, once all specimens are taken.

@@ -73,7 +73,8 @@ void refuse_what_is_not_made(const std::string& where, const io::SpecimenFiles& 
   };
   refuse(specimen.gauge.has_value(), "a gauge");
   refuse(specimen.mask.has_value(), "a mask");
-  refuse(!specimen.columns.specimen.empty(), "specimen_in_file");
+  refuse(!specimen.columns.specimen.empty() || specimen.columns.specimen_number,
+         "specimen_in_file");
   refuse(!specimen.columns.columns.empty() || !specimen.columns.units.empty(), "columns");
 }
 

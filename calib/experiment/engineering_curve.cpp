@@ -71,7 +71,8 @@ void take_crosshead(const RawTest& raw, double machine_compliance, EngineeringCu
                      machine_compliance * 1e6)});
   else
     curve.warnings.emplace_back(
-        "no gauge: strain is the crosshead's extension over the gauge length, which contains the "
+        "no strain of a gauge was read: strain is the crosshead's extension over the gauge length, "
+        "which contains the "
         "compliance of the machine; the modulus is too low by it");
 }
 
@@ -80,7 +81,7 @@ void take_strain(const RawTest& raw, double machine_compliance, EngineeringCurve
   if (recorded && !is_of_crosshead(raw))
     curve.strain = raw.strain;
   else if (!recorded && raw.extension.empty())
-    curve.problems.emplace_back("neither strain nor crosshead extension was recorded");
+    curve.problems.emplace_back("neither strain nor crosshead extension was read");
   else if (!recorded && (!raw.gauge_length || *raw.gauge_length <= 0.0))
     curve.problems.emplace_back(
         "no strain was recorded, and the gauge length that would turn extension into strain is "

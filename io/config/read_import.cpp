@@ -10,7 +10,7 @@ ImportSettings read_import_settings(const Overrides& overrides) {
   TableReader top = no_file.top();
   TableReader columns = top.table("columns"), gauge_columns = top.table("gauge_columns");
   ImportSettings settings;
-  name_or_number(top, "specimen_in_file", settings.columns.specimen);
+  specimen_in_file(top, settings.columns);
   keys(columns, settings.columns);
   keys(gauge_columns, settings.gauge_columns);
   read_reduction(top.table("reduction"), settings.reduction);

@@ -101,11 +101,21 @@ void keys(Table& table, ReadOptions& options) {
   }
 }
 
+/// Which of a file's specimens: a text is its name, a number its number.
+template <class Table>
+void specimen_in_file(Table& table, ReadOptions& options) {
+  const char* key = "specimen_in_file";
+  if (table.is_text(key))
+    table.key(key, options.specimen);
+  else
+    table.key(key, options.specimen_number);
+}
+
 template <class Table>
 void keys(Table& table, SpecimenFiles& specimen) {
   table.key("id", specimen.id);
   table.key("test", specimen.test);
-  name_or_number(table, "specimen_in_file", specimen.columns.specimen);
+  specimen_in_file(table, specimen.columns);
   table.key("gauge", specimen.gauge);
   table.key("width_mm", specimen.width, millimetre);
   table.key("thickness_mm", specimen.thickness, millimetre);

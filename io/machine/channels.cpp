@@ -9,21 +9,33 @@
 
 #include "io/input_error.hpp"
 #include "io/machine/column_hints.hpp"
+#include "io/machine/column_notes.hpp"
 #include "io/machine/excerpt.hpp"
+#include "io/machine/fact_names.hpp"
 #include "io/machine/quantity.hpp"
 #include "io/machine/vocabulary.hpp"
 
 namespace havers::io {
 namespace {
 
-// Percent and mm/mm are units of too many things to stand for a strain.
-Quantity quantity_of_unit(const std::string& unit) {
-  const std::optional<Unit> known = find_unit(unit);
+// Percent and mm/mm are units of too many things to stand for a strain, but for a gauge's.
+Quantity quantity_of_unit(const Column& column) {
+  const std::optional<Unit> known = find_unit(column.unit);
   if (!known) return Quantity::other;
+  if (known->dimension == Dimension::strain && quantity_of_name(column.name) == Quantity::other &&
+      (is_of_strain_alone(*known) || is_of_sensor(column.name)))
+    return Quantity::strain;
   for (const Quantity quantity :
        {Quantity::time, Quantity::force, Quantity::extension, Quantity::stress, Quantity::volts})
     if (fits(quantity, known->dimension)) return quantity;
   return Quantity::other;
+}
+
+// "Microstrain" is a name and a unit.
+std::string unit_of(const Table& table, std::size_t i) {
+  const std::optional<Unit> named = find_unit(table.names[i]);
+  const bool is_unit = table.units[i].empty() && named && is_of_strain_alone(*named);
+  return is_unit ? table.names[i] : table.units[i];
 }
 
 // What a column may be; the smaller the rank, the sooner it is taken.
@@ -31,39 +43,22 @@ struct Candidate {
   Quantity quantity = Quantity::other;
   int rank = 0;
 };
-enum Rank { of_sensor, by_name, in_doubt, by_unit, ranks };
-
-std::optional<Dimension> dimension_of_column(const Column& column) {
-  const std::optional<Unit> unit = find_unit(column.unit);
-  return unit ? std::optional(unit->dimension) : std::nullopt;
-}
-
-std::string_view doubt_of_column(const Column& column) {
-  return doubt_of(column.name, dimension_of_column(column));
-}
+enum Rank { of_sensor, by_name, by_unit_of_strain, in_doubt, by_unit, ranks };
 
 Candidate classify(const Column& column) {
   if (is_no_reading(column.name) || fact_of_key(column.name)) return {};
   const Quantity named = quantity_of_name(column.name);
   const std::optional<Unit> unit = find_unit(column.unit);
-  const Rank rank = !doubt_of_column(column).empty() ? in_doubt
-                    : is_of_sensor(column.name)      ? of_sensor
-                                                     : by_name;
+  const Rank rank = !doubt_of(column.name, dimension_of(column)).empty() ? in_doubt
+                    : is_of_sensor(column.name)                          ? of_sensor
+                                                                         : by_name;
   if (named != Quantity::other && column.unit.empty()) return {named, rank};
   if (named != Quantity::other && unit && fits(named, unit->dimension)) return {named, rank};
-  if (named == Quantity::extension && is_crosshead_strain(column.name, dimension_of_column(column)))
+  if (named == Quantity::extension && is_crosshead_strain(column.name, dimension_of(column)))
     return {Quantity::strain, rank};
   if (unit && unit->dimension == Dimension::voltage) return {in_volts(named), by_unit};
-  return {quantity_of_unit(column.unit), by_unit};
-}
-
-std::string unknown_unit(const Column& column) {
-  return fmt::format(R"(unit "{}" of column "{}" is not known)", excerpt(column.unit),
-                     excerpt(column.name));
-}
-
-std::string unit_hint_of(Quantity quantity, const ReadOptions& options) {
-  return "say " + column_setting(options, to_string(quantity) + "_unit", "...");
+  const Quantity held = quantity_of_unit(column);
+  return {held, held == Quantity::strain ? by_unit_of_strain : by_unit};
 }
 
 InputError without_gauge_length(const std::string& where, const Column& column) {
@@ -106,12 +101,6 @@ bool is_usable(const Column& column, const calib::RawTest& test) {
          test.gauge_length.has_value();
 }
 
-// The key by which the user names a column of the quantity.
-Quantity key_of(Quantity quantity) {
-  if (quantity == Quantity::load_volts) return Quantity::force;
-  return quantity == Quantity::volts ? Quantity::strain : quantity;
-}
-
 // What else could have been taken, and how.
 std::string other_choice(const TestFile& file, std::size_t taken, std::size_t other,
                          const ReadOptions& options) {
@@ -143,64 +132,6 @@ void choose(TestFile& file, const std::vector<Candidate>& candidates, const Read
                !fresh && !hinted.contains(column.quantity))
         file.test.warnings.push_back(other_choice(file, first->second, i, options));
     }
-  }
-}
-
-// What is only taken for want of better is said; a stress counts for nothing beside a force.
-void name_doubts(TestFile& file, const ReadOptions& options, const Chosen& chosen) {
-  for (const auto& [quantity, i] : chosen) {
-    const std::string_view doubt = doubt_of_column(file.columns[i]);
-    const bool spare = quantity == Quantity::stress && chosen.contains(Quantity::force);
-    if (doubt.empty() || spare || options.columns.contains(quantity)) continue;
-    file.test.warnings.push_back(fmt::format(
-        "column \"{}\" is used for want of a better one: it is {}", file.columns[i].name, doubt));
-  }
-}
-
-// A name that says nothing leaves the choice to the unit.
-void name_guesses(TestFile& file, const ReadOptions& options, const Chosen& chosen) {
-  for (const auto& [quantity, i] : chosen) {
-    const Column& column = file.columns[i];
-    if (quantity_of_name(column.name) != Quantity::other || options.columns.contains(quantity))
-      continue;
-    file.test.warnings.push_back(fmt::format(
-        "column \"{}\" is taken as {} by its unit alone ({} takes another)", column.name,
-        to_string(quantity), column_setting(options, to_string(quantity), "...")));
-  }
-}
-
-// A unit of another quantity than the name's is believed, and said where it decides: where the
-// column is taken by it, or what the name speaks of is missing.
-void name_contradictions(TestFile& file, const ReadOptions& options, const Chosen& chosen) {
-  for (std::size_t i = 0; i < file.columns.size(); ++i) {
-    const Column& column = file.columns[i];
-    const Quantity named = quantity_of_name(column.name), held = column.quantity;
-    if (named == Quantity::other || held == Quantity::other || held == named ||
-        held == in_volts(named) || options.columns.contains(held) ||
-        is_crosshead_strain(column.name, dimension_of_column(column)))
-      continue;
-    if (chosen.contains(named) && chosen.at(held) != i) continue;
-    file.test.warnings.push_back(fmt::format(
-        R"(column "{}" is {} by its name and {} by its unit, {}: the unit is believed ({} corrects it))",
-        column.name, to_string(named), to_string(held), column.unit,
-        column_setting(options, to_string(key_of(named)) + "_unit", "...")));
-  }
-}
-
-// A column whose unit is not known is not used: an error where the load is lost by it.
-void name_unknown_units(TestFile& file, const std::string& where, const ReadOptions& options,
-                        const Chosen& chosen) {
-  const bool loaded = options.logger || chosen.contains(Quantity::force) ||
-                      chosen.contains(Quantity::stress) || chosen.contains(Quantity::load_volts);
-  for (const Column& column : file.columns) {
-    const Quantity named = quantity_of_name(column.name);
-    if (named == Quantity::other || column.unit.empty() || find_unit(column.unit) ||
-        chosen.contains(named) || column.quantity != Quantity::other)
-      continue;
-    if (!loaded && (named == Quantity::force || named == Quantity::stress))
-      throw InputError(where, unknown_unit(column), unit_hint_of(named, options));
-    file.test.warnings.push_back(
-        fmt::format("{}: not used ({})", unknown_unit(column), unit_hint_of(named, options)));
   }
 }
 
@@ -253,15 +184,12 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   const std::string where = at_line(file.file, table.first_line);
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < table.names.size(); ++i)
-    file.columns.push_back({table.names[i], table.units[i]});
+    file.columns.push_back({table.names[i], unit_of(table, i)});
   take_units(file, where, options);
   std::ranges::transform(file.columns, std::back_inserter(candidates), classify);
   Chosen chosen = take_hints(file, where, options);
   choose(file, candidates, options, chosen);
-  name_doubts(file, options, chosen);
-  name_guesses(file, options, chosen);
-  name_contradictions(file, options, chosen);
-  name_unknown_units(file, where, options, chosen);
+  note_columns(file, where, options, chosen);
   if (options.logger)
     need_gauge(file, where, options, chosen);
   else
@@ -269,7 +197,7 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   if (const auto strain = chosen.find(Quantity::strain); strain != chosen.end()) {
     const Column& column = file.columns[strain->second];
     file.test.crosshead_strain = !options.columns.contains(Quantity::strain) &&
-                                 is_crosshead_strain(column.name, dimension_of_column(column));
+                                 is_crosshead_strain(column.name, dimension_of(column));
   }
   std::vector<Channel> channels;
   for (const auto& [quantity, column] : chosen)

@@ -76,6 +76,20 @@ std::string column_place(const ReadOptions& options) {
                        : fmt::format("in [specimen.{}]", table);
 }
 
+Quantity key_of(Quantity quantity) {
+  if (quantity == Quantity::load_volts) return Quantity::force;
+  return quantity == Quantity::volts ? Quantity::strain : quantity;
+}
+
+std::string unknown_unit(const Column& column) {
+  return fmt::format(R"(unit "{}" of column "{}" is not known)", excerpt(column.unit),
+                     excerpt(column.name));
+}
+
+std::string unit_hint_of(Quantity quantity, const ReadOptions& options) {
+  return "say " + column_setting(options, to_string(quantity) + "_unit", "...");
+}
+
 void take_units(TestFile& file, const std::string& where, const ReadOptions& options) {
   for (const auto& [quantity, unit] : options.units) {
     if (!held_in(unit, quantity)) throw wrong_unit(where, unit, quantity);

@@ -28,6 +28,13 @@ std::string column_setting(const ReadOptions& options, std::string_view key,
 /// Where the user speaks of the columns: "in [specimen.columns]", "by --set columns.KEY=VALUE".
 std::string column_place(const ReadOptions& options);
 
+/// The key by which the user names a column of the quantity.
+Quantity key_of(Quantity quantity);
+
+/// The complaint about a unit that is not known, and the key that corrects it.
+std::string unknown_unit(const Column& column);
+std::string unit_hint_of(Quantity quantity, const ReadOptions& options);
+
 /// Gives the columns that their names tell the user's units. @throws InputError when a unit is not
 /// one of its quantity, or no column has such a name.
 void take_units(TestFile& file, const std::string& where, const ReadOptions& options);

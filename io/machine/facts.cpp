@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "io/machine/excerpt.hpp"
+#include "io/machine/fact_names.hpp"
 #include "io/machine/number.hpp"
 #include "io/machine/split_unit.hpp"
 #include "io/machine/units.hpp"
-#include "io/machine/vocabulary.hpp"
 
 namespace havers::io {
 namespace {
@@ -40,10 +40,11 @@ HeaderLine header_line(const PreviewRow& row) {
   return line;
 }
 
-// "Width: 4.00 mm" in a single cell, as MTS writes its header.
+// "Width: 4.00 mm" in a single cell, as MTS writes its header; "Specimen 4".
 HeaderLine header_line(std::string_view text) {
   const std::size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos) return {};
+  if (colon == std::string_view::npos)
+    return {"specimen number", std::string(name_in_heading(text)), {}};
   std::string_view value = text.substr(colon + 1);
   while (value.starts_with(' ') || value.starts_with('\t')) value.remove_prefix(1);
   return value_and_unit(text.substr(0, colon), value);
@@ -143,14 +144,19 @@ void take_size(HeaderSize fresh, std::vector<HeaderSize>& sizes, calib::RawTest&
                         excerpt(before->key), to_shown * before->value);
 }
 
+bool is_name(Fact fact) {
+  return fact == Fact::specimen_id || fact == Fact::specimen_number;
+}
+
+// The first of two counts.
+void take_name(const HeaderLine& line, Fact name, calib::RawTest& test) {
+  if (test.specimen_id.empty() && fact_of_key(line.key) == name) test.specimen_id = line.value;
+}
+
 void take_fact(const HeaderLine& line, std::size_t number, std::vector<HeaderSize>& sizes,
                calib::RawTest& test) {
   const std::optional<Fact> fact = fact_of_key(line.key);
-  if (!fact || line.value.empty()) return;
-  if (*fact == Fact::specimen_id) {
-    if (test.specimen_id.empty()) test.specimen_id = line.value;
-    return;
-  }
+  if (!fact || line.value.empty() || is_name(*fact)) return;
   std::string warning;
   if (const std::optional<double> value = size_of(line, *fact, warning))
     take_size({*fact, line.key, *value}, sizes, test, warning);
@@ -176,6 +182,9 @@ void read_facts(std::span<const PreviewRow> header, calib::RawTest& test) {
   std::vector<HeaderSize> sizes;
   for (const PreviewRow& row : header)
     for (const HeaderLine& line : header_lines(row)) take_fact(line, row.line, sizes, test);
+  for (const Fact name : {Fact::specimen_id, Fact::specimen_number})
+    for (const PreviewRow& row : header)
+      for (const HeaderLine& line : header_lines(row)) take_name(line, name, test);
   compare_area(test);
 }
 

@@ -92,8 +92,8 @@ void take_numbers(const Row& row, char decimal, std::span<SpecimenColumns> side_
     }
     if (specimen.ended) {
       problems.push_back({at_line(specimen.file.file, row.line),
-                          fmt::format("specimen {} goes on after rows without cells",
-                                      excerpt(specimen.file.test.specimen_id)),
+                          fmt::format("specimen {} of the file goes on after rows without cells",
+                                      specimen.file.number),
                           "fill them, or leave them out"});
       return;
     }

@@ -30,4 +30,9 @@ bool fits(Quantity quantity, Dimension dimension) {
          (quantity == Quantity::strain && dimension == Dimension::length);
 }
 
+std::optional<Dimension> dimension_of(const Column& column) {
+  const std::optional<Unit> unit = find_unit(column.unit);
+  return unit ? std::optional(unit->dimension) : std::nullopt;
+}
+
 }  // namespace havers::io

@@ -22,4 +22,7 @@ const QuantityInfo& info_of(Quantity quantity);
 /// A unit that the quantity can have. A gauge may be recorded as an elongation.
 bool fits(Quantity quantity, Dimension dimension);
 
+/// What the column's unit measures, where that is known.
+std::optional<Dimension> dimension_of(const Column& column);
+
 }  // namespace havers::io

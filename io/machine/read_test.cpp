@@ -68,25 +68,57 @@ void name_columns(Table& table, const std::string& name, const Preview& preview,
   }
 }
 
+std::string name_of(const TestFile& test) {
+  const std::string& name = test.test.specimen_id;
+  return name.empty() ? "" : fmt::format(" \"{}\"", excerpt(name));
+}
+
 std::string list_of(const std::vector<TestFile>& tests) {
   std::string text;
   for (std::size_t i = 0; i < tests.size(); ++i)
-    text += fmt::format("{}{} \"{}\"", i == 0 ? "" : ", ", i + 1, tests[i].test.specimen_id);
+    text += fmt::format("{}{}{}", i == 0 ? "" : ", ", tests[i].number, name_of(tests[i]));
   return text;
 }
 
-// The specimen of that name or number.
-TestFile chosen_of(std::vector<TestFile> tests, const std::string& specimen) {
-  const auto is_it = [&](const TestFile& test) { return test.test.specimen_id == specimen; };
-  if (std::ranges::count_if(tests, is_it) > 1)
-    throw InputError(tests.front().file, fmt::format("holds several specimens \"{}\"", specimen),
-                     "say which by its number; it holds " + list_of(tests));
-  if (const auto found = std::ranges::find_if(tests, is_it); found != tests.end())
-    return std::move(*found);
-  for (std::size_t i = 0; i < tests.size(); ++i)
-    if (std::to_string(i + 1) == specimen) return std::move(tests[i]);
-  throw InputError(tests.front().file, fmt::format("holds no specimen \"{}\"", specimen),
-                   "it holds " + list_of(tests));
+InputError not_one(const std::vector<TestFile>& tests, const std::string& what, const char* hint) {
+  return {tests.front().file, what, hint + ("it holds " + list_of(tests))};
+}
+
+// A number that is not what the specimens call themselves is easily mistaken for a name.
+void name_numbered(TestFile& test) {
+  const std::string& name = test.test.specimen_id;
+  if (!name.empty() && name.find_first_not_of("0123456789") == std::string::npos)
+    test.test.warnings.push_back(fmt::format(
+        "specimen_in_file = {} is the number of the specimen in the file: its name is \"{}\"",
+        test.number, name));
+}
+
+// The specimen of that name or number; a text is the number of one without a name only.
+TestFile chosen_of(std::vector<TestFile> tests, const ReadOptions& options) {
+  const bool numbered = options.specimen_number.has_value();
+  const std::string wanted = numbered ? std::to_string(*options.specimen_number) : options.specimen;
+  const auto is_named = [&](const TestFile& test) { return test.test.specimen_id == wanted; };
+  const auto is_counted = [&](const TestFile& test) {
+    return std::to_string(test.number) == wanted && (numbered || test.test.specimen_id.empty());
+  };
+  const auto of_name = std::ranges::find_if(tests, is_named);
+  const auto of_number = std::ranges::find_if(tests, is_counted);
+  const auto names = std::ranges::count_if(tests, is_named);
+  if (of_number != tests.end() && (names == 0 || is_named(*of_number))) {
+    if (names == 0) name_numbered(*of_number);
+    return std::move(*of_number);
+  }
+  if (of_number != tests.end())
+    throw not_one(tests,
+                  fmt::format("{0} is the number of one specimen and another's name", wanted),
+                  "a name stands in quotes; ");
+  if (names > 1)
+    throw not_one(tests, fmt::format("holds several specimens \"{}\"", wanted),
+                  "say which by its number; ");
+  if (names == 0)
+    throw not_one(tests, fmt::format("holds no specimen {0}{1}{0}", numbered ? "" : "\"", wanted),
+                  "");
+  return std::move(*of_name);
 }
 
 }  // namespace
@@ -109,9 +141,9 @@ std::vector<TestFile> read_tests(const std::filesystem::path& file, const ReadOp
   specimens.begin(table, std::span(preview.rows).first(table.header_rows));
   specimens.read(beginning, source);
   std::vector<TestFile> tests = specimens.take();
-  if (options.specimen.empty()) return tests;
+  if (options.specimen.empty() && !options.specimen_number) return tests;
   std::vector<TestFile> chosen;
-  chosen.push_back(chosen_of(std::move(tests), options.specimen));
+  chosen.push_back(chosen_of(std::move(tests), options));
   return chosen;
 }
 

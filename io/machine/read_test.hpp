@@ -29,6 +29,8 @@ struct TestFile {
   std::string decimal;    ///< "." or ",".
   std::vector<Column> columns;
   std::size_t rows = 0;
+  std::size_t number = 1;     ///< Of the specimen in the file, from 1.
+  std::size_t specimens = 1;  ///< In the file.
   calib::RawTest test;
 };
 
@@ -43,7 +45,8 @@ struct ColumnHint {
 struct ReadOptions {
   std::map<Quantity, ColumnHint> columns{};
   std::map<Quantity, std::string> units{};  ///< Of columns without a hint, found by their names.
-  std::string specimen{};   ///< Its name in a file of several, or its number from 1.
+  std::string specimen{};  ///< Its name in a file of several; its number where it has no name.
+  std::optional<int> specimen_number{};  ///< Or its number, from 1.
   bool logger = false;      ///< The file of a second logger: time and a gauge, no force.
   bool has_logger = false;  ///< A second logger's file tells what a volt of the load is.
   bool alone = false;       ///< In no study: what is said of columns is said by --set.
@@ -55,8 +58,9 @@ struct ReadOptions {
 /// several specimens and `options` names none.
 TestFile read_test(const std::filesystem::path& file, const ReadOptions& options = {});
 
-/// Reads every specimen of an export, whether they are stacked or side by side; of
-/// `options.specimen` alone where it is given. @throws InputError naming file and line.
+/// Reads every specimen of an export, whether they are stacked or side by side; the one of
+/// `options.specimen` or its number alone where that is given. @throws InputError naming file and
+/// line.
 std::vector<TestFile> read_tests(const std::filesystem::path& file,
                                  const ReadOptions& options = {});
 

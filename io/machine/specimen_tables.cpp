@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/machine/excerpt.hpp"
+#include "io/machine/fact_names.hpp"
 #include "io/machine/facts.hpp"
 #include "io/machine/number.hpp"
 #include "io/machine/quantity.hpp"
@@ -76,6 +77,7 @@ void SpecimenTables::begin(const Table& table, std::span<const PreviewRow> heade
   for (const Table& part : side_by_side(table)) {
     SpecimenColumns& specimen = specimens_.emplace_back();
     specimen.file = common_;
+    specimen.file.number = specimens_.size();
     specimen.file.layout = table.layout;
     take_given_sizes(options_, specimen.file.test);
     read_facts(header_of(part, header), specimen.file.test);
@@ -218,8 +220,7 @@ std::vector<TestFile> SpecimenTables::take() {
     for (std::size_t i = 0; i < specimen.channels.size(); ++i)
       file.test.*info_of(specimen.channels[i].quantity).channel = std::move(specimen.values[i]);
     file.rows = file.test.rows();
-    if (specimens_.size() > 1 && file.test.specimen_id.empty())
-      file.test.specimen_id = std::to_string(files.size() + 1);
+    file.specimens = specimens_.size();
     if (!options_.width && !options_.thickness) check_stress(file.test);
     files.push_back(std::move(file));
   }

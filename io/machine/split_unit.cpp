@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "io/machine/fact_names.hpp"
 #include "io/machine/quantity.hpp"
 #include "io/machine/vocabulary.hpp"
 
@@ -46,11 +47,12 @@ bool can_have(std::string_view name, std::string_view text) {
   const std::optional<Unit> unit = find_unit(text);
   if (!unit) return false;
   if (const std::optional<Fact> fact = fact_of_key(name))
-    return *fact != Fact::specimen_id &&
+    return *fact != Fact::specimen_id && *fact != Fact::specimen_number &&
            unit->dimension == (*fact == Fact::area ? Dimension::area : Dimension::length);
   const Quantity quantity = quantity_of_name(name);
   if (quantity == Quantity::strain && (text == "m" || text == "in")) return false;
-  return fits(quantity, unit->dimension);
+  return fits(quantity, unit->dimension) ||
+         (quantity == Quantity::other && is_of_strain_alone(*unit));
 }
 
 NameAndUnit named_unit(std::string_view name, std::string_view unit) {

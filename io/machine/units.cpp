@@ -17,6 +17,7 @@ struct NamedUnit {
 constexpr double standard_gravity = 9.80665;             // m/s²
 constexpr double pound = 0.45359237 * standard_gravity;  // N
 constexpr double inch = 0.0254;                          // m
+constexpr double microstrain = 1e-6;
 
 using enum Dimension;
 constexpr std::array units{
@@ -102,18 +103,18 @@ constexpr std::array units{
     NamedUnit{"m/m", {strain, 1.0}},
     NamedUnit{"in/in", {strain, 1.0}},
     NamedUnit{"-", {strain, 1.0}},
-    NamedUnit{"ustrain", {strain, 1e-6}},
-    NamedUnit{"µstrain", {strain, 1e-6}},
-    NamedUnit{"μstrain", {strain, 1e-6}},
-    NamedUnit{"microstrain", {strain, 1e-6}},
+    NamedUnit{"ustrain", {strain, microstrain}},
+    NamedUnit{"µstrain", {strain, microstrain}},
+    NamedUnit{"μstrain", {strain, microstrain}},
+    NamedUnit{"microstrain", {strain, microstrain}},
     NamedUnit{"mstrain", {strain, 1e-3}},
-    NamedUnit{"um/m", {strain, 1e-6}},
-    NamedUnit{"µm/m", {strain, 1e-6}},
-    NamedUnit{"μm/m", {strain, 1e-6}},
-    NamedUnit{"µε", {strain, 1e-6}},
-    NamedUnit{"με", {strain, 1e-6}},
-    NamedUnit{"ue", {strain, 1e-6}},
-    NamedUnit{"uε", {strain, 1e-6}},
+    NamedUnit{"um/m", {strain, microstrain}},
+    NamedUnit{"µm/m", {strain, microstrain}},
+    NamedUnit{"μm/m", {strain, microstrain}},
+    NamedUnit{"µε", {strain, microstrain}},
+    NamedUnit{"με", {strain, microstrain}},
+    NamedUnit{"ue", {strain, microstrain}},
+    NamedUnit{"uε", {strain, microstrain}},
     NamedUnit{"V", {voltage, 1.0}},
     NamedUnit{"mV", {voltage, 1e-3}},
 };
@@ -161,6 +162,10 @@ std::string_view without_brackets(std::string_view text) {
   const bool round = text.front() == '(' && text.back() == ')';
   const bool square = text.front() == '[' && text.back() == ']';
   return round || square ? without_blanks(text.substr(1, text.size() - 2)) : text;
+}
+
+bool is_of_strain_alone(const Unit& unit) {
+  return unit.dimension == Dimension::strain && unit.to_si == microstrain;
 }
 
 std::optional<Unit> find_unit(std::string_view text) {

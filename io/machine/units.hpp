@@ -17,6 +17,9 @@ struct Unit {
 /// first, then any. A calibration factor is a unit too: "500 N/V" is a force.
 std::optional<Unit> find_unit(std::string_view text);
 
+/// Whether nothing but a strain is measured in it, as in microstrain; % has many uses.
+bool is_of_strain_alone(const Unit& unit);
+
 /// Text without the blanks around it.
 std::string_view without_blanks(std::string_view text);
 

@@ -2,44 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
+
+#include "io/machine/words.hpp"
 
 namespace havers::io {
 namespace {
-
-// Lower case of ASCII and of the accented letters of western languages (U+00C0 to U+00DE).
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(result[i]);
-    const bool accented = i > 0 && result[i - 1] == '\xC3' && byte >= 0x80 && byte <= 0x9E;
-    if ((byte >= 'A' && byte <= 'Z') || accented) result[i] = static_cast<char>(byte + 0x20);
-  }
-  return result;
-}
-
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || static_cast<signed char>(c) < 0;
-}
-
-// A word that is common inside others ("last" in "plastic") must stand alone.
-enum class Match { anywhere, alone };
-
-bool contains(std::string_view text, std::string_view word, Match match) {
-  for (std::size_t at = text.find(word); at != std::string_view::npos;
-       at = text.find(word, at + 1)) {
-    const bool alone = (at == 0 || !is_letter(text[at - 1])) &&
-                       (at + word.size() == text.size() || !is_letter(text[at + word.size()]));
-    if (match == Match::anywhere || alone) return true;
-  }
-  return false;
-}
-
-bool contains_any(std::string_view text, std::span<const std::string_view> words,
-                  Match match = Match::anywhere) {
-  return std::ranges::any_of(words,
-                             [&](std::string_view word) { return contains(text, word, match); });
-}
 
 struct QuantityWord {
   std::string_view word;
@@ -58,6 +25,14 @@ constexpr std::array quantity_words{
     QuantityWord{"temperat", other},
     QuantityWord{"températ", other},
     QuantityWord{"strain", strain},
+    QuantityWord{"dms", strain, Match::alone},
+    QuantityWord{"sg", strain, Match::alone},
+    QuantityWord{"jauge", strain},  // de contrainte
+    QuantityWord{"tensometr", strain},
+    QuantityWord{"epsilon", strain},
+    QuantityWord{"eps", strain, Match::alone},
+    QuantityWord{"ε", strain, Match::alone},
+    QuantityWord{"extensomét", strain},
     QuantityWord{"extensomet", strain},  // its elongation, where it is in mm
     QuantityWord{"extensomèt", strain},
     QuantityWord{"extensómet", strain},
@@ -131,10 +106,11 @@ constexpr std::array<std::string_view, 18> no_reading_words{
     "transvers", "trasvers", "querdehn", "lateral", "poprzeczn", "横向",
     "command",   "comando",  "consign",  "soll",    "setpoint",  "set point",
     "set-point", "target",   "zadan",    "指令",    "maximum",   "maximal"};
-constexpr std::array<std::string_view, 2> no_reading_alone{"peak", "demand"};
-constexpr std::array<std::string_view, 10> sensor_words{
-    "gauge",    "gage",     "extenso",   "jauge",  "galga",
-    "feindehn", "estensim", "ekstensom", "引伸计", "load cell"};
+constexpr std::array<std::string_view, 4> no_reading_alone{"peak", "demand", "quer", "trans"};
+constexpr std::array<std::string_view, 12> sensor_words{
+    "gauge",    "gage",      "extenso",   "jauge",  "galga",     "feindehn",
+    "estensim", "ekstensom", "tensometr", "引伸计", "load cell", "dehnungsmess"};
+constexpr std::array<std::string_view, 2> sensor_alone{"dms", "sg"};
 constexpr std::array<std::string_view, 8> true_words{
     "true", "wahre", "vraie", "logarithm", "hencky", "verdader", "rzeczywist", "真"};
 
@@ -151,64 +127,6 @@ constexpr std::array<std::string_view, 26> result_words{
     "à la rup",     "festigkeit", "bruch",       "rotura",   "resistencia", "resistenza", "rottura",
     "wytrzymałość", "zerwani",    "resistência", "模量",     "强度"};
 
-struct FactWord {
-  std::string_view key;
-  Fact fact;
-};
-
-// Keys as a whole, since "Final width" is not the width.
-using enum Fact;
-constexpr std::array fact_words{
-    FactWord{"specimen id", specimen_id},
-    FactWord{"specimen label", specimen_id},
-    FactWord{"specimen name", specimen_id},
-    FactWord{"sample id", specimen_id},
-    FactWord{"éprouvette", specimen_id},
-    FactWord{"probe", specimen_id},
-    FactWord{"probeta", specimen_id},
-    FactWord{"provino", specimen_id},
-    FactWord{"próbka", specimen_id},
-    FactWord{"试样", specimen_id},
-    FactWord{"width", width},
-    FactWord{"specimen width", width},
-    FactWord{"largeur", width},
-    FactWord{"largeur éprouvette", width},
-    FactWord{"breite", width},
-    FactWord{"ancho", width},
-    FactWord{"larghezza", width},
-    FactWord{"szerokość", width},
-    FactWord{"largura", width},
-    FactWord{"宽度", width},
-    FactWord{"thickness", thickness},
-    FactWord{"specimen thickness", thickness},
-    FactWord{"épaisseur", thickness},
-    FactWord{"épaisseur éprouvette", thickness},
-    FactWord{"dicke", thickness},
-    FactWord{"espesor", thickness},
-    FactWord{"spessore", thickness},
-    FactWord{"grubość", thickness},
-    FactWord{"espessura", thickness},
-    FactWord{"厚度", thickness},
-    FactWord{"length", length},
-    FactWord{"gauge length", gauge_length},
-    FactWord{"gage length", gauge_length},
-    FactWord{"gage length, standard travel", gauge_length},
-    FactWord{"l0 - course standard", gauge_length},
-    FactWord{"longueur", length},
-    FactWord{"longueur initiale", gauge_length},
-    FactWord{"messlänge", gauge_length},
-    FactWord{"anfangsmesslänge", gauge_length},
-    FactWord{"longitud", length},
-    FactWord{"lunghezza", length},
-    FactWord{"długość", length},
-    FactWord{"comprimento", length},
-    FactWord{"标距", gauge_length},
-    FactWord{"area", area},
-    FactWord{"cross-section", area},
-    FactWord{"section", area},
-    FactWord{"querschnitt", area},
-};
-
 }  // namespace
 
 Quantity quantity_of_name(std::string_view name) {
@@ -224,7 +142,8 @@ bool is_no_reading(std::string_view name) {
 }
 
 bool is_of_sensor(std::string_view name) {
-  return contains_any(lower(name), sensor_words);
+  const std::string text = lower(name);
+  return contains_any(text, sensor_words) || contains_any(text, sensor_alone, Match::alone);
 }
 
 bool counts_compression(std::string_view name) {
@@ -255,16 +174,6 @@ std::string_view doubt_of(std::string_view name, std::optional<Dimension> unit) 
 
 bool is_result(std::string_view name) {
   return contains_any(lower(name), result_words);
-}
-
-std::optional<Fact> fact_of_key(std::string_view key) {
-  if (const std::size_t group = key.rfind(" : "); group != std::string_view::npos)
-    key.remove_prefix(group + 3);
-  while (key.ends_with(':') || key.ends_with(' ')) key.remove_suffix(1);
-  const std::string text = lower(key);
-  const auto* found = std::ranges::find(fact_words, text, &FactWord::key);
-  if (found == fact_words.end()) return std::nullopt;
-  return found->fact;
 }
 
 }  // namespace havers::io

@@ -33,11 +33,4 @@ std::string_view doubt_of(std::string_view name, std::optional<Dimension> unit);
 /// Whether the name is that of a result of a whole test: "Maximum load", "Tensile strength", ...
 bool is_result(std::string_view name);
 
-/// What a header line may tell of the specimen. A bare length is the gauge length where no line
-/// speaks of a gauge.
-enum class Fact { specimen_id, width, thickness, length, gauge_length, area };
-
-/// The fact a header's key names: "Specimen ID", "Geometry : Width", "Largeur", ...
-std::optional<Fact> fact_of_key(std::string_view key);
-
 }  // namespace havers::io

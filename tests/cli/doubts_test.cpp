@@ -214,6 +214,12 @@ TEST(Import, TakesOneOfSeveralSpecimensByNameOrNumber) {
   test::write_text(folder / "study.toml", "[[specimen]]\nid = \"A\"\ntest = \"two.csv\"\n");
   EXPECT_THAT(run_havers(folder, "check study.toml").err,
               HasSubstr("say which by specimen_in_file"));
+  const std::string twice =
+      "[[specimen]]\nid = \"A\"\ntest = \"two.csv\"\nspecimen_in_file = \"South\"\n"
+      "[[specimen]]\nid = \"B\"\ntest = \"two.csv\"\nspecimen_in_file = 2\n";
+  test::write_text(folder / "study.toml", twice);
+  EXPECT_THAT(run_havers(folder, "check study.toml").out,
+              HasSubstr("specimens A and B have the same test, two.csv: it counts twice"));
 }
 
 }  // namespace

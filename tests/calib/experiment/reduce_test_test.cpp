@@ -259,7 +259,7 @@ TEST(ReduceTest, SaysWhyATestCannotBeReduced) {
             "no strain was recorded, and the gauge length that would turn extension into strain is "
             "unknown");
   raw.extension.clear();
-  EXPECT_EQ(problem_of(raw), "neither strain nor crosshead extension was recorded");
+  EXPECT_EQ(problem_of(raw), "neither strain nor crosshead extension was read");
 
   raw = good;
   raw.stress.clear();

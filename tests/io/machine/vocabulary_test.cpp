@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "io/machine/fact_names.hpp"
 #include "io/machine/split_unit.hpp"
 #include "io/machine/units.hpp"
 
@@ -96,6 +97,22 @@ TEST(Vocabulary, KnowsTheFactsOfASpecimen) {
   EXPECT_EQ(fact_of_key("Gage length, standard travel"), Fact::gauge_length);
   EXPECT_EQ(fact_of_key("Cross-section:"), Fact::area);
   EXPECT_FALSE(fact_of_key("Final width"));
+  for (const char* key : {"Specimen", "Specimen no.", "Specimen number", "Specimen: ", "Probe Nr.",
+                          "Sample", "Sample #", "Éprouvette n°", "Test no."})
+    EXPECT_EQ(fact_of_key(key), Fact::specimen_number) << key;
+  for (const char* key : {"Test", "Sample rate", "Specimen material", "Probenform", "Samples"})
+    EXPECT_FALSE(fact_of_key(key)) << key;
+}
+
+TEST(Vocabulary, KnowsASpecimensNameInAHeading) {
+  EXPECT_EQ(name_in_heading("Specimen 4"), "4");
+  EXPECT_EQ(name_in_heading("Probe Nr. K-17"), "K-17");
+  EXPECT_EQ(name_in_heading("Éprouvette n° 1"), "1");
+  EXPECT_EQ(name_in_heading("Test 4"), "4");
+  EXPECT_EQ(name_in_heading("Sample B"), "B");
+  for (const char* heading : {"Test report", "Test report 12", "Specimen data", "Specimens 4",
+                              "Specimen", "Test 12.03.2024 10:00"})
+    EXPECT_TRUE(name_in_heading(heading).empty()) << heading;
 }
 
 }  // namespace

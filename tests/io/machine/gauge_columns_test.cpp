@@ -1,0 +1,77 @@
+// Columns that a unit or a word gives away as a strain gauge's.
+#include <gtest/gtest.h>
+
+#include "io/machine/read_test.hpp"
+#include "tests/support/machine_files.hpp"
+
+namespace havers::io {
+namespace {
+
+TestFile table_of(const std::string& names, const ReadOptions& options = {}) {
+  const test::TemporaryFile file(names + "\n0,1,0.01,100\n1,2,0.02,200\n");
+  return read_test(file.path(), options);
+}
+
+const std::string left_of_it = "Time (s),Load (N),Extension (mm),";
+
+TEST(GaugeColumns, AreToldByAUnitOfStrainAlone) {
+  for (const std::string name :
+       {"CH1 (µε)", "Channel 3 [uStrain]", "A (ue)", "Def (µm/m)", "Ext. 1 (µε)", "ε (µε)",
+        "MX1 (microstrain)", "Gage1 [uStrain]", "AI 0 in µm/m", "Microstrain"}) {
+    const TestFile file = table_of(left_of_it + name);
+    ASSERT_EQ(file.test.strain.size(), 2U) << name;
+    EXPECT_DOUBLE_EQ(file.test.strain[1], 2e-4) << name;
+    EXPECT_FALSE(file.test.crosshead_strain) << name;
+  }
+  EXPECT_EQ(
+      table_of(left_of_it + "CH1 (µε)").test.warnings,
+      std::vector<std::string>{"column \"CH1\" is taken as strain by its unit alone (strain = "
+                               "... in [specimen.columns] takes another)"});
+  EXPECT_TRUE(table_of(left_of_it + "Elongation (µε)").test.crosshead_strain);
+  EXPECT_TRUE(table_of(left_of_it + "Load cell (µε)").test.strain.empty());
+}
+
+TEST(GaugeColumns, AreToldByTheWordsForThem) {
+  for (const std::string name :
+       {"DMS (µm/m)", "DMS1 in µm/m", "Dehnungsmessstreifen 1 (µm/m)", "Jauge 1 (µm/m)",
+        "Jauge de contrainte (µm/m)", "SG1 (ue)", "Epsilon [µm/m]", "Tensometr (µm/m)",
+        "Galga extensométrica (µm/m)"}) {
+    const TestFile file = table_of(left_of_it + name);
+    ASSERT_EQ(file.test.strain.size(), 2U) << name;
+    EXPECT_DOUBLE_EQ(file.test.strain[1], 2e-4) << name;
+    EXPECT_TRUE(file.test.warnings.empty()) << name;
+  }
+  for (const std::string name : {"Gauge 1 (%)", "DMS (%)", "ε (%)"})
+    EXPECT_EQ(table_of(left_of_it + name).test.strain, (std::vector{1.0, 2.0})) << name;
+}
+
+TEST(GaugeColumns, AreTakenBeforeAStrainOfTheCrosshead) {
+  const TestFile file = table_of("Time (s),Load (N),Strain 1 (Displacement) (%),CH1 (µε)");
+  EXPECT_DOUBLE_EQ(file.test.strain.at(1), 2e-4);
+  EXPECT_FALSE(file.test.crosshead_strain);
+}
+
+TEST(GaugeColumns, AcrossTheLoadAreNotTaken) {
+  for (const std::string name : {"DMS quer (µm/m)", "SG trans (µε)", "Transverse (µε)"})
+    EXPECT_TRUE(table_of(left_of_it + name).test.strain.empty()) << name;
+  EXPECT_EQ(table_of("Time (s),Load (N),Exx (µε),Eyy (µε)").test.warnings.front(),
+            "columns \"Exx\" and \"Eyy\" both hold strain: \"Exx\" is used (strain = 4 in "
+            "[specimen.columns] takes the other)");
+}
+
+TEST(GaugeColumns, OfALoggerAreToldLikewise) {
+  for (const std::string name : {"DMS 1 (µm/m)", "CH1 (µε)"})
+    EXPECT_DOUBLE_EQ(table_of("Time (s),a,b," + name, {.logger = true}).test.strain.at(1), 2e-4);
+}
+
+TEST(GaugeColumns, ThatMayBeOneAreSaidNotToBeRead) {
+  const std::string said =
+      "column \"D\" in % is not read: its name says no strain (strain = 4 in [specimen.columns] "
+      "takes it for one)";
+  EXPECT_EQ(table_of(left_of_it + "D (%)").test.warnings, std::vector<std::string>{said});
+  EXPECT_TRUE(table_of(left_of_it + "T (°C)").test.warnings.empty());
+  EXPECT_TRUE(table_of("Time (s),Load (N),D (%),Strain (%)").test.warnings.empty());
+}
+
+}  // namespace
+}  // namespace havers::io
