@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "io/machine/excerpt.hpp"
@@ -34,6 +35,20 @@ void check_time(const Row& row, SpecimenColumns& specimen, std::vector<Problem>&
   }
 }
 
+// Nothing, NaN, or dashes: a gauge that is not there.
+bool is_no_reading_of(const Channel& channel, std::string_view cell, NumberFault fault) {
+  if (channel.quantity != Quantity::strain || fault == NumberFault::none) return false;
+  return fault == NumberFault::empty || fault == NumberFault::not_finite ||
+         cell.find_first_not_of("-–—") == std::string_view::npos;
+}
+
+// A gauge may come late or be lost on the way; a gap between its readings is a fault.
+void take_reading(SpecimenColumns& specimen, std::vector<Problem>& problems) {
+  if (specimen.told && specimen.lost) problems.push_back(*specimen.lost);
+  specimen.told = true;
+  specimen.lost.reset();
+}
+
 bool take_cells(const Row& row, char decimal, SpecimenColumns& specimen,
                 std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < specimen.channels.size(); ++i) {
@@ -47,11 +62,20 @@ bool take_cells(const Row& row, char decimal, SpecimenColumns& specimen,
     }
     const std::string_view cell = row.cells[channel.column];
     const Number number = read_cell(cell, decimal, channel);
+    const auto complaint = [&] {
+      return bad_cell(specimen.file, row.line, specimen.file.columns[channel.in_file], cell,
+                      number.fault);
+    };
+    if (is_no_reading_of(channel, cell, number.fault)) {
+      if (!specimen.lost) specimen.lost = complaint();
+      specimen.values[i].push_back(std::numeric_limits<double>::quiet_NaN());
+      continue;
+    }
     if (number.fault != NumberFault::none) {
-      problems.push_back(bad_cell(specimen.file, row.line, specimen.file.columns[channel.in_file],
-                                  cell, number.fault));
+      problems.push_back(complaint());
       return false;
     }
+    if (channel.quantity == Quantity::strain) take_reading(specimen, problems);
     specimen.values[i].push_back(number.value);
   }
   return true;

@@ -1,6 +1,7 @@
 // The numbers of a row, put into the channels of the specimens that stand side by side in it.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct SpecimenColumns {
   std::vector<Channel> channels;
   std::vector<std::vector<double>> values;  ///< As `channels`, in SI units.
   bool ended = false;                       ///< Its cells were empty in a row.
+  bool told = false;                        ///< Its gauge has had a reading.
+  std::optional<Problem> lost{};            ///< The first cell since then where it has none.
 };
 
 /// A cell of the channel, in SI units; of a time, a clock's too.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "calib/experiment/lost_gauge.hpp"
 #include "io/machine/excerpt.hpp"
 #include "io/machine/fact_names.hpp"
 #include "io/machine/facts.hpp"
@@ -219,6 +220,8 @@ std::vector<TestFile> SpecimenTables::take() {
     TestFile& file = specimen.file;
     for (std::size_t i = 0; i < specimen.channels.size(); ++i)
       file.test.*info_of(specimen.channels[i].quantity).channel = std::move(specimen.values[i]);
+    if (const std::string problem = calib::mend_lost_gauge(file.test); !problem.empty())
+      throw InputError(file.file, problem, "give all rows a strain, or leave them out");
     file.rows = file.test.rows();
     file.specimens = specimens_.size();
     if (!options_.width && !options_.thickness) check_stress(file.test);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "calib/experiment/lost_gauge.hpp"
 #include "calib/experiment/measured_test.hpp"
 #include "tests/support/machine_files.hpp"
 #include "tests/support/reduction.hpp"
@@ -42,6 +44,48 @@ TEST(GaugeLoss, GoesOnWithTheCrossheadWhereTheGaugeIsSaturated) {
   const MeasuredTest torn = reduced(saturated(0.6, 0.05));
   expect_the_truth(torn, gauged, 0.001);
   EXPECT_NE(detail_of(torn, "gauge fell off"), "");
+}
+
+// Readings from one part of the failure strain to another, and nothing beside them.
+RawTest with_readings(double from, double to) {
+  RawTest raw = record(gauged);
+  for (double& strain : raw.strain)
+    if (strain < from * gauged.failure_strain() || strain > to * gauged.failure_strain())
+      strain = std::numeric_limits<double>::quiet_NaN();
+  return raw;
+}
+
+TEST(GaugeLoss, GoesOnWithTheCrossheadWhereTheGaugeHasNoReadings) {
+  for (const auto& [from, to] : {std::pair(0.0, 0.5), {0.2, 2.0}, {0.15, 0.7}}) {
+    RawTest raw = with_readings(from, to), lone = raw;
+    EXPECT_EQ(mend_lost_gauge(raw), "");
+    expect_the_truth(reduced(raw), gauged, 0.001);
+    EXPECT_EQ(raw.corrections.size(), raw.warnings.size());
+    lone.extension.clear();
+    EXPECT_NE(mend_lost_gauge(lone).find("no crosshead tells the strain there"), std::string::npos);
+  }
+  RawTest raw = with_readings(0.0, 0.5);
+  mend_lost_gauge(raw);
+  EXPECT_EQ(raw.warnings, std::vector<std::string>{"the gauge has no readings from 50 % of the "
+                                                   "largest load on: the failure strain rests on "
+                                                   "the crosshead"});
+}
+
+TEST(GaugeLoss, AfterTheBreakIsNotSaid) {
+  for (const bool crosshead : {true, false}) {
+    RawTest raw = with_readings(0.0, 1.0 + 1e-9);
+    if (!crosshead) raw.extension.clear();
+    EXPECT_EQ(mend_lost_gauge(raw), "");
+    EXPECT_TRUE(raw.warnings.empty());
+    expect_the_truth(reduced(raw), gauged, 0.001);
+  }
+}
+
+TEST(GaugeLoss, LeavesAnEmptyColumnAway) {
+  RawTest raw = with_readings(3.0, 4.0);
+  EXPECT_EQ(mend_lost_gauge(raw), "");
+  EXPECT_TRUE(raw.strain.empty());
+  EXPECT_EQ(raw.warnings.size(), 1U);
 }
 
 TEST(GaugeLoss, IsSaidBesideTheSlipsBeforeIt) {

@@ -1,0 +1,111 @@
+#include "calib/experiment/lost_gauge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+
+#include "calib/experiment/robust_line.hpp"
+
+namespace havers::calib {
+namespace {
+
+constexpr std::size_t fewest_beside = 20;  // rows that tell how strain and crosshead go together,
+constexpr std::size_t part_beside = 5;     // or a fifth of all with a strain
+
+struct Rows {
+  std::size_t first = 0, end = 0;
+};
+
+const std::vector<double>& load_of(const RawTest& raw) {
+  if (!raw.force.empty()) return raw.force;
+  return raw.stress.empty() ? raw.load_volts : raw.stress;
+}
+
+// Of the largest load, whatever its sign. [-]
+double load_at(const RawTest& raw, std::size_t row) {
+  const std::vector<double>& load = load_of(raw);
+  const auto [low, high] = std::ranges::minmax(load);
+  return std::abs(load[row]) / std::max(-low, high);
+}
+
+bool is_after_peak(const RawTest& raw, std::size_t row) {
+  const std::vector<double>& load = load_of(raw);
+  const auto larger = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  return std::ranges::max_element(load, larger) - load.begin() < std::ptrdiff_t(row);
+}
+
+Line line_beside(const RawTest& raw, Rows beside) {
+  if (raw.extension.empty()) return {};
+  const std::size_t rows = beside.end - beside.first;
+  return fit_robust_line(std::span(raw.extension).subspan(beside.first, rows),
+                         std::span(raw.strain).subspan(beside.first, rows));
+}
+
+void tell(RawTest& raw, Rows lost, const Line& line) {
+  const bool late = lost.first == 0;
+  const std::string part =
+      fmt::format("{} {:.0f} % of the largest load{}", late ? "up to" : "from",
+                  100.0 * load_at(raw, late ? lost.end : lost.first - 1), late ? "" : " on");
+  raw.corrections.push_back(
+      {"gauge without readings",
+       fmt::format(
+           "{}, {} of {} rows; there the strain is the crosshead's, {:.4g} per mm as just {}", part,
+           lost.end - lost.first, raw.strain.size(), line.slope * 1e-3,
+           late ? "after" : "before")});
+  raw.warnings.push_back(fmt::format("the gauge has no readings {}: {} on the crosshead", part,
+                                     late ? "strains there rest" : "the failure strain rests"));
+}
+
+std::string extend(RawTest& raw, Rows lost, Rows beside) {
+  const Line line = line_beside(raw, beside);
+  const bool broken = is_after_peak(raw, lost.first);
+  if (!line.fitted && !broken)
+    return fmt::format(
+        "the gauge has no readings at the record's {}, and no crosshead tells the strain there",
+        lost.first == 0 ? "beginning" : "end");
+  for (std::size_t i = lost.first; i < lost.end; ++i)
+    raw.strain[i] =
+        line.fitted ? line.intercept + line.slope * raw.extension[i] : raw.strain[lost.first - 1];
+  if (!broken) tell(raw, lost, line);
+  return {};
+}
+
+void cut(RawTest& raw, Rows kept) {
+  for (std::vector<double>* channel : {&raw.time, &raw.extension, &raw.strain, &raw.volts}) {
+    if (channel->empty()) continue;
+    channel->resize(kept.end);
+    channel->erase(channel->begin(), channel->begin() + std::ptrdiff_t(kept.first));
+  }
+}
+
+}  // namespace
+
+std::string mend_lost_gauge(RawTest& raw) {
+  const std::vector<double>& strain = raw.strain;
+  const auto tells = [](double e) { return std::isfinite(e); };
+  const auto from = std::ranges::find_if(strain, tells);
+  if (from == strain.end()) {
+    if (!strain.empty()) raw.warnings.emplace_back("the column of the strain is empty: not used");
+    raw.strain.clear();
+    return {};
+  }
+  const auto first = static_cast<std::size_t>(from - strain.begin());
+  const auto behind = std::find_if(strain.rbegin(), strain.rend(), tells).base();
+  const auto end = static_cast<std::size_t>(behind - strain.begin());
+  if (load_of(raw).empty()) {
+    cut(raw, {first, end});
+    return {};
+  }
+  const std::size_t rows =
+      std::min(end - first, std::max(fewest_beside, (end - first) / part_beside));
+  std::string problem;
+  if (first > 0) problem = extend(raw, {0, first}, {first, first + rows});
+  if (end < strain.size() && problem.empty())
+    problem = extend(raw, {end, strain.size()}, {end - rows, end});
+  return problem;
+}
+
+}  // namespace havers::calib
