@@ -14,9 +14,8 @@ namespace {
 // nothing.
 std::optional<std::size_t> first_number_row(const Preview& preview, std::size_t begin) {
   const auto& rows = preview.rows;
-  const char decimal = preview.dialect.decimal;
   for (std::size_t i = begin; i < rows.size(); ++i) {
-    if (!is_number_row(rows[i], decimal)) continue;
+    if (!is_number_row(rows[i], preview.dialect)) continue;
     if (i + 1 == rows.size() || rows[i + 1].cells.size() == rows[i].cells.size()) return i;
   }
   return std::nullopt;
@@ -156,8 +155,7 @@ std::optional<Table> recognise_table(const Preview& preview) {
     table.layout = results_layout;
     if (!results) results = std::move(table);
     begin = *numbers + 1;
-    while (begin < preview.rows.size() &&
-           is_number_row(preview.rows[begin], preview.dialect.decimal))
+    while (begin < preview.rows.size() && is_number_row(preview.rows[begin], preview.dialect))
       ++begin;
   }
   return results;

@@ -1,6 +1,8 @@
 #include "io/machine/preview.hpp"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <utility>
 
 #include "io/machine/number.hpp"
@@ -9,6 +11,7 @@ namespace havers::io {
 namespace {
 
 constexpr std::size_t preview_bytes = 1U << 16U;
+constexpr std::array<char, 4> delimiters{',', ';', '\t', '|'};
 
 std::string_view whole_lines(std::string_view text) {
   if (text.size() <= preview_bytes) return text;
@@ -32,18 +35,21 @@ Preview cut(std::string_view text, const Dialect& dialect) {
   return preview;
 }
 
-std::ptrdiff_t number_rows(const Preview& preview, char decimal) {
-  return std::ranges::count_if(preview.rows,
-                               [&](const PreviewRow& row) { return is_number_row(row, decimal); });
+std::ptrdiff_t number_rows(const Preview& preview) {
+  return std::ranges::count_if(
+      preview.rows, [&](const PreviewRow& row) { return is_number_row(row, preview.dialect); });
 }
 
 // `1,234;5,678` reads with either mark. Who separates by something else than the comma needs the
 // comma.
 char preferred_decimal(const Preview& preview) {
   if (preview.dialect.delimiter == ',') return '.';
+  Dialect with_comma = preview.dialect;
+  with_comma.decimal = ',';
   const auto has = [&](char mark) {
     return std::ranges::any_of(preview.rows, [&](const PreviewRow& row) {
-      return is_number_row(row, ',') && std::ranges::any_of(row.cells, [&](const auto& cell) {
+      return is_number_row(row, with_comma) &&
+             std::ranges::any_of(row.cells, [&](const auto& cell) {
                return cell.find(mark) != std::string_view::npos;
              });
     });
@@ -79,33 +85,70 @@ bool is_clock_time(std::string_view cell) {
   return cell.find(':') != std::string_view::npos || marks == 2 || is_dotted_date(cell);
 }
 
-}  // namespace
-
-bool is_number_row(const PreviewRow& row, char decimal) {
+struct Content {
   int numbers = 0, clocks = 0;
-  for (const std::string& cell : row.cells) {
+  std::vector<std::size_t> text;  // the columns that hold some
+};
+
+Content content_of(const PreviewRow& row, char decimal) {
+  Content content;
+  for (std::size_t i = 0; i < row.cells.size(); ++i) {
+    const std::string& cell = row.cells[i];
     if (cell.empty()) continue;
     if (is_clock_time(cell))
-      ++clocks;
+      ++content.clocks;
     else if (is_number(cell, decimal))
-      ++numbers;
+      ++content.numbers;
     else
-      return false;
+      content.text.push_back(i);
   }
-  return numbers >= 2 || (numbers == 1 && clocks > 0);
+  return content;
+}
+
+// Those of most rows with two numbers or more.
+std::vector<std::size_t> text_columns_of(const Preview& preview) {
+  std::map<std::vector<std::size_t>, int> rows;
+  for (const PreviewRow& row : preview.rows)
+    if (const Content content = content_of(row, preview.dialect.decimal); content.numbers >= 2)
+      ++rows[content.text];
+  const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+  const auto most = std::ranges::max_element(rows, fewer);
+  return most == rows.end() ? std::vector<std::size_t>() : most->first;
+}
+
+// The preview with most rows of numbers so far; of two alike the first.
+struct Best {
+  Preview preview;
+  std::ptrdiff_t rows = -1;
+
+  void take(Preview other, bool with_text) {
+    const auto set = [&](char decimal) {
+      other.dialect.decimal = decimal;
+      if (with_text) other.dialect.text_columns = text_columns_of(other);
+    };
+    set(',');
+    const char preferred = preferred_decimal(other);
+    for (const char decimal : {preferred, preferred == '.' ? ',' : '.'}) {
+      set(decimal);
+      const std::ptrdiff_t count = number_rows(other);
+      if (count <= rows) continue;
+      rows = count;
+      preview = other;
+    }
+  }
+};
+
+}  // namespace
+
+bool is_number_row(const PreviewRow& row, const Dialect& dialect) {
+  const Content content = content_of(row, dialect.decimal);
+  return std::ranges::includes(dialect.text_columns, content.text) &&
+         (content.numbers >= 2 || (content.numbers == 1 && content.clocks > 0));
 }
 
 const std::string* text_among_numbers(const PreviewRow& row, char decimal) {
-  const std::string* text = nullptr;
-  int numbers = 0;
-  for (const std::string& cell : row.cells) {
-    if (cell.empty() || is_clock_time(cell)) continue;
-    if (is_number(cell, decimal))
-      ++numbers;
-    else if (text == nullptr)
-      text = &cell;
-  }
-  return numbers >= 2 ? text : nullptr;
+  const Content content = content_of(row, decimal);
+  return content.numbers >= 2 && !content.text.empty() ? &row.cells[content.text[0]] : nullptr;
 }
 
 CsvRows rows_of(const Dialect& dialect, std::function<bool(const Row&)> take) {
@@ -115,23 +158,14 @@ CsvRows rows_of(const Dialect& dialect, std::function<bool(const Row&)> take) {
 
 Preview make_preview(std::string_view text) {
   text = whole_lines(text);
-  Preview best;
-  std::ptrdiff_t most = -1;
-  for (const bool quoted_again : {false, true}) {
-    if (quoted_again && (most > 1 || !may_be_requoted(text))) break;
-    for (const char delimiter : {',', ';', '\t', '|'}) {
-      Preview preview = cut(text, {.delimiter = delimiter, .requoted = quoted_again});
-      const char preferred = preferred_decimal(preview);
-      for (const char decimal : {preferred, preferred == '.' ? ',' : '.'}) {
-        const std::ptrdiff_t count = number_rows(preview, decimal);
-        if (count <= most) continue;
-        most = count;
-        preview.dialect.decimal = decimal;
-        best = preview;
-      }
-    }
-  }
-  return best;
+  Best best;
+  for (const char delimiter : delimiters) best.take(cut(text, {.delimiter = delimiter}), false);
+  if (best.rows <= 1 && may_be_requoted(text))
+    for (const char delimiter : delimiters)
+      best.take(cut(text, {.delimiter = delimiter, .requoted = true}), false);
+  if (best.rows <= 1)
+    for (const char delimiter : delimiters) best.take(cut(text, {.delimiter = delimiter}), true);
+  return std::move(best.preview);
 }
 
 }  // namespace havers::io

@@ -14,7 +14,8 @@ namespace havers::io {
 struct Dialect {
   char delimiter = ',';
   char decimal = '.';
-  bool requoted = false;  ///< A spreadsheet has quoted whole lines.
+  bool requoted = false;                    ///< A spreadsheet has quoted whole lines.
+  std::vector<std::size_t> text_columns{};  ///< Of text beside the numbers, in order; from 0.
 };
 
 struct PreviewRow {
@@ -32,11 +33,12 @@ struct Preview {
 CsvRows rows_of(const Dialect& dialect, std::function<bool(const Row&)> take);
 
 /// Cuts the first lines of `text` with the delimiter and decimal mark that make the most rows of
-/// numbers.
+/// numbers; columns of text are allowed for where there are no such rows without.
 Preview make_preview(std::string_view text);
 
-/// Whether the row holds two numbers or more, of which one may be a clock's time, and no text.
-bool is_number_row(const PreviewRow& row, char decimal);
+/// Whether the row holds two numbers or more, of which one may be a clock's time, and no text but
+/// in the columns of text.
+bool is_number_row(const PreviewRow& row, const Dialect& dialect);
 
 /// The text that keeps a row with two numbers or more from being one of numbers; null where there
 /// is none.

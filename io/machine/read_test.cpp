@@ -10,6 +10,7 @@
 #include "io/input_error.hpp"
 #include "io/machine/column_hints.hpp"
 #include "io/machine/excerpt.hpp"
+#include "io/machine/fact_names.hpp"
 #include "io/machine/guess.hpp"
 #include "io/machine/layout.hpp"
 #include "io/machine/specimen_tables.hpp"
@@ -34,6 +35,13 @@ void refuse_text_among_numbers(const std::string& name, const PreviewRow& row,
                      "correct it, or leave its column out of the export");
 }
 
+// A row for each specimen: in a column of text their names.
+bool lists_specimens(const Table& table, const Dialect& dialect) {
+  return std::ranges::any_of(dialect.text_columns, [&](std::size_t i) {
+    return i < table.names.size() && fact_of_key(table.names[i]).has_value();
+  });
+}
+
 Table find_table(const std::string& name, const Preview& preview) {
   for (const PreviewRow& row : preview.rows)
     if (row.cells.size() > most_columns)
@@ -41,7 +49,8 @@ Table find_table(const std::string& name, const Preview& preview) {
                        fmt::format("has more than {} columns", most_columns),
                        "a test has a row for each time and a column for each channel");
   std::optional<Table> table = recognise_table(preview);
-  if (table && table->layout != results_layout) return *table;
+  if (table && table->layout != results_layout && !lists_specimens(*table, preview.dialect))
+    return *table;
   if (table || std::ranges::any_of(preview.rows, names_results))
     throw InputError(name, "is a table of results, a row for each specimen",
                      "export the raw data: time, force and extension row by row");

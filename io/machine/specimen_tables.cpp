@@ -134,8 +134,7 @@ bool SpecimenTables::begins_header(const Row& row) const {
 void SpecimenTables::take_header_row(const Row& row) {
   header_.push_back({row.line, {row.cells.begin(), row.cells.end()}});
   const auto is_numbers = [&](std::size_t from_end) {
-    return header_.size() > from_end &&
-           is_number_row(header_[header_.size() - from_end], dialect_.decimal);
+    return header_.size() > from_end && is_number_row(header_[header_.size() - from_end], dialect_);
   };
   const bool two_rows = is_numbers(1) && is_numbers(2) &&
                         header_.end()[-1].cells.size() == header_.end()[-2].cells.size();
@@ -155,9 +154,7 @@ bool SpecimenTables::names_a_specimen(const Table& table) const {
 
 // What stands below the last numbers, and is none, sums up or says that the test has ended.
 void SpecimenTables::end_file() {
-  const auto is_numbers = [this](const PreviewRow& row) {
-    return is_number_row(row, dialect_.decimal);
-  };
+  const auto is_numbers = [this](const PreviewRow& row) { return is_number_row(row, dialect_); };
   const auto is_letter = [](char c) {
     return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<signed char>(c) < 0;
   };

@@ -137,6 +137,27 @@ TEST(ColumnChoice, PassesOverAColumnOfClockTimes) {
   }
 }
 
+TEST(ColumnChoice, PassesOverAColumnOfText) {
+  for (const std::string text :
+       {"03/12/2024 10:00:00 AM", "2024-03-12T10:00:00.000+01:00", "Ramp 1", "OK", "-", ":"}) {
+    const auto row = [&](const char* numbers) { return text + numbers; };
+    const TestFile commas = choice_of("Width,4,mm\n\nStage,Time (s),Load (N)\n" +
+                                      row(",0.000,1\n") + row(",0.125,2\n"));
+    EXPECT_EQ(commas.test.time, (std::vector{0.0, 0.125})) << text;
+    EXPECT_EQ(commas.test.force, (std::vector{1.0, 2.0})) << text;
+    EXPECT_EQ(commas.test.width, 4e-3) << text;
+    const TestFile german =
+        choice_of("Stufe;Zeit (s);Kraft (N)\n" + row(";0,000;1,5\n") + row(";0,125;2,5\n") +
+                  "Stufe;Zeit (s);Kraft (N)\n" + row(";0,250;3,5\n") + row(";0,375;4,5\n"));
+    EXPECT_EQ(german.test.time, (std::vector{0.0, 0.125, 0.25, 0.375})) << text;
+    EXPECT_EQ(german.test.force, (std::vector{1.5, 2.5, 3.5, 4.5})) << text;
+    EXPECT_THROW(choice_of("Time,Load (N),Strain (%)\n" + row(",1,0.1\n") + row(",2,0.2\n")),
+                 InputError)
+        << text;
+  }
+  EXPECT_THROW(choice_of("Specimen,Load (N),Extension (mm)\nA1,700,1.1\nA2,800,1.2\n"), InputError);
+}
+
 // Where it is the time, it counts from its own zero.
 TEST(ColumnChoice, ReadsTheTimeOfAClock) {
   for (const char* name : {"Time", "Zeit (hh:mm:ss)", "Time (s)", "Time (min)", "Time (ms)"}) {
