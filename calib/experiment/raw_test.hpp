@@ -22,15 +22,16 @@ struct RawTest {
   std::vector<double> strain;     ///< Gauge or extensometer, or the machine's own. [-]
   std::vector<double>
       stress;  ///< As the machine computed it; used only where force or area is unknown. [Pa]
-  std::vector<double> volts;               ///< Of a gauge whose factor is not known yet. [V]
-  std::vector<double> load_volts;          ///< Of a load cell whose factor is not known yet. [V]
-  std::optional<double> width, thickness;  ///< Of the specimen. [m]
-  std::optional<double> area;              ///< Used where width or thickness is unknown. [m²]
-  std::optional<double> gauge_length;      ///< [m]
-  bool crosshead_strain = false;           ///< The strain is the crosshead's by its column's name.
-  bool load_turned = false;                ///< The load was read negative, and turned (X22).
-  std::vector<Correction> corrections;     ///< What was done before the reduction.
-  std::vector<std::string> warnings;       ///< What the reader noticed, a sentence each.
+  std::vector<double> volts;                  ///< Of a gauge whose factor is not known yet. [V]
+  std::vector<double> load_volts;             ///< Of a load cell whose factor is not known yet. [V]
+  std::optional<double> width, thickness;     ///< Of the specimen. [m]
+  std::optional<double> area;                 ///< Used where width or thickness is unknown. [m²]
+  std::optional<double> gauge_length;         ///< [m]
+  std::optional<double> extensometer_length;  ///< Where it is not that of the gauge length. [m]
+  bool crosshead_strain = false;        ///< The strain is the crosshead's by its column's name.
+  bool load_turned = false;             ///< The load was read negative, and turned (X22).
+  std::vector<Correction> corrections;  ///< What was done before the reduction.
+  std::vector<std::string> warnings;    ///< What the reader noticed, a sentence each.
 
   [[nodiscard]] std::size_t rows() const {
     for (const std::vector<double>* channel : {&force, &stress, &load_volts})

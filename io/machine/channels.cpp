@@ -61,6 +61,12 @@ Candidate classify(const Column& column) {
   return {held, held == Quantity::strain ? by_unit_of_strain : by_unit};
 }
 
+// By which an elongation of the gauge is divided.
+std::optional<double> gauge_length_of(const calib::RawTest& test, const ReadOptions& options) {
+  const bool own = test.extensometer_length && !options.gauge_length;
+  return own ? test.extensometer_length : test.gauge_length;
+}
+
 InputError without_gauge_length(const std::string& where, const Column& column) {
   return {
       where,
@@ -78,8 +84,9 @@ double factor(const Column& column, const std::string& where, const ReadOptions&
     test.warnings.push_back(
         fmt::format("column \"{}\" has no unit, taken as {}", column.name, assumed));
   if (column.quantity == Quantity::strain && unit->dimension == Dimension::length) {
-    if (!test.gauge_length) throw without_gauge_length(where, column);
-    return unit->to_si / *test.gauge_length;
+    const std::optional<double> length = gauge_length_of(test, options);
+    if (!length) throw without_gauge_length(where, column);
+    return unit->to_si / *length;
   }
   return unit->to_si;
 }
@@ -95,10 +102,10 @@ double signed_factor(const Column& column, const std::string& where, const ReadO
 }
 
 // An elongation of the gauge is a strain only where its length is known.
-bool is_usable(const Column& column, const calib::RawTest& test) {
+bool is_usable(const Column& column, const calib::RawTest& test, const ReadOptions& options) {
   const std::optional<Unit> unit = find_unit(column.unit);
   return column.quantity != Quantity::strain || !unit || unit->dimension == Dimension::strain ||
-         test.gauge_length.has_value();
+         gauge_length_of(test, options).has_value();
 }
 
 // What else could have been taken, and how.
@@ -124,7 +131,7 @@ void choose(TestFile& file, const std::vector<Candidate>& candidates, const Read
       if (taken || candidates[i].rank != rank) continue;
       column.quantity = candidates[i].quantity;
       if (column.quantity == Quantity::other) continue;
-      if (!is_usable(column, file.test))
+      if (!is_usable(column, file.test, options))
         file.test.warnings.push_back(
             fmt::format("column \"{}\" is an elongation, and the gauge length is unknown: not used",
                         column.name));
@@ -167,7 +174,7 @@ void need_load(TestFile& file, const Table& table, const ReadOptions& options, C
 void need_gauge(const TestFile& file, const std::string& where, const ReadOptions& options,
                 const Chosen& chosen) {
   for (const Column& column : file.columns)
-    if (column.quantity == Quantity::strain && !is_usable(column, file.test))
+    if (column.quantity == Quantity::strain && !is_usable(column, file.test, options))
       throw without_gauge_length(where, column);
   const bool measures = std::ranges::any_of(chosen, [](const auto& entry) {
     return entry.first != Quantity::time && entry.first != Quantity::stress;

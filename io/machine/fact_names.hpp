@@ -7,8 +7,18 @@
 namespace havers::io {
 
 /// What a header line may tell of the specimen. A number is its name where it has no other; a bare
-/// length is the gauge length where no line speaks of a gauge.
-enum class Fact { specimen_id, specimen_number, width, thickness, length, gauge_length, area };
+/// length is the gauge length where no line speaks of a gauge; a diameter tells the area.
+enum class Fact {
+  specimen_id,
+  specimen_number,
+  width,
+  thickness,
+  diameter,
+  length,
+  gauge_length,
+  extensometer_length,
+  area
+};
 
 /// The fact a header's key names: "Specimen ID", "Geometry : Width", "Largeur", ...
 std::optional<Fact> fact_of_key(std::string_view key);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -70,6 +71,7 @@ std::optional<double>& dimension_of(Fact fact, calib::RawTest& test) {
   if (fact == Fact::width) return test.width;
   if (fact == Fact::thickness) return test.thickness;
   if (fact == Fact::area) return test.area;
+  if (fact == Fact::extensometer_length) return test.extensometer_length;
   return test.gauge_length;
 }
 
@@ -158,8 +160,12 @@ void take_fact(const HeaderLine& line, std::size_t number, std::vector<HeaderSiz
   const std::optional<Fact> fact = fact_of_key(line.key);
   if (!fact || line.value.empty() || is_name(*fact)) return;
   std::string warning;
-  if (const std::optional<double> value = size_of(line, *fact, warning))
-    take_size({*fact, line.key, *value}, sizes, test, warning);
+  if (const std::optional<double> value = size_of(line, *fact, warning)) {
+    const bool round = *fact == Fact::diameter;
+    take_size({round ? Fact::area : *fact, line.key,
+               round ? 0.25 * std::numbers::pi * *value * *value : *value},
+              sizes, test, warning);
+  }
   if (!warning.empty())
     test.warnings.push_back(fmt::format("line {}, {}: {}", number, excerpt(line.key), warning));
 }

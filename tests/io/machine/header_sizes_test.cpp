@@ -1,6 +1,8 @@
 // Sizes of a specimen from the lines above the table.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "io/machine/read_test.hpp"
 #include "tests/support/machine_files.hpp"
 
@@ -125,6 +127,33 @@ TEST(HeaderSizes, AreSaidWhereTheAreaIsNotWidthTimesThickness) {
   EXPECT_EQ(sized(area, {.width = 4e-3, .thickness = 2e-3}).warnings, said);
   EXPECT_TRUE(sized(area, {.width = 4.26e-3, .thickness = 2e-3}).warnings.empty());
   EXPECT_TRUE(sized(area).warnings.empty());
+}
+
+TEST(HeaderSizes, AreKnownWithTheirSymbols) {
+  const calib::RawTest test = sized("Breite b0;4,00;mm\nDicke a0;2,00;mm\nMesslänge L0;25,0;mm\n" +
+                                    test::replaced(two_rows, ",", ";"));
+  EXPECT_EQ(test.width, 4e-3);
+  EXPECT_EQ(test.thickness, 2e-3);
+  EXPECT_EQ(test.gauge_length, 25e-3);
+  EXPECT_DOUBLE_EQ(sized("Cross-sectional area,8.0,mm^2\n" + two_rows).area.value(), 8e-6);
+}
+
+TEST(HeaderSizes, TellTheAreaByADiameter) {
+  const calib::RawTest test = sized("Diameter,2,mm\n" + two_rows);
+  EXPECT_DOUBLE_EQ(test.area.value(), std::numbers::pi * 1e-6);
+  EXPECT_TRUE(test.warnings.empty());
+  EXPECT_EQ(sized("Area,3.2,mm²\nDiameter,2,mm\n" + two_rows).warnings,
+            std::vector<std::string>{"line 2, Diameter: 3.14159 mm² differs from 3.2 mm² of "
+                                     "\"Area\" above: the first is used"});
+}
+
+TEST(HeaderSizes, DivideAnExtensometersElongationByItsOwnLength) {
+  const std::string text =
+      "Gauge length,25,mm\nExtensometer gauge length,10,mm\nLoad (N),Strain 1 (mm)\n1,0.1\n2,0.2\n";
+  const calib::RawTest test = sized(text);
+  EXPECT_DOUBLE_EQ(test.strain.at(1), 0.02);
+  EXPECT_EQ(test.gauge_length, 25e-3);
+  EXPECT_DOUBLE_EQ(sized(text, {.gauge_length = 20e-3}).strain.at(1), 0.01);
 }
 
 }  // namespace
