@@ -83,15 +83,15 @@ TEST(Simulation, IsTrustedButForAStepThatWasGiven) {
 TEST(Simulation, IsTrustedButForWavesInItsStrength) {
   Simulation simulation;
   simulation.status = SimulationStatus::broken;
-  simulation.strength_over_a_wave = 48e6;
+  simulation.strength = 52.1e6;
   EXPECT_EQ(simulation.reservation(), "") << "in the limit there are none";
   simulation.ringing = 0.009;
   EXPECT_EQ(simulation.reservation(), "");
   simulation.ringing = 0.042;
   EXPECT_TRUE(simulation.trusted());
   EXPECT_EQ(simulation.reservation(),
-            "the strength: waves that ring, which steps and meshes change, raise it by 4.2 %; its "
-            "mean over the time of one is 48 MPa");
+            "the strength: waves that ring, which steps and meshes change, raise it by 4.2 %, "
+            "from 50 MPa, its mean over the time of one and half the rise in that time");
   simulation.step = 2e-8;
   simulation.step_error.reset();
   EXPECT_THAT(simulation.reservation(), HasSubstr("is not known; the strength: waves"));
