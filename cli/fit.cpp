@@ -54,6 +54,7 @@ calib::CalibrationResult watched_fit(const calib::Study& study, calib::Evaluatio
 void tell_left_out(const std::vector<sim::LeftOut>& specimens, calib::CalibrationResult& result) {
   if (specimens.empty()) return;
   std::vector<std::string> each;
+  each.reserve(specimens.size());
   for (const sim::LeftOut& specimen : specimens)
     each.push_back(fmt::format("{} is left out: {}", specimen.what, specimen.why));
   result.left_out.insert(result.left_out.begin(), specimens.begin(), specimens.end());

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <span>
 
+#include "calib/experiment/modulus.hpp"
 #include "calib/experiment/robust_line.hpp"
 
 namespace havers::calib {
@@ -14,10 +15,6 @@ namespace {
 
 constexpr std::size_t fewest_beside = 20;  // rows that tell how strain and crosshead go together,
 constexpr std::size_t part_beside = 5;     // or a fifth of all with a strain
-
-struct Rows {
-  std::size_t first = 0, end = 0;
-};
 
 const std::vector<double>& load_of(const RawTest& raw) {
   if (!raw.force.empty()) return raw.force;
@@ -37,46 +34,44 @@ bool is_after_peak(const RawTest& raw, std::size_t row) {
   return std::ranges::max_element(load, larger) - load.begin() < std::ptrdiff_t(row);
 }
 
-Line line_beside(const RawTest& raw, Rows beside) {
+Line line_beside(const RawTest& raw, RowRange beside) {
   if (raw.extension.empty()) return {};
-  const std::size_t rows = beside.end - beside.first;
-  return fit_robust_line(std::span(raw.extension).subspan(beside.first, rows),
-                         std::span(raw.strain).subspan(beside.first, rows));
+  return fit_robust_line(std::span(raw.extension).subspan(beside.first, beside.rows()),
+                         std::span(raw.strain).subspan(beside.first, beside.rows()));
 }
 
-void tell(RawTest& raw, Rows lost, const Line& line) {
+void tell(RawTest& raw, RowRange lost, const Line& line) {
   const bool late = lost.first == 0;
   const std::string part =
       fmt::format("{} {:.0f} % of the largest load{}", late ? "up to" : "from",
-                  100.0 * load_at(raw, late ? lost.end : lost.first - 1), late ? "" : " on");
+                  100.0 * load_at(raw, late ? lost.last : lost.first - 1), late ? "" : " on");
   raw.corrections.push_back(
       {"gauge without readings",
        fmt::format(
            "{}, {} of {} rows; there the strain is the crosshead's, {:.4g} per mm as just {}", part,
-           lost.end - lost.first, raw.strain.size(), line.slope * 1e-3,
-           late ? "after" : "before")});
+           lost.rows(), raw.strain.size(), line.slope * 1e-3, late ? "after" : "before")});
   raw.warnings.push_back(fmt::format("the gauge has no readings {}: {} on the crosshead", part,
                                      late ? "strains there rest" : "the failure strain rests"));
 }
 
-std::string extend(RawTest& raw, Rows lost, Rows beside) {
+std::string extend(RawTest& raw, RowRange lost, RowRange beside) {
   const Line line = line_beside(raw, beside);
   const bool broken = is_after_peak(raw, lost.first);
   if (!line.fitted && !broken)
     return fmt::format(
         "the gauge has no readings at the record's {}, and no crosshead tells the strain there",
         lost.first == 0 ? "beginning" : "end");
-  for (std::size_t i = lost.first; i < lost.end; ++i)
+  for (std::size_t i = lost.first; i < lost.last; ++i)
     raw.strain[i] =
         line.fitted ? line.intercept + line.slope * raw.extension[i] : raw.strain[lost.first - 1];
   if (!broken) tell(raw, lost, line);
   return {};
 }
 
-void cut(RawTest& raw, Rows kept) {
+void cut(RawTest& raw, RowRange kept) {
   for (std::vector<double>* channel : {&raw.time, &raw.extension, &raw.strain, &raw.volts}) {
     if (channel->empty()) continue;
-    channel->resize(kept.end);
+    channel->resize(kept.last);
     channel->erase(channel->begin(), channel->begin() + std::ptrdiff_t(kept.first));
   }
 }

@@ -88,8 +88,13 @@ std::string without_line(const MeasuredTest& test, RowRange window,
 
 std::string take_modulus(MeasuredTest& test, const ReductionOptions& options, ModulusFit& fit) {
   const std::size_t loading = row_of_strength(test) + 1;
-  fit = fit_modulus(std::span(test.strain).first(loading), std::span(test.stress).first(loading),
-                    test.strength, options);
+  const auto strain = std::span(test.strain).first(loading);
+  const auto stress = std::span(test.stress).first(loading);
+  std::size_t first = last_loading(strain, stress);
+  if (stress[first] > options.window_low * test.strength) first = 0;
+  fit = fit_modulus(strain.subspan(first), stress.subspan(first), test.strength, options);
+  fit.window.first += first;
+  fit.window.last += first;
   if (!fit.line.fitted) return without_line(test, fit.window, options);
   if (fit.line.slope <= 0.0) return "the stress does not grow with the strain";
   test.modulus = fit.line.slope;

@@ -69,8 +69,8 @@ InputError open_quote(const std::string& file, std::size_t line) {
           "the file may be cut off or damaged here"};
 }
 
-SpecimenTables::SpecimenTables(TestFile common, const Dialect& dialect, const ReadOptions& options)
-    : common_(std::move(common)), dialect_(dialect), options_(options) {}
+SpecimenTables::SpecimenTables(TestFile common, Dialect dialect, const ReadOptions& options)
+    : common_(std::move(common)), dialect_(std::move(dialect)), options_(options) {}
 
 void SpecimenTables::begin(const Table& table, std::span<const PreviewRow> header) {
   current_ = specimens_.size();

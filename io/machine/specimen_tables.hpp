@@ -21,7 +21,7 @@ InputError open_quote(const std::string& file, std::size_t line);
 class SpecimenTables {
  public:
   /// `common` says what all specimens share: file, encoding, delimiter, decimal mark.
-  SpecimenTables(TestFile common, const Dialect& dialect, const ReadOptions& options);
+  SpecimenTables(TestFile common, Dialect dialect, const ReadOptions& options);
 
   /// The next table begins, below the header's rows.
   void begin(const Table& table, std::span<const PreviewRow> header);

@@ -41,6 +41,17 @@ TEST(Preconditioning, IsNoNoiseOfTheStrength) {
     }
 }
 
+// Cycles beyond the window of the modulus, of which a single rise has too few rows for a line.
+TEST(Preconditioning, LeavesTheModulusToTheLastLoading) {
+  const TensileTruth truth = preconditioned(0.5, 10);
+  const MeasuredTest test = reduced(record(truth));
+  expect_the_truth(test, truth, 0.005);
+  TensileTruth plain = truth;
+  plain.cycles = 0;
+  const double error = reduced(record(plain)).modulus_standard_error;
+  EXPECT_NEAR(test.modulus_standard_error, error, 0.3 * error);
+}
+
 // Half of the noise is in each row alone, half goes on over ten of them.
 TEST(Preconditioning, LeavesTheNoiseOfRowsThatErrAlike) {
   TensileTruth truth = preconditioned(0.3, 100);
