@@ -159,8 +159,11 @@ void print_columns(const io::TestFile& file) {
     fmt::print("  {:<34} {:<10} {}\n", column.name, column.unit, io::to_string(column.quantity));
 }
 
-std::string error_text(double error) {
-  return std::isfinite(error) ? fmt::format("{:.2g}", error) : "-";
+// To the second digit of the error.
+std::string with_error(double value, double error) {
+  if (!(error > 0.0) || !std::isfinite(error)) return fmt::format("{:.4g} +- -", value);
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9);
+  return fmt::format("{:.{}f} +- {:.{}f}", value, decimals, error, decimals);
 }
 
 void print_test(const Imported& imported) {
@@ -168,16 +171,16 @@ void print_test(const Imported& imported) {
   const calib::MeasuredTest& test = imported.reduction.test;
   if (!test.strain.empty()) {
     fmt::print(
-        "  strength {}{:.4g} +- {} MPa at a strain of {:.4g} %{}\n", test.broke ? "" : "at least ",
-        1e-6 * test.strength, error_text(1e-6 * test.strength_standard_error),
+        "  strength {}{} MPa at a strain of {:.4g} %{}\n", test.broke ? "" : "at least ",
+        with_error(1e-6 * test.strength, 1e-6 * test.strength_standard_error),
         100.0 * test.failure_strain,
         test.max_force > 0.0 && test.area > 0.0
             ? fmt::format(", largest force {:.2f} N on {:.4f} mm2", test.max_force, 1e6 * test.area)
             : "");
     fmt::print("  energy to failure {:.4g} MJ/m3{}\n", 1e-6 * test.energy_to_failure,
                test.time.empty() ? "" : fmt::format(", strain rate {:.4g} 1/s", test.strain_rate));
-    fmt::print("  modulus {:.4g} +- {} GPa between strains of {:.4g} and {:.4g} %\n",
-               1e-9 * test.modulus, error_text(1e-9 * test.modulus_standard_error),
+    fmt::print("  modulus {} GPa between strains of {:.4g} and {:.4g} %\n",
+               with_error(1e-9 * test.modulus, 1e-9 * test.modulus_standard_error),
                100.0 * test.window_low, 100.0 * test.window_high);
   }
   for (const calib::Correction& correction : test.corrections)

@@ -63,7 +63,12 @@ Check check_starts(const FitProblem& problem, const Answer& answer) {
   for (const auto& end : ends) {
     if (end.cost > best.cost + 0.5) continue;
     ++same_cost;
-    if (answer.uncertainty.half_width.size() == 0) continue;
+    const auto differs = [&](const LeftUnknown& one) {
+      return end.point[one.unknown] != best.point[one.unknown];
+    };
+    // What was searched along then, and is left out by now, moves the others.
+    if (answer.uncertainty.half_width.size() == 0 || std::ranges::any_of(answer.left, differs))
+      continue;
     for (std::size_t i = 0; i < answer.active.size(); ++i) {
       const Eigen::Index k = answer.active[i];
       const double apart = std::abs(end.point[k] - best.point[k]);

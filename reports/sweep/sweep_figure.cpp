@@ -165,7 +165,7 @@ std::string mean_commands(const Panel& panel) {
     const std::string symbol =
         fmt::format("pt {} ps {}", 4 + 2 * (i % 5) + (i % 2 == 0 ? 0 : 1), i % 2 == 0 ? 1.1 : 0.7);
     marks += fmt::format(
-        "{0}$s{1} using 1:2:3:4 with yerrorbars {2} lw 1.2 lc rgb {3} notitle, "
+        "{0}$s{1} using 1:($3 == $3 ? $2 : NaN):3:4 with yerrorbars {2} lw 1.2 lc rgb {3} notitle, "
         "$s{1} using 1:2 with {4} lw 1.6 dt {5} {2} lc rgb {3} title '{6}'",
         marks.empty() ? "" : ", ", i, symbol, colour, joined ? "linespoints" : "points", 1 + i % 5,
         title_of(panel, series.value));

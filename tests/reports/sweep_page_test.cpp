@@ -191,13 +191,23 @@ TEST(SweepFigures, ShowBothOfTwoSeriesThatCoincide) {
       AllOf(HasSubstr("dt 1 pt 4 ps 1.1 lc rgb blue"), HasSubstr("dt 2 pt 7 ps 0.7 lc rgb red")));
 }
 
+TEST(SweepFigures, GiveTheMeanOfASingleRunNoBand) {
+  Case known;
+  const calib::SweepFigure wanted{.caption = "c", .x = "joints.scatter", .series = "joints.ratio"};
+  const auto commands = [&] {
+    return sweep_figures(known.sweep, known.result, wanted, "f").front().figure.commands;
+  };
+  EXPECT_THAT(commands(), Not(HasSubstr("NaN NaN")));
+  known.result.summaries.front().measures.at(static_cast<std::size_t>(wanted.response)).n = 1;
+  EXPECT_THAT(commands(), HasSubstr("NaN NaN"));
+}
+
 TEST(SweepFigures, SayWhatBarsAndBandsAre) {
   Case known;
   known.sweep.figures = {{.caption = "As in fig. 12.", .x = "joints.ratio"}};
   const auto page = [&] { return sweep_page("Title", {{"a", known.sweep, known.result}}, {}); };
   EXPECT_THAT(page(), HasSubstr("As in fig. 12. Bars and bands: 95\u00a0% intervals of the means; "
-                                "that of a single run has "
-                                "none."));
+                                "that of a single run has none."));
   known.sweep.figures.front().x = "";
   EXPECT_THAT(page(), Not(HasSubstr("Bars and bands")));
 }
