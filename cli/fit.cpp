@@ -56,10 +56,10 @@ void tell_left_out(const std::vector<sim::LeftOut>& specimens, calib::Calibratio
   std::vector<std::string> each;
   each.reserve(specimens.size());
   for (const sim::LeftOut& specimen : specimens)
-    each.push_back(fmt::format("{} is left out: {}", specimen.what, specimen.why));
+    each.push_back(fmt::format("{} ({})", specimen.what, specimen.why));
   result.left_out.insert(result.left_out.begin(), specimens.begin(), specimens.end());
   result.verdict.push_back(
-      {"tests used", calib::Outcome::warn, fmt::format("{}.", fmt::join(each, ". "))});
+      {"tests used", calib::Outcome::warn, fmt::format("Left out: {}.", fmt::join(each, "; "))});
 }
 
 int run_fit(const FitArguments& arguments, const CommonOptions& common) {

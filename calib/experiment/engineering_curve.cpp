@@ -72,8 +72,7 @@ void take_crosshead(const RawTest& raw, double machine_compliance, EngineeringCu
   else
     curve.warnings.emplace_back(
         "no strain of a gauge was read: strain is the crosshead's extension over the gauge length, "
-        "which contains the "
-        "compliance of the machine; the modulus is too low by it");
+        "which contains the compliance of the machine; the modulus is too low by it");
 }
 
 void take_strain(const RawTest& raw, double machine_compliance, EngineeringCurve& curve) {

@@ -1,7 +1,6 @@
 // A known specimen, cycled at low load before it is loaded to its break.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
