@@ -27,6 +27,7 @@ constexpr double little = 1e-5;       // of the gaps: what so much changes is kn
 // Of the intact specimen's force: where nothing bears any, where rounding may be all that is left,
 // and more than what is broken can bear.
 constexpr double nothing_borne = 1e-9, next_to_nothing = 1e-3, too_much = 2.0;
+constexpr JointLaw unbreakable{std::numeric_limits<double>::infinity(), 1.0};
 constexpr double hardly_stored = 1e-3;  // of the work of a force: then the force is rounding
 
 }  // namespace
@@ -43,6 +44,9 @@ BreakingRun::BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructu
       reactions_(reference_.reactions),
       force_(reference_.force),
       noise_(1e-10 * intact_->answer().reactions.lpNorm<Eigen::Infinity>()) {
+  laws_.reserve(joints_.size());
+  for (const JointOutcome& joint : joints_)
+    laws_.push_back(joint.broken ? unbreakable : intact_law(joint.threshold));
   const auto joints = static_cast<double>(std::max<std::size_t>(1, joints_.size()));
   contact_.force_scale = reactions_.norm() / std::sqrt(joints);
   contact_.stop_asked = stop_asked;
@@ -67,6 +71,7 @@ bool BreakingRun::break_joints(const std::vector<std::size_t>& breaking) {
   take_note_of_penetration();
   for (const std::size_t j : breaking) {
     joints_[j].broken = true;
+    laws_[j] = unbreakable;
     joints_[j].broken_at_strain = strain_;
     ++broken_;
   }
@@ -83,6 +88,7 @@ bool BreakingRun::break_joints(const std::vector<std::size_t>& breaking) {
 void BreakingRun::take_back(const std::vector<std::size_t>& breaking, const VectorXd& gaps_before) {
   for (const std::size_t j : breaking) {
     joints_[j].broken = false;
+    laws_[j] = intact_law(joints_[j].threshold);
     joints_[j].broken_at_strain = std::numeric_limits<double>::quiet_NaN();
     --broken_;
   }

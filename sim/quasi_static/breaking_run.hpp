@@ -64,15 +64,21 @@ class BreakingRun {
   void take_note_of_penetration();
   [[nodiscard]] double missed_at_strength(const UnitAnswer& exact) const;
   [[nodiscard]] double energy_defect(const UnitAnswer& exact, const Eigen::VectorXd& y) const;
-  [[nodiscard]] double meets_cone_at(std::size_t joint, const Local& reaction) const;
+  [[nodiscard]] double meets_cone_at(std::size_t joint, const Local& reaction) const {
+    return strain_at_cone(reaction, laws_[joint], scene_.material.young, noise_);
+  }
   struct Glance {
     Eigen::VectorXd reactions;
     double missed;  // as far as it is seen
   };
   [[nodiscard]] Glance glance() const;
-  [[nodiscard]] std::vector<std::size_t> may_be_next(const Eigen::VectorXd& reactions,
-                                                     double missed) const;
-  [[nodiscard]] Event first_of(const std::vector<std::size_t>& joints);
+  struct Candidate {
+    double strain;  // at which it may break, not before
+    std::size_t joint;
+  };
+  [[nodiscard]] std::vector<Candidate> may_be_next(const Eigen::VectorXd& reactions,
+                                                   double missed) const;
+  [[nodiscard]] Event first_of(std::vector<Candidate> candidates);
   [[nodiscard]] Local borne_at(std::size_t joint);
   void loosen(const std::vector<std::size_t>& breaking);
   bool settle();
@@ -99,6 +105,7 @@ class BreakingRun {
   bool glances_;  // else all is seen after every event
   std::shared_ptr<const IntactStructure> intact_;
   std::vector<JointOutcome> joints_;
+  std::vector<JointLaw> laws_;  // of each while it is bonded; what has broken breaks no more
   double strain_ = 0.0;
   double dissipated_ = 0.0;  // [J/m]
   struct Strongest {

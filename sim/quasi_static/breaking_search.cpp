@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "sim/quasi_static/breaking_run.hpp"
@@ -35,19 +36,13 @@ NearReactions sum_of(const std::vector<IntactStructure::SharedColumn>& columns,
 
 }  // namespace
 
-// ε = f_N μ_c / (|r_T| − μ_c r_N), section 6.
-double BreakingRun::meets_cone_at(std::size_t joint, const Local& reaction) const {
-  if (joints_[joint].broken) return never;
-  return strain_at_cone(reaction, intact_law(joints_[joint].threshold), scene_.material.young,
-                        noise_);
-}
-
 BreakingRun::Event BreakingRun::next_event() {
   if (force_ == 0.0) return {never, {}};  // what bears nothing breaks nothing: this is rounding
   if (y_seen_ != y_) {
     const auto [reactions, missed] = glance();
-    const std::vector<std::size_t> joints = may_be_next(reactions, most_missed * missed);
-    if (missed < never && joints.size() <= most_looked_at) return first_of(joints);
+    std::vector<Candidate> candidates = may_be_next(reactions, most_missed * missed);
+    if (missed < never && candidates.size() <= most_looked_at)
+      return first_of(std::move(candidates));
     see_all();
   }
   return first_of(may_be_next(reactions_, 0.0));
@@ -67,31 +62,38 @@ BreakingRun::Glance BreakingRun::glance() const {
 }
 
 // Joints of which none is sure to break after another, where reactions may be missed by so much.
-std::vector<std::size_t> BreakingRun::may_be_next(const VectorXd& reactions, double missed) const {
-  double last = never;                               // strain at which one is sure to have broken
-  std::vector<std::pair<std::size_t, double>> some;  // strains at which they may break
+std::vector<BreakingRun::Candidate> BreakingRun::may_be_next(const VectorXd& reactions,
+                                                             double missed) const {
+  double last = never;  // strain at which one is sure to have broken
+  std::vector<Candidate> candidates;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const Local r = of_joint(reactions, j);
     const double may = meets_cone_at(j, {r.x() - missed, std::abs(r.y()) + missed});
     if (!(may < never) || may > last * (1.0 + together)) continue;
-    some.emplace_back(j, may);
+    candidates.push_back({may, j});
     last =
         std::min(last, meets_cone_at(j, {r.x() + missed, std::max(0.0, std::abs(r.y()) - missed)}));
   }
-  std::vector<std::size_t> joints;
-  for (const auto& [joint, may] : some)
-    if (may <= last * (1.0 + together)) joints.push_back(joint);
-  return joints;
+  std::erase_if(candidates,
+                [&](const Candidate& one) { return one.strain > last * (1.0 + together); });
+  return candidates;
 }
 
-// By what each bears to all digits.
-BreakingRun::Event BreakingRun::first_of(const std::vector<std::size_t>& joints) {
-  std::vector<double> strains;
-  strains.reserve(joints.size());
-  for (const std::size_t joint : joints) strains.push_back(meets_cone_at(joint, borne_at(joint)));
-  Event event{joints.empty() ? never : std::ranges::min(strains), {}};
-  for (std::size_t i = 0; i < joints.size(); ++i)
-    if (strains[i] <= event.strain * (1.0 + together)) event.joints.push_back(joints[i]);
+// By what each bears to all digits, as long as it may still break before those looked at.
+BreakingRun::Event BreakingRun::first_of(std::vector<Candidate> candidates) {
+  std::ranges::sort(candidates, {}, &Candidate::strain);
+  Event event{never, {}};
+  const auto is_later = [&](const Candidate& one) {
+    return one.strain > event.strain * (1.0 + together);
+  };
+  auto next = candidates.begin();
+  for (; next != candidates.end() && !is_later(*next); ++next) {
+    next->strain = meets_cone_at(next->joint, borne_at(next->joint));
+    event.strain = std::min(event.strain, next->strain);
+  }
+  for (const Candidate& one : std::span(candidates.begin(), next))
+    if (!is_later(one)) event.joints.push_back(one.joint);
+  std::ranges::sort(event.joints);
   return event;
 }
 

@@ -27,30 +27,34 @@ void eliminate(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd>& x) 
 }
 
 // The sums of all columns and loads side by side, as many terms of each at a time as a register of
-// 16 bytes holds.
+// 16 bytes holds. What rows far apart add is large where a part moves as a whole, and cancels: sums
+// of few rows are taken from what is left before they grow.
 template <Index columns, Index loads>
 void substitute(const Ref<const MatrixXd>& panel, Index first, Index load, Ref<MatrixXd>& x) {
-  constexpr Index terms = 2;
+  constexpr Index terms = 2, at_once = 8;
   using Terms = Eigen::Map<const Eigen::Vector2d>;
   const auto of = panel.middleCols<columns>(first);
   auto known = x.middleCols<loads>(load);
-  Eigen::Matrix<double, terms, columns * loads> sums;
-  sums.setZero();
+  Eigen::Matrix<double, columns, loads> left = known.template middleRows<columns>(first);
   Index i = panel.rows();
-  for (; i - terms >= first + columns; i -= terms)
-    for (Index j = 0; j < columns; ++j)
-      for (Index c = 0; c < loads; ++c)
-        sums.col(j + columns * c) +=
-            Terms(&of.coeffRef(i - terms, j)).cwiseProduct(Terms(&known.coeffRef(i - terms, c)));
+  for (; i - at_once >= first + columns; i -= at_once) {
+    Eigen::Matrix<double, terms, columns * loads> sums;
+    sums.setZero();
+    for (Index row = i - terms; row >= i - at_once; row -= terms)
+      for (Index j = 0; j < columns; ++j)
+        for (Index c = 0; c < loads; ++c)
+          sums.col(j + columns * c) +=
+              Terms(&of.coeffRef(row, j)).cwiseProduct(Terms(&known.coeffRef(row, c)));
+    left -= sums.colwise().sum().reshaped(columns, loads);
+  }
+  for (Index row = first + columns; row < i; ++row)
+    left.noalias() -= of.row(row).transpose() * known.row(row);
   for (Index c = 0; c < loads; ++c) {
-    Eigen::Vector<double, columns> own = known.col(c).template segment<columns>(first);
-    own -= sums.template middleCols<columns>(columns * c).colwise().sum().transpose();
-    for (Index rest = first + columns; rest < i; ++rest)
-      own -= of.row(rest).transpose() * known(rest, c);
+    auto own = left.col(c);
     for (Index j = columns - 1; j >= 0; --j)
       for (Index k = j + 1; k < columns; ++k) own(j) -= of(first + k, j) * own(k);
-    known.col(c).template segment<columns>(first) = own;
   }
+  known.template middleRows<columns>(first) = left;
 }
 
 template <Index columns>

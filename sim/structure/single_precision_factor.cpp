@@ -42,18 +42,17 @@ Eigen::Map<const Row<width>, Eigen::Aligned16> row(const float* values, int i) {
   return Eigen::Map<const Row<width>, Eigen::Aligned16>(values + i * width);
 }
 
-// Of all rows, weighted. In two parts, as an addition waits for the one before it; from the last
-// on, as strips are: memory is read in one direction.
+// Of all rows, weighted, in the precision of the weights; from the last on, as strips are: memory
+// is read in one direction.
 template <int width, class Weight>
-Row<width> sum_of_rows(const float* values, int rows, const Weight& weight) {
-  Row<width> one = Row<width>::Zero(), other = Row<width>::Zero();
-  int i = rows;
-  for (; i >= 2; i -= 2) {
-    one += weight(i - 1) * row<width>(values, i - 1);
-    other += weight(i - 2) * row<width>(values, i - 2);
+auto sum_of_rows(const float* values, int rows, const Weight& weight) {
+  using Scalar = decltype(weight(0));
+  Eigen::Array<Scalar, width, 1> sum = Eigen::Array<Scalar, width, 1>::Zero();
+  for (int i = rows; i-- > 0;) {
+    const Scalar by = weight(i);
+    for (int k = 0; k < width; ++k) sum[k] += by * static_cast<Scalar>(values[i * width + k]);
   }
-  if (i > 0) one += weight(0) * row<width>(values, 0);
-  return one + other;
+  return sum;
 }
 
 }  // namespace
