@@ -31,20 +31,21 @@ void eliminate(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd>& x) 
 // of few rows are taken from what is left before they grow.
 template <Index columns, Index loads>
 void substitute(const Ref<const MatrixXd>& panel, Index first, Index load, Ref<MatrixXd>& x) {
-  constexpr Index terms = 2, at_once = 8;
+  constexpr Index terms = 2, at_once = 16;
   using Terms = Eigen::Map<const Eigen::Vector2d>;
   const auto of = panel.middleCols<columns>(first);
   auto known = x.middleCols<loads>(load);
   Eigen::Matrix<double, columns, loads> left = known.template middleRows<columns>(first);
   Index i = panel.rows();
-  for (; i - at_once >= first + columns; i -= at_once) {
+  while (i - terms >= first + columns) {
+    const Index last = std::max(i - at_once, first + columns);
     Eigen::Matrix<double, terms, columns * loads> sums;
     sums.setZero();
-    for (Index row = i - terms; row >= i - at_once; row -= terms)
+    for (; i - terms >= last; i -= terms)
       for (Index j = 0; j < columns; ++j)
         for (Index c = 0; c < loads; ++c)
           sums.col(j + columns * c) +=
-              Terms(&of.coeffRef(row, j)).cwiseProduct(Terms(&known.coeffRef(row, c)));
+              Terms(&of.coeffRef(i - terms, j)).cwiseProduct(Terms(&known.coeffRef(i - terms, c)));
     left -= sums.colwise().sum().reshaped(columns, loads);
   }
   for (Index row = first + columns; row < i; ++row)
