@@ -103,12 +103,14 @@ NearReactions Structure::nearly_reactions_to(const std::vector<SharedJump>& jump
     const VectorXf forces = bodies_->near_port_forces(
         port_displacements<VectorXf>(unknowns, jumps, y.col(c).cast<float>()),
         unknowns.tail(bodies_->compatibilities()));
-    for (int unknown = 0; unknown < 2 * static_cast<int>(joints()); ++unknown) {
+    VectorXf off_balance = VectorXf::Zero(found.reactions.rows());
+    for (int unknown = 0; unknown < off_balance.size(); ++unknown) {
       if (!holds(unknown)) continue;
       const auto& [a, b] = bodies_->ends()[static_cast<std::size_t>(unknown)];
       found.reactions(unknown, c) = forces(b);
-      found.off_balance = std::max(found.off_balance, std::abs(forces(a) + forces(b)));
+      off_balance(unknown) = forces(a) + forces(b);
     }
+    found.off_balance = std::max(found.off_balance, off_balance.lpNorm<Eigen::Infinity>());
   }
   return found;
 }
