@@ -94,7 +94,8 @@ class Runner {
     run.broke = response.broke;
     run.why = response.why;
     run.measures = measures_of(response, sweep_.patterns ? model_.find(key) : nullptr);
-    if ((run.seed - sweep_.plan.seed) % seeds_ != 0) return;
+    if (run.failed || run.point < next_curve_) return;
+    next_curve_ = run.point + 1;
     run.strain = response.strain;
     run.stress = response.stress;
   }
@@ -104,6 +105,7 @@ class Runner {
   PatternedModel model_;
   SimulationBatch batch_;
   std::size_t seeds_, all_;
+  std::size_t next_curve_ = 0;  // the first point that has none yet: runs come in their order
 };
 
 void summarise(SweepResult& result, std::size_t first) {

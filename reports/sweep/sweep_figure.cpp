@@ -181,15 +181,16 @@ std::string mean_commands(const Panel& panel) {
              words.unit.empty() ? "" : fmt::format(" ({})", words.unit), bands, marks);
 }
 
-// Stress against strain of the first seed of each series.
+// Stress against strain of the first seed of each series that has not failed.
 std::string curve_commands(const Panel& panel) {
   std::string data, plots;
   std::size_t i = 0;
   for (const PointGroup& series : series_of(panel)) {
     if (series.points.empty()) continue;
-    const auto run =
-        std::ranges::find(panel.result.runs, series.points.front(), &calib::SweepRun::point);
-    if (run == panel.result.runs.end() || run->failed || run->strain.empty()) continue;
+    const auto run = std::ranges::find_if(panel.result.runs, [&](const calib::SweepRun& one) {
+      return one.point == series.points.front() && !one.failed && !one.strain.empty();
+    });
+    if (run == panel.result.runs.end()) continue;
     const Points points = thin(run->strain, run->stress);
     data += data_block(fmt::format("s{}", i), {points.x, points.y});
     plots +=

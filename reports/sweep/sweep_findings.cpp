@@ -52,13 +52,18 @@ std::string place_of(const calib::Sweep& sweep, const calib::Finding& finding) {
 }
 
 std::string words_for(std::string what, const calib::SweepPlan& plan) {
+  constexpr std::string_view against = " against ";
   for (const calib::SweepKey& key : plan.keys) {
     const std::string named = key.name + " = ";
     for (std::size_t at = what.find(named); at != std::string::npos; at = what.find(named)) {
       const std::size_t value = at + named.size();
-      const std::size_t end =
-          std::min({what.find(", ", value), what.find(" against ", value), what.size()});
-      what.replace(at, end - at, place(key.name, what.substr(value, end - value)));
+      const std::size_t end = std::min(what.find(", ", value), what.size());
+      const std::string values = what.substr(value, end - value);
+      const std::size_t other = values.find(against);
+      std::string words = place(key.name, values.substr(0, other));
+      if (other != std::string::npos)
+        words += against.data() + with_unit(key.name, values.substr(other + against.size()));
+      what.replace(at, end - at, words);
     }
   }
   return what;

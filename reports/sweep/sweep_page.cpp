@@ -134,8 +134,8 @@ mstch::array figures_of(const SweepReport& report) {
     mstch::array panels;
     const std::string shown =
         wanted.x.empty()
-            ? "Each curve is one run: the first seed, at the first value of every key "
-              "that the figure does not tell apart."
+            ? "Each curve is one run: the first seed that has not failed, at the first value of "
+              "every key that the figure does not tell apart."
             : "Bars and bands: 95\u00a0% intervals of the means; that of a single run has none.";
     const std::string id = fmt::format("{}-{}", report.id, figures.size());
     for (const SweepPanel& panel : sweep_figures(report.sweep, report.result, wanted, id))

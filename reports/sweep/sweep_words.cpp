@@ -1,36 +1,61 @@
 #include "reports/sweep/sweep_words.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <map>
-#include <utility>
 
 #include "reports/text/format.hpp"
 
 namespace havers::reports {
 
+namespace {
+
+struct KeyWords {
+  std::string name, unit;
+  std::string at_a_value = name;
+};
+
+KeyWords words_of(const std::string& key) {
+  static const std::map<std::string, KeyWords> known{
+      {"assembly.layers", {"layers N", ""}},
+      {"assembly.fibres", {"fibres n", ""}},
+      {"assembly.fibre_length_um", {"fibre length L", "µm"}},
+      {"assembly.fibre_height_um", {"fibre height l", "µm"}},
+      {"assembly.orientation_deg", {"angle θ", "°", "θ"}},
+      {"material.young_GPa", {"modulus E", "GPa"}},
+      {"material.poisson", {"Poisson's ratio ν", ""}},
+      {"material.density_kg_m3", {"density ρ", "kg/m³"}},
+      {"material.viscosity_s", {"viscosity τ", "s"}},
+      {"joints.head_tail_MPa", {"threshold σ₁", "MPa"}},
+      {"joints.flank_MPa", {"threshold σ₂", "MPa"}},
+      {"joints.resultant_MPa", {"resultant", "MPa"}},
+      {"joints.ratio", {"ratio r", ""}},
+      {"joints.scatter", {"scatter d", ""}},
+      {"joints.friction", {"friction μ", ""}},
+      {"joints.missing", {"share of missing joints", ""}},
+      {"loading.strain_rate_per_s", {"strain rate", "1/s"}}};
+  const auto found = known.find(key);
+  if (found != known.end()) return found->second;
+  std::string name = key.substr(key.rfind('.') + 1);
+  std::ranges::replace(name, '_', ' ');
+  return {name, ""};
+}
+
+}  // namespace
+
 std::string name_of_key(const std::string& key) {
-  static const std::map<std::string, std::string> names{
-      {"joints.scatter", "scatter d"},
-      {"joints.ratio", "ratio r"},
-      {"joints.missing", "share of missing joints"},
-      {"joints.distribution", "distribution"},
-      {"assembly.layers", "layers N"},
-      {"assembly.fibres", "fibres n"},
-      {"assembly.orientation_deg", "angle θ (°)"},
-      {"material.viscosity_s", "viscosity τ (s)"},
-      {"loading.strain_rate_per_s", "strain rate (1/s)"}};
-  const auto found = names.find(key);
-  return found == names.end() ? key.substr(key.rfind('.') + 1) : found->second;
+  const KeyWords words = words_of(key);
+  return words.unit.empty() ? words.name : fmt::format("{} ({})", words.name, words.unit);
+}
+
+std::string with_unit(const std::string& key, const std::string& value) {
+  const std::string unit = words_of(key).unit;
+  return typeset(value) + (unit.empty() || unit == "°" ? "" : "\u00a0") + unit;
 }
 
 std::string place(const std::string& key, const std::string& value) {
-  static const std::map<std::string, std::pair<std::string, std::string>> with_unit{
-      {"assembly.orientation_deg", {"θ", "°"}},
-      {"material.viscosity_s", {"viscosity τ", "\u00a0s"}},
-      {"loading.strain_rate_per_s", {"strain rate", "\u00a01/s"}}};
-  const auto found = with_unit.find(key);
-  const auto& [name, unit] =
-      found == with_unit.end() ? std::pair{name_of_key(key), std::string()} : found->second;
-  return name + "\u00a0=\u00a0" + typeset(value) + unit;
+  return words_of(key).at_a_value + "\u00a0=\u00a0" + with_unit(key, value);
 }
 
 }  // namespace havers::reports

@@ -153,6 +153,35 @@ TEST(SweepWords, PutTheUnitBehindTheValue) {
   EXPECT_EQ(place("assembly.orientation_deg", "45"), "θ\u00a0=\u00a045°");
   EXPECT_EQ(place("joints.ratio", "3"), "ratio r\u00a0=\u00a03");
   EXPECT_EQ(place("joints.distribution", "weibull"), "distribution\u00a0=\u00a0weibull");
+  EXPECT_EQ(place("material.young_GPa", "13"), "modulus E\u00a0=\u00a013\u00a0GPa");
+}
+
+TEST(SweepWords, NameKeysWithTheirUnitsAndWithoutUnderlines) {
+  EXPECT_EQ(name_of_key("assembly.orientation_deg"), "angle θ (°)");
+  EXPECT_EQ(name_of_key("material.layer_contrast"), "layer contrast");
+}
+
+TEST(SweepPage, HasTheUnitBehindBothValuesThatAreCompared) {
+  Case known;
+  known.sweep.plan.keys.front().name = "assembly.orientation_deg";
+  known.result.findings.front().what = "assembly.orientation_deg = 45 against 0, joints.ratio = 3";
+  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
+              HasSubstr("θ\u00a0=\u00a045° against 0°, "));
+}
+
+TEST(SweepFigures, DrawTheCurveOfTheFirstSeedThatHasNotFailed) {
+  Case known;
+  const auto curves = [&] {
+    return sweep_figures(known.sweep, known.result, {.caption = "c"}, "f").front().figure.commands;
+  };
+  calib::SweepRun failed, good;
+  good.failed = false;
+  good.strain = {0.0, 0.01};
+  good.stress = {0.0, 50e6};
+  known.result.runs = {failed};
+  EXPECT_EQ(curves(), "");
+  known.result.runs.push_back(good);
+  EXPECT_THAT(curves(), HasSubstr("0.01 5e+07"));
 }
 
 TEST(SweepFigures, HaveAPanelForEveryValueOfPer) {

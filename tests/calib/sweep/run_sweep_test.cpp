@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -39,6 +40,19 @@ TEST(RunSweep, AnswersTheSameForAnyNumberOfThreads) {
 TEST(RunSweep, GivesEveryRunASeedOfItsOwn) {
   const SweepResult result = run_sweep(small_sweep(), nullptr, 1, {});
   for (std::size_t i = 0; i < result.runs.size(); ++i) EXPECT_EQ(result.runs[i].seed, i + 1);
+}
+
+TEST(RunSweep, KeepsTheCurveOfTheFirstRunThatHasNotFailed) {
+  Sweep sweep = small_sweep();
+  sweep.points.back().scene.joints.missing = 0.6;  // which severs some
+  const SweepResult result = run_sweep(sweep, nullptr, 1, {});
+  const auto first = std::ranges::find_if(
+      result.runs, [](const SweepRun& run) { return run.point == 1 && !run.failed; });
+  ASSERT_NE(first, result.runs.end());
+  ASSERT_TRUE(result.runs[6].failed);
+  for (std::size_t i = 6; i < result.runs.size(); ++i)
+    EXPECT_EQ(result.runs[i].strain.empty(), &result.runs[i] != &*first) << i;
+  EXPECT_FALSE(result.runs.front().strain.empty());
 }
 
 TEST(RunSweep, GoesOnWithWhatTheStoreKeeps) {
