@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <vector>
 
 #include "sim/dynamics/dynamic_run.hpp"
@@ -24,11 +25,20 @@ std::vector<LeftOut> left_out_in_time(const Scene& scene, const Simulation& simu
   return list;
 }
 
+// From rest the left side bears nothing until a wave has come across, however strong the specimen
+// is: until then the sides do not say whether it is broken. [s]
+double time_until_sides_tell(const Scene& scene) {
+  if (scene.loading.start == Start::uniform) return 0.0;
+  const double slowest = std::sqrt(scene.material.layer_contrast) * wave_speed(scene.material);
+  return scene.assembly.width() / slowest;
+}
+
 // From step to step, until the run ends.
 SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepping& stepping,
                                 const Observer& observer, Simulation& simulation) {
   constexpr double but_for_rounding = 1.0 - 1e-9;
   const double end = but_for_rounding * scene.loading.max_strain;
+  const double told = time_until_sides_tell(scene);
   simulation.curve.push_back(run.point());
   while (simulation.curve.back().strain < end) {
     const bool solved = run.advance();
@@ -42,7 +52,9 @@ SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepp
       observer({simulation.curve.back(), simulation.curve.size() - 1,
                 [&run] { return run.outcomes(); }, [&run] { return run.displacements(); }});
     if (run.is_stopped()) return SimulationStatus::cancelled;
-    if (has_failed(simulation, simulation.end_fraction_used)) return SimulationStatus::broken;
+    const bool tells = simulation.curve.back().time >= told;
+    if (tells && has_failed(simulation, simulation.end_fraction_used))
+      return SimulationStatus::broken;
     if (run.steps() == stepping.most) return SimulationStatus::step_limit;
     // Steps may be so short that rounding looks like acceleration in the first of them.
     const bool may_leap = stepping.leap && simulation.leapt_strain == 0.0;

@@ -124,6 +124,24 @@ TEST(SimulateDynamic, StartsFromRestWithTheStressOfAWave) {
   }
 }
 
+// A joint breaks near the right side while the wave is on its way: neither side bears much then, of
+// a wall that is whole but for that.
+TEST(SimulateDynamic, FromRestIsNotBrokenBeforeAWaveHasComeAcross) {
+  Scene scene = test::small_scene(0.0, 10, 8);
+  scene.solver.regime = Regime::dynamic;
+  scene.solver.step = 1e-9;
+  scene.loading.start = Start::rest;
+  scene.loading.strain_rate = 1e4;
+  const double across = scene.assembly.width() / wave_speed(scene.material);
+  Simulation run = simulate(scene);
+  EXPECT_EQ(run.status, SimulationStatus::broken);
+  EXPECT_GE(run.curve.back().time, across);
+  scene.loading.max_strain = 0.9 * across * scene.loading.strain_rate;
+  run = simulate(scene);
+  EXPECT_GT(run.broken_joints, 0);
+  EXPECT_EQ(run.status, SimulationStatus::strain_limit);
+}
+
 // The path of joints that break together goes up beyond λ = 1000 before it comes back.
 TEST(SimulateDynamic, FollowsAPathThatTurnsBackLate) {
   HAVERS_SLOW;
