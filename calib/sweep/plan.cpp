@@ -9,6 +9,8 @@
 #include <cmath>
 #include <memory>
 
+#include "calib/count.hpp"
+
 namespace havers::calib {
 namespace {
 
@@ -109,9 +111,9 @@ std::vector<SweepPlan::Problem> SweepPlan::problems() const {
   for (const SweepKey& key : keys) {
     if (key.values.empty()) complain("keys", fmt::format("gives {} no values", key.name));
     if (sampling == Sampling::list && key.values.size() != keys.front().values.size())
-      complain("keys",
-               fmt::format("is a list, but {} has {} values and {} has {}", key.name,
-                           key.values.size(), keys.front().name, keys.front().values.size()));
+      complain("keys", fmt::format("is a list, but {} has {} and {} has {}", key.name,
+                                   count(key.values.size(), "value"), keys.front().name,
+                                   keys.front().values.size()));
     if (is_sample(sampling) &&
         !(key.values.size() == 2 && number_in(key.values.front()) < number_in(key.values.back())))
       complain("keys", fmt::format("is a sample, but {} has no lower and upper bound", key.name));

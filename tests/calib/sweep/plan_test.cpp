@@ -72,6 +72,8 @@ TEST(Plan, EveryComplaintIsMade) {
       .sampling = Sampling::list, .keys = {{"a", {"1"}}, {"b", {"1", "2"}}}, .seeds = 0};
   EXPECT_THAT(unequal.problems(), ElementsAre(Complains("seeds", "is 0, must be 1 or more"),
                                               Complains("keys", "b has 2 values and a has 1")));
+  const SweepPlan lone{.sampling = Sampling::list, .keys = {{"a", {"1", "2"}}, {"b", {"1"}}}};
+  EXPECT_THAT(lone.problems(), ElementsAre(Complains("keys", "b has 1 value and a has 2")));
   const SweepPlan turned{.sampling = Sampling::sobol, .keys = {{"a", {"2", "1"}}}, .points = 0};
   EXPECT_THAT(turned.problems(), ElementsAre(Complains("points", "is 0, must be from 1 to 100000"),
                                              Complains("keys", "no lower and upper bound")));
