@@ -65,15 +65,16 @@ void warn_of_bone(const PoreMap& map, bool outlined, cv::Size image,
                   const io::SectionOptions& options, Warnings& warnings) {
   if (options.mask || options.fills_image) return;
   const double share = cv::countNonZero(map.bone) / static_cast<double>(image.area());
+  const auto parts = static_cast<long>(outer_contours(map.bone).size());
   if (!outlined)
     warnings.emplace_back(
         "no background was found, so bone is taken to fill the image: if it does, say so with "
         "--fills-image (in a study fills_image = true), if not, give a mask");
-  else if (share < 0.1)
+  else if (share < 0.1 || parts > 10)
     warnings.push_back(
-        fmt::format("the bone is {:.1f} % of the image: if that is a pore in bone that fills the "
-                    "image, say --fills-image (in a study fills_image = true)",
-                    100.0 * share));
+        fmt::format("the bone is {:.1f} % of the image, in {}: if that is pores in bone that fills "
+                    "the image, say --fills-image (in a study fills_image = true)",
+                    100.0 * share, calib::count(parts, "part")));
 }
 
 // Where the user says what is bone, but the image shows a background around it.
@@ -164,8 +165,7 @@ void warn_of_objects(const PoreMap& map, Warnings& warnings) {
 
 void warn_of_size(const PoreMap& map, const calib::SectionPorosity& section, Warnings& warnings) {
   const double bone = cv::countNonZero(map.bone);
-  const double largest =
-      map.areas.empty() ? 0.0 : *std::max_element(map.areas.begin(), map.areas.end());
+  const double largest = map.areas.empty() ? 0.0 : std::ranges::max(map.areas);
   if (largest > 0.05 * bone)
     warnings.push_back(
         fmt::format("one pore takes {:.1f} % of the bone: if it is the marrow cavity, or the "
@@ -215,8 +215,8 @@ Regions regions_of(const cv::Mat& whole, const io::SectionOptions& options, Warn
 // One level alone may be bone, or no section at all.
 void refuse_nothing(const PoreMap& map, const Regions& regions, const std::string& name,
                     const io::SectionOptions& options) {
-  const bool told = regions.outlined || options.mask || options.fills_image;
-  if (!told && map.areas.empty() && map.crack_count == 0)
+  if (regions.outlined || options.mask || options.fills_image) return;
+  if (map.areas.empty() && map.crack_count == 0)
     throw io::InputError(
         name, "shows no bone: neither a background nor pores differ from the rest",
         "if bone without pores fills it, say --fills-image, in a study fills_image = true");

@@ -144,5 +144,17 @@ TEST(SectionDoubt, WarnsWhereGreyLevelsAndThresholdDisagree) {
   EXPECT_TRUE(warns(measured, "differs by more than one point"));
 }
 
+// One pore is as large as a region, and all have less of the frame than what is between them.
+TEST(SectionDoubt, WarnsOfABoneInManyParts) {
+  cv::Mat image(600, 800, CV_8U, cv::Scalar(180));
+  cv::circle(image, {400, 300}, 135, 30, cv::FILLED);
+  for (int i = 0; i < 15; ++i)
+    if (i / 5 != 1 || i % 5 == 0 || i % 5 == 4)
+      cv::circle(image, {80 + 160 * (i % 5), 80 + 220 * (i / 5)}, 55, 30, cv::FILLED);
+  const auto measured = doubted({.image = image}, "parts.png");
+  EXPECT_TRUE(warns(measured, "in 13 parts: if that is pores in bone that fills the image"));
+  EXPECT_TRUE(measured.doubtful);
+}
+
 }  // namespace
 }  // namespace havers::io
