@@ -150,13 +150,15 @@ void warn_of_side(const PoreMap& map, bool like_background, io::Pores known, War
                     100.0 * map.other_side, other, side));
 }
 
-void warn_of_objects(const PoreMap& map, Warnings& warnings) {
+void warn_of_objects(const PoreMap& map, Warnings& doubts, Warnings& warnings) {
   if (map.specks > 0)
     warnings.push_back(fmt::format("{} below {} pixels {} left out as too small to tell from noise",
                                    calib::count(map.specks, "object"), smallest_pore,
                                    map.specks == 1 ? "was" : "were"));
+  // Canals cut lengthwise are as slender: where cracks outweigh the pores, they may be these.
+  Warnings& told = map.crack_area > map.area ? doubts : warnings;
   if (map.crack_count > 0)
-    warnings.push_back(fmt::format(
+    told.push_back(fmt::format(
         "{}, {:.2f} % of the bone, {}", calib::count(map.crack_count, "long and narrow object"),
         100.0 * map.crack_area / cv::countNonZero(map.bone),
         map.crack_count == 1 ? "was taken for a crack and does not count as a pore"
@@ -264,7 +266,7 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
   warn_of_drawings(map, colours.empty() ? colours : colours(regions.box), doubts);
   warn_of_side(map, !regions.outlined || map.dark == regions.dark_pores, options.pores, doubts);
   warn_of_size(map, measured.porosity, doubts);
-  warn_of_objects(map, warnings);
+  warn_of_objects(map, doubts, warnings);
   if (!options.density.empty() && std::isnan(measured.porosity.density))
     warnings.emplace_back(
         "density stays unknown: nowhere is bone two pixels from its surface, pores and cracks");

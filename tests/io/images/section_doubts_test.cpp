@@ -156,5 +156,18 @@ TEST(SectionDoubt, WarnsOfABoneInManyParts) {
   EXPECT_TRUE(measured.doubtful);
 }
 
+// Canals cut lengthwise.
+TEST(SectionDoubt, IsOfAPorosityThatCracksOutweigh) {
+  auto drawn = test::draw({.porosity = 0.02, .largest_radius = 8.0, .blur = 0.7});
+  for (int y = 150; y < 460; y += 60) cv::line(drawn.image, {200, y}, {280, y}, 51, 2);
+  const auto few = doubted(drawn, "crack.png");
+  EXPECT_GT(few.crack_count, 0);
+  EXPECT_FALSE(few.doubtful);
+  for (int y = 150; y < 460; y += 12) cv::line(drawn.image, {100, y}, {600, y}, 51, 3);
+  const auto many = doubted(drawn, "canals.png");
+  EXPECT_GT(many.crack_count, few.crack_count);
+  EXPECT_TRUE(many.doubtful);
+}
+
 }  // namespace
 }  // namespace havers::io
