@@ -23,32 +23,6 @@ namespace {
 
 using Warnings = std::vector<std::string>;
 
-bool plausible(double size) {
-  return size >= 0.1e-6 && size <= 200e-6;
-}
-
-// Given or the file's own; the given one counts, but must be plausible.
-std::optional<double> pixel_size_of(const std::filesystem::path& image,
-                                    const io::SectionOptions& options, Warnings& warnings) {
-  const std::optional<double> given = options.pixel_size;
-  if (given && !(options.any_pixel_size ? *given > 0.0 : plausible(*given)))
-    throw io::InputError(
-        image.string(),
-        fmt::format("a pixel size of {:g} µm is outside 0.1 to 200 µm", *given * 1e6),
-        "pixel_size_um is the side of one pixel in µm; if it is meant, add --any-pixel-size (in a "
-        "study any_pixel_size = true in [sections])");
-  const std::optional<double> own = tagged_pixel_size(image);
-  if (given && own && std::abs(*given / *own - 1.0) > 0.01)
-    warnings.push_back(
-        fmt::format("the file states pixels of {:.4g} µm; {:.4g} µm are used, as given", *own * 1e6,
-                    *given * 1e6));
-  if (given || !own) return given;
-  const bool usable = options.any_pixel_size || plausible(*own);
-  warnings.push_back(fmt::format("the file states pixels of {:.4g} µm: {}", *own * 1e6,
-                                 usable ? "used" : "not used, as it is outside 0.1 to 200 µm"));
-  return usable ? own : std::nullopt;
-}
-
 void warn_of_scale(const io::SectionOptions& options, Warnings& warnings) {
   if (!options.pixel_size)
     warnings.emplace_back(

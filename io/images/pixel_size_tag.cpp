@@ -1,16 +1,23 @@
 #include "io/images/pixel_size_tag.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string>
 
 #include "io/images/file_bytes.hpp"
+#include "io/input_error.hpp"
 
 namespace havers::images {
 namespace {
 
 constexpr double inch = 25.4e-3;
+
+bool plausible(double size) {
+  return size >= 0.1e-6 && size <= 200e-6;
+}
 
 double real(FileBytes& bytes, Offset at) {
   return static_cast<double>(bytes.number(at, 4));
@@ -138,6 +145,28 @@ std::optional<double> tagged_pixel_size(const std::filesystem::path& file) {
   if (head.ends_with("DICM")) size = dicom_pixel(bytes);
   if (!(size > 0.0) || !std::isfinite(size) || is_for_paper(size)) return std::nullopt;
   return size;
+}
+
+std::optional<double> pixel_size_of(const std::filesystem::path& image,
+                                    const io::SectionOptions& options,
+                                    std::vector<std::string>& warnings) {
+  const std::optional<double> given = options.pixel_size;
+  if (given && !(options.any_pixel_size ? *given > 0.0 : plausible(*given)))
+    throw io::InputError(
+        image.string(),
+        fmt::format("a pixel size of {:g} µm is outside 0.1 to 200 µm", *given * 1e6),
+        "pixel_size_um is the side of one pixel in µm; if it is meant, add --any-pixel-size (in a "
+        "study any_pixel_size = true in [sections])");
+  const std::optional<double> own = tagged_pixel_size(image);
+  if (given && own && std::abs(*given / *own - 1.0) > 0.01)
+    warnings.push_back(
+        fmt::format("the file states pixels of {:.4g} µm; {:.4g} µm are used, as given", *own * 1e6,
+                    *given * 1e6));
+  if (given || !own) return given;
+  const bool usable = options.any_pixel_size || plausible(*own);
+  warnings.push_back(fmt::format("the file states pixels of {:.4g} µm: {}", *own * 1e6,
+                                 usable ? "used" : "not used, as it is outside 0.1 to 200 µm"));
+  return usable ? own : std::nullopt;
 }
 
 }  // namespace havers::images

@@ -1,8 +1,12 @@
-// The pixel size that an image file states of itself. Private to io/images.
+// The pixel size of an image, given or stated by the file. Private to io/images.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
+
+#include "io/images/measure_section.hpp"
 
 namespace havers::images {
 
@@ -10,5 +14,10 @@ namespace havers::images {
 /// programs write for printers and screens, 72 dots an inch and the like, say nothing of bone and
 /// count as none, as do pixels that are not square. [m]
 std::optional<double> tagged_pixel_size(const std::filesystem::path& file);
+
+/// Given or the file's own; the given one counts, but must be plausible (io::InputError). [m]
+std::optional<double> pixel_size_of(const std::filesystem::path& image,
+                                    const io::SectionOptions& options,
+                                    std::vector<std::string>& warnings);
 
 }  // namespace havers::images
