@@ -42,15 +42,15 @@ Eigen::Map<const Row<width>, Eigen::Aligned16> row(const float* values, int i) {
   return Eigen::Map<const Row<width>, Eigen::Aligned16>(values + i * width);
 }
 
-// Of all rows, weighted, in the precision of the weights; from the last on, as strips are: memory
-// is read in one direction.
+// Of all rows, weighted. One after the other: where a part moves as a whole neighbours cancel
+// before their sum grows and is rounded. From the last on, as strips are: memory is read in one
+// direction.
 template <int width, class Weight>
-auto sum_of_rows(const float* values, int rows, const Weight& weight) {
-  using Scalar = decltype(weight(0));
-  Eigen::Array<Scalar, width, 1> sum = Eigen::Array<Scalar, width, 1>::Zero();
+Row<width> sum_of_rows(const float* values, int rows, const Weight& weight) {
+  Row<width> sum = Row<width>::Zero();
   for (int i = rows; i-- > 0;) {
-    const Scalar by = weight(i);
-    for (int k = 0; k < width; ++k) sum[k] += by * static_cast<Scalar>(values[i * width + k]);
+    const float by = weight(i);
+    for (int k = 0; k < width; ++k) sum[k] += by * values[i * width + k];
   }
   return sum;
 }
