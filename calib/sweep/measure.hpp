@@ -50,8 +50,8 @@ struct SweepRun {
   bool failed = true, broke = false;
   std::string why;                               ///< It failed.
   std::array<double, measure_count> measures{};  ///< NaN where not known; SI units.
-  std::vector<double> strain,
-      stress;  ///< Curve, of a point's first run that has not failed. [-], [Pa]
+  /// Curve, of a point's first run that has not failed. [-], [Pa]
+  std::vector<double> strain, stress;
 
   [[nodiscard]] double operator[](Measure m) const {
     return measures.at(static_cast<std::size_t>(m));

@@ -27,8 +27,9 @@ constexpr double little = 1e-5;       // of the gaps: what so much changes is kn
 // Of the intact specimen's force: where nothing bears any, where rounding may be all that is left,
 // and more than what is broken can bear.
 constexpr double nothing_borne = 1e-9, next_to_nothing = 1e-3, too_much = 2.0;
-constexpr JointLaw unbreakable{std::numeric_limits<double>::infinity(), 1.0};
 constexpr double hardly_stored = 1e-3;  // of the work of a force: then the force is rounding
+
+constexpr JointLaw unbreakable{std::numeric_limits<double>::infinity(), 1.0};
 
 }  // namespace
 
