@@ -74,13 +74,13 @@ double largest_mean_stress(std::span<const double> strain, std::span<const doubl
 
 namespace {
 
-// By least squares between a tenth and half of this strain: neither a constant viscous stress nor
-// the start is part of it.
+// By least squares over a stretch of this strain: neither a constant viscous stress nor the start
+// is part of it.
 double slope_up_to(double end, const std::vector<CurvePoint>& curve) {
   constexpr std::size_t points = 41;
   std::array<double, points> strains{}, stresses{};
   for (std::size_t i = 0; i < points; ++i) {
-    strains.at(i) = end * (0.1 + 0.01 * static_cast<double>(i));
+    strains.at(i) = end * (0.1 + modulus_stretch / (points - 1) * static_cast<double>(i));
     stresses.at(i) = stress_at(curve, strains.at(i)).value_or(0.0);
   }
   double offset = 0.0, slope = 0.0, c00 = 0.0, c01 = 0.0, c11 = 0.0, squares = 0.0;
@@ -90,6 +90,10 @@ double slope_up_to(double end, const std::vector<CurvePoint>& curve) {
 }
 
 }  // namespace
+
+double strain_of_modulus(const Simulation& simulation) {
+  return std::fmin(simulation.first_break_strain, simulation.curve.back().strain);
+}
 
 void summarise(Simulation& simulation) {
   const std::vector<CurvePoint>& curve = simulation.curve;
@@ -102,8 +106,7 @@ void summarise(Simulation& simulation) {
   for (const JointOutcome& joint : simulation.joints)
     if (joint.broke() && !(simulation.first_break_strain <= joint.broken_at_strain))
       simulation.first_break_strain = joint.broken_at_strain;
-  const double end = std::isnan(simulation.first_break_strain) ? curve.back().strain
-                                                               : simulation.first_break_strain;
+  const double end = strain_of_modulus(simulation);
   simulation.modulus = end > 0.0 ? slope_up_to(end, curve) : 0.0;
 }
 

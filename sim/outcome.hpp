@@ -38,6 +38,11 @@ std::optional<double> stress_at(const std::vector<CurvePoint>& curve, double str
 double largest_mean_stress(std::span<const double> strain, std::span<const double> stress,
                            double span);
 
+/// The modulus is the slope from a tenth of this strain on: of the first break, or of the last row
+/// where nothing broke. Precondition: the curve has rows.
+double strain_of_modulus(const Simulation& simulation);
+inline constexpr double modulus_stretch = 0.4;  ///< Part of that strain over which it is measured.
+
 /// Strength, failure strain, modulus, first break and counts from the curve and the joints.
 void summarise(Simulation& simulation);
 

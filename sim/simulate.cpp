@@ -23,8 +23,11 @@ RegimeChoice choose_regime(const Scene& scene) {
       scene.loading.strain_rate * transit * scene.material.young / head_tail_strength(scene);
   if (scene.solver.regime != Regime::automatic) {
     choice.regime = scene.solver.regime;
-    choice.ground =
-        fmt::format("asked for by the scene; inertia number {:.2g}", choice.inertia_number);
+    choice.ground = fmt::format(
+        "asked for by the scene; inertia number {:.2g}{}", choice.inertia_number,
+        choice.regime == Regime::quasi_static && choice.inertia_number >= quasi_static_below
+            ? fmt::format(", while auto runs in time from {:g} on", quasi_static_below)
+            : "");
     return choice;
   }
   // Viscosity, a shock and a given time step have no meaning without time.

@@ -135,6 +135,16 @@ std::string Simulation::reservation() const {
                     "{:.2g} %, from {:.4g} MPa, its mean over the time of one and half the rise in "
                     "that time",
                     100.0 * ringing, 1e-6 * strength / (1.0 + ringing)));
+  // The slope of a stair that is seen n times errs by half a step of it, or by anything if once.
+  if (crossings < 2.0)
+    reservations.emplace_back(
+        "the modulus: it is that of a shock, as the specimen breaks before the wave of the start "
+        "has crossed it often");
+  else if (0.5 / crossings >= worth_saying)
+    reservations.push_back(
+        fmt::format("the modulus: the wave of the start, which crosses the specimen {:.2g} times "
+                    "while it is measured, changes it by up to {:.2g} %",
+                    crossings, 50.0 / crossings));
   return fmt::format("{}", fmt::join(reservations, "; "));
 }
 

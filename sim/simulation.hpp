@@ -92,6 +92,9 @@ struct Simulation {
   double failure_strain = 0.0;  ///< Strain of the strength. [-]
   /// Slope from 0.1 to 0.5 of the first break's strain, or of the last row's without one. [Pa]
   double modulus = 0.0;
+  /// How often the wave of a start from rest crosses the specimen in that stretch, on a stair of
+  /// stress; NaN where nothing starts so. [-]
+  double crossings = std::numeric_limits<double>::quiet_NaN();
   /// NaN when nothing broke. [-]
   double first_break_strain = std::numeric_limits<double>::quiet_NaN();
   int broken_joints = 0;  ///< Of the last row: what an avalanche breaks thereafter is not counted.

@@ -102,6 +102,9 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
   const double without_ringing =
       simulation.strength_over_a_wave + 0.5 * simulation.modulus * over_a_wave;
   simulation.ringing = simulation.strength / without_ringing - 1.0;
+  if (scene.loading.start == Start::rest)
+    simulation.crossings = modulus_stretch * strain_of_modulus(simulation) /
+                           (scene.loading.strain_rate * time_until_sides_tell(scene));
   return simulation;
 }
 

@@ -73,7 +73,9 @@ TEST(ChooseRegime, DoesWhatTheSceneAsksFor) {
   Scene scene = unit_scene(1e3);
   scene.solver.regime = Regime::quasi_static;
   EXPECT_EQ(choose_regime(scene).regime, Regime::quasi_static);
+  EXPECT_THAT(choose_regime(scene).ground, HasSubstr("while auto runs in time from 0.0002 on"));
   scene = unit_scene(1e-9);
+  EXPECT_THAT(choose_regime(scene).ground, testing::Not(HasSubstr("while auto")));
   scene.solver.regime = Regime::dynamic;
   EXPECT_EQ(choose_regime(scene).regime, Regime::dynamic);
   EXPECT_THAT(choose_regime(scene).ground, HasSubstr("asked for"));

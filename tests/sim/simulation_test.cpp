@@ -97,6 +97,19 @@ TEST(Simulation, IsTrustedButForWavesInItsStrength) {
   EXPECT_THAT(simulation.reservation(), HasSubstr("is not known; the strength: waves"));
 }
 
+TEST(Simulation, IsTrustedButForTheModulusOfAShock) {
+  Simulation simulation;
+  simulation.status = SimulationStatus::broken;
+  simulation.crossings = 60.0;
+  EXPECT_EQ(simulation.reservation(), "");
+  simulation.crossings = 5.0;
+  EXPECT_EQ(simulation.reservation(),
+            "the modulus: the wave of the start, which crosses the specimen 5 times while it is "
+            "measured, changes it by up to 10 %");
+  simulation.crossings = 0.8;
+  EXPECT_THAT(simulation.reservation(), HasSubstr("it is that of a shock"));
+}
+
 TEST(Simulation, KnowsWhatAChosenStepLeavesBeyondTheAccuracyAskedFor) {
   Simulation simulation;
   simulation.step_accuracy = 1e-3;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "sim/outcome.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/slow.hpp"
 
@@ -140,6 +141,25 @@ TEST(SimulateDynamic, FromRestIsNotBrokenBeforeAWaveHasComeAcross) {
   run = simulate(scene);
   EXPECT_GT(run.broken_joints, 0);
   EXPECT_EQ(run.status, SimulationStatus::strain_limit);
+}
+
+// The stress climbs a stair, whose slope is that of uniform motion but for a part of a step.
+TEST(SimulateDynamic, FromRestHasAModulusToHalfOfWhatAWaveAdds) {
+  Scene scene = test::small_scene(0.0, 4, 3);
+  scene.solver.regime = Regime::dynamic;
+  scene.solver.step = 1e-9;
+  scene.joints.head_tail = scene.joints.flank = 1e12;
+  scene.loading.strain_rate = 1e3;
+  const double across = scene.assembly.width() / wave_speed(scene.material);
+  for (const double crossings : {3.0, 5.0, 10.0, 20.0}) {
+    scene.loading.max_strain = crossings / modulus_stretch * across * scene.loading.strain_rate;
+    scene.loading.start = Start::uniform;
+    const double modulus = simulate(scene).modulus;
+    scene.loading.start = Start::rest;
+    const Simulation run = simulate(scene);
+    EXPECT_NEAR(run.crossings, crossings, 0.01 * crossings);
+    EXPECT_NEAR(run.modulus / modulus, 1.0, 0.5 / crossings) << crossings;
+  }
 }
 
 // The path of joints that break together goes up beyond λ = 1000 before it comes back.
