@@ -53,6 +53,22 @@ void doubt_scatter(LoadedStudy& loaded) {
   }
 }
 
+// Specimens without sections beside others that have them: a study all of whose scatter is the
+// model's says so itself.
+void doubt_bare(LoadedStudy& loaded) {
+  const calib::PorosityOptions& laws = loaded.study.porosity;
+  std::vector<std::string> bare;
+  for (const calib::Specimen& specimen : loaded.study.specimens)
+    if (!calib::tells_scatter(specimen, laws)) bare.push_back(specimen.id);
+  if (laws.to_scatter == calib::ToScatter::none || bare.empty() ||
+      bare.size() == loaded.study.specimens.size())
+    return;
+  loaded.notes.push_back(
+      fmt::format("nothing tells the scatter of {}, as sections do of others: {} "
+                  "(model.joints.scatter) is taken",
+                  fmt::join(bare, ", "), loaded.study.model.joints.scatter));
+}
+
 // Mostly of a pixel size that is wrong.
 void doubt_pores(LoadedStudy& loaded) {
   if (loaded.study.porosity.to_scatter != calib::ToScatter::window) return;
@@ -112,6 +128,7 @@ void doubt_model(bool rate_is_given, LoadedStudy& loaded) {
   for (const std::string& doubt : loaded.study.model.doubts())
     loaded.notes.push_back("model." + doubt);
   doubt_scatter(loaded);
+  doubt_bare(loaded);
   doubt_pores(loaded);
   doubt_rate(rate_is_given, loaded);
   doubt_search(loaded);

@@ -32,7 +32,8 @@ SpecimenModel model_of(const Study& study, std::size_t s, const PorosityOptions&
   if (!std::isfinite(porosity.porosity)) return model;
   model.modulus_factor = modulus_factor(porosity, laws);
   const double scatter = scatter_of(porosity, laws);
-  if (!std::isfinite(scatter)) return model;  // the study's model has one
+  model.scatter_told = std::isfinite(scatter);
+  if (!model.scatter_told) return model;  // the study's model has one
   if (laws.to_scatter == ToScatter::window && removes_joints(porosity)) {
     model.scene.joints.missing = missing_joints(porosity);
   } else {

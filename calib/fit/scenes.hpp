@@ -13,6 +13,7 @@ namespace havers::calib {
 struct SpecimenModel {
   sim::Scene scene;             ///< Orientation, strain rate and scatter are the specimen's.
   double porosity = 0.0;        ///< NaN where unknown. [-]
+  bool scatter_told = false;    ///< By its porosity; otherwise it is that of the study's model.
   double modulus_factor = 1.0;  ///< On young_GPa, by porosity (K4). [-]
   double scatter_standard_error = 0.0;  ///< Of the scatter that the sections give (K3). [-]
 };

@@ -10,6 +10,7 @@
 #include "calib/fit/model_checks.hpp"
 #include "calib/fit/parameter_checks.hpp"
 #include "calib/fit/porosity_check.hpp"
+#include "calib/fit/section_check.hpp"
 
 namespace havers::calib {
 namespace {
@@ -140,6 +141,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_identifiable(problem, answer, result));
   checks.push_back(check_strain(problem, answer));
   checks.push_back(check_orientations(problem, answer));
+  checks.push_back(check_sections(problem));
   checks.push_back(check_porosity(problem, answer));
   checks.push_back(check_specimen_spread(problem, answer));
   checks.back().text += weibull_sentence(result, one_sided_orientations(problem, answer.best));

@@ -77,6 +77,7 @@ void keys(Table& table, calib::SectionPorosity& section) {
   table.key("density_kg_per_m3", section.density);
   table.key("density_residual_kg_per_m3", section.density_residual);
   table.key("warnings", section.warnings);
+  table.key("doubtful", section.doubtful);
 }
 
 }  // namespace havers::io

@@ -41,7 +41,6 @@ nlohmann::json porosity_json(const calib::SectionPorosity& section, double scatt
   const calib::SpecimenPorosity alone = calib::pool_sections({section});
   json["scatter"] = json_of(calib::removes_joints(alone) ? std::nan("") : scatter);
   json["missing_joints"] = calib::missing_joints(alone);
-  json["doubtful"] = section.doubtful;
   return json;
 }
 

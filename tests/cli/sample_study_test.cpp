@@ -141,6 +141,8 @@ TEST(SampleStudy, SaysWhichScatterIsTakenWithoutAPixelSizeAndWhoHasTheSameSectio
   study.erase(study.find(pixel), pixel.size());
   const std::string own = "\"A2_section.png\"";
   study.replace(study.find(own), own.size(), "\"A1_section.png\"");
+  const std::string bare = "sections = [\"B2_section.png\"]\n";
+  study.erase(study.find(bare), bare.size());
   test::write_text(folder / "bars/doubtful.toml", study);
   const auto checked =
       run_havers(folder, "check bars/doubtful.toml --set model.joints.scatter=0.3");
@@ -148,6 +150,8 @@ TEST(SampleStudy, SaysWhichScatterIsTakenWithoutAPixelSizeAndWhoHasTheSameSectio
   for (const char* words :
        {"the sections of specimen A1 do not tell the scatter of its joints: 0.3 "
         "(model.joints.scatter) is taken; give its pixel_size_um",
+        "nothing tells the scatter of B2, as sections do of others: 0.3 (model.joints.scatter) is "
+        "taken",
         "specimens A1 and A2 have the same section, bars/A1_section.png"})
     EXPECT_NE(checked.out.find(words), std::string::npos) << words << " in\n" << checked.out;
 }

@@ -40,7 +40,8 @@ test::FitSample sample() {
 
 TEST(FitFolder, GivesBackTheWholeResult) {
   const test::ScratchFolder folder;
-  const test::FitSample fit = sample();
+  test::FitSample fit = sample();
+  fit.study.specimens.at(0).sections.at(0).doubtful = true;
   calib::Provenance provenance;
   provenance.command = "havers fit study.toml -o r";
   provenance.havers = "9.9.9";
@@ -67,6 +68,7 @@ TEST(FitFolder, GivesBackTheWholeResult) {
   EXPECT_EQ(again.result.stages.at(1).optimiser, "Ceres Levenberg-Marquardt");
   EXPECT_EQ(again.result.stages.at(1).wall_seconds, 6.25);
   EXPECT_EQ(again.study.specimens.at(0).sections.at(0).pore_area, 3.1e-7);
+  EXPECT_TRUE(again.study.specimens.at(0).sections.at(0).doubtful);
 }
 
 TEST(FitFolder, GivesBackTheCurves) {

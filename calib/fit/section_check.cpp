@@ -1,0 +1,84 @@
+#include "calib/fit/section_check.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace havers::calib {
+namespace {
+
+// "A1 (A1_s1.png, A1_s2.png)"; empty where none is in doubt.
+std::string sections_in_doubt(const Specimen& specimen) {
+  std::vector<std::string> files;
+  for (const SectionPorosity& section : specimen.sections)
+    if (section.doubtful) files.push_back(section.file.substr(section.file.rfind('/') + 1));
+  return files.empty() ? "" : fmt::format("{} ({})", specimen.id, fmt::join(files, ", "));
+}
+
+// What the specimens' porosity does not tell of what a study takes from it.
+struct Untold {
+  std::vector<std::string> doubted, scatter, modulus;  // specimens
+  bool any = false;                                    // has sections, or tells one of these
+};
+
+Untold untold_of(const FitProblem& problem) {
+  const PorosityOptions& laws = problem.study.porosity;
+  Untold found;
+  for (std::size_t s = 0; s < problem.models.size(); ++s) {
+    const Specimen& specimen = problem.study.specimens[s];
+    const SpecimenModel& model = problem.models[s];
+    const bool known = std::isfinite(model.porosity);
+    if (std::string doubt = sections_in_doubt(specimen); !doubt.empty())
+      found.doubted.push_back(std::move(doubt));
+    if (laws.to_scatter != ToScatter::none && !model.scatter_told)
+      found.scatter.push_back(specimen.id);
+    if (laws.to_modulus != ToModulus::none && !known) found.modulus.push_back(specimen.id);
+    found.any = found.any || !specimen.sections.empty() || model.scatter_told ||
+                (laws.to_modulus != ToModulus::none && known);
+  }
+  return found;
+}
+
+}  // namespace
+
+Check check_sections(const FitProblem& problem) {
+  constexpr const char* name = "sections tell porosity";
+  const PorosityOptions& laws = problem.study.porosity;
+  if (laws.to_scatter == ToScatter::none && laws.to_modulus == ToModulus::none)
+    return {name, Outcome::pass, "Not checked: porosity changes nothing in the model.", false};
+  const Untold found = untold_of(problem);
+  const double scatter = problem.study.model.joints.scatter;
+  if (!found.any)
+    return {
+        name, Outcome::pass,
+        fmt::format("Not checked: no specimen has sections. Unless it is fitted, the scatter is "
+                    "taken to be {:g} (model.joints.scatter), for which strengths hold.",
+                    scatter),
+        false};
+  std::vector<std::string> sentences;
+  if (!found.doubted.empty())
+    sentences.push_back(fmt::format(
+        "Images leave the porosity of sections in doubt, as their warnings say: of {}. What the "
+        "model takes from it may be off by more than any error here says. Mend what the warnings "
+        "name, or leave these sections out.",
+        fmt::join(found.doubted, ", ")));
+  if (!found.scatter.empty())
+    sentences.push_back(
+        fmt::format("Nothing tells the scatter of {}: it is taken to be {:g} "
+                    "(model.joints.scatter), without an error.",
+                    fmt::join(found.scatter, ", "), scatter));
+  if (!found.modulus.empty())
+    sentences.push_back(
+        fmt::format("No porosity is known of {}: the modulus is taken for that of "
+                    "bone without pores.",
+                    fmt::join(found.modulus, ", ")));
+  if (sentences.empty())
+    return {name, Outcome::pass, "Of every specimen the porosity is known, and none is in doubt."};
+  return {name, Outcome::warn, fmt::format("{}", fmt::join(sentences, " "))};
+}
+
+}  // namespace havers::calib
