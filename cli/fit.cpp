@@ -71,10 +71,12 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
 
   Digests inputs = digests_of(loaded.inputs);
   catch_interrupts();
-  const bool resumes = was_stopped(arguments.folder);
+  const std::string run = name_of_run("fit", {arguments.study});
+  const bool resumes = goes_on(arguments.folder, run, common.force);
   OutputFolder output(arguments.folder, common.force || resumes);
   if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
   const auto store = io::open_store(output.keep("evaluations.sqlite"));
+  output.sign(run);
   calib::CalibrationResult result = watched_fit(loaded.study, *store, common);
   result.notes = loaded.notes;
   tell_left_out(loaded.left_out, result);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/provenance.hpp"
+#include "io/input_error.hpp"
 #include "io/read_text.hpp"
 
 namespace havers::cli {
@@ -92,6 +93,10 @@ fs::path folder_of_fit(const fs::path& result) {
 }
 
 FinishedFit read_fit(const fs::path& result) {
+  if (was_stopped(result))
+    throw io::InputError(result.string(),
+                         "has no result yet: its run was stopped, or goes on still",
+                         "the same command as before goes on where it was stopped");
   FinishedFit finished{.fit = io::read_fit_folder(result), .overlays = {}, .tests = {}};
   const fs::path folder = folder_of_fit(result);
   for (const calib::SpecimenResult& specimen : finished.fit.result.specimens) {

@@ -190,10 +190,12 @@ int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
   std::vector<Done> all = read_all(arguments, common);
   Digests inputs = digests_of(inputs_of(all));
   catch_interrupts();
-  const bool resumes = was_stopped(arguments.folder);
+  const std::string run = name_of_run("sweep", arguments.files);
+  const bool resumes = goes_on(arguments.folder, run, common.force);
   OutputFolder output(arguments.folder, common.force || resumes);
   if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
   const auto store = io::open_store(output.keep("evaluations.sqlite"));
+  output.sign(run);
   if (!run_all(all, *store, common)) {
     const bool patterns =
         std::ranges::any_of(all, [](const Done& one) { return one.sweep.patterns; });

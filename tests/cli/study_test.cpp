@@ -184,18 +184,48 @@ TEST(Json, SaysHowARunEndedThatLeavesNothing) {
   EXPECT_THAT(failed.err, HasSubstr("nothing was written"));
 }
 
-TEST(Json, SaysThatAFitWasCancelled) {
-  const fs::path folder = test::folder_with_study();
-  ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
-  const auto stopped = run_havers(
+// Into "out", with what it says in "said" and "why".
+test::Answer stopped_fit(const fs::path& folder) {
+  return run_havers(
       folder, "-h >help; '" HAVERS_PROGRAM
               "' fit made/study.toml -o out --json --set calibrate.options.replicates=20 >said "
               "2>why & "
-              "for i in $(seq 1000); do [ -e out/evaluations.sqlite ] && break; sleep 0.01; done; "
+              "for i in $(seq 1000); do [ -e out/.run ] && break; sleep 0.01; done; "
               "kill $!; wait $! #");
-  EXPECT_EQ(stopped.exit_code, 1);
+}
+
+TEST(Json, SaysThatAFitWasCancelled) {
+  const fs::path folder = test::folder_with_study();
+  ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
+  EXPECT_EQ(stopped_fit(folder).exit_code, 1);
   EXPECT_EQ(nlohmann::json::parse(test::contents(folder / "said"))["status"], "cancelled");
   EXPECT_FALSE(fs::exists(folder / "out/result.json"));
+}
+
+// Its simulations would serve no other study, and its folder hold another one's results.
+TEST(Fit, ThatWasStoppedGoesOnWithItsOwnStudyAlone) {
+  const fs::path folder = test::folder_with_study();
+  for (const char* made : {"made", "other"})
+    ASSERT_EQ(run_havers(folder, std::string("synthesize study.toml -o ") + made).exit_code, 0);
+  ASSERT_EQ(stopped_fit(folder).exit_code, 1);
+
+  const std::string holds =
+      "out: holds an unfinished fit of " + fs::canonical(folder / "made/study.toml").string();
+  for (const char* command : {"fit other/study.toml -o out", "sweep sweep.toml -o out"}) {
+    test::write_text(folder / "sweep.toml",
+                     "[sweep]\n[sweep.keys]\n\"joints.scatter\" = [0.1]\n" + test::small_scene());
+    const auto refused = run_havers(folder, command);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, HasSubstr(holds)) << command;
+  }
+  const auto report = run_havers(folder, "report out");
+  EXPECT_EQ(report.exit_code, 2);
+  EXPECT_THAT(report.err, HasSubstr("out: has no result yet"));
+
+  const auto same = run_havers(folder, "fit made/study.toml -o out");
+  EXPECT_NE(same.exit_code, 2) << same.err;
+  EXPECT_THAT(same.err, HasSubstr("going on with the simulations kept in out"));
+  EXPECT_FALSE(fs::exists(folder / "out/.run"));
 }
 
 }  // namespace
