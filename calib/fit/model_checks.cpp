@@ -200,15 +200,22 @@ Check check_brittle(const FitProblem& problem, const Answer& answer) {
       "strength / (modulus × failure strain) is {:.2f} in the tests and {:.2f} in the model",
       std::exp(measured / n), std::exp(simulated / n));
   const bool certain = std::abs(gap) > 3.0 * error;
+  // What is off is the model, where the tests are straight.
+  const bool straight = std::abs(measured / n) < -std::log(slightly_bent);
   if (certain && (part < bent || part > 1.0 / bent))
     return {"brittle", Outcome::fail,
-            fmt::format("These curves are not brittle: {}. The model is rejected; its parameters "
-                        "describe nothing here.",
-                        numbers)};
+            fmt::format(
+                "{} not brittle: {}. The model is rejected; its parameters describe nothing "
+                "here.{}",
+                straight ? "The tests are brittle, and the model's curves are" : "These curves are",
+                numbers, straight ? " Is the scatter of its joints too large?" : "")};
   if (certain && (part < slightly_bent || part > 1.0 / slightly_bent))
     return {"brittle", Outcome::warn,
-            fmt::format("The curves {} before they break: {}. Strength is compared at the peak.",
-                        part < 1.0 ? "bend" : "stiffen", numbers)};
+            fmt::format("{} before they break: {}. Strength is compared at the peak.",
+                        straight     ? "The model's curves bend"
+                        : part < 1.0 ? "The curves bend"
+                                     : "The curves stiffen",
+                        numbers)};
   return {"brittle", Outcome::pass,
           fmt::format("The curves are straight up to the break: {}.", numbers)};
 }

@@ -88,6 +88,26 @@ TEST(Verdict, WarnsWhereCurvesStiffenAsWhereTheyBend) {
   EXPECT_EQ(outcome_at(1.2).outcome, Outcome::fail);
 }
 
+// As joints of large scatter make them: the tests are as straight as a ruler.
+TEST(Verdict, SaysThatTheModelBendsWhereTheTestsAreStraight) {
+  const auto study = test::synthetic_study(test::three_orientations);
+  const auto check_at = [&](double linearity) {
+    auto simulator = test::ClosedForm{}.simulator();
+    simulator.run = [linearity](const sim::Scene& scene) {
+      Response response = test::ClosedForm{}(scene);
+      response.failure_strain /= linearity;
+      response.strain = {0.0, response.failure_strain, response.failure_strain};
+      return response;
+    };
+    return check_of(calibrate_with(simulator, study), "brittle");
+  };
+  EXPECT_EQ(check_at(0.5).outcome, Outcome::fail);
+  EXPECT_TRUE(says(check_at(0.5), "The tests are brittle, and the model's curves are not brittle"))
+      << check_at(0.5).text;
+  EXPECT_EQ(check_at(0.94).outcome, Outcome::warn);
+  EXPECT_TRUE(says(check_at(0.94), "The model's curves bend before they break"));
+}
+
 TEST(Verdict, LeavesCurvesUncheckedWhereNoTestBroke) {
   auto study = test::synthetic_study({0.0});
   for (auto& specimen : study.specimens) specimen.broke = false;
