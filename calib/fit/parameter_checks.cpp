@@ -21,8 +21,11 @@ std::string where_left(const Unknown& unknown, double position) {
   return fmt::format("{:.4g}{}", value_in_unit(unknown, position), ground);
 }
 
-// Another angle tells no scatter where angles differ already: with each, d goes as σ₁.
+// Another angle tells no scatter where angles differ already: with each, d goes as σ₁. Nor does it
+// tell what breaks a specimen, where none broke.
 std::string what_may_tell(const FitProblem& problem, const std::vector<LeftUnknown>& left) {
+  const auto broke = [&](std::size_t s) { return !problem.targets[s].censored; };
+  if (std::ranges::none_of(problem.fitted, broke)) return "tests up to the break may tell it.";
   std::set<double> orientations;
   for (const std::size_t s : problem.fitted)
     orientations.insert(problem.study.specimens[s].orientation);

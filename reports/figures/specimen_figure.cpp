@@ -16,7 +16,7 @@ set xtics format ''
 plot $band using ($1*100):($2*1e-6):($3*1e-6) with filledcurves lc rgb band title '95 % of the replicates', \
   $measured using ($1*100):($2*1e-6) with points pt 7 ps 0.28 lc rgb dark title 'measured', \
   $band using ($1*100):($4*1e-6) with lines lw 1.6 lc rgb blue title 'simulated, median', \
-  $peak using ($1*100):($2*1e-6) with points pt 12 ps 1.3 lw 1.6 lc rgb red title 'measured strength'
+  $peak using ($1*100):($2*1e-6) with points pt 12 ps 1.3 lw 1.6 lc rgb red title '{end}'
 {bottom}
 unset key
 set xtics format '%g'
@@ -55,6 +55,7 @@ Figure specimen_figure(const calib::SpecimenResult& specimen, const std::string&
       data_block("residual", {band.strain, band.residual}) +
       data_block("peak", {peak_strain, peak_stress}) +
       fmt::format(specimen_commands, fmt::arg("range", range), fmt::arg("top", panel(0.40, 0.89)),
+                  fmt::arg("end", specimen.measured.broke ? "measured strength" : "stopped here"),
                   fmt::arg("tics", few_tics(band.residual, 1.0 / in::MPa)),
                   fmt::arg("bottom", panel(0.145, 0.365)));
   return figure;

@@ -56,6 +56,17 @@ TEST(Figure, IsAnSvgThatFillsItsContainer) {
   EXPECT_TRUE(contains(svg, "<title>measured</title>"));
 }
 
+// A strength that was not reached is none.
+TEST(Figure, SaysWhereATestWasStopped) {
+  auto specimen = test::fit_sample().result.specimens.front();
+  specimen.measured.broke = true;
+  EXPECT_TRUE(contains(draw(specimen_figure(specimen, "s0")), "measured strength"));
+  specimen.measured.broke = false;
+  const std::string svg = draw(specimen_figure(specimen, "s0"));
+  EXPECT_TRUE(contains(svg, "stopped here"));
+  EXPECT_FALSE(contains(svg, "measured strength"));
+}
+
 // Where points lie close to each other their names would lie on each other.
 TEST(Figure, NamesTheSpecimensThatHaveRoom) {
   const auto sample = test::fit_sample();

@@ -191,5 +191,15 @@ TEST(Identifiability, WarnsOfNothingWhenAutomaticLeavesOutWhatChangesNothing) {
   EXPECT_TRUE(test::says(check, "has no interval; specimens at another orientation may tell it."));
 }
 
+TEST(Identifiability, AsksForABreakWhereEveryTestWasStopped) {
+  auto study = test::synthetic_study(test::three_orientations);
+  for (auto& specimen : study.specimens) specimen.broke = false;
+  const Check check =
+      test::check_of(calibrate_with(test::ClosedForm{}.simulator(), study), "identifiable");
+  EXPECT_EQ(check.outcome, Outcome::warn);
+  EXPECT_TRUE(test::says(check, "has no interval; tests up to the break may tell it."))
+      << check.text;
+}
+
 }  // namespace
 }  // namespace havers::calib
