@@ -21,7 +21,9 @@ Check check_convergence(const Answer& answer, double cost) {
   const std::string what = explain(answer.status);
   if (answer.status == CalibrationStatus::budget_spent)
     return {"converged", Outcome::fail,
-            what + ": raise calibrate.options.budget and run again; nothing is lost"};
+            what +
+                ": raise calibrate.options.budget and run again into the same folder (--force), "
+                "which keeps the simulations"};
   if (answer.status != CalibrationStatus::converged)
     return {"converged", Outcome::fail, "No answer: " + what + "."};
   if (answer.slopes.failed)

@@ -101,6 +101,9 @@ TEST(Calibrate, SaysThatTheBudgetIsSpentAndKeepsTheBestPoint) {
   EXPECT_EQ(result.status, CalibrationStatus::budget_spent);
   EXPECT_FALSE(result.trusted());
   EXPECT_LT(result.cost, 1e4);
+  EXPECT_THAT(test::check_of(result, "converged").text,
+              testing::EndsWith("run again into the same folder (--force), which keeps the "
+                                "simulations"));
 }
 
 // The budget is one of points with eight replicates until their number is known, not of scouts.
