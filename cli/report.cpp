@@ -25,16 +25,31 @@ struct ReportArguments {
   fs::path folder;
 };
 
+// The ends of paths, as short as tell apart those that differ: runs/first/out, runs/second/out.
+std::vector<std::string> shortest_ends(const std::vector<fs::path>& folders) {
+  std::vector<fs::path> rest, ends(folders.size());
+  for (const fs::path& folder : folders) rest.push_back(fs::canonical(folder));
+  const std::set<fs::path> different(rest.begin(), rest.end());
+  do {
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      ends[i] = ends[i].empty() ? rest[i].filename() : rest[i].filename() / ends[i];
+      rest[i] = rest[i].parent_path();
+    }
+  } while (std::set<fs::path>(ends.begin(), ends.end()).size() < different.size());
+  std::vector<std::string> names;
+  for (const fs::path& end : ends) names.push_back(end.string());
+  return names;
+}
+
 // Fits of studies of one name are called by their folders.
 void tell_apart(std::vector<FinishedFit>& fits, const std::vector<fs::path>& folders) {
   std::map<std::string, int> fits_of;
   for (const FinishedFit& finished : fits) ++fits_of[finished.fit.study.name];
+  const std::vector<std::string> ends = shortest_ends(folders);
   std::set<std::string> used;
   for (std::size_t i = 0; i < fits.size(); ++i) {
     std::string& name = fits[i].fit.study.name;
-    if (fits_of[name] > 1)
-      name = fmt::format(
-          "{} ({})", name_of_its_own(fs::canonical(folders[i]).filename().string(), used), name);
+    if (fits_of[name] > 1) name = fmt::format("{} ({})", name_of_its_own(ends[i], used), name);
   }
 }
 

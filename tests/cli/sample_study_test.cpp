@@ -59,6 +59,11 @@ TEST(SampleStudy, FindsTheTruthAgainAndIsTrusted) {
   const std::string both = test::contents(folder / "both/report.html");
   for (const char* name : {"out (six bone bars)", "out_2 (six bone bars)"})
     EXPECT_THAT(both, HasSubstr(name)) << "fits of one study are told apart";
+  fs::create_directories(folder / "second");
+  fs::copy(folder / "out", folder / "second/out", fs::copy_options::recursive);
+  EXPECT_EQ(run_havers(folder, "report out second/out -o three").exit_code, 0);
+  EXPECT_THAT(test::contents(folder / "three/report.html"),
+              HasSubstr("second&#x2F;out (six bone bars)"));
   fs::copy_file(folder / "out/result.json", folder / "out/A.json");
   fs::copy_file(folder / "out/result.json", folder / "alone.json");
   EXPECT_EQ(run_havers(folder, "report out/A.json -o copy").exit_code, 0);
