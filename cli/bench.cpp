@@ -24,6 +24,8 @@ constexpr const char* bench_examples =
     "  havers bench --calibration -o runs/chains    # chains of optimisers on studies of known "
     "truth\n";
 
+constexpr int most_repeats = 1'000'000;  // more than anybody waits for
+
 struct Mode {
   const char* name;  // Its flag, but for the mode of a SCENE.
   const char* help;
@@ -87,12 +89,12 @@ Command bench_command(CLI::App& app, CommonOptions& common) {
       ->add_option("--seeds", arguments->seeds,
                    "runs of each setting, with --porosity drawn sections of each kind (default: 3)")
       ->type_name("N")
-      ->check(count());
+      ->check(count(most_repeats));
   parser
       ->add_option("--studies", arguments->studies,
                    "studies of known truth (default: 20 with --calibration, 100 with --coverage)")
       ->type_name("N")
-      ->check(count());
+      ->check(count(most_repeats));
   parser
       ->add_option("--costly", arguments->costly,
                    "with --calibration, unknowns that cost simulations: 1, the ratio (default), or "

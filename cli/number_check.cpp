@@ -34,10 +34,8 @@ CLI::Validator not_negative() {
 }
 
 CLI::Validator count(int most) {
-  const bool open = most == std::numeric_limits<int>::max();
-  return number_check<int>(
-      open ? "a whole number, 1 or more" : fmt::format("a whole number from 1 to {}", most),
-      [most](int value) { return value >= 1 && value <= most; });
+  return number_check<int>(fmt::format("a whole number from 1 to {}", most),
+                           [most](int value) { return value >= 1 && value <= most; });
 }
 
 CLI::Validator seed_number() {

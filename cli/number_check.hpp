@@ -2,7 +2,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <limits>
 
 namespace havers::cli {
 
@@ -13,7 +12,7 @@ CLI::Validator above_zero();
 CLI::Validator not_negative();
 
 /// A whole number from 1 to `most`.
-CLI::Validator count(int most = std::numeric_limits<int>::max());
+CLI::Validator count(int most);
 
 /// A whole number, 0 or more.
 CLI::Validator seed_number();

@@ -1,5 +1,7 @@
 #include "io/input_error.hpp"
 
+#include <algorithm>
+#include <set>
 #include <utility>
 
 namespace havers::io {
@@ -11,12 +13,19 @@ std::string at_line(const std::string& file, std::size_t line) {
 std::string to_string(const Problem& problem) {
   std::string text = problem.where + ": " + problem.what;
   if (!problem.hint.empty()) text += " (" + problem.hint + ")";
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
   return text;
 }
 
-InputError::InputError(std::vector<Problem> problems) : problems_(std::move(problems)) {
-  for (const Problem& problem : problems_) text_ += to_string(problem) + "\n";
-  if (!text_.empty()) text_.pop_back();
+InputError::InputError(std::vector<Problem> problems) {
+  std::set<std::string> told;
+  for (Problem& problem : problems) {
+    const std::string sentence = to_string(problem);
+    if (!told.insert(sentence).second) continue;
+    text_ += (text_.empty() ? "" : "\n") + sentence;
+    problems_.push_back(std::move(problem));
+  }
 }
 
 InputError::InputError(std::string where, std::string what, std::string hint)

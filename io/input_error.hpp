@@ -17,10 +17,11 @@ struct Problem {
 /// "file:line", for a problem's `where`.
 std::string at_line(const std::string& file, std::size_t line);
 
-/// "where: what (hint)".
+/// "where: what (hint)", in one line.
 std::string to_string(const Problem& problem);
 
-/// All problems of an input together; caught once, in main, exit code 2.
+/// All problems of an input together, each once, for one mistake may stand in the way of many keys
+/// and files; caught once, in main, exit code 2.
 class InputError : public std::exception {
  public:
   explicit InputError(std::vector<Problem> problems);

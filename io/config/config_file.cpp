@@ -28,6 +28,16 @@ std::string ConfigFile::where(const toml::node& node, const std::string& key) co
   return fmt::format("{}:{}: {}", file_.string(), source.begin.line, key);
 }
 
+// The one other table that has the key, or what is near in its own.
+std::string ConfigFile::hint_of_key(std::string_view key,
+                                    const std::set<std::string, std::less<>>& known) const {
+  const auto has_key = [&](const auto& table) { return table.second.contains(key); };
+  const auto found = std::ranges::find_if(asked_, has_key);
+  if (found == asked_.end() || found->first.empty() || std::ranges::count_if(asked_, has_key) > 1)
+    return nearest_or_all(key, known);
+  return fmt::format("it is a key of [{}]", found->first);
+}
+
 std::vector<Problem> ConfigFile::problems() {
   std::vector<std::pair<const toml::table*, std::string>> open{{top_.get(), ""}};
   for (std::size_t i = 0; i < open.size(); ++i) {
@@ -36,7 +46,7 @@ std::vector<Problem> ConfigFile::problems() {
     for (auto&& [key, node] : *table) {
       const std::string name = dotted(path, key.str());
       if (!known.contains(key.str()))
-        complain({where(node, name), "is not a known key", nearest_or_all(key.str(), known)});
+        complain({where(node, name), "is not a known key", hint_of_key(key.str(), known)});
       else if (!asked_.contains(name))
         continue;  // a value, judged where it was read
       else if (const toml::table* inner = node.as_table())
@@ -49,10 +59,8 @@ std::vector<Problem> ConfigFile::problems() {
   return std::move(problems_);
 }
 
-// One mistake may stand in the way of many keys.
 void ConfigFile::complain(Problem problem) {
-  const auto same = [&](const Problem& other) { return to_string(other) == to_string(problem); };
-  if (std::ranges::none_of(problems_, same)) problems_.push_back(std::move(problem));
+  problems_.push_back(std::move(problem));
 }
 
 void ConfigFile::finish() {

@@ -14,10 +14,23 @@ namespace {
 
 // What is behind the parser's most frequent complaints.
 const char* hint_for(std::string_view complaint) {
-  if (complaint.find("saw ','") != std::string_view::npos)
-    return "write numbers with a point, 4.02";
-  if (complaint.find("redefine existing table") != std::string_view::npos)
-    return "write [[specimen]], with two brackets, for each of several";
+  using Hint = std::pair<std::string_view, const char*>;
+  for (const auto& [words, hint] :
+       {Hint{"saw ','", "write numbers with a point, 4.02"},
+        Hint{"existing table 'specimen'",
+             "write [[specimen]], with two brackets, for each of several"},
+        Hint{"existing table", "put all keys of a table below one line of its name"},
+        Hint{"redefine existing", "each key stands once in its table"},
+        Hint{"escape sequence", R"(write folders with /, as in "data/A1.csv")"},
+        Hint{"scalar sequence", R"(write folders with /, as in "data/A1.csv")"},
+        Hint{"a comment or whitespace", "a key has one value, without a unit"},
+        Hint{"control characters", "close the text with the quote that opens it"},
+        Hint{"floating-point", "write digits on both sides of the point, 13.0"},
+        Hint{"utf-8", "save the file as UTF-8"},
+        Hint{"determine value type", R"(write texts in straight quotes, as in "weibull")"},
+        Hint{"parsing boolean", "write true or false in small letters"},
+        Hint{"64 bits", "write it with fewer digits"}})
+    if (complaint.find(words) != std::string_view::npos) return hint;
   return "";
 }
 

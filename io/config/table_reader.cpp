@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "io/config/nearest.hpp"
@@ -13,6 +12,10 @@
 
 namespace havers::io {
 namespace {
+
+// Beyond what a laboratory or a model can mean, and far within what can be computed.
+constexpr double largest_number = 1e30, smallest_number = 1e-30;
+constexpr std::int64_t largest_count = 1'000'000'000;  // of anything that is counted
 
 std::string_view kind(const toml::node& node) {
   if (node.is_string()) return "a text";
@@ -85,11 +88,19 @@ bool TableReader::wrong_type(std::string_view name, const toml::node& node,
 }
 
 // TOML's own conversion refuses whole numbers that a double only rounds.
-std::optional<double> TableReader::finite_number(std::string_view name, const toml::node& node) {
+std::optional<double> TableReader::usable_number(std::string_view name, const toml::node& node) {
   const double number =
       node.is_integer() ? static_cast<double>(**node.as_integer()) : **node.as_floating_point();
-  if (std::isfinite(number)) return number;
-  complain(name, fmt::format("is {}, must be finite", number));
+  const double size = std::abs(number);
+  if (!std::isfinite(number))
+    complain(name, fmt::format("is {}, must be finite", number));
+  else if (size > largest_number)
+    complain(name, fmt::format("is {:g}, must be at most {:g} in size", number, largest_number));
+  else if (size > 0.0 && size < smallest_number)
+    complain(name,
+             fmt::format("is {:g}, must be 0 or at least {:g} in size", number, smallest_number));
+  else
+    return number;
   return std::nullopt;
 }
 
@@ -97,7 +108,7 @@ bool TableReader::key(std::string_view name, double& value, KeyUnit unit) {
   const toml::node* node = ask(name);
   if (node == nullptr) return false;
   if (!node->is_number()) return wrong_type(name, *node, "a number");
-  const std::optional<double> number = finite_number(name, *node);
+  const std::optional<double> number = usable_number(name, *node);
   if (number) value = to_si(*number, unit);
   return number.has_value();
 }
@@ -123,12 +134,10 @@ std::optional<std::int64_t> TableReader::whole_number(std::string_view name) {
 }
 
 bool TableReader::key(std::string_view name, int& value) {
-  using Range = std::numeric_limits<int>;
   const std::optional<std::int64_t> number = whole_number(name);
   if (!number) return false;
-  if (*number < Range::min() || *number > Range::max()) {
-    complain(name,
-             fmt::format("is {}, must be from {} to {}", *number, Range::min(), Range::max()));
+  if (*number < -largest_count || *number > largest_count) {
+    complain(name, fmt::format("is {}, must be at most {} in size", *number, largest_count));
     return false;
   }
   value = static_cast<int>(*number);
@@ -160,8 +169,8 @@ bool TableReader::key(std::string_view name, std::pair<double, double>& value) {
     complain(name, "must be a list of two numbers", "as in [5.0, 30.0]");
     return false;
   }
-  const std::optional<double> first = finite_number(name, *list->get(0));
-  const std::optional<double> second = finite_number(name, *list->get(1));
+  const std::optional<double> first = usable_number(name, *list->get(0));
+  const std::optional<double> second = usable_number(name, *list->get(1));
   if (first && second) value = {*first, *second};
   return first && second;
 }

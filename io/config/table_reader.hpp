@@ -91,7 +91,7 @@ class TableReader {
   bool wrong_type(std::string_view name, const toml::node& node, std::string_view expected);
   template <class T>
   bool take(std::string_view name, T& value, std::string_view expected);
-  std::optional<double> finite_number(std::string_view name, const toml::node& node);
+  std::optional<double> usable_number(std::string_view name, const toml::node& node);
   std::optional<std::int64_t> whole_number(std::string_view name);
   std::optional<std::size_t> word_index(std::string_view name,
                                         const std::vector<std::string_view>& known);
@@ -124,6 +124,8 @@ class ConfigFile {
  private:
   friend class TableReader;
   [[nodiscard]] std::string where(const toml::node& node, const std::string& key) const;
+  [[nodiscard]] std::string hint_of_key(std::string_view key,
+                                        const std::set<std::string, std::less<>>& known) const;
 
   std::filesystem::path file_;
   std::unique_ptr<toml::table> top_;

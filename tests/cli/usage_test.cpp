@@ -126,6 +126,8 @@ TEST(Usage, NumbersThatCannotBeAreNamedWithTheRule) {
       {"check a.toml --seed=-1", "--seed: is -1, must be a whole number from 0 to 2^63 - 1"},
       {"check a.toml --seed 9223372036854775808",
        "--seed: is 9223372036854775808, must be a whole number from 0 to 2^63 - 1"},
+      {"bench -o b --porosity --seeds 99999999999",
+       "--seeds: is 99999999999, must be a whole number from 1 to 1000000"},
       {"bench -o b --calibration --costly 3", "--costly: is 3, must be a whole number from 1 to 2"},
       {"porosity a.png --rim-um inf", "--rim-um: is inf, must be a number, 0 or more"},
       {"porosity a.png --pores grey", "--pores: is grey, must be one of: found, dark, bright"}};

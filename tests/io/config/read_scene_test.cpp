@@ -192,8 +192,26 @@ TEST_F(ReadScene, NamesWrongTypes) {
                   "dynamic, quasi-static "
                   "(did you mean quasi-static?)",
                   "scene.toml:14: solver.step_s: is a date or time, must be a number",
-                  "scene.toml:15: solver.max_iterations: is 99999999999, must be from -2147483648 "
-                  "to 2147483647"));
+                  "scene.toml:15: solver.max_iterations: is 99999999999, must be at most "
+                  "1000000000 in size"));
+}
+
+// Their squares and quotients would leave the numbers that can be computed with.
+TEST_F(ReadScene, RefusesNumbersThatNothingMeasuredCanBe) {
+  EXPECT_THAT(
+      complaints("[material]\nyoung_GPa = 1e300\n[joints]\nhead_tail_MPa = 1e-300\nflank_MPa = "
+                 "-1e31\n[loading]\nstrain_rate_per_s = 1e-30\n"),
+      ElementsAre("scene.toml:2: material.young_GPa: is 1e+300, must be at most 1e+30 in size",
+                  "scene.toml:4: joints.head_tail_MPa: is 1e-300, must be 0 or at least 1e-30 in "
+                  "size",
+                  "scene.toml:5: joints.flank_MPa: is -1e+31, must be at most 1e+30 in size"));
+}
+
+TEST_F(ReadScene, NamesTheTableThatAKeyIsOf) {
+  EXPECT_THAT(complaints("young_GPa = 13\n[assembly]\nscatter = 0.3\n"),
+              ElementsAre("scene.toml:1: young_GPa: is not a known key (it is a key of [material])",
+                          "scene.toml:3: assembly.scatter: is not a known key (it is a key of "
+                          "[joints])"));
 }
 
 TEST_F(ReadScene, NamesTheKnownKeysWhereNoneIsNear) {
@@ -217,6 +235,28 @@ TEST_F(ReadScene, SaysWhereTheFileIsNotToml) {
   EXPECT_THAT(test::complaints_of(folder, [&] { read_scene(test_file); }),
               ElementsAre(testing::EndsWith("(a study, scene or sweep is; havers import reads "
                                             "tests, havers porosity images)")));
+}
+
+TEST_F(ReadScene, SaysWhatToDoWhereTheFileIsNotToml) {
+  for (const auto& [line, hint] :
+       {std::pair("young_GPa = 13,5", "(write numbers with a point, 4.02)"),
+        {"[material]", "(put all keys of a table below one line of its name)"},
+        {"poisson = 0.3\npoisson = 0.3", "(each key stands once in its table)"},
+        {"plane = \"C:\\data\"", "(write folders with /, as in \"data/A1.csv\")"},
+        {"plane = \"\\users\"", "(write folders with /, as in \"data/A1.csv\")"},
+        {"young_GPa = 13 GPa", "(a key has one value, without a unit)"},
+        {"plane = \"stress", "(close the text with the quote that opens it)"},
+        {"young_GPa = 13.", "(write digits on both sides of the point, 13.0)"},
+        {"# M\xFCller", "(save the file as UTF-8)"},
+        {"plane = stress", "(write texts in straight quotes, as in \"weibull\")"},
+        {"plane = “stress”", "(write texts in straight quotes, as in \"weibull\")"},
+        {"plane = True", "(write true or false in small letters)"},
+        {"poisson = 99999999999999999999", "(write it with fewer digits)"}})
+    EXPECT_THAT(complaints("[material]\n" + std::string(line) + "\n"),
+                ElementsAre(testing::EndsWith(hint)))
+        << line;
+  EXPECT_THAT(complaints("[specimen]\nid = \"A\"\n[specimen]\n"),
+              ElementsAre(testing::EndsWith("two brackets, for each of several)")));
 }
 
 TEST_F(ReadScene, SaysThatTheFileIsNotThere) {
