@@ -255,6 +255,9 @@ Command import_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(app, common, "import",
                                  "what is in a test file, as read and as used", import_examples);
   say_refused(*parser, {"--seed"});
+  parser->get_option("--set")->description(
+      "how files are read: columns.KEY, gauge_columns.KEY, specimen_in_file or reduction.KEY, as "
+      "in a study; repeatable");
   const auto arguments = std::make_shared<ImportArguments>();
   parser->add_option("FILE", arguments->files, "test files")->required();
   parser

@@ -25,14 +25,16 @@ bool in_brackets(const std::string& cell) {
   return without_brackets(cell).size() < cell.size();
 }
 
-// Only units, in brackets or known, and at least one that is known.
+// Only units, in brackets or known, and at least one that is known; or two in brackets or more,
+// in whatever script.
 bool is_unit_row(const PreviewRow& row) {
-  const auto may_be = [](const std::string& cell) {
-    return cell.empty() || in_brackets(cell) || find_unit(cell).has_value();
+  const auto known = [](const std::string& cell) { return find_unit(cell).has_value(); };
+  const auto may_be = [&](const std::string& cell) {
+    return cell.empty() || in_brackets(cell) || known(cell);
   };
   return std::ranges::all_of(row.cells, may_be) &&
-         std::ranges::any_of(row.cells,
-                             [](const auto& cell) { return find_unit(cell).has_value(); });
+         (std::ranges::any_of(row.cells, known) ||
+          std::ranges::count_if(row.cells, in_brackets) >= 2);
 }
 
 bool may_name(const PreviewRow& row, std::size_t columns, char decimal) {

@@ -145,7 +145,25 @@ Number parse_lone_number(std::string_view cell) {
   return parse_number(cell, comma ? ',' : '.');
 }
 
+std::string_view without_half_day(std::string_view cell) {
+  for (const std::string_view half : {"AM", "PM", "am", "pm"}) {
+    if (cell.size() <= half.size() || !cell.ends_with(half)) continue;
+    cell.remove_suffix(half.size());
+    if (cell.ends_with(' ')) cell.remove_suffix(1);
+    break;
+  }
+  return cell;
+}
+
 Number parse_clock(std::string_view cell) {
+  constexpr double half_day = 43200.0;
+  if (const std::string_view hours = without_half_day(cell); hours.size() < cell.size()) {
+    const bool afternoon = cell[cell.size() - 2] == 'P' || cell[cell.size() - 2] == 'p';
+    Number time = parse_clock(hours);
+    if (time.value >= half_day + 3600.0 || time.value < 3600.0) time.fault = NumberFault::text;
+    time.value = std::fmod(time.value, half_day) + (afternoon ? half_day : 0.0);
+    return time;
+  }
   if (cell.ends_with('Z')) cell.remove_suffix(1);
   cell.remove_prefix(cell.find_last_of(" T") + 1);  // npos + 1 is 0
   const bool minutes =

@@ -25,8 +25,11 @@ Number parse_number(std::string_view cell, char decimal = '.');
 Number parse_lone_number(std::string_view cell);
 
 /// A time of day or an elapsed time in s: `10:00:01`, `2026-05-01 10:00:01,25`, of a date nothing
-/// is taken; `12:01.5`, minutes where the seconds have decimals.
+/// is taken; `12:01.5`, minutes where the seconds have decimals; `1:00:01 PM`.
 Number parse_clock(std::string_view cell);
+
+/// "10:00:01" of "10:00:01 PM"; the whole cell where it names no half of a day.
+std::string_view without_half_day(std::string_view cell);
 
 /// Whether the cell is a finite number.
 bool is_number(std::string_view cell, char decimal = '.');

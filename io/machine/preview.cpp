@@ -78,6 +78,7 @@ bool is_dotted_date(std::string_view cell) {
 // 10:00:01 or 2026-05-01: loggers write such a column beside their numbers.
 bool is_clock_time(std::string_view cell) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  cell = without_half_day(cell);
   if (cell.ends_with('Z')) cell.remove_suffix(1);
   if (cell.find_first_not_of("0123456789:/-.,T ") != std::string_view::npos) return false;
   if (cell.empty() || !is_digit(cell.front()) || !is_digit(cell.back())) return false;

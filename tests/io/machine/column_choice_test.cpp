@@ -128,18 +128,17 @@ TEST(ColumnChoice, TurnsWhatCountsCompression) {
 
 // Nothing is read of it, and rows of it are rows of numbers.
 TEST(ColumnChoice, PassesOverAColumnOfClockTimes) {
-  for (const char* first : {"10:00:0", "2026-05-01T10:00:0", "01/05/2026 10:00:0"}) {
-    std::string text = "Clock,Load (N),Strain (%)\n";
-    for (const char* row : {"1,1,0.1\n", "2,2,0.2\n"}) text += std::string(first) + row;
-    const TestFile file = choice_of(text);
+  for (const std::string first :
+       {"10:00:01", "2026-05-01T10:00:01", "01/05/2026 10:00:01", "1/5/2026 10:00:01 AM"}) {
+    const TestFile file =
+        choice_of("Clock,Load (N),Strain (%)\n" + first + ",1,0.1\n" + first + ",2,0.2\n");
     EXPECT_EQ(file.test.force, (std::vector{1.0, 2.0})) << first;
     EXPECT_EQ(file.test.strain, (std::vector{0.001, 0.002})) << first;
   }
 }
 
 TEST(ColumnChoice, PassesOverAColumnOfText) {
-  for (const std::string text :
-       {"03/12/2024 10:00:00 AM", "2024-03-12T10:00:00.000+01:00", "Ramp 1", "OK", "-", ":"}) {
+  for (const std::string text : {"2024-03-12T10:00:00.000+01:00", "Ramp 1", "OK", "-", ":"}) {
     const auto row = [&](const char* numbers) { return text + numbers; };
     const TestFile commas = choice_of("Width,4,mm\n\nStage,Time (s),Load (N)\n" +
                                       row(",0.000,1\n") + row(",0.125,2\n"));
@@ -169,6 +168,13 @@ TEST(ColumnChoice, ReadsTheTimeOfAClock) {
   const test::TemporaryFile logger(
       "Time,Strain (%)\n2026-05-01 09:59:59,0.1\n2026-05-01 10:00:00,0.2\n");
   EXPECT_EQ(read_test(logger.path(), {.logger = true}).test.time, (std::vector{35999.0, 36000.0}));
+}
+
+TEST(ColumnChoice, ReadsAClockOfTwelveHoursThroughNoon) {
+  const test::TemporaryFile logger(
+      "Time,Strain (%)\n11:59:59 AM,0.1\n12:00:00 PM,0.2\n1:00:00 PM,0.3\n");
+  EXPECT_EQ(read_test(logger.path(), {.logger = true}).test.time,
+            (std::vector{43199.0, 43200.0, 46800.0}));
 }
 
 TEST(ColumnChoice, FollowsAClockThroughMidnight) {

@@ -113,6 +113,14 @@ TEST(InputFaults, NamesAFileWithoutForce) {
       "name it in [specimen.columns])");
 }
 
+// Names and units in a script that the words are not of: the user says which is which.
+TEST(InputFaults, NamesColumnsAndUnitsInWhateverScript) {
+  EXPECT_EQ(complaint_of("Время,Сила\n(с),(Н)\n0,1\n1,20\n"),
+            "test.csv:3: no column holds a force or a stress (the columns are Время (с), Сила (Н); "
+            "name it in [specimen.columns]; from the numbers it may be force = \"2\", extension = "
+            "\"1\")");
+}
+
 TEST(InputFaults, NamesAQuoteThatIsNeverClosed) {
   HAVERS_SLOW;
   const std::string sentence =

@@ -82,7 +82,16 @@ TEST(ParseClock, ReadsHoursMinutesAndSeconds) {
   EXPECT_EQ(parse_clock("12:01,5").value, 721.5);
   EXPECT_EQ(parse_clock("100:00:00").value, 360000.0);
   for (const char* cell : {"", ":", "::", "//", "10:00", "10:00:", "10:60:00", "10:00:60", "a:b:c",
-                           "10:00:00:00", "-1:00:00", "10:00:01 PM"})
+                           "10:00:00:00", "-1:00:00"})
+    EXPECT_EQ(parse_clock(cell).fault, NumberFault::text) << cell;
+}
+
+TEST(ParseClock, ReadsTheTwoHalvesOfADay) {
+  EXPECT_EQ(parse_clock("10:00:01 AM").value, 36001.0);
+  EXPECT_EQ(parse_clock("5/1/2026 1:00:01.5 pm").value, 46801.5);
+  EXPECT_EQ(parse_clock("12:00:01AM").value, 1.0);
+  EXPECT_EQ(parse_clock("12:00:01 PM").value, 43201.0);
+  for (const char* cell : {"PM", " PM", "13:00:01 PM", "0:00:01 AM", "12:01.5 PM"})
     EXPECT_EQ(parse_clock(cell).fault, NumberFault::text) << cell;
 }
 
