@@ -53,6 +53,7 @@ struct MeasuredTest {
   double linearity = 1.0;  ///< Strength / (modulus · failure strain): 1 when linear to failure. [-]
   std::vector<Correction> corrections;
   std::vector<std::string> warnings;  ///< A sentence each.
+  std::string unit_doubt;  ///< The warning whose numbers no compact bone has (X22); else empty.
 };
 
 /// Reduces a test. A test that cannot be reduced (no rows, no strain, no area) says why in

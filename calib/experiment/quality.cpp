@@ -31,17 +31,17 @@ std::string doubt_of_units(const RawTest& raw, const MeasuredTest& test) {
                    highest_modulus = 1e11, softest_machine = 0.1;
   const bool from_force = !raw.force.empty() && test.area > 0.0;
   if (test.strength < lowest_strength || test.strength > highest_strength)
-    return fmt::format("a strength of {:.5g} MPa {} ({:g} to {:g} MPa): check the units ({})",
-                       test.strength * 1e-6, not_of_bone, lowest_strength * 1e-6,
-                       highest_strength * 1e-6,
-                       from_force ? "force_unit, width_mm, thickness_mm" : "stress_unit");
+    return fmt::format(
+        "a strength of {:.5g} MPa is not that of compact bone ({:g} to {:g} MPa): check the units "
+        "({})",
+        test.strength * 1e-6, lowest_strength * 1e-6, highest_strength * 1e-6,
+        from_force ? "force_unit, width_mm, thickness_mm" : "stress_unit");
   const double lowest = test.of_crosshead ? softest_machine * lowest_modulus : lowest_modulus;
   if (test.modulus >= lowest && test.modulus <= highest_modulus) return {};
   return fmt::format(
-      "a modulus of {:.5g} GPa with a failure strain of {:.3g} % {} ({:g} to {:g} GPa): "
-      "check the units ({})",
-      test.modulus * 1e-9, 100.0 * test.failure_strain, not_of_bone, lowest * 1e-9,
-      highest_modulus * 1e-9,
+      "a modulus of {:.5g} GPa with a failure strain of {:.3g} % is not that of compact bone "
+      "({:g} to {:g} GPa): check the units ({})",
+      test.modulus * 1e-9, 100.0 * test.failure_strain, lowest * 1e-9, highest_modulus * 1e-9,
       raw.strain.empty() ? "extension_unit, gauge_length_mm" : "strain_unit");
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "calib/experiment/measured_test.hpp"
@@ -11,9 +10,6 @@ namespace havers::calib {
 
 /// Why a reduced test is rejected, a sentence each; empty when it is accepted (X16).
 std::vector<std::string> rejections(const MeasuredTest& test, const ReductionOptions& options);
-
-/// By these words a page knows such a doubt among the warnings.
-inline constexpr std::string_view not_of_bone = "is not that of compact bone";
 
 /// What a strength or modulus that no compact bone has says of the units of its columns; empty
 /// where bone may have it (X22). `raw` tells what they come from.

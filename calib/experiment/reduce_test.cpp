@@ -215,8 +215,8 @@ Reduction reduce_test(const RawTest& recorded, const ReductionOptions& options) 
     return unreduced(test, {std::move(problem)});
   if (options.remove_toe) remove_toe(test, fit.line);
   take_failure(test);
-  if (std::string doubt = doubt_of_units(raw, test); !doubt.empty())
-    test.warnings.push_back(std::move(doubt));
+  test.unit_doubt = doubt_of_units(raw, test);
+  if (!test.unit_doubt.empty()) test.warnings.push_back(test.unit_doubt);
 
   Reduction reduction{std::move(test), {}};
   if (options.quality_control) reduction.problems = rejections(reduction.test, options);

@@ -30,6 +30,7 @@ void keys(Table& table, calib::MeasuredTest& test) {
   table.key("linearity", test.linearity);
   table.key("corrections", test.corrections);
   table.key("warnings", test.warnings);
+  table.key("unit_doubt", test.unit_doubt);
 }
 
 template <class Table>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calib/experiment/quality.hpp"
 #include "reports/figures/figures.hpp"
 #include "reports/pages/fit_specimen.hpp"
 #include "reports/pages/page.hpp"
@@ -165,9 +164,9 @@ mstch::array stage_rows(const std::vector<calib::StageLog>& stages) {
 mstch::array doubts_of(const calib::CalibrationResult& result) {
   mstch::array doubts;
   for (const calib::SpecimenResult& specimen : result.specimens)
-    for (const std::string& warning : specimen.measured.warnings)
-      if (warning.find(calib::not_of_bone) != std::string::npos)
-        doubts.push_back(text(fmt::format("{}: {}.", specimen.id, typeset(warning))));
+    if (!specimen.measured.unit_doubt.empty())
+      doubts.push_back(
+          text(fmt::format("{}: {}.", specimen.id, typeset(specimen.measured.unit_doubt))));
   return doubts;
 }
 

@@ -164,8 +164,8 @@ TEST(FitPage, EscapesWhatUsersWrote) {
 
 TEST(FitPage, TellsWhatIsNotOfBoneRightUnderTheVerdict) {
   auto sample = test::fit_sample();
-  sample.result.specimens.front().measured.warnings = {
-      "a strength of 77542 MPa is not that of compact bone (1 to 1000 MPa): check the units"};
+  sample.result.specimens.front().measured.unit_doubt =
+      "a strength of 77542 MPa is not that of compact bone (1 to 1000 MPa): check the units";
   const std::string page = fit_page({sample.study, sample.result, {}, {}});
   EXPECT_LT(page.find("A1: a strength of 77542\u00a0MPa"), page.find("goodness of fit"));
 }
