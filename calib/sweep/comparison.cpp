@@ -1,11 +1,12 @@
 #include "calib/sweep/comparison.hpp"
 
-#include <fmt/format.h>
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <utility>
 
 #include "calib/sweep/law.hpp"
 
@@ -20,13 +21,16 @@ std::size_t column_of(const SweepPlan& plan, const std::string& key) {
 }
 
 // The values that tell a point of the sweep from others, but for one column.
-std::string label(const SweepPlan& plan, const SweepPoint& point, std::size_t without) {
-  std::string text;
+std::vector<ComparedKey> keys_of(const SweepPlan& plan, const SweepPoint& point,
+                                 std::size_t without) {
+  std::vector<ComparedKey> keys;
   for (std::size_t i = 0; i < plan.keys.size(); ++i)
-    if (i != without)
-      text +=
-          fmt::format("{}{} = {}", text.empty() ? "" : ", ", plan.keys[i].name, point.values[i]);
-  return text;
+    if (i != without) keys.push_back({plan.keys[i].name, point.values[i], ""});
+  return keys;
+}
+
+std::vector<ComparedKey> all_keys_of(const Evidence& evidence, std::size_t point) {
+  return keys_of(evidence.plan, evidence.points[point], evidence.plan.keys.size());
 }
 
 Statistics at(const Evidence& evidence, std::size_t point) {
@@ -53,7 +57,8 @@ std::vector<Pair> pairs_of(const Evidence& evidence, const PointGroup& group, st
   std::map<std::string, std::vector<std::size_t>> alike;
   for (const std::size_t point : group.points) {
     const bool zipped = evidence.plan.sampling == Sampling::list;
-    alike[zipped ? "" : label(evidence.plan, evidence.points[point], column)].push_back(point);
+    const auto others = keys_of(evidence.plan, evidence.points[point], column);
+    alike[zipped ? "" : to_string(others)].push_back(point);
   }
   std::vector<Pair> pairs;
   for (auto& [others, points] : alike) {
@@ -71,8 +76,10 @@ Comparison difference(const Evidence& evidence, Pair pair, std::size_t column, d
   const Statistics a = at(evidence, pair.first), b = at(evidence, pair.second);
   const SweepPoint& first = evidence.points[pair.first];
   const SweepPoint& second = evidence.points[pair.second];
-  const std::string others = label(evidence.plan, second, column);
-  const bool zipped = evidence.plan.sampling == Sampling::list;
+  std::vector<ComparedKey> compared{
+      {evidence.plan.keys[column].name, second.values[column], first.values[column]}};
+  if (evidence.plan.sampling != Sampling::list)
+    std::ranges::move(keys_of(evidence.plan, second, column), std::back_inserter(compared));
   const double va = std::pow(a.standard_error() / a.mean, 2);
   const double vb = std::pow(b.standard_error() / b.mean, 2);
   const double freedom = va + vb > 0.0
@@ -81,9 +88,7 @@ Comparison difference(const Evidence& evidence, Pair pair, std::size_t column, d
                              : 1.0;
   const double log_ratio = std::log(b.mean / a.mean);
   const double half = gsl_cdf_tdist_Qinv(0.5 * share, freedom) * std::sqrt(va + vb);
-  return {.what = fmt::format("{} = {} against {}{}", evidence.plan.keys[column].name,
-                              second.values[column], first.values[column],
-                              others.empty() || zipped ? "" : ", " + others),
+  return {.compared = std::move(compared),
           .value = std::expm1(log_ratio),
           .low = std::expm1(log_ratio - half),
           .high = std::expm1(log_ratio + half),
@@ -110,7 +115,7 @@ std::vector<Comparison> variations(const Evidence& evidence, const PointGroup& g
     const Statistics s = at(evidence, point);
     const auto freedom = static_cast<double>(std::max(s.n - 1, 1L));
     const double cv = s.sd / std::abs(s.mean);  // NaN of fewer than two runs
-    all.push_back({.what = label(evidence.plan, evidence.points[point], evidence.plan.keys.size()),
+    all.push_back({.compared = all_keys_of(evidence, point),
                    .value = cv,
                    .low = cv * std::sqrt(freedom / gsl_cdf_chisq_Qinv(0.5 * share, freedom)),
                    .high = cv * std::sqrt(freedom / gsl_cdf_chisq_Pinv(0.5 * share, freedom))});
@@ -124,8 +129,7 @@ std::vector<Comparison> means(const Evidence& evidence, const PointGroup& group)
   for (const std::size_t point : group.points) {
     const Statistics s = at(evidence, point);
     const double half = s.half_width(share);
-    all.push_back({label(evidence.plan, evidence.points[point], evidence.plan.keys.size()), s.mean,
-                   s.mean - half, s.mean + half});
+    all.push_back({all_keys_of(evidence, point), s.mean, s.mean - half, s.mean + half});
   }
   return all;
 }
@@ -144,8 +148,7 @@ std::vector<Comparison> deviations(const Evidence& evidence, const PointGroup& g
       const Statistics s = at(evidence, point);
       const double value = (s.mean - law.value(evidence.points[point], evidence.plan)) / level.mean;
       const double half = s.half_width(share) / std::abs(level.mean);
-      all.push_back({label(evidence.plan, evidence.points[point], evidence.plan.keys.size()), value,
-                     value - half, value + half});
+      all.push_back({all_keys_of(evidence, point), value, value - half, value + half});
     }
   }
   return all;

@@ -120,7 +120,7 @@ std::string meaning_of(const FindingRequest& request, FindingOutcome outcome) {
 
 // The comparison as a reader sees it: Student's interval of a share may end where no share can be.
 void show(const Comparison& comparison, const FindingRequest& request, Finding& finding) {
-  finding.what = comparison.what;
+  finding.compared = comparison.compared;
   finding.value = comparison.value;
   finding.low = comparison.low;
   finding.high = comparison.high;
@@ -182,6 +182,14 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
 
 bool judges_means(FindingTest test) {
   return test == FindingTest::above || test == FindingTest::below;
+}
+
+std::string to_string(const std::vector<ComparedKey>& keys) {
+  std::string text;
+  for (const auto& [name, value, against] : keys)
+    text += fmt::format("{}{} = {}{}{}", text.empty() ? "" : ", ", name, value,
+                        against.empty() ? "" : " against ", against);
+  return text;
 }
 
 std::string to_string(FindingOutcome outcome) {

@@ -38,6 +38,14 @@ enum class FindingOutcome { agrees, disagrees, undecided };
 
 std::string to_string(FindingOutcome outcome);
 
+/// A key of what is compared, its value, and the one it is compared with; empty: with none.
+struct ComparedKey {
+  std::string name, value, against;
+};
+
+/// "joints.ratio = 3.0 against 1.0, joints.scatter = 0.2".
+std::string to_string(const std::vector<ComparedKey>& keys);
+
 /// A claim judged for one value of `per`; undecided where a run did not break. Value and interval
 /// are those of the comparison that speaks most against the claim; the intervals of all comparisons
 /// hold together with 95 %.
@@ -49,9 +57,9 @@ struct Finding {
   FindingOutcome outcome = FindingOutcome::undecided;
   double value = 0.0, low = 0.0, high = 0.0;  ///< NaN where nothing could be compared.
   double asked_low = 0.0, asked_high = 0.0;  ///< What agrees lies between; of `matters`, disagrees.
-  std::string what;                          ///< The comparison: "joints.ratio = 3.0 against 1.0".
-  std::string ground;                        ///< The test, in words.
-  std::string meaning;                       ///< The words given for this outcome.
+  std::vector<ComparedKey> compared;
+  std::string ground;   ///< The test, in words.
+  std::string meaning;  ///< The words given for this outcome.
   int comparisons = 0;
   long runs = 0;                                 ///< That the judgement rests on.
   double inertia_low = 0.0, inertia_high = 0.0;  ///< I (M12) of its points; NaN: none has one. [-]

@@ -83,7 +83,8 @@ void keys(Table& table, calib::Finding& finding) {
   table.key("value", finding.value);
   table.key("low", finding.low);
   table.key("high", finding.high);
-  table.key("what", finding.what);
+  std::string what = to_string(finding.compared);
+  table.key("what", what);
   table.key("ground", finding.ground);
   table.key("meaning", finding.meaning);
   table.key("comparisons", finding.comparisons);

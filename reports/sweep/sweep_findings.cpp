@@ -51,22 +51,13 @@ std::string place_of(const calib::Sweep& sweep, const calib::Finding& finding) {
                              : fmt::format("{}: {}", sweep.name, place(finding.per, finding.at));
 }
 
-std::string words_for(std::string what, const calib::SweepPlan& plan) {
-  constexpr std::string_view against = " against ";
-  for (const calib::SweepKey& key : plan.keys) {
-    const std::string named = key.name + " = ";
-    for (std::size_t at = what.find(named); at != std::string::npos; at = what.find(named)) {
-      const std::size_t value = at + named.size();
-      const std::size_t end = std::min(what.find(", ", value), what.size());
-      const std::string values = what.substr(value, end - value);
-      const std::size_t other = values.find(against);
-      std::string words = place(key.name, values.substr(0, other));
-      if (other != std::string::npos)
-        words += against.data() + with_unit(key.name, values.substr(other + against.size()));
-      what.replace(at, end - at, words);
-    }
+std::string words_for(const std::vector<calib::ComparedKey>& keys) {
+  std::string text;
+  for (const auto& [name, value, against] : keys) {
+    text += (text.empty() ? "" : ", ") + place(name, value);
+    if (!against.empty()) text += " against " + with_unit(name, against);
   }
-  return what;
+  return text;
 }
 
 }  // namespace
@@ -92,7 +83,7 @@ mstch::array finding_rows(const std::vector<FindingRow>& rows) {
                    {"at", text(place_of(*sweep, *finding))},
                    {"inertia", text(inertia_of(*finding))},
                    {"value", text(value_of(*finding))},
-                   {"what", text(words_for(finding->what, sweep->plan))},
+                   {"what", text(words_for(finding->compared))},
                    {"ground", text(typeset("asked: " + finding->ground))},
                    {"meaning", finding->meaning.empty() ? mstch::node{false}
                                                         : text(typeset(finding->meaning))},

@@ -96,7 +96,7 @@ TEST(SweepPage, HasADashAloneWhereNothingCouldBeCompared) {
   Case known;
   calib::Finding& finding = known.result.findings.front();
   finding.value = finding.low = finding.high = std::numeric_limits<double>::quiet_NaN();
-  finding.what.clear();
+  finding.compared.clear();
   known.result.laws.front().lack_of_fit = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
               AllOf(HasSubstr("Strength, difference: –<br><span class=\"note\">asked: "),
@@ -163,10 +163,10 @@ TEST(SweepWords, NameKeysWithTheirUnitsAndWithoutUnderlines) {
 
 TEST(SweepPage, HasTheUnitBehindBothValuesThatAreCompared) {
   Case known;
-  known.sweep.plan.keys.front().name = "assembly.orientation_deg";
-  known.result.findings.front().what = "assembly.orientation_deg = 45 against 0, joints.ratio = 3";
+  known.result.findings.front().compared = {{"assembly.orientation_deg", "45", "0"},
+                                            {"joints.ratio", "3", ""}};
   EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
-              HasSubstr("θ\u00a0=\u00a045° against 0°, "));
+              HasSubstr("θ\u00a0=\u00a045° against 0°, ratio r\u00a0=\u00a03"));
 }
 
 TEST(SweepFigures, DrawTheCurveOfTheFirstSeedThatHasNotFailed) {

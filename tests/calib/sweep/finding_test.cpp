@@ -37,7 +37,7 @@ TEST(Finding, SameAgreesWithinTheMarginDisagreesBeyondAndElseIsUndecided) {
 
 TEST(Finding, ShowsTheComparisonThatSpeaksMostAgainstTheClaim) {
   const Finding finding = found(FindingTest::same, 5.0, 1.0);
-  EXPECT_EQ(finding.what, "x = 2 against 0");
+  EXPECT_EQ(to_string(finding.compared), "x = 2 against 0");
   EXPECT_NEAR(finding.value, 0.10, 1e-3);
   EXPECT_LT(finding.low, finding.value);
   EXPECT_GT(finding.high, finding.value);
@@ -53,7 +53,7 @@ TEST(Finding, ShowsTheComparisonThatLeavesItUndecided) {
   FindingRequest request{.test = FindingTest::below, .margin = 104.0};
   const Finding finding = judge(request, known.plan, known.points, known.runs).front();
   EXPECT_EQ(finding.outcome, FindingOutcome::undecided);
-  EXPECT_EQ(finding.what, "x = 1");
+  EXPECT_EQ(to_string(finding.compared), "x = 1");
   EXPECT_GT(finding.high, finding.asked_high);
 }
 
@@ -64,7 +64,7 @@ TEST(Finding, ShowsTheComparisonThatContradictsTheClaim) {
   FindingRequest request{.test = FindingTest::below, .margin = 104.0};
   const Finding finding = judge(request, known.plan, known.points, known.runs).front();
   EXPECT_EQ(finding.outcome, FindingOutcome::disagrees);
-  EXPECT_EQ(finding.what, "x = 0");
+  EXPECT_EQ(to_string(finding.compared), "x = 0");
 }
 
 TEST(Finding, HasADigitMoreWhereRoundingWouldHideWhyItDoesNotAgree) {
@@ -116,7 +116,7 @@ Finding rising(std::vector<double> means, double sd) {
 TEST(Finding, IsUndecidedWhereTheEndsRiseAndAStepBetweenNeighboursFalls) {
   const Finding finding = rising({100.0, 135.0, 104.0}, 1.0);
   EXPECT_EQ(finding.outcome, FindingOutcome::undecided);
-  EXPECT_EQ(finding.what, "x = 2 against 1");
+  EXPECT_EQ(to_string(finding.compared), "x = 2 against 1");
   EXPECT_LT(finding.high, 0.0);
   EXPECT_THAT(finding.ground, testing::EndsWith("this step goes the other way"));
   EXPECT_EQ(finding.comparisons, 3);
@@ -125,7 +125,7 @@ TEST(Finding, IsUndecidedWhereTheEndsRiseAndAStepBetweenNeighboursFalls) {
 TEST(Finding, AgreesWhereAStepFallsByNoMoreThanChance) {
   const Finding finding = rising({100.0, 110.2, 110.0}, 1.0);
   EXPECT_EQ(finding.outcome, FindingOutcome::agrees);
-  EXPECT_EQ(finding.what, "x = 2 against 0");
+  EXPECT_EQ(to_string(finding.compared), "x = 2 against 0");
   EXPECT_GT(finding.low, 0.0);
 }
 
@@ -209,7 +209,7 @@ TEST(Finding, IsUndecidedWhereAPointHasTooFewRuns) {
        {FindingTest::falls, FindingTest::same, FindingTest::above, FindingTest::steady}) {
     const Finding finding = judged_with_failed_runs(test);
     EXPECT_EQ(finding.outcome, FindingOutcome::undecided);
-    EXPECT_THAT(finding.what, testing::StartsWith("x = 2"));
+    EXPECT_THAT(to_string(finding.compared), testing::StartsWith("x = 2"));
     EXPECT_TRUE(std::isnan(finding.low));
     EXPECT_THAT(finding.ground, testing::EndsWith("; 19 runs failed and do not count"));
   }
