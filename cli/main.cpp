@@ -10,6 +10,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <new>
 #include <optional>
 #include <set>
 #include <string>
@@ -94,7 +95,9 @@ int run(const Command& command, const CommonOptions& common) {
       fmt::print(stderr, "havers: {}\n", io::to_string(problem));
   } catch (const std::filesystem::filesystem_error& error) {
     fmt::print(stderr, "havers: {}: {}\n", error.path1().string(), error.code().message());
-  } catch (const std::exception& error) {  // a full disk, no memory: no answer either way
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "havers: the memory of this machine does not suffice\n");
+  } catch (const std::exception& error) {  // a full disk: no answer either way
     if (std::ferror(stdout) == 0) fmt::print(stderr, "havers: {}\n", error.what());
   }
   return bad_input;

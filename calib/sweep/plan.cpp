@@ -85,6 +85,16 @@ std::vector<std::vector<std::string>> list(const std::vector<SweepKey>& keys) {
   return rows;
 }
 
+// Of all points and seeds; a grid grows fast.
+double runs_of(const SweepPlan& plan) {
+  double points = is_sample(plan.sampling) ? plan.points : 1.0;
+  for (const SweepKey& key : plan.keys)
+    if (plan.sampling == Sampling::grid) points *= static_cast<double>(key.values.size());
+  if (plan.sampling == Sampling::list && !plan.keys.empty())
+    points = static_cast<double>(plan.keys.front().values.size());
+  return points * plan.seeds;
+}
+
 }  // namespace
 
 bool is_sample(Sampling sampling) {
@@ -118,6 +128,9 @@ std::vector<SweepPlan::Problem> SweepPlan::problems() const {
         !(key.values.size() == 2 && number_in(key.values.front()) < number_in(key.values.back())))
       complain("keys", fmt::format("is a sample, but {} has no lower and upper bound", key.name));
   }
+  if (const double runs = runs_of(*this); runs > most_runs)
+    complain("seeds", fmt::format("is {}, and all points make {:.3g} runs, must be at most {:.0e}",
+                                  seeds, runs, most_runs));
   return all;
 }
 

@@ -23,6 +23,7 @@ struct SweepKey {
 double number_in(const std::string& value);
 
 constexpr int most_sample_points = 100'000;  ///< Of a sample.
+constexpr double most_runs = 1e6;            ///< Of all points: what memory holds.
 
 struct SweepPlan {
   Sampling sampling = Sampling::grid;

@@ -186,12 +186,6 @@ Problem of_sweep(Problem problem, const std::filesystem::path& file, const calib
   return problem;
 }
 
-void add_if_new(Problem problem, std::vector<Problem>& problems) {
-  const std::string text = to_string(problem);
-  if (std::ranges::none_of(problems, [&](const Problem& p) { return to_string(p) == text; }))
-    problems.push_back(std::move(problem));
-}
-
 }  // namespace
 
 SweepFile read_sweep(const std::filesystem::path& file, const Overrides& overrides,
@@ -218,9 +212,8 @@ SweepFile read_sweep(const std::filesystem::path& file, const Overrides& overrid
     try {
       sweep.points.push_back(read_point(read, overrides, values));
     } catch (const InputError& error) {
-      for (const Problem& problem : error.problems()) {
-        add_if_new(of_sweep(problem, file, sweep.plan), problems);
-      }
+      for (const Problem& problem : error.problems())
+        problems.push_back(of_sweep(problem, file, sweep.plan));
     }
   }
   if (!problems.empty()) throw InputError(std::move(problems));

@@ -77,6 +77,9 @@ TEST(Plan, EveryComplaintIsMade) {
   const SweepPlan turned{.sampling = Sampling::sobol, .keys = {{"a", {"2", "1"}}}, .points = 0};
   EXPECT_THAT(turned.problems(), ElementsAre(Complains("points", "is 0, must be from 1 to 100000"),
                                              Complains("keys", "no lower and upper bound")));
+  const SweepPlan endless{.keys = {{"a", {"1", "2", "3"}}}, .seeds = 1'000'000'000};
+  EXPECT_THAT(endless.problems(),
+              ElementsAre(Complains("seeds", "all points make 3e+09 runs, must be at most 1e+06")));
   EXPECT_THAT(SweepPlan{}.problems(), ElementsAre(Complains("keys", "names no keys to vary")));
 }
 
