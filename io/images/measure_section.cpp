@@ -159,7 +159,8 @@ void leave_out_rim(const io::SectionOptions& options, const std::string& name, c
   if (!options.pixel_size)
     throw io::InputError(name, "the rim to leave out is in µm, but no pixel size is known",
                          "give it with --pixel-size-um (in a study pixel_size_um)");
-  const int reach = cvRound(options.rim / *options.pixel_size);
+  const double across = bone.rows + bone.cols;  // no rim reaches further
+  const int reach = cvRound(std::min(options.rim / *options.pixel_size, across));
   if (reach == 0)
     throw io::InputError(name, "the rim to leave out is less than half a pixel",
                          "give more, or none");

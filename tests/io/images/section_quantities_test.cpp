@@ -59,9 +59,10 @@ TEST(SectionQuantities, LeavesOutTheRimOfTheBone) {
   EXPECT_NEAR(inner.bone_area / ((length - 20.0) * (height - 20.0) * side_of_pixel * side_of_pixel),
               1.0, 0.005);
   EXPECT_THROW(quantities(drawn, "unscaled_rim.png", {.rim = 1e-5}), InputError);
-  EXPECT_THROW(
-      quantities(drawn, "all_rim.png", {.pixel_size = side_of_pixel, .rim = 300.0 * side_of_pixel}),
-      InputError);
+  for (const double pixels : {300.0, 1e10})  // more than whole numbers hold
+    EXPECT_THROW(quantities(drawn, "all_rim.png",
+                            {.pixel_size = side_of_pixel, .rim = pixels * side_of_pixel}),
+                 InputError);
 }
 
 TEST(SectionQuantities, ReadsDensityFromMaterialsOfKnownOne) {
