@@ -104,7 +104,7 @@ void collect(const std::vector<Imported>& tests, std::vector<io::Problem>& probl
   for (const Imported& test : tests) {
     const calib::RawTest& raw = test.file.test;
     const bool sized = raw.area || (raw.width && raw.thickness) || !raw.stress.empty();
-    const bool strained = raw.gauge_length || !raw.strain.empty();
+    const bool strained = raw.gauge_length || !raw.strain.empty() || raw.extension.empty();
     const std::string where = tests.size() == 1 ? test.file.file : title_of(test.file);
     for (const std::string& problem : test.reduction.problems)
       problems.push_back({where, problem,

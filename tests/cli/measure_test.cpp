@@ -209,6 +209,9 @@ TEST(Import, ShowsATestThatCannotBeReduced) {
   EXPECT_THAT(answer.err, HasSubstr("--width-mm"));
   EXPECT_TRUE(nlohmann::json::parse(answer.out)["strength_Pa"].is_null());
   EXPECT_TRUE(fs::exists(folder / "out/import.json"));
+  // No size makes up for a channel.
+  EXPECT_EQ(run_havers(folder, "import bare.csv --width-mm 4 --thickness-mm 2").err,
+            "havers: bare.csv: neither strain nor crosshead extension was read\n");
 }
 
 TEST(Study, LeavesOutASpecimenThatCannotBeUsedAndSaysWhy) {
