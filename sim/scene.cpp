@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "sim/assembly/assembly.hpp"
@@ -95,7 +96,7 @@ void check_assembly(const AssemblyOptions& assembly, Checker& checker) {
   if (assembly.layers >= 1 && assembly.fibres >= 1 && fibres > most_fibres)
     checker.say(
         "assembly.layers",
-        fmt::format("and fibres make {:g} fibres, must be at most {:g}", fibres, most_fibres),
+        fmt::format("times fibres is {:g} fibres, must be at most {:g}", fibres, most_fibres),
         "check layers and fibres");
 
   // Every fibre then is held at an end, and joints may push and pull each other at no cost (M10).
@@ -257,18 +258,27 @@ bool some_are_missing(const JointOptions& joints) {
 std::vector<std::string> Scene::doubts() const {
   constexpr double stiffest = 1.5e12;     // [Pa], beyond diamond
   constexpr double largest_strain = 0.2;  // the model is of small strains
-  std::vector<std::string> all;
+  // Of head-tail joints and of flanks, which a large ratio makes weak: a thousandth of any bone's.
+  constexpr double least_strain = 1e-5, least_of_flanks = 2e-6;
   if (material.young > stiffest)
-    all.push_back(
-        fmt::format("material.young_GPa is {:.4g}, stiffer than any material: is it in GPa?",
-                    material.young / 1e9));
-  for (const auto& [key, threshold] :
-       {std::pair("head_tail_MPa", joints.head_tail), std::pair("flank_MPa", joints.flank)})
-    if (threshold > largest_strain * material.young)
+    return {fmt::format("material.young_GPa is {:.4g}, stiffer than any material: is it in GPa?",
+                        material.young / 1e9)};
+  std::vector<std::string> all;
+  for (const auto& [key, threshold, least] :
+       {std::tuple("head_tail_MPa", joints.head_tail, least_strain),
+        {"flank_MPa", joints.flank, least_of_flanks}}) {
+    const double strain = threshold / material.young;
+    if (strain > largest_strain)
       all.push_back(fmt::format(
           "joints.{} is {:.4g}, {:.2g} times material.young_GPa: fibres would stretch by as much, "
           "and the model is of small strains; are both in their units?",
-          key, threshold / 1e6, threshold / material.young));
+          key, threshold / 1e6, strain));
+    if (strain < least)
+      all.push_back(fmt::format(
+          "joints.{} is {:.4g}, {:.2g} times material.young_GPa: bone bears a thousand times as "
+          "much; are both in their units?",
+          key, threshold / 1e6, strain));
+  }
   return all;
 }
 

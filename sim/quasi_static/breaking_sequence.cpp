@@ -16,12 +16,13 @@ double end_fraction_used(const Scene& scene) {
   const bool as_drawn = joints.thresholds.empty() && !joints.head_tail_shear &&
                         !joints.flank_tension && scene.material.layer_contrast == 1.0;
   const bool brittle = as_drawn && joints.distribution == Distribution::uniform &&
-                       joints.scatter <= 1.0 && joints.missing == 0.0 &&
-                       ratio(scene.assembly, joints) >= 0.2;
+                       (joints.scatter <= 1.0 || scene.assembly.orientation == 0.0) &&
+                       joints.missing == 0.0 && ratio(scene.assembly, joints) >= 0.2;
   if (!scene.solver.leave_out || !brittle) return scene.loading.end_fraction;
   const double fibres = 1.0 * scene.assembly.layers * scene.assembly.fibres;
   // From which none was seen to become stronger.
-  const double fall = 0.005 + 25.0 / fibres + 0.05 * joints.scatter * joints.scatter;
+  const double d = joints.scatter, wide = std::max(0.0, d - 1.0);
+  const double fall = 0.005 + 25.0 * (1.0 + 2.0 * wide) / fibres + 0.05 * d * d;
   return std::max(scene.loading.end_fraction, 1.0 - fall);
 }
 

@@ -152,6 +152,10 @@ TEST(Scene, DoubtsValuesThatAreInOtherUnits) {
   EXPECT_THAT(scene.doubts(),
               testing::ElementsAre(testing::StartsWith(
                   "joints.head_tail_MPa is 5e+07, 3.8e+03 times material.young_GPa")));
+  scene.joints.head_tail = 50e3;  // 0.05, as of GPa
+  EXPECT_THAT(scene.doubts(),
+              testing::ElementsAre(testing::StartsWith(
+                  "joints.head_tail_MPa is 0.05, 3.8e-06 times material.young_GPa: bone bears")));
   scene = {};
   scene.material.young = 13e12;  // MPa where GPa are asked for
   EXPECT_THAT(scene.doubts(),

@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(
         Impossible{"[assembly]", "layers = 0", "assembly.layers: is 0, must be at least 1"},
         Impossible{"[assembly]", "fibres = -2", "assembly.fibres: is -2, must be at least 1"},
         Impossible{"[assembly]", "layers = 2000000",
-                   "assembly.layers: and fibres make 4.2e+07 fibres, must be at most 1e+06 (check "
+                   "assembly.layers: times fibres is 4.2e+07 fibres, must be at most 1e+06 (check "
                    "layers and "
                    "fibres)"},
         Impossible{"[assembly]", "fibre_length_um = 0.0",
