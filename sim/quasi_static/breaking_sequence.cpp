@@ -22,7 +22,7 @@ double end_fraction_used(const Scene& scene) {
   const double fibres = 1.0 * scene.assembly.layers * scene.assembly.fibres;
   // From which none was seen to become stronger.
   const double d = joints.scatter, wide = std::max(0.0, d - 1.0);
-  const double fall = 0.005 + 25.0 * (1.0 + 2.0 * wide) / fibres + 0.05 * d * d;
+  const double fall = 0.005 + 25.0 * (1.0 + 2.0 * wide) / fibres + 0.05 * d * d + 0.1 * wide;
   return std::max(scene.loading.end_fraction, 1.0 - fall);
 }
 

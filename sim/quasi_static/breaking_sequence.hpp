@@ -7,7 +7,7 @@
 namespace havers::sim {
 
 /// Part of the strength below which a quasi-static run no longer follows an avalanche: the scene's
-/// end fraction, or 0.995 − 25(1 + 2e)/(nN) − d²/20, e = max(0, d − 1), where that is more
+/// end fraction, or 0.995 − 25(1 + 2e)/(nN) − d²/20 − e/10, e = max(0, d − 1), where that is more
 /// and a specimen is as good as never stronger thereafter: uniform thresholds, of d ≤ 1 unless
 /// fibres lie along the load, f₁ no less than a fifth of f₂, equal layers, no joint missing. What
 /// follows is most of the work. Section 6. [-]
