@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -27,8 +28,8 @@ struct ReportArguments {
 
 // The ends of paths, as short as tell apart those that differ: runs/first/out, runs/second/out.
 std::vector<std::string> shortest_ends(const std::vector<fs::path>& folders) {
-  std::vector<fs::path> rest, ends(folders.size());
-  for (const fs::path& folder : folders) rest.push_back(fs::canonical(folder));
+  std::vector<fs::path> rest(folders.size()), ends(folders.size());
+  std::ranges::transform(folders, rest.begin(), [](const fs::path& p) { return fs::canonical(p); });
   const std::set<fs::path> different(rest.begin(), rest.end());
   do {
     for (std::size_t i = 0; i < rest.size(); ++i) {
@@ -36,8 +37,8 @@ std::vector<std::string> shortest_ends(const std::vector<fs::path>& folders) {
       rest[i] = rest[i].parent_path();
     }
   } while (std::set<fs::path>(ends.begin(), ends.end()).size() < different.size());
-  std::vector<std::string> names;
-  for (const fs::path& end : ends) names.push_back(end.string());
+  std::vector<std::string> names(ends.size());
+  std::ranges::transform(ends, names.begin(), [](const fs::path& end) { return end.string(); });
   return names;
 }
 

@@ -155,15 +155,10 @@ std::string_view without_half_day(std::string_view cell) {
   return cell;
 }
 
-Number parse_clock(std::string_view cell) {
-  constexpr double half_day = 43200.0;
-  if (const std::string_view hours = without_half_day(cell); hours.size() < cell.size()) {
-    const bool afternoon = cell[cell.size() - 2] == 'P' || cell[cell.size() - 2] == 'p';
-    Number time = parse_clock(hours);
-    if (time.value >= half_day + 3600.0 || time.value < 3600.0) time.fault = NumberFault::text;
-    time.value = std::fmod(time.value, half_day) + (afternoon ? half_day : 0.0);
-    return time;
-  }
+namespace {
+
+// Of a day of 24 hours.
+Number parse_time_of_day(std::string_view cell) {
   if (cell.ends_with('Z')) cell.remove_suffix(1);
   cell.remove_prefix(cell.find_last_of(" T") + 1);  // npos + 1 is 0
   const bool minutes =
@@ -181,6 +176,20 @@ Number parse_clock(std::string_view cell) {
     cell.remove_prefix(std::min(end + 1, cell.size()));
   }
   return time;
+}
+
+}  // namespace
+
+Number parse_clock(std::string_view cell) {
+  constexpr double half_day = 43200.0;
+  if (const std::string_view hours = without_half_day(cell); hours.size() < cell.size()) {
+    const bool afternoon = cell[cell.size() - 2] == 'P' || cell[cell.size() - 2] == 'p';
+    Number time = parse_time_of_day(hours);
+    if (time.value >= half_day + 3600.0 || time.value < 3600.0) time.fault = NumberFault::text;
+    time.value = std::fmod(time.value, half_day) + (afternoon ? half_day : 0.0);
+    return time;
+  }
+  return parse_time_of_day(cell);
 }
 
 bool is_number(std::string_view cell, char decimal) {
