@@ -75,9 +75,9 @@ double largest_mean_stress(std::span<const double> strain, std::span<const doubl
 namespace {
 
 // By least squares over a stretch of this strain: neither a constant viscous stress nor the start
-// is part of it.
+// is part of it. So many points that none of the steps of a stair hides between them.
 double slope_up_to(double end, const std::vector<CurvePoint>& curve) {
-  constexpr std::size_t points = 41;
+  constexpr std::size_t points = 401;
   std::array<double, points> strains{}, stresses{};
   for (std::size_t i = 0; i < points; ++i) {
     strains.at(i) = end * (0.1 + modulus_stretch / (points - 1) * static_cast<double>(i));

@@ -258,7 +258,7 @@ bool some_are_missing(const JointOptions& joints) {
 std::vector<std::string> Scene::doubts() const {
   constexpr double stiffest = 1.5e12;     // [Pa], beyond diamond
   constexpr double largest_strain = 0.2;  // the model is of small strains
-  // Of head-tail joints and of flanks, which a large ratio makes weak: a thousandth of any bone's.
+  // Of head-tail joints and of flanks, which a large ratio makes weak: far below any bone's.
   constexpr double least_strain = 1e-5, least_of_flanks = 2e-6;
   if (material.young > stiffest)
     return {fmt::format("material.young_GPa is {:.4g}, stiffer than any material: is it in GPa?",
@@ -275,7 +275,7 @@ std::vector<std::string> Scene::doubts() const {
           key, threshold / 1e6, strain));
     if (strain < least)
       all.push_back(fmt::format(
-          "joints.{} is {:.4g}, {:.2g} times material.young_GPa: bone bears a thousand times as "
+          "joints.{} is {:.4g}, {:.2g} times material.young_GPa: bone bears hundreds of times as "
           "much; are both in their units?",
           key, threshold / 1e6, strain));
   }

@@ -15,12 +15,15 @@
 
 namespace havers::sim {
 
-RegimeChoice choose_regime(const Scene& scene) {
+double time_across(const Scene& scene) {
   const double slowest = std::sqrt(scene.material.layer_contrast) * wave_speed(scene.material);
-  const double transit = scene.assembly.width() / slowest;
+  return scene.assembly.width() / slowest;
+}
+
+RegimeChoice choose_regime(const Scene& scene) {
   RegimeChoice choice;
-  choice.inertia_number =
-      scene.loading.strain_rate * transit * scene.material.young / head_tail_strength(scene);
+  choice.inertia_number = scene.loading.strain_rate * time_across(scene) * scene.material.young /
+                          head_tail_strength(scene);
   if (scene.solver.regime != Regime::automatic) {
     choice.regime = scene.solver.regime;
     choice.ground = fmt::format(

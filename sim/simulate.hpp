@@ -19,4 +19,7 @@ inline constexpr double quasi_static_below = 2e-4;
 
 RegimeChoice choose_regime(const Scene& scene);
 
+/// W/c of the softer layers: how long a wave takes from end to end (M12). [s]
+double time_across(const Scene& scene);
+
 }  // namespace havers::sim

@@ -135,16 +135,17 @@ std::string Simulation::reservation() const {
                     "{:.2g} %, from {:.4g} MPa, its mean over the time of one and half the rise in "
                     "that time",
                     100.0 * ringing, 1e-6 * strength / (1.0 + ringing)));
-  // The slope of a stair that is seen n times errs by half a step of it, or by anything if once.
+  // The slope of a stair that a wave climbs by crossing n times errs by up to this over n.
+  constexpr double of_a_stair = 0.6;
   if (crossings < 2.0)
     reservations.emplace_back(
-        "the modulus: it is that of a shock, as the specimen breaks before the wave of the start "
-        "has crossed it often");
-  else if (0.5 / crossings >= worth_saying)
+        "the modulus: it is that of a shock, as the wave of the start crosses the specimen less "
+        "than twice while it is measured");
+  else if (of_a_stair / crossings >= worth_saying)
     reservations.push_back(
         fmt::format("the modulus: the wave of the start, which crosses the specimen {:.2g} times "
                     "while it is measured, changes it by up to {:.2g} %",
-                    crossings, 50.0 / crossings));
+                    crossings, 100.0 * of_a_stair / crossings));
   return fmt::format("{}", fmt::join(reservations, "; "));
 }
 

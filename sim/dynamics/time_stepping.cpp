@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <cmath>
 #include <vector>
 
 #include "sim/dynamics/dynamic_run.hpp"
 #include "sim/dynamics/step_control.hpp"
 #include "sim/outcome.hpp"
+#include "sim/simulate.hpp"
 
 namespace havers::sim {
 namespace {
@@ -25,20 +25,14 @@ std::vector<LeftOut> left_out_in_time(const Scene& scene, const Simulation& simu
   return list;
 }
 
-// From rest the left side bears nothing until a wave has come across, however strong the specimen
-// is: until then the sides do not say whether it is broken. [s]
-double time_until_sides_tell(const Scene& scene) {
-  if (scene.loading.start == Start::uniform) return 0.0;
-  const double slowest = std::sqrt(scene.material.layer_contrast) * wave_speed(scene.material);
-  return scene.assembly.width() / slowest;
-}
-
 // From step to step, until the run ends.
 SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepping& stepping,
                                 const Observer& observer, Simulation& simulation) {
   constexpr double but_for_rounding = 1.0 - 1e-9;
   const double end = but_for_rounding * scene.loading.max_strain;
-  const double told = time_until_sides_tell(scene);
+  // From rest the left side bears nothing until a wave has come across, however strong the specimen
+  // is: until then the sides do not say whether it is broken.
+  const double told = scene.loading.start == Start::rest ? time_across(scene) : 0.0;
   simulation.curve.push_back(run.point());
   while (simulation.curve.back().strain < end) {
     const bool solved = run.advance();
@@ -104,7 +98,7 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
   simulation.ringing = simulation.strength / without_ringing - 1.0;
   if (scene.loading.start == Start::rest)
     simulation.crossings = modulus_stretch * strain_of_modulus(simulation) /
-                           (scene.loading.strain_rate * time_until_sides_tell(scene));
+                           (scene.loading.strain_rate * time_across(scene));
   return simulation;
 }
 

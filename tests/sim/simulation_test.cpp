@@ -105,7 +105,7 @@ TEST(Simulation, IsTrustedButForTheModulusOfAShock) {
   simulation.crossings = 5.0;
   EXPECT_EQ(simulation.reservation(),
             "the modulus: the wave of the start, which crosses the specimen 5 times while it is "
-            "measured, changes it by up to 10 %");
+            "measured, changes it by up to 12 %");
   simulation.crossings = 0.8;
   EXPECT_THAT(simulation.reservation(), HasSubstr("it is that of a shock"));
 }
