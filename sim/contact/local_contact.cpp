@@ -121,6 +121,7 @@ LocalContactResult solve_as_it_is(const LocalContact& problem, const States& sta
 // no less than what rounding leaves on a piece that hangs on nothing: the best of all answers.
 LocalContactResult solve_with_springs(const LocalContact& problem, const States& states,
                                       LocalContactResult best) {
+  const States nearest = best.converged ? best.states : states;
   double least = best.converged ? law_residual_of(problem, best.y) : nearly_met;
   best.converged = best.converged && least <= nearly_met;
   least = std::min(nearly_met, least);  // of what is no number too
@@ -129,7 +130,7 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
     const double stiffness = part * problem.S.diagonal().maxCoeff();
     LocalContact held = problem;
     held.S.diagonal().array() += stiffness;
-    LocalContactResult result{.states = states};
+    LocalContactResult result{.states = nearest};
     for (int i = 0; i < times_moved && least > well_met && spent < changes_in_all &&
                     !stop_is_asked(problem.stop_asked);
          ++i) {

@@ -41,9 +41,11 @@ LocalContactResult BreakingRun::release(const StateSolution& known) {
     system_.set(start);
     const int spent = result.iterations;
     result = follow_homotopy(system_, {.cohesion = extra_}, known, most_changes, nothing);
+    const bool was_long = 4 * result.iterations > static_cast<int>(loose_.size());
     result.iterations += spent;
-    if (result.converged) break;
+    if (result.converged || was_long) break;
   }
+  if (!result.converged) result.states = start;  // an answer is nearer to them than to a lost path
   return result;
 }
 

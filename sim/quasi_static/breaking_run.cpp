@@ -79,7 +79,8 @@ bool BreakingRun::break_joints(const std::vector<std::size_t>& breaking) {
   const double stored = point().elastic;
   const VectorXd gaps_before = y_;
   loosen(breaking);
-  unsolved_ = !settle();
+  const std::vector<JointState> states_before = system_.states();
+  unsolved_ = !settle() && !settle_with_care(states_before, gaps_before);
   if (unsolved_) take_back(breaking, gaps_before);
   dissipated_ += stored - point().elastic;
   return !unsolved_;
@@ -93,9 +94,7 @@ void BreakingRun::take_back(const std::vector<std::size_t>& breaking, const Vect
     joints_[j].broken_at_strain = std::numeric_limits<double>::quiet_NaN();
     --broken_;
   }
-  y_.setZero(2 * static_cast<Index>(loose_.size()));
-  y_.head(gaps_before.size()) = gaps_before;
-  take_reference();
+  go_back_to(gaps_before);
   joint_work_ = borne_.dot(y_);
 }
 
@@ -126,6 +125,24 @@ void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {
   extra_.tail(n - old) =
       cohesion_to_stick(borne_(breaking_rows), std::vector<JointLaw>(breaking.size(), law));
   system_.grow();
+}
+
+// Once more from where nothing had given way; this answer and all after it are refined.
+bool BreakingRun::settle_with_care(const std::vector<JointState>& states_before,
+                                   const VectorXd& gaps_before) {
+  if (care_ != Care::little || stop_is_asked(contact_.stop_asked)) return false;
+  care_ = Care::digits;
+  glances_ = false;
+  system_.set(states_before);
+  go_back_to(gaps_before);
+  contact_.r0 = borne_ - contact_.S * y_;
+  return settle();
+}
+
+void BreakingRun::go_back_to(const VectorXd& gaps_before) {
+  y_.setZero(2 * static_cast<Index>(loose_.size()));
+  y_.head(gaps_before.size()) = gaps_before;
+  take_reference();
 }
 
 // Only what has just broken is released; the others follow from where they are.

@@ -82,6 +82,9 @@ class BreakingRun {
   [[nodiscard]] Local borne_at(std::size_t joint);
   void loosen(const std::vector<std::size_t>& breaking);
   bool settle();
+  bool settle_with_care(const std::vector<JointState>& states_before,
+                        const Eigen::VectorXd& gaps_before);
+  void go_back_to(const Eigen::VectorXd& gaps_before);
   void take_back(const std::vector<std::size_t>& breaking, const Eigen::VectorXd& gaps_before);
   [[nodiscard]] DisjointSets pieces() const;
   [[nodiscard]] bool has_detour(const Joint& broken) const;
