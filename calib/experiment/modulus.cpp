@@ -15,6 +15,8 @@ constexpr std::size_t fewest_half_window = 5;  // of a half window whose slope i
 constexpr double narrowing_step = 0.1;         // part of the window's stress range
 constexpr double fewest_remaining = 0.3;  // a window shorter than this part shows no straight line
 constexpr double yielded = 0.5;           // slope ratio of the halves that only yielding explains
+constexpr double before_failure = 0.9;    // of the strength: what follows may be failure already
+constexpr double gentle_toe = 1.1;        // slope after to slope in it; else a gauge may slide
 // Strains of the window of ISO 527-1, for curves without a straight part.
 constexpr double standard_low = 5e-4, standard_high = 25e-4;
 
@@ -36,10 +38,12 @@ RowRange between(std::span<const double> stress, double low, double high) {
   return {first, last};
 }
 
-// How the slopes of a window's lower and upper half, by stress, compare.
+// How the slopes of a window's lower and upper part compare.
 struct Bend {
   bool known = false;
   Line lower, upper;
+
+  [[nodiscard]] bool stiffens() const { return known && lower.slope < upper.slope; }
 
   // (X5) What noise and the accepted curvature cannot explain.
   [[nodiscard]] bool is_straight(double tolerance) const {
@@ -50,13 +54,16 @@ struct Bend {
   }
 };
 
-Bend bend_of(const Curve& curve, double low, double high) {
-  const double middle = 0.5 * (low + high);
+Bend bend_at(const Curve& curve, double low, double middle, double high) {
   const RowRange whole = between(curve.stress, low, high);
   const RowRange upper = between(curve.stress, middle, high);
   const RowRange lower{whole.first, upper.first};
   if (lower.rows() < fewest_half_window || upper.rows() < fewest_half_window) return {};
   return {true, curve.robust(lower), curve.robust(upper)};
+}
+
+Bend bend_of(const Curve& curve, double low, double high) {
+  return bend_at(curve, low, 0.5 * (low + high), high);
 }
 
 // The window in stress, and whether what is left of it is straight.
@@ -77,13 +84,24 @@ Window straight_window(const Curve& curve, double strength, const ReductionOptio
   while (window.high - window.low >= fewest_remaining * full) {
     window.bend = bend_of(curve, window.low, window.high);
     window.straight = window.bend.is_straight(options.straightness);
-    const bool toe = window.bend.known && window.bend.lower.slope < window.bend.upper.slope;
+    const bool toe = window.bend.stiffens();
     if (window.straight || (!toe && !yields)) break;
     (toe ? window.low : window.high) += (toe ? 1.0 : -1.0) * narrowing_step * full;
   }
   if (!window.straight)  // nothing is gained by a part of it
     return {options.window_low * strength, options.window_high * strength, whole, false};
   return window;
+}
+
+// (X5) A toe too gentle for the halves of a window to show it: what follows is straight, steeper.
+Window clear_of_toe(const Curve& curve, const Window& window, double strength,
+                    const ReductionOptions& options) {
+  const double high = before_failure * strength;
+  const Bend onward = bend_at(curve, window.low, window.high, high);
+  const bool gentle = onward.stiffens() && onward.upper.slope < gentle_toe * onward.lower.slope;
+  if (!gentle || onward.is_straight(options.straightness)) return window;
+  const Bend bend = bend_of(curve, window.high, high);
+  return bend.is_straight(options.straightness) ? Window{window.high, high, bend, true} : window;
 }
 
 // (X6) The line of ISO 527-1, where it can be one: the curve spans its window, and the line meets
@@ -151,7 +169,8 @@ void fall_back(const Curve& curve, const Window& window, ModulusFit& fit) {
 ModulusFit fit_modulus(std::span<const double> strain, std::span<const double> stress,
                        double strength, const ReductionOptions& options) {
   const Curve curve{strain, stress};
-  const Window window = straight_window(curve, strength, options);
+  const Window window =
+      clear_of_toe(curve, straight_window(curve, strength, options), strength, options);
   ModulusFit fit;
   fit.window = between(stress, window.low, window.high);
   fit.line = curve.robust(fit.window);
@@ -162,10 +181,10 @@ ModulusFit fit_modulus(std::span<const double> strain, std::span<const double> s
   const double low = window.low / strength, high = window.high / strength;
   if (low > options.window_low + 1e-9 || high < options.window_high - 1e-9)
     fit.corrections.push_back(
-        {"modulus window",
-         fmt::format("narrowed from {:.2g}-{:.2g} to {:.2g}-{:.2g} of the strength, "
-                     "where the curve is straight",
-                     options.window_low, options.window_high, low, high)});
+        {"modulus window", fmt::format("{} from {:.2g}-{:.2g} to {:.2g}-{:.2g} of the strength, "
+                                       "where the curve is straight",
+                                       high > options.window_high ? "moved" : "narrowed",
+                                       options.window_low, options.window_high, low, high)});
   return fit;
 }
 

@@ -21,7 +21,7 @@ struct RowRange {
 struct ModulusFit {
   Line line;  ///< Stress over strain. `fitted` false: no modulus can be had.
   RowRange window;
-  std::vector<Correction> corrections;  ///< "modulus window", where it was narrowed.
+  std::vector<Correction> corrections;  ///< "modulus window", where it was narrowed or moved.
   std::vector<std::string> warnings;
 };
 
