@@ -40,7 +40,7 @@ std::string wider_bootstraps(const FitProblem& problem, const CalibrationResult&
     const ParameterInfo& info = *problem.unknowns[k].info;
     const double part = width(info, parameter.bootstrap_95) / width(info, parameter.interval_95);
     if (std::isfinite(part) && part > 1.5)
-      wider.push_back(fmt::format("{} ({:.2g} times as wide)", parameter.name, part));
+      wider.push_back(fmt::format("{} ({} times as wide)", parameter.name, two_digits(part)));
   }
   if (wider.empty()) return "";
   return fmt::format(
@@ -75,11 +75,11 @@ Check check_randomness(const CalibrationResult& result) {
                 r.common_gain)
           : "";
   const std::string numbers = fmt::format(
-      "{} fresh seeds per specimen move no parameter by more than {:.2g} standard errors, the "
-      "interval that changes most is {:.2g} times as wide, their cost is {:.3g}; the replicates' "
+      "{} fresh seeds per specimen move no parameter by more than {} standard errors, the "
+      "interval that changes most is {} times as wide, their cost is {:.3g}; the replicates' "
       "chance makes {} of the variance.{}",
-      r.replicates, r.fresh_shift, r.fresh_width, r.fresh_cost, percent_text(r.simulator_share),
-      gain);
+      r.replicates, two_digits(r.fresh_shift), two_digits(r.fresh_width), r.fresh_cost,
+      percent_text(r.simulator_share), gain);
   const bool as_wide = r.fresh_width <= other_width && r.fresh_width >= 1.0 / other_width;
   if (r.fresh_shift <= 1.0 && r.simulator_share <= 0.5 && as_wide)
     return {name, Outcome::pass, numbers};
@@ -139,7 +139,8 @@ Check check_influence(const CalibrationResult& result) {
             "Without any one specimen every parameter stays within two standard errors."};
   std::string text;
   if (!alone.empty())
-    text = fmt::format("Without {} the parameters are not determined. ", fmt::join(alone, ", "));
+    text = fmt::format("Without {}{} the parameters are not determined. ",
+                       alone.size() > 1 ? "any one of " : "", fmt::join(alone, ", "));
   if (!strong.empty())
     text += fmt::format("Left out, these move a parameter by more than two standard errors: {}. ",
                         fmt::join(strong, ", "));
@@ -185,7 +186,7 @@ Check check_intervals(const FitProblem& problem, const CalibrationResult& result
     least = std::min(least, part);
     most = std::max(most, part);
     if (part < 0.5 || part > 2.0)
-      differ.push_back(fmt::format("{} ({:.2g} times as wide)", parameter.name, part));
+      differ.push_back(fmt::format("{} ({} times as wide)", parameter.name, two_digits(part)));
   }
   const std::string wider = wider_bootstraps(problem, result);
   if (compared == 0 && differ.empty())
@@ -205,7 +206,7 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
   if (answer.slopes.failed) return not_fitted(name);
   if (!one_sided_orientations(problem, answer.best).empty())
     return {name, Outcome::pass,
-            "Not checked: tests were stopped near their strength, and only the weaker specimens "
+            "Not checked: tests were stopped near their strength, and at most the weaker specimens "
             "broke.",
             false};
   std::vector<Broken> specimens;

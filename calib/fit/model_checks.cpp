@@ -171,9 +171,14 @@ std::string prediction_off(const std::vector<std::string>& off,
 
 }  // namespace
 
+std::string two_digits(double value) {
+  constexpr double rounding = 1e-12;
+  if (std::abs(value) < rounding) return "0";
+  return value < 99.5 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
+}
+
 std::string percent_text(double part) {
-  const double percent = 100.0 * part;
-  return percent < 99.5 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.0f} %", percent);
+  return two_digits(100.0 * part) + " %";
 }
 
 // No test is good enough for a smaller one.
@@ -231,15 +236,15 @@ Check check_orientations(const FitProblem& problem, const Answer& answer) {
                         "specimens at one") +
                 (one_sided_orientations(problem, answer.best).empty()
                      ? "."
-                     : "; those where tests were stopped near their strength do not count, as only "
-                       "the weaker specimens broke."),
+                     : "; those where tests were stopped near their strength do not count, as at "
+                       "most the weaker specimens broke."),
             false};
   if (stiffness && *stiffness < significance)
     return {name, Outcome::fail, modulus_off(problem, answer, *stiffness)};
   if (breaking && *breaking < significance)
     return {name, Outcome::fail, strength_off(problem, answer, *breaking)};
   const auto words = [](const std::optional<double>& p) {
-    return p ? fmt::format("p = {:.2f}", *p) : std::string("too few to tell");
+    return p ? chance_text(*p) : std::string("too few to tell");
   };
   return {name, Outcome::pass,
           fmt::format("Residuals do not differ between orientations (modulus: {}, strength: {}).",

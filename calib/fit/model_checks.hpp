@@ -8,6 +8,9 @@
 
 namespace havers::calib {
 
+/// "2.6", "280", "0" for rounding: a size in plain digits, the first two at least.
+std::string two_digits(double value);
+
 /// "2.6 %", "280 %": a part in plain digits.
 std::string percent_text(double part);
 

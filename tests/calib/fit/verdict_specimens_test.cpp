@@ -264,7 +264,7 @@ TEST(Verdict, NamesEverySpecimenThatAloneDeterminesAParameter) {
         {.id = id, .influence = {{"young_GPa", std::nan("")}, {"ratio", std::nan("")}}});
   const auto check = check_influence(result);
   EXPECT_EQ(check.outcome, Outcome::warn);
-  EXPECT_TRUE(says(check, "Without A10, A1 the parameters")) << check.text;
+  EXPECT_TRUE(says(check, "Without any one of A10, A1 the parameters")) << check.text;
 }
 
 }  // namespace

@@ -66,6 +66,7 @@ TEST(Verdict, WritesPercentagesInPlainDigits) {
   EXPECT_EQ(percent_text(0.026), "2.6 %");
   EXPECT_EQ(percent_text(0.996), "100 %");
   EXPECT_EQ(percent_text(2.8), "280 %");
+  EXPECT_EQ(percent_text(5e-27), "0 %");
 }
 
 TEST(Verdict, NamesWhyMostSimulationsFailedAndWhatWouldAvoidIt) {
