@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "calib/experiment/measured_test.hpp"
 #include "calib/fit/scenes.hpp"
 #include "calib/study/parameter.hpp"
 #include "calib/synthetic/laboratory_record.hpp"
@@ -40,6 +41,7 @@ struct Made {
   calib::Specimen specimen;
   sim::Scene scene;
   sim::Simulation simulation;
+  std::vector<std::string> problems;  ///< That the test has for a fit.
 };
 
 calib::Laboratory laboratory_of(const io::SynthesizeOptions& options) {
@@ -153,11 +155,12 @@ Made make_specimen(const fs::path& study, const OutputFolder& output, const io::
       model.modulus_factor * calib::modulus_variation(seed, file.synthesize.modulus_cv);
   model.scene.joints.seed = seed;
 
-  Made made{.specimen = specimen, .scene = model.scene, .simulation = {}};
+  Made made{.specimen = specimen, .scene = model.scene, .simulation = {}, .problems = {}};
   made.simulation = sim::simulate(made.scene, {}, interrupted);
   if (!calib::is_test(made.simulation)) return made;  // nothing to record
   calib::RawTest record = calib::record_test(made.simulation, bar, laboratory, seed);
   record.specimen_id = specimen.id;
+  made.problems = calib::reduce_test(record, file.reduction).problems;
   io::write_bluehill(output.stage(place(study, file.specimens[s].test)), record);
   return made;
 }
@@ -246,6 +249,10 @@ int run_synthesize(const SynthesizeArguments& arguments, const CommonOptions& co
   const std::vector<Made> made = make_all(arguments.study, output, file);
   if (!all_are_tests(made))
     return without_result(common, interrupted() ? "cancelled" : "failed", "nothing was written");
+  for (const Made& one : made)
+    for (const std::string& problem : one.problems)
+      note(common,
+           fmt::format("note: specimen {}: no test for a fit: {}", one.specimen.id, problem));
   const nlohmann::json truth = truth_of(file, made);
   output.write("truth.json", io::json_text(truth));
   answer(common, &output, truth, "study.toml", [&] { print_summary(made); });

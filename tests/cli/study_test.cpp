@@ -96,6 +96,16 @@ TEST(Synthesize, WritesNoBreakThatTheModelDidNotHave) {
   }
 }
 
+// A preload beyond the strength leaves rows after the break alone.
+TEST(Synthesize, SaysWhichTestsNoFitCanUse) {
+  const fs::path folder = test::folder_with_study();
+  const auto answer =
+      run_havers(folder, "synthesize study.toml -o made --set synthesize.preload_N=150");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_THAT(answer.err, HasSubstr("note: specimen B90: no test for a fit: 5 rows are too few"));
+  EXPECT_THAT(answer.err, testing::Not(HasSubstr("specimen B0:")));
+}
+
 TEST(Synthesize, BringsTheLawsOfTheStudyAlong) {
   const fs::path folder = test::folder_with_study();
   const std::string laws = R"({"laws": [{"response": "strength", "status": "fitted",
