@@ -44,10 +44,12 @@ std::string panel_commands(const std::vector<Estimate>& estimates, std::size_t n
   }
   const std::string tics =  // so few that "16.482" does not meet "16.484"
       most > least ? fmt::format("{}", round_down((most - least) / 3.0)) : "autofreq";
-  return data + fmt::format(
-                    "EOD\nset xtics {}\nset xlabel '{}' noenhanced offset 0,0.6\n"
-                    "plot $panel{} using 1:2:3:4 with xerrorbars pt 7 ps 0.9 lw 1.8 lc rgb blue\n",
-                    tics, plain(axis_label(estimates.front().parameter->name)), number);
+  return data +
+         fmt::format(
+             "EOD\nset xrange [{}*:*]\nset xtics {}\nset xlabel '{}' noenhanced offset 0,0.6\n"
+             "plot $panel{} using 1:2:3:4 with xerrorbars pt 7 ps 0.9 lw 1.8 lc rgb blue\n",
+             least < 0.0 ? "" : "0<", tics, plain(axis_label(estimates.front().parameter->name)),
+             number);
 }
 
 // At most 24 characters of a name, none of them cut in two.

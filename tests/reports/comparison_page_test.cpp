@@ -19,6 +19,16 @@ TEST(ComparisonPage, TellsMissingFilesFromChangedOnes) {
   EXPECT_TRUE(contains(page, "<td>contents of a.csv; without b.csv; with c.csv</td>"));
 }
 
+// The axis of 1 to 812 began at -200.
+TEST(ComparisonPage, HasNoNegativeSizesBelowIntervals) {
+  auto fit = test::fit_sample();
+  for (auto& parameter : fit.result.parameters) parameter.interval_95 = {1.0, 812.0};
+  const std::string page =
+      comparison_page({{fit.study, fit.result, {}, {}}, {fit.study, fit.result, {}, {}}});
+  EXPECT_TRUE(contains(page, "800</tspan>"));
+  EXPECT_FALSE(contains(page, "−200</tspan>"));
+}
+
 // Two folders may each hold a d.csv.
 TEST(ComparisonPage, TellsFilesOfOneNameApart) {
   const auto fit = test::fit_sample();
