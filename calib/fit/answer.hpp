@@ -50,6 +50,9 @@ void add_hindsight(const FitProblem& problem, SimulationBatch& batch, const Answ
 std::vector<sim::LeftOut> left_out_of(const FitProblem& problem, const SimulationBatch& batch,
                                       const Answer& answer);
 
+/// What passes for want of anything to check; `why` ends with its full stop.
+Check not_checked(const std::string& check, const std::string& why);
+
 /// One sentence per check, with its numbers and what to do.
 std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
                               const CalibrationResult& result);

@@ -16,7 +16,7 @@ namespace havers::calib {
 namespace {
 
 Check not_fitted(const char* check) {
-  return {check, Outcome::pass, "Not checked: no parameter was fitted with an interval.", false};
+  return not_checked(check, "no parameter was fitted with an interval.");
 }
 
 double width(const ParameterInfo& info, const std::array<double, 2>& interval) {
@@ -103,12 +103,11 @@ Check check_confirmation(const FitProblem& problem, const CalibrationResult& res
     wave = std::max(wave, one.peak_in_time / one.strength_in_time - 1.0);
   }
   if (result.confirmations.empty())
-    return {name, Outcome::pass,
-            problem.study.calibrate.confirm == 0
-                ? "Not checked: not asked for; calibrate.options.confirm = 3 simulates three "
-                  "replicates step by step in time."
-                : "Not checked: the fit simulated its replicates step by step in time anyhow.",
-            false};
+    return not_checked(
+        name, problem.study.calibrate.confirm == 0
+                  ? "not asked for; calibrate.options.confirm = 3 simulates three replicates step "
+                    "by step in time."
+                  : "the fit simulated its replicates step by step in time anyhow.");
   if (compared == 0)
     return {name, Outcome::warn, "Every simulation in time failed: the limit stands unconfirmed."};
   const std::string text = fmt::format(
@@ -190,8 +189,7 @@ Check check_intervals(const FitProblem& problem, const CalibrationResult& result
   }
   const std::string wider = wider_bootstraps(problem, result);
   if (compared == 0 && differ.empty())
-    return {name, Outcome::pass, "Not checked: no profile was asked for or could be had." + wider,
-            false};
+    return not_checked(name, "no profile was asked for or could be had." + wider);
   if (differ.empty())
     return {name, Outcome::pass,
             fmt::format("Profile likelihood gives intervals {} times as wide as the slopes do.{}",
@@ -205,10 +203,8 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
   constexpr const char* name = "better than a plain law";
   if (answer.slopes.failed) return not_fitted(name);
   if (!one_sided_orientations(problem, answer.best).empty())
-    return {name, Outcome::pass,
-            "Not checked: tests were stopped near their strength, and at most the weaker specimens "
-            "broke.",
-            false};
+    return not_checked(
+        name, "tests were stopped near their strength, and at most the weaker specimens broke.");
   std::vector<Broken> specimens;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
@@ -226,11 +222,10 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
                            parameters_spent(problem, answer.best, answer.slopes.jacobian)[strength],
                            problem.study.laws);
   if (!std::isfinite(law.criterion) || !std::isfinite(law.model_criterion))
-    return {
-        name, Outcome::pass,
-        fmt::format("Not checked: {} {} too few to compare the model with a law without fibres.",
-                    count(specimens.size(), "strength"), specimens.size() == 1 ? "is" : "are"),
-        false};
+    return not_checked(
+        name,
+        fmt::format("{} {} too few to compare the model with a law without fibres.",
+                    count(specimens.size(), "strength"), specimens.size() == 1 ? "is" : "are"));
   const double better = law.criterion - law.model_criterion;
   const std::string numbers = fmt::format(
       "AICc of the strengths is {:.1f} for the model and {:.1f} for the best linear "

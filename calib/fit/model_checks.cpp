@@ -198,7 +198,7 @@ Check check_brittle(const FitProblem& problem, const Answer& answer) {
     simulated += answer.best.predictions[f].mean[linearity];
     variance += std::pow(target.noise[linearity], 2);
   }
-  if (n == 0.0) return {"brittle", Outcome::pass, "Not checked: no test broke.", false};
+  if (n == 0.0) return not_checked("brittle", "no test broke.");
   const double gap = (measured - simulated) / n, error = std::sqrt(variance) / n;
   const double part = std::exp(gap);
   const std::string numbers = fmt::format(
@@ -231,14 +231,12 @@ Check check_orientations(const FitProblem& problem, const Answer& answer) {
   const auto stiffness = chance(problem, answer, modulus);
   const auto breaking = chance(problem, answer, strength);
   if (!stiffness && !breaking)
-    return {name, Outcome::pass,
-            std::string("Not checked: it takes more orientations than parameters, and two "
-                        "specimens at one") +
-                (one_sided_orientations(problem, answer.best).empty()
-                     ? "."
-                     : "; those where tests were stopped near their strength do not count, as at "
-                       "most the weaker specimens broke."),
-            false};
+    return not_checked(
+        name, std::string("it takes more orientations than parameters, and two specimens at one") +
+                  (one_sided_orientations(problem, answer.best).empty()
+                       ? "."
+                       : "; those where tests were stopped near their strength do not count, as at "
+                         "most the weaker specimens broke."));
   if (stiffness && *stiffness < significance)
     return {name, Outcome::fail, modulus_off(problem, answer, *stiffness)};
   if (breaking && *breaking < significance)
@@ -270,9 +268,7 @@ Check check_validation(const CalibrationResult& result, const std::vector<std::s
     if (std::isnan(worst)) unknown.push_back(specimen.id);
     if (worst > largest_off) off.push_back(fmt::format("{} ({:.1f})", specimen.id, worst));
   }
-  if (held_out == 0)
-    return {name, Outcome::pass, "Not checked: none was kept for validation (use = \"validate\").",
-            false};
+  if (held_out == 0) return not_checked(name, "none was kept for validation (use = \"validate\").");
   if (off.empty() && unknown.empty())
     return {name, Outcome::pass,
             fmt::format("{} {} within three standard deviations of the prediction.",

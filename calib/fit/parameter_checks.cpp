@@ -91,7 +91,7 @@ Check check_bounds(const CalibrationResult& result) {
 Check check_identifiable(const FitProblem& problem, const Answer& answer,
                          const CalibrationResult& result) {
   if (answer.left.empty() && answer.slopes.failed)
-    return {"identifiable", Outcome::pass, "Not checked: there is no interval.", false};
+    return not_checked("identifiable", "there is no interval.");
   const auto [wide, nothing_told] = wide_intervals(problem, result);
   const Outcome doubt = nothing_told ? Outcome::fail : Outcome::warn;
   if (answer.left.empty() && !wide.empty()) return {"identifiable", doubt, wide.substr(1)};
@@ -122,7 +122,7 @@ Check check_strain(const FitProblem& problem, const Answer& answer) {
     return problem.unknown(k).info->name == "young_GPa";
   };
   if (std::ranges::none_of(answer.active, is_modulus))
-    return {name, Outcome::pass, "Not checked: young_GPa is not fitted.", false};
+    return not_checked(name, "young_GPa is not fitted.");
   std::vector<std::string> with_machine;
   for (const std::size_t s : problem.fitted)
     if (problem.targets[s].present[modulus] && problem.study.specimens[s].test.machine_in_strain)

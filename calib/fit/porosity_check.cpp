@@ -140,14 +140,14 @@ std::optional<PorosityTrend> porosity_trend(const PorositySample& sample) {
 Check check_porosity(const FitProblem& problem, const Answer& answer) {
   constexpr const char* name = "residuals and porosity";
   if (answer.best.failed || answer.weights.sd.empty() || answer.slopes.failed)
-    return {name, Outcome::pass, "Not checked: there is nothing to compare by.", false};
+    return not_checked(name, "there is nothing to compare by.");
   const auto stiffness = porosity_trend(sample_of(problem, answer, modulus));
   const auto breaking = porosity_trend(sample_of(problem, answer, strength));
   if (!stiffness && !breaking)
-    return {name, Outcome::pass,
-            "Not checked: it takes more specimens of known porosity than parameters, two at least, "
-            "and porosities that differ beside what the parameters make up for.",
-            false};
+    return not_checked(
+        name,
+        "it takes more specimens of known porosity than parameters, two at least, and porosities "
+        "that differ beside what the parameters make up for.");
   // Two looks at half the level are one at the whole.
   const double level = stiffness && breaking ? 0.5 * significance : significance;
   std::string text;

@@ -49,16 +49,14 @@ Check check_sections(const FitProblem& problem) {
   constexpr const char* name = "sections tell porosity";
   const PorosityOptions& laws = problem.study.porosity;
   if (laws.to_scatter == ToScatter::none && laws.to_modulus == ToModulus::none)
-    return {name, Outcome::pass, "Not checked: porosity changes nothing in the model.", false};
+    return not_checked(name, "porosity changes nothing in the model.");
   const Untold found = untold_of(problem);
   const double scatter = problem.study.model.joints.scatter;
   if (!found.any)
-    return {
-        name, Outcome::pass,
-        fmt::format("Not checked: no specimen has sections. Unless it is fitted, the scatter is "
-                    "taken to be {:g} (model.joints.scatter), for which strengths hold.",
-                    scatter),
-        false};
+    return not_checked(
+        name, fmt::format("no specimen has sections. Unless it is fitted, the scatter is taken to "
+                          "be {:g} (model.joints.scatter), for which strengths hold.",
+                          scatter));
   std::vector<std::string> sentences;
   if (!found.doubted.empty())
     sentences.push_back(fmt::format(

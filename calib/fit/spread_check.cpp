@@ -151,7 +151,7 @@ Check check_specimen_spread(const FitProblem& problem, const Answer& answer) {
   const auto rest =
       untold + chi_squared_sentence(problem, answer, rejected) + (few ? " Test more." : "");
   if (told.empty() && untold.empty())
-    return {name, Outcome::pass, "Not checked: neither modulus nor strength is compared.", false};
+    return not_checked(name, "neither modulus nor strength is compared.");
   if (told.empty()) return {name, Outcome::warn, rest.substr(1)};
   const auto text = fmt::format(
       "Specimens differ by {} (standard deviations) beyond noise, scatter and the model's own "

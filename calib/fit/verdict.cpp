@@ -56,7 +56,7 @@ std::vector<Evaluation> ends_of(const FitProblem& problem, const Answer& answer)
 // errors.
 Check check_starts(const FitProblem& problem, const Answer& answer) {
   if (answer.ends.empty() || answer.best.failed)
-    return {"starts agree", Outcome::pass, "Not checked: no search came to an answer.", false};
+    return not_checked("starts agree", "no search came to an answer.");
   if (answer.ends.size() < 2)
     return {"starts agree", Outcome::warn,
             "Only one start gave an answer; nothing to compare it with."};
@@ -98,15 +98,13 @@ Check check_starts(const FitProblem& problem, const Answer& answer) {
 // Where there is no answer, nothing of it passes.
 void leave_unchecked(std::vector<Check>& checks, const char* because) {
   for (Check& check : checks)
-    if (check.outcome == Outcome::pass && check.done)
-      check = {check.check, Outcome::pass, fmt::format("Not checked: {}.", because), false};
+    if (check.outcome == Outcome::pass && check.done) check = not_checked(check.check, because);
 }
 
 // What holds of a point that no search came to says nothing of the answer.
 void leave_all_unchecked(std::vector<Check>& checks, const char* because) {
   for (Check& check : checks)
-    if (check.check != "converged")
-      check = {check.check, Outcome::pass, fmt::format("Not checked: {}.", because), false};
+    if (check.check != "converged") check = not_checked(check.check, because);
 }
 
 // What "auto" leaves out nobody asked for: the study knows its value.
@@ -134,6 +132,10 @@ Check check_failures(const CalibrationResult& result) {
 
 }  // namespace
 
+Check not_checked(const std::string& check, const std::string& why) {
+  return {check, Outcome::pass, "Not checked: " + why, false};
+}
+
 std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
                               const CalibrationResult& result) {
   std::vector<Check> checks{check_brittle(problem, answer)};
@@ -156,11 +158,11 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_validation(result, missed(problem, answer)));
   checks.push_back(check_censored(problem, answer));
   if (answer.best.failed)
-    leave_unchecked(checks, "there is no answer");
+    leave_unchecked(checks, "there is no answer.");
   else if (answer.status == CalibrationStatus::budget_spent)
-    leave_all_unchecked(checks, "the budget ended before the searches did");
+    leave_all_unchecked(checks, "the budget ended before the searches did.");
   else if (answer.active.empty())
-    leave_unchecked(checks, "no parameter is fitted");
+    leave_unchecked(checks, "no parameter is fitted.");
   checks.push_back(check_failures(result));
   return checks;
 }
