@@ -6,7 +6,7 @@
 
 #include "io/config/read_scene.hpp"
 #include "sim/assembly/assembly.hpp"
-#include "tests/io/config/complaints.hpp"
+#include "tests/io/complaints.hpp"
 
 namespace havers::io {
 namespace {

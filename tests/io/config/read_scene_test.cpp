@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "tests/io/config/complaints.hpp"
+#include "tests/io/complaints.hpp"
 
 namespace havers::io {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "io/config/read_study.hpp"
 #include "sim/assembly/assembly.hpp"
-#include "tests/io/config/complaints.hpp"
+#include "tests/io/complaints.hpp"
 
 namespace havers::io {
 namespace {

@@ -1,12 +1,8 @@
 // The drawn sections of sample studies: what they say of themselves is what is measured on them.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-#include <iterator>
+#include <gmock/gmock.h>
 
 #include "io/images/measure_section.hpp"
-#include "io/input_error.hpp"
+#include "tests/io/complaints.hpp"
 
 namespace havers::io {
 namespace {
@@ -15,11 +11,6 @@ std::filesystem::path file_of(const std::string& name) {
   const auto folder = std::filesystem::temp_directory_path() / "havers_drawn";
   std::filesystem::create_directories(folder);
   return folder / name;
-}
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 TEST(DrawnSection, IsMeasuredAsItWasDrawn) {
@@ -43,8 +34,8 @@ TEST(DrawnSection, IsTheSameForTheSameSeed) {
   draw_section(first, {.seed = 4}, {});
   draw_section(second, {.seed = 4}, {});
   draw_section(other, {.seed = 5}, {});
-  EXPECT_EQ(bytes_of(first), bytes_of(second));
-  EXPECT_NE(bytes_of(first), bytes_of(other));
+  EXPECT_EQ(test::contents(first), test::contents(second));
+  EXPECT_NE(test::contents(first), test::contents(other));
 }
 
 // Twelve of them go into a sample study of a few megabytes.
@@ -55,12 +46,8 @@ TEST(DrawnSection, IsASmallFile) {
 }
 
 TEST(DrawnSection, ThatCannotBeWrittenIsNamed) {
-  try {
-    draw_section("no/such/folder/section.png", {}, {});
-    FAIL() << "nothing was thrown";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("cannot be written"), std::string::npos);
-  }
+  EXPECT_THAT(test::refusal_of([] { draw_section("no/such/folder/section.png", {}, {}); }),
+              testing::HasSubstr("cannot be written"));
 }
 
 }  // namespace

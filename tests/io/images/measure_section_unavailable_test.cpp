@@ -1,22 +1,19 @@
 // Only in a build without images.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "io/images/measure_section.hpp"
 #include "io/input_error.hpp"
+#include "tests/io/complaints.hpp"
 
 namespace havers::io {
 namespace {
 
 TEST(ImagesLeftOut, SayHowToGetThem) {
   EXPECT_FALSE(images_available());
-  try {
-    measure_sections("section.png", {});
-    FAIL() << "nothing was thrown";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("section.png: images are not built into this havers"),
-              std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("-DHAVERS_IMAGES=ON"), std::string::npos);
-  }
+  EXPECT_THAT(
+      test::refusal_of([] { measure_sections("section.png", {}); }),
+      testing::AllOf(testing::HasSubstr("section.png: images are not built into this havers"),
+                     testing::HasSubstr("-DHAVERS_IMAGES=ON")));
   EXPECT_THROW(draw_section("section.png", {}, {}), InputError);
 }
 

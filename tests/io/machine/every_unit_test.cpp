@@ -4,8 +4,7 @@
 
 #include <array>
 
-#include "io/machine/read_test.hpp"
-#include "tests/support/machine_files.hpp"
+#include "tests/io/machine/read_content.hpp"
 
 namespace havers::io {
 namespace {
@@ -38,8 +37,8 @@ void expect_unit(const NamedChannel& channel, const std::string& unit, double to
   for (const char* form : {" ({})", " [{}]", "({})", "{}"}) {
     const std::string head = head_with(channel.name, unit, form);
     SCOPED_TRACE(head);
-    const test::TemporaryFile file(head + "0,1,2,3,4,\n1,2,3,4,5,\n2,3,4,5,6,\n");
-    const calib::RawTest test = read_test(file.path()).test;
+    const calib::RawTest test =
+        test::read_content(head + "0,1,2,3,4,\n1,2,3,4,5,\n2,3,4,5,6,\n").test;
     const std::vector<double>& values = test.*channel.values;
     ASSERT_EQ(values.size(), 3U);
     const auto first = static_cast<double>(&channel - channels.data());

@@ -3,13 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 
 #include "io/input_error.hpp"
 #include "io/machine/csv_rows.hpp"
 #include "io/machine/number.hpp"
 #include "io/machine/read_test.hpp"
+#include "tests/io/complaints.hpp"
+#include "tests/support/machine_files.hpp"
 
 namespace havers::io {
 namespace {
@@ -34,14 +35,12 @@ enum Field {
 using Expected = std::vector<std::string>;
 
 std::vector<Expected> expected_rows() {
-  std::ifstream stream(fixtures / "expected.csv");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
   std::vector<Expected> all;
   CsvRows rows_of_table(',', [&](const Row& row) {
     if (row.line > 1) all.emplace_back(row.cells.begin(), row.cells.end());
     return true;
   });
-  rows_of_table.feed(text);
+  rows_of_table.feed(test::contents(fixtures / "expected.csv"));
   rows_of_table.finish();
   return all;
 }
@@ -108,12 +107,9 @@ TEST(Fixtures, OneOfSeveralSpecimensIsChosenByNameOrNumber) {
   EXPECT_EQ(read_test(fixtures / "side_by_side.csv", options).rows, 21U);
   EXPECT_EQ(read_test(fixtures / "side_by_side.csv", {.specimen_number = 2}).rows, 21U);
   const auto complaint = [&](const ReadOptions& chosen) -> std::string {
-    try {
-      read_test(fixtures / "side_by_side.csv", chosen);
-    } catch (const InputError& error) {
-      return error.problems()[0].what + "; " + error.problems()[0].hint;
-    }
-    return "none";
+    const Problem problem =
+        test::first_problem_of([&] { read_test(fixtures / "side_by_side.csv", chosen); });
+    return problem.what + "; " + problem.hint;
   };
   EXPECT_EQ(complaint({}),
             "holds 2 specimens; say which by specimen_in_file, its name or number: 1 \"North\", 2 "

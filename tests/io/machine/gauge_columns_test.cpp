@@ -1,15 +1,13 @@
 // Columns that a unit or a word gives away as a strain gauge's.
 #include <gtest/gtest.h>
 
-#include "io/machine/read_test.hpp"
-#include "tests/support/machine_files.hpp"
+#include "tests/io/machine/read_content.hpp"
 
 namespace havers::io {
 namespace {
 
 TestFile table_of(const std::string& names, const ReadOptions& options = {}) {
-  const test::TemporaryFile file(names + "\n0,1,0.01,100\n1,2,0.02,200\n");
-  return read_test(file.path(), options);
+  return test::read_content(names + "\n0,1,0.01,100\n1,2,0.02,200\n", options);
 }
 
 const std::string left_of_it = "Time (s),Load (N),Extension (mm),";

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/input_error.hpp"
-#include "io/machine/read_test.hpp"
-#include "tests/support/machine_files.hpp"
+#include "tests/io/complaints.hpp"
+#include "tests/io/machine/read_content.hpp"
 
 namespace havers::io {
 namespace {
@@ -24,26 +23,19 @@ std::string with_gap(const std::string& columns, int from, int to, const std::st
 const std::string with_crosshead = "Time (s),Load (N),Crosshead (mm),Strain (%)";
 
 std::string why_refused(const std::string& content) {
-  const test::TemporaryFile file(content);
-  try {
-    read_test(file.path());
-  } catch (const InputError& error) {
-    return error.problems().front().what;
-  }
-  return "none";
+  return test::first_problem_of([&] { test::read_content(content); }).what;
 }
 
 TEST(GaugeGaps, AtAnEndOfTheRecordAreFilledByTheCrosshead) {
   for (const std::string blank : {"", "NaN", "---"})
     for (const auto& [from, to] : {std::pair(25, 40), {2, 2}, {38, 40}}) {
-      const test::TemporaryFile file(with_gap(with_crosshead, from, to, blank));
-      const TestFile read = read_test(file.path());
+      const TestFile read = test::read_content(with_gap(with_crosshead, from, to, blank));
       ASSERT_EQ(read.test.strain.size(), 40U);
       for (int i = 0; i < 40; ++i) EXPECT_NEAR(read.test.strain.at(std::size_t(i)), 2e-4 * i, 1e-9);
       EXPECT_EQ(read.test.warnings.size(), from < to ? 1U : 0U) << from;
     }
-  const test::TemporaryFile late(with_gap(with_crosshead, 0, 12, ""));
-  EXPECT_NEAR(read_test(late.path()).test.strain.front(), 0.0, 1e-9);
+  const TestFile late = test::read_content(with_gap(with_crosshead, 0, 12, ""));
+  EXPECT_NEAR(late.test.strain.front(), 0.0, 1e-9);
 }
 
 TEST(GaugeGaps, BetweenReadingsAreRefused) {
@@ -63,8 +55,8 @@ TEST(GaugeGaps, WithoutACrossheadAreRefused) {
 }
 
 TEST(GaugeGaps, OfALoggerEndItsRecord) {
-  const test::TemporaryFile file(with_gap("Time (s),a,b,Strain (%)", 25, 40, ""));
-  const TestFile read = read_test(file.path(), {.logger = true});
+  const TestFile read =
+      test::read_content(with_gap("Time (s),a,b,Strain (%)", 25, 40, ""), {.logger = true});
   EXPECT_EQ(read.test.strain.size(), 25U);
   EXPECT_EQ(read.test.time.size(), 25U);
 }

@@ -3,15 +3,13 @@
 
 #include <numbers>
 
-#include "io/machine/read_test.hpp"
-#include "tests/support/machine_files.hpp"
+#include "tests/io/machine/read_content.hpp"
 
 namespace havers::io {
 namespace {
 
 calib::RawTest sized(const std::string& content, const ReadOptions& options = {}) {
-  const test::TemporaryFile file(content);
-  return read_test(file.path(), options).test;
+  return test::read_content(content, options).test;
 }
 
 TEST(HeaderSizes, TellTheirDecimalMarkWhateverTheTableUses) {

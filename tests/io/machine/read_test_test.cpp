@@ -6,15 +6,15 @@
 #include <algorithm>
 
 #include "io/input_error.hpp"
-#include "tests/support/machine_files.hpp"
+#include "tests/io/machine/read_content.hpp"
 #include "tests/support/slow.hpp"
 
 namespace havers::io {
 namespace {
 
 using test::encoded;
+using test::read_content;
 using test::replaced;
-using test::TemporaryFile;
 
 const std::string bluehill =
     "Specimen number (included),1\r\n"
@@ -29,11 +29,6 @@ const std::string bluehill =
     "\"0.10000\",\"0.02000\",\"1,004.80328\",\"0.0500\",\"125.6004\"\r\n"
     "\"0.20000\",\"0.04000\",\"1,204.00000\",\"0.1000\",\"150.5000\"\r\n";
 
-TestFile read(const std::string& content, const ReadOptions& options = {}) {
-  const TemporaryFile file(content);
-  return read_test(file.path(), options);
-}
-
 void expect_the_numbers(const TestFile& file) {
   const calib::RawTest& raw = file.test;
   ASSERT_EQ(file.rows, 3U);
@@ -46,7 +41,7 @@ void expect_the_numbers(const TestFile& file) {
 }
 
 TEST(ReadTest, ReadsBluehill) {
-  const TestFile file = read(bluehill);
+  const TestFile file = read_content(bluehill);
   EXPECT_EQ(file.layout, "Bluehill raw data");
   EXPECT_EQ(file.encoding, "ASCII");
   EXPECT_EQ(file.delimiter, ",");
@@ -65,12 +60,12 @@ TEST(ReadTest, ReadsBluehill) {
 TEST(ReadTest, ReadsEveryLineEnd) {
   for (const char* end : {"\n", "\r", "\r\r\n"}) {
     SCOPED_TRACE(testing::PrintToString(end));
-    expect_the_numbers(read(replaced(bluehill, "\r\n", end)));
+    expect_the_numbers(read_content(replaced(bluehill, "\r\n", end)));
   }
 }
 
 TEST(ReadTest, ReadsALastRowWithoutItsLineEnd) {
-  expect_the_numbers(read(bluehill.substr(0, bluehill.size() - 2)));
+  expect_the_numbers(read_content(bluehill.substr(0, bluehill.size() - 2)));
 }
 
 TEST(ReadTest, ReadsEveryEncoding) {
@@ -88,7 +83,7 @@ TEST(ReadTest, ReadsEveryEncoding) {
            {encoded(french, "UTF-16BE"), "UTF-16BE"},
            {encoded(replaced(french, "0038", "“38”"), "WINDOWS-1252"), "WINDOWS-1252"}}) {
     SCOPED_TRACE(name);
-    const TestFile file = read(content);
+    const TestFile file = read_content(content);
     EXPECT_EQ(file.encoding, name);
     EXPECT_EQ(file.columns[1].name, "Déplacement");
     EXPECT_DOUBLE_EQ(file.test.width.value(), 4e-3);
@@ -98,8 +93,8 @@ TEST(ReadTest, ReadsEveryEncoding) {
 
 TEST(ReadTest, LosesNoMoreThanTheHalfCharacterOfUtf16) {
   const std::string lone("\x00\xD8", 2);
-  expect_the_numbers(read("\xFF\xFE" + encoded("Label,\"A", "UTF-16LE") + lone +
-                          encoded("B\"\r\n" + bluehill, "UTF-16LE")));
+  expect_the_numbers(read_content("\xFF\xFE" + encoded("Label,\"A", "UTF-16LE") + lone +
+                                  encoded("B\"\r\n" + bluehill, "UTF-16LE")));
 }
 
 TEST(ReadTest, ReadsPolishInItsCodePage) {
@@ -108,7 +103,7 @@ TEST(ReadTest, ReadsPolishInItsCodePage) {
   polish = replaced(replaced(polish, "Tensile strain (Strain 1)", "Odkształcenie"), "Thickness",
                     "Grubość");
   const TestFile file =
-      read(encoded(replaced(polish, "Tensile stress", "Naprężenie"), "WINDOWS-1250"));
+      read_content(encoded(replaced(polish, "Tensile stress", "Naprężenie"), "WINDOWS-1250"));
   EXPECT_EQ(file.encoding, "WINDOWS-1250");
   EXPECT_EQ(file.columns[2].name, "Siła");
   EXPECT_DOUBLE_EQ(file.test.width.value(), 4e-3);
@@ -116,7 +111,7 @@ TEST(ReadTest, ReadsPolishInItsCodePage) {
 }
 
 TEST(ReadTest, ReadsAMicrometreInLatin1) {
-  const TestFile file = read(encoded("Force (N);Weg (µm)\n1;100\n2;200\n", "ISO-8859-1"));
+  const TestFile file = read_content(encoded("Force (N);Weg (µm)\n1;100\n2;200\n", "ISO-8859-1"));
   EXPECT_EQ(file.encoding, "ISO-8859-1");
   EXPECT_DOUBLE_EQ(file.test.extension[1], 200e-6);
 }
@@ -150,7 +145,7 @@ TEST(ReadTest, ReadsEveryDelimiterAndDecimalMark) {
         Dress{'\t', '.', ","}, Dress{'\t', ',', "\xC2\xA0"}, Dress{'\t', ',', "'"},
         Dress{';', ',', " "}}) {
     SCOPED_TRACE(testing::Message() << delimiter << ' ' << decimal << ' ' << thousands);
-    const TestFile file = read(dressed(delimiter, decimal, thousands));
+    const TestFile file = read_content(dressed(delimiter, decimal, thousands));
     EXPECT_EQ(file.delimiter, std::string(1, delimiter));
     EXPECT_EQ(file.decimal, std::string(1, decimal));
     EXPECT_DOUBLE_EQ(file.test.width.value(), 4e-3);
@@ -159,14 +154,14 @@ TEST(ReadTest, ReadsEveryDelimiterAndDecimalMark) {
 }
 
 TEST(ReadTest, ReadsDecimalCommasInQuotes) {
-  const TestFile file = read("Temps,Force\n(s),(kN)\n\"0,0\",\"0,5\"\n\"0,1\",\"1,25\"\n");
+  const TestFile file = read_content("Temps,Force\n(s),(kN)\n\"0,0\",\"0,5\"\n\"0,1\",\"1,25\"\n");
   EXPECT_EQ(file.delimiter, ",");
   EXPECT_EQ(file.decimal, ",");
   EXPECT_EQ(file.test.force, (std::vector{500.0, 1250.0}));
 }
 
 TEST(ReadTest, ReadsUnitsInTheNamesAndTrailingDelimiters) {
-  const TestFile file = read(
+  const TestFile file = read_content(
       "S/No;C_1_Temps[s];C_1_Force[kN];C_1_Cycles[];C_1_Déplacement[mm];\n"
       "1;0.1;1.5;0;0.001;\n2;0.2;1.6;0;0.002;\n");
   EXPECT_EQ(file.layout, "table");
@@ -176,20 +171,20 @@ TEST(ReadTest, ReadsUnitsInTheNamesAndTrailingDelimiters) {
 }
 
 TEST(ReadTest, ReadsUnitsWithoutBracketsBelowATitle) {
-  const TestFile file = read(
+  const TestFile file = read_content(
       "\"C35\",,\r\n\"Temps\",\"Force\",\"Stroke\"\r\n\"sec\",\"N\",\"mm\"\r\n0,1,2\r\n1,2,3\r\n");
   EXPECT_EQ(file.columns[2].unit, "mm");
   EXPECT_EQ(file.test.extension, (std::vector{2e-3, 3e-3}));
 }
 
 TEST(ReadTest, SaysWhichUnitItAssumed) {
-  const TestFile file = read("Time,Load\n0,1\n1,2\n");
+  const TestFile file = read_content("Time,Load\n0,1\n1,2\n");
   ASSERT_EQ(file.test.warnings.size(), 2U);
   EXPECT_EQ(file.test.warnings[1], "column \"Load\" has no unit, taken as N");
 }
 
 TEST(ReadTest, FindsColumnsByTheirUnitWhereTheNameSaysNothing) {
-  const TestFile file = read("A (s),B (kN),C (mm),D (%)\n0,1,2,3\n1,2,3,4\n");
+  const TestFile file = read_content("A (s),B (kN),C (mm),D (%)\n0,1,2,3\n1,2,3,4\n");
   EXPECT_EQ(file.test.force, (std::vector{1000.0, 2000.0}));
   EXPECT_EQ(file.test.extension, (std::vector{2e-3, 3e-3}));
   EXPECT_TRUE(file.test.strain.empty());
@@ -197,50 +192,50 @@ TEST(ReadTest, FindsColumnsByTheirUnitWhereTheNameSaysNothing) {
 
 TEST(ReadTest, TakesTheUsersWordForAColumn) {
   const ReadOptions options{{{Quantity::force, {"Load 2", "kN"}}, {Quantity::strain, {"3", "%"}}}};
-  const TestFile file = read("Load (N),Load 2,D\n1,2,3\n2,3,4\n", options);
+  const TestFile file = read_content("Load (N),Load 2,D\n1,2,3\n2,3,4\n", options);
   EXPECT_EQ(file.test.force, (std::vector{2000.0, 3000.0}));
   EXPECT_EQ(file.test.strain, (std::vector{0.03, 0.04}));
 }
 
 TEST(ReadTest, ReadsColumnsWithoutNamesOnceTheyAreNamed) {
   const ReadOptions options{{{Quantity::time, {"1", "s"}}, {Quantity::force, {"2", "N"}}}};
-  EXPECT_EQ(read("0,5\n1,6\n2,7\n", options).test.force, (std::vector{5.0, 6.0, 7.0}));
+  EXPECT_EQ(read_content("0,5\n1,6\n2,7\n", options).test.force, (std::vector{5.0, 6.0, 7.0}));
 }
 
 TEST(ReadTest, TurnsTheElongationOfAGaugeIntoStrain) {
   const std::string table = "Load (N),Strain 1 (mm)\n1,0.05\n2,0.1\n";
-  EXPECT_EQ(read("Gauge length,50,mm\n" + table).test.strain, (std::vector{1e-3, 2e-3}));
-  const TestFile unknown = read(table);
+  EXPECT_EQ(read_content("Gauge length,50,mm\n" + table).test.strain, (std::vector{1e-3, 2e-3}));
+  const TestFile unknown = read_content(table);
   EXPECT_TRUE(unknown.test.strain.empty());
   EXPECT_NE(unknown.test.warnings.at(0).find("the gauge length is unknown"), std::string::npos);
 }
 
 TEST(ReadTest, UsesTheFirstOfTwoColumnsAndSaysHowToChoose) {
   const std::string table = "Load (N),Load 2 (N)\n1,5\n2,6\n";
-  const TestFile file = read(table);
+  const TestFile file = read_content(table);
   EXPECT_EQ(file.test.force, (std::vector{1.0, 2.0}));
   EXPECT_EQ(file.test.warnings.at(0),
             "columns \"Load\" and \"Load 2\" both hold force: \"Load\" is used (force = 2 in "
             "[specimen.columns] takes the other)");
-  const TestFile chosen = read(table, {{{Quantity::force, {"2", ""}}}});
+  const TestFile chosen = read_content(table, {{{Quantity::force, {"2", ""}}}});
   EXPECT_EQ(chosen.test.force, (std::vector{5.0, 6.0}));
   EXPECT_TRUE(chosen.test.warnings.empty());
 }
 
 TEST(ReadTest, WarnsOfAStressThatIsNotForceOverArea) {
-  const TestFile file = read(replaced(bluehill, "Width,\"4", "Width,\"5"));
+  const TestFile file = read_content(replaced(bluehill, "Width,\"4", "Width,\"5"));
   ASSERT_EQ(file.test.warnings.size(), 1U);
   EXPECT_NE(file.test.warnings[0].find("check width and thickness"), std::string::npos);
 }
 
 TEST(ReadTest, WarnsOfAHeaderLineItCannotUse) {
-  const TestFile text = read(replaced(bluehill, "\"4.00000\"", "n/a"));
+  const TestFile text = read_content(replaced(bluehill, "\"4.00000\"", "n/a"));
   EXPECT_FALSE(text.test.width);
   EXPECT_EQ(text.test.warnings.at(0), "line 5, Width: \"n/a\" is no size; the line is not used");
-  const TestFile unit = read(replaced(bluehill, "\"4.00000\",mm", "\"4.00000\",s"));
+  const TestFile unit = read_content(replaced(bluehill, "\"4.00000\",mm", "\"4.00000\",s"));
   EXPECT_EQ(unit.test.warnings.at(0),
             "line 5, Width: \"s\" is not a known unit of it; the line is not used");
-  const TestFile none = read(replaced(bluehill, "\"4.00000\",mm", "\"4.00000\""));
+  const TestFile none = read_content(replaced(bluehill, "\"4.00000\",mm", "\"4.00000\""));
   EXPECT_EQ(none.test.warnings.at(0), "line 5, Width: no unit, taken as mm");
   EXPECT_DOUBLE_EQ(none.test.width.value(), 4e-3);
 }
@@ -255,7 +250,7 @@ TEST(ReadTest, ReadsALongFileAsAShortOne) {
                   "000,5\n");
   for (const char* encoding : {"UTF-8", "ISO-8859-1", "UTF-16LE"}) {
     SCOPED_TRACE(encoding);
-    const TestFile file = read(encoded(rows, encoding));
+    const TestFile file = read_content(encoded(rows, encoding));
     ASSERT_EQ(file.rows, 60000U);
     EXPECT_EQ(file.test.time.back(), 59999.0);
     EXPECT_TRUE(std::ranges::all_of(file.test.force, [](double f) { return f == 1000.5; }));

@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "io/input_error.hpp"
-#include "io/machine/read_test.hpp"
-#include "tests/support/machine_files.hpp"
+#include "tests/io/machine/read_content.hpp"
 
 namespace havers::io {
 namespace {
@@ -19,9 +18,8 @@ std::string stacked(const std::vector<std::string>& headings) {
 
 // The load of the specimen that is meant, or why none is.
 std::string meant(const std::vector<std::string>& headings, const ReadOptions& options) {
-  const test::TemporaryFile file(stacked(headings));
   try {
-    return fmt::format("{}", read_test(file.path(), options).test.force.front());
+    return fmt::format("{}", test::read_content(stacked(headings), options).test.force.front());
   } catch (const InputError& error) {
     return error.problems().front().what + "; " + error.problems().front().hint;
   }
@@ -42,9 +40,9 @@ TEST(SpecimenNames, AreReadInHeadings) {
 }
 
 TEST(SpecimenNames, GiveWayToAnId) {
-  const test::TemporaryFile file("Sample,7\nSpecimen 3\nSpecimen ID,A\nLoad (N)," +
-                                 std::string("Strain (%)\n1,1\n2,2\n"));
-  EXPECT_EQ(read_test(file.path()).test.specimen_id, "A");
+  const TestFile file =
+      test::read_content("Sample,7\nSpecimen 3\nSpecimen ID,A\nLoad (N),Strain (%)\n1,1\n2,2\n");
+  EXPECT_EQ(file.test.specimen_id, "A");
 }
 
 TEST(SpecimenNames, AreNotNumbers) {
@@ -58,8 +56,7 @@ TEST(SpecimenNames, AreNotNumbers) {
   EXPECT_EQ(meant({"Specimen 2", "Specimen 1"}, {.specimen_number = 1}),
             "1 is the number of one specimen and another's name; a name stands in quotes; it holds "
             "1 \"2\", 2 \"1\"");
-  const test::TemporaryFile file(stacked(named));
-  EXPECT_EQ(read_test(file.path(), {.specimen_number = 3}).test.warnings,
+  EXPECT_EQ(test::read_content(stacked(named), {.specimen_number = 3}).test.warnings,
             std::vector<std::string>{"specimen_in_file = 3 is the number of the specimen in the "
                                      "file: its name is \"4\""});
 }

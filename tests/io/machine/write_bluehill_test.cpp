@@ -1,9 +1,6 @@
 // Tests as they are written: what was recorded, and read back the same.
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "io/input_error.hpp"
 #include "io/machine/read_test.hpp"
 #include "tests/support/machine_files.hpp"
@@ -51,9 +48,8 @@ TEST(WriteBluehill, WritesOnlyWhatWasRecordedWithCrLfAndThousands) {
   raw.force = {999.0, 1234.5};
   raw.specimen_id = "A1";
   write_bluehill(file.path(), raw);
-  std::ifstream stream(file.path(), std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  EXPECT_EQ(text, "Specimen ID,\"A1\"\r\n\r\nLoad\r\n(N)\r\n\"999.00000\"\r\n\"1,234.50000\"\r\n");
+  EXPECT_EQ(test::contents(file.path()),
+            "Specimen ID,\"A1\"\r\n\r\nLoad\r\n(N)\r\n\"999.00000\"\r\n\"1,234.50000\"\r\n");
   EXPECT_THROW(write_bluehill(file.path().parent_path(), raw), InputError);
 }
 

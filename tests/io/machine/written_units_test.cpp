@@ -1,26 +1,20 @@
 // Units in the names of columns, known and unknown, and brackets that hold none.
 #include <gtest/gtest.h>
 
-#include "io/input_error.hpp"
-#include "io/machine/read_test.hpp"
 #include "io/machine/split_unit.hpp"
-#include "tests/support/machine_files.hpp"
+#include "tests/io/complaints.hpp"
+#include "tests/io/machine/read_content.hpp"
 
 namespace havers::io {
 namespace {
 
 calib::RawTest test_of(const std::string& names, const ReadOptions& options = {}) {
-  const test::TemporaryFile file(names + "\n0;1\n1;2\n");
-  return read_test(file.path(), options).test;
+  return test::read_content(names + "\n0;1\n1;2\n", options).test;
 }
 
 std::string refusal_of(const std::string& names, const ReadOptions& options = {}) {
-  try {
-    test_of(names, options);
-  } catch (const InputError& error) {
-    return error.problems()[0].what + " (" + error.problems()[0].hint + ")";
-  }
-  return "read without refusal";
+  const Problem problem = test::first_problem_of([&] { test_of(names, options); });
+  return problem.what + " (" + problem.hint + ")";
 }
 
 TEST(WrittenUnits, OfAForceAreReadInEveryForm) {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/results/result_files.hpp"
-#include "tests/io/config/complaints.hpp"
+#include "tests/io/complaints.hpp"
 #include "tests/support/results.hpp"
 
 namespace havers::io {

@@ -6,7 +6,7 @@
 
 #include "io/config/read_scene.hpp"
 #include "io/results/result_files.hpp"
-#include "tests/io/config/complaints.hpp"
+#include "tests/io/complaints.hpp"
 #include "tests/support/results.hpp"
 
 namespace havers::io {

@@ -3,7 +3,7 @@
 #include "io/config/read_scene.hpp"
 #include "io/input_error.hpp"
 #include "io/snapshots/snapshots.hpp"
-#include "tests/io/config/complaints.hpp"
+#include "tests/io/complaints.hpp"
 
 namespace havers::io {
 namespace {

@@ -12,7 +12,7 @@
 #include <limits>
 #include <thread>
 
-#include "tests/io/config/complaints.hpp"
+#include "tests/io/complaints.hpp"
 #include "tests/support/slow.hpp"
 
 namespace havers::io {
@@ -128,6 +128,12 @@ pid_t in_a_child(const std::function<void()>& work) {
   _exit(0);
 }
 
+void expect_success(pid_t child) {
+  int status = -1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+}
+
 // Each wants to be the one that makes the file and sets its journal.
 TEST_F(Store, IsCreatedByManyProcessesAtOnce) {
   HAVERS_SLOW;
@@ -136,11 +142,7 @@ TEST_F(Store, IsCreatedByManyProcessesAtOnce) {
     for (int i = 0; i < 8; ++i)
       children.push_back(
           in_a_child([&] { open_store(file)->save(key_of(round), response_of(round)); }));
-    for (const pid_t child : children) {
-      int status = -1;
-      waitpid(child, &status, 0);
-      EXPECT_EQ(status, 0);
-    }
+    for (const pid_t child : children) expect_success(child);
     expect_same(open_store(file)->find(key_of(round)), response_of(round));
     std::filesystem::remove(file);
   }
@@ -156,11 +158,7 @@ TEST_F(Store, IsSharedByTwoProcesses) {
     };
     const std::array<pid_t, 2> children{in_a_child([&] { save_from(0); }),
                                         in_a_child([&] { save_from(1); })};
-    for (const pid_t child : children) {
-      int status = -1;
-      waitpid(child, &status, 0);
-      EXPECT_EQ(status, 0);
-    }
+    for (const pid_t child : children) expect_success(child);
     const auto store = open_store(file);
     for (int i = 0; i < many; ++i) expect_same(store->find(key_of(i)), response_of(i));
     folder.write("evaluations.sqlite", "");

@@ -9,7 +9,7 @@
 
 #include "io/machine/csv_rows.hpp"
 #include "io/sweep/read_sweep.hpp"
-#include "tests/io/config/complaints.hpp"
+#include "tests/io/complaints.hpp"
 #include "tests/io/sweep/small_sweep.hpp"
 
 namespace havers::io {

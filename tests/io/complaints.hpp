@@ -20,6 +20,16 @@ inline std::string refusal_of(const std::function<void()>& call) {
   return "none";
 }
 
+/// The first problem of the InputError that `call` throws.
+inline io::Problem first_problem_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const io::InputError& error) {
+    return error.problems().front();
+  }
+  return {.where = "none", .what = "none", .hint = "none"};
+}
+
 /// The sentences of the InputError that `read` throws; empty when it throws none.
 inline std::vector<std::string> complaints_of(const ScratchFolder& folder,
                                               const std::function<void()>& read) {
