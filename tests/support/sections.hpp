@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "io/images/measure_section.hpp"
+
 namespace havers::test {
 
 enum class Outline { filled, bar, tilted_bar, ring };
@@ -186,6 +188,14 @@ inline std::filesystem::path write(const cv::Mat& image, const std::string& name
   std::filesystem::create_directories(folder);
   cv::imwrite((folder / name).string(), image);
   return folder / name;
+}
+
+inline constexpr double pixel = 2e-6;  ///< Side of a drawn section's. [m]
+
+/// What is measured on a drawn section in a file of that name.
+inline calib::SectionPorosity measure(const DrawnSection& section, const std::string& name,
+                                      const io::SectionOptions& options = {.pixel_size = pixel}) {
+  return measure_sections(write(section.image, name), options).front().porosity;
 }
 
 }  // namespace havers::test

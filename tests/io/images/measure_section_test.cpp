@@ -13,15 +13,10 @@
 namespace havers::io {
 namespace {
 
+using test::measure;
 using test::Outline;
+using test::pixel;
 using test::SectionTruth;
-constexpr double pixel = 2e-6;
-
-calib::SectionPorosity measure(const test::DrawnSection& section, const std::string& name,
-                               const SectionOptions& options = {.pixel_size = pixel}) {
-  return measure_sections(test::write(section.image, name), options).front().porosity;
-}
-
 struct Hardship {
   const char* name;
   SectionTruth section;

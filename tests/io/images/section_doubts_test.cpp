@@ -1,24 +1,19 @@
 // What is said of a section beside its porosity, and what is refused.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "io/images/measure_section.hpp"
-#include "io/input_error.hpp"
+#include "tests/io/complaints.hpp"
 #include "tests/support/sections.hpp"
 
 namespace havers::io {
 namespace {
 
+using test::measure;
 using test::Outline;
-constexpr double two_um = 2e-6;
-
-calib::SectionPorosity doubted(const test::DrawnSection& section, const std::string& name,
-                               const SectionOptions& options = {.pixel_size = two_um}) {
-  return measure_sections(test::write(section.image, name), options).front().porosity;
-}
-
+using test::pixel;
 bool warns(const calib::SectionPorosity& section, const std::string& words) {
   return std::ranges::any_of(section.warnings, [&](const std::string& warning) {
     return warning.find(words) != std::string::npos;
@@ -33,23 +28,18 @@ TEST(SectionDoubt, AMaskThatTakesInBackgroundIsDoubted) {
   cv::Mat inside = cv::Mat::zeros(drawn.image.size(), CV_8U);
   inside(cv::Rect(200, 180, 250, 200)).setTo(255);
   const auto file = test::write(all, "all.png"), part = test::write(inside, "inside.png");
-  EXPECT_TRUE(warns(doubted(drawn, "a.png", {.pixel_size = two_um, .mask = file}), doubt));
-  EXPECT_TRUE(warns(doubted(drawn, "a.png", {.pixel_size = two_um, .fills_image = true}), doubt));
-  EXPECT_FALSE(warns(doubted(drawn, "a.png", {.pixel_size = two_um, .mask = part}), doubt));
+  EXPECT_TRUE(warns(measure(drawn, "a.png", {.pixel_size = pixel, .mask = file}), doubt));
+  EXPECT_TRUE(warns(measure(drawn, "a.png", {.pixel_size = pixel, .fills_image = true}), doubt));
+  EXPECT_FALSE(warns(measure(drawn, "a.png", {.pixel_size = pixel, .mask = part}), doubt));
 }
 
 // Noise about one level: bone, paper, or a lens with its cap on.
 TEST(SectionDoubt, AnImageOfNothingIsRefusedUnlessBoneIsSaidToFillIt) {
   const auto nothing =
       test::draw({.outline = Outline::filled, .porosity = 0.0, .noise = 0.1, .cupping = 0.2});
-  try {
-    doubted(nothing, "nothing.png");
-    FAIL() << "porosity of nothing";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("neither a background nor pores"), std::string::npos)
-        << error.what();
-  }
-  const auto meant = doubted(nothing, "meant.png", {.pixel_size = two_um, .fills_image = true});
+  EXPECT_THAT(test::refusal_of([&] { measure(nothing, "nothing.png"); }),
+              testing::HasSubstr("neither a background nor pores"));
+  const auto meant = measure(nothing, "meant.png", {.pixel_size = pixel, .fills_image = true});
   EXPECT_EQ(meant.porosity, 0.0);
   EXPECT_TRUE(meant.doubtful);
   EXPECT_TRUE(std::isnan(meant.mean_pore_diameter));
@@ -57,25 +47,25 @@ TEST(SectionDoubt, AnImageOfNothingIsRefusedUnlessBoneIsSaidToFillIt) {
 
 TEST(SectionDoubt, IsOfThePorosityAndNotOfItsScale) {
   const auto drawn = test::draw({.noise = 0.05, .blur = 0.8});
-  EXPECT_FALSE(doubted(drawn, "sound.png").doubtful);
-  EXPECT_FALSE(doubted(drawn, "unscaled.png", {}).doubtful);
+  EXPECT_FALSE(measure(drawn, "sound.png").doubtful);
+  EXPECT_FALSE(measure(drawn, "unscaled.png", {}).doubtful);
   const auto filled = test::draw({.outline = Outline::filled, .noise = 0.05, .blur = 0.8});
-  EXPECT_TRUE(doubted(filled, "filled.png").doubtful);
-  EXPECT_FALSE(doubted(filled, "said.png", {.pixel_size = two_um, .fills_image = true}).doubtful);
+  EXPECT_TRUE(measure(filled, "filled.png").doubtful);
+  EXPECT_FALSE(measure(filled, "said.png", {.pixel_size = pixel, .fills_image = true}).doubtful);
 }
 
 TEST(SectionDoubt, LeavesOutSpecksAndSaysSo) {
   auto drawn = test::draw({.largest_radius = 8.0});
   for (int i = 0; i < 7; ++i) drawn.image(cv::Rect(250 + 40 * i, 300, 1, 1)).setTo(51);
-  const auto without = doubted(test::draw({.largest_radius = 8.0}), "no_specks.png");
-  const auto measured = doubted(drawn, "specks.png");
+  const auto without = measure(test::draw({.largest_radius = 8.0}), "no_specks.png");
+  const auto measured = measure(drawn, "specks.png");
   EXPECT_LE(measured.pore_count, without.pore_count);
   EXPECT_NEAR(measured.porosity, without.porosity, 1e-4);
   EXPECT_TRUE(warns(measured, "below 4 pixels were left out"));
 }
 
 TEST(SectionDoubt, WithoutAPixelSizeHasPorosityButNoWindows) {
-  const auto measured = doubted(test::draw({}), "unscaled.png", {});
+  const auto measured = measure(test::draw({}), "unscaled.png", {});
   EXPECT_GT(measured.porosity, 0.04);
   EXPECT_TRUE(std::isnan(measured.window_sd));
   EXPECT_TRUE(std::isnan(measured.bone_area));
@@ -83,14 +73,14 @@ TEST(SectionDoubt, WithoutAPixelSizeHasPorosityButNoWindows) {
 }
 
 TEST(SectionDoubt, WarnsWhereItsPixelsAreCoarserThanTheFibre) {
-  const auto measured = doubted(test::draw({}), "coarse.png", {.pixel_size = 30e-6});
+  const auto measured = measure(test::draw({}), "coarse.png", {.pixel_size = 30e-6});
   EXPECT_TRUE(warns(measured, "larger than the fibre's height"));
 }
 
 TEST(SectionDoubt, WarnsOfAPoreThatMayBeMarrow) {
   auto drawn = test::draw({.porosity = 0.0});
   cv::circle(drawn.image, {350, 300}, 70, 51, cv::FILLED);
-  const auto measured = doubted(drawn, "big_pore.png");
+  const auto measured = measure(drawn, "big_pore.png");
   EXPECT_NEAR(measured.porosity, std::numbers::pi * 4900.0 / cv::sum(drawn.bone)[0], 2e-3);
   EXPECT_TRUE(warns(measured, "marrow cavity"));
 }
@@ -98,9 +88,9 @@ TEST(SectionDoubt, WarnsOfAPoreThatMayBeMarrow) {
 // A microscope's data bar, white as the bone is.
 TEST(SectionDoubt, WarnsOfAStripAlongTheEdge) {
   auto drawn = test::draw({.blur = 0.8});
-  EXPECT_FALSE(warns(doubted(drawn, "plain.png"), "strip along an edge"));
+  EXPECT_FALSE(warns(measure(drawn, "plain.png"), "strip along an edge"));
   drawn.image.rowRange(drawn.image.rows - 60, drawn.image.rows).setTo(204);
-  const auto labelled = doubted(drawn, "label.png");
+  const auto labelled = measure(drawn, "label.png");
   EXPECT_TRUE(warns(labelled, "strip along an edge of the image"));
   EXPECT_TRUE(labelled.doubtful);
 }
@@ -112,10 +102,10 @@ TEST(SectionDoubt, WarnsOfADataBarThatPassesForTheBone) {
     cv::circle(image, {40 + 97 * (i % 8), 40 + 95 * (i / 8)}, 12, 30, cv::FILLED);
   image.rowRange(520, 600).setTo(0);
   cv::putText(image, "20 kV  100 um", {40, 575}, cv::FONT_HERSHEY_SIMPLEX, 1.4, 255, 3);
-  const auto measured = doubted({.image = image}, "data_bar.png");
+  const auto measured = measure({.image = image}, "data_bar.png");
   EXPECT_TRUE(warns(measured, "all that is taken for bone is a strip along an edge"));
   image.rowRange(520, 560).setTo(170);
-  const auto narrow = doubted({.image = image}, "narrow_bar.png");
+  const auto narrow = measure({.image = image}, "narrow_bar.png");
   EXPECT_TRUE(warns(narrow, "all that is taken for bone is a strip along an edge"));
   EXPECT_FALSE(warns(narrow, "--fills-image"));
   EXPECT_TRUE(measured.doubtful);
@@ -123,13 +113,13 @@ TEST(SectionDoubt, WarnsOfADataBarThatPassesForTheBone) {
 
 TEST(SectionDoubt, WarnsOfLinesDrawnIntoTheBoneAndOfNoStain) {
   const auto stained = test::draw({.blur = 0.8, .colour = true});
-  EXPECT_FALSE(warns(doubted(stained, "stain.png"), "is coloured"));
+  EXPECT_FALSE(warns(measure(stained, "stain.png"), "is coloured"));
   auto drawn = test::draw({.blur = 0.8});
   cv::cvtColor(drawn.image, drawn.image, cv::COLOR_GRAY2BGR);
   cv::line(drawn.image, {20, 20}, {500, 20}, cv::Scalar(0, 0, 255), 3);
-  EXPECT_FALSE(warns(doubted(drawn, "outside.png"), "is coloured"));
+  EXPECT_FALSE(warns(measure(drawn, "outside.png"), "is coloured"));
   cv::line(drawn.image, {150, 300}, {500, 320}, cv::Scalar(0, 0, 255), 3);
-  EXPECT_TRUE(warns(doubted(drawn, "inside.png"), "is coloured, and the rest is grey"));
+  EXPECT_TRUE(warns(measure(drawn, "inside.png"), "is coloured, and the rest is grey"));
 }
 
 // Bright fringes, as phase contrast leaves them, weigh against the pores in the grey levels only.
@@ -140,7 +130,7 @@ TEST(SectionDoubt, WarnsWhereGreyLevelsAndThresholdDisagree) {
     cv::circle(drawn.image, middle, 19, 250, cv::FILLED);
     cv::circle(drawn.image, middle, 16, 51, cv::FILLED);
   }
-  const auto measured = doubted(drawn, "disagree.png");
+  const auto measured = measure(drawn, "disagree.png");
   EXPECT_TRUE(warns(measured, "differs by more than one point"));
 }
 
@@ -151,7 +141,7 @@ TEST(SectionDoubt, WarnsOfABoneInManyParts) {
   for (int i = 0; i < 15; ++i)
     if (i / 5 != 1 || i % 5 == 0 || i % 5 == 4)
       cv::circle(image, {80 + 160 * (i % 5), 80 + 220 * (i / 5)}, 55, 30, cv::FILLED);
-  const auto measured = doubted({.image = image}, "parts.png");
+  const auto measured = measure({.image = image}, "parts.png");
   EXPECT_TRUE(warns(measured, "in 13 parts: if that is pores in bone that fills the image"));
   EXPECT_TRUE(measured.doubtful);
 }
@@ -160,11 +150,11 @@ TEST(SectionDoubt, WarnsOfABoneInManyParts) {
 TEST(SectionDoubt, IsOfAPorosityThatCracksOutweigh) {
   auto drawn = test::draw({.porosity = 0.02, .largest_radius = 8.0, .blur = 0.7});
   for (int y = 150; y < 460; y += 60) cv::line(drawn.image, {200, y}, {280, y}, 51, 2);
-  const auto few = doubted(drawn, "crack.png");
+  const auto few = measure(drawn, "crack.png");
   EXPECT_GT(few.crack_count, 0);
   EXPECT_FALSE(few.doubtful);
   for (int y = 150; y < 460; y += 12) cv::line(drawn.image, {100, y}, {600, y}, 51, 3);
-  const auto many = doubted(drawn, "canals.png");
+  const auto many = measure(drawn, "canals.png");
   EXPECT_GT(many.crack_count, few.crack_count);
   EXPECT_TRUE(many.doubtful);
 }

@@ -11,18 +11,14 @@
 namespace havers::io {
 namespace {
 
-constexpr double side_of_pixel = 2e-6;
-
-calib::SectionPorosity quantities(const test::DrawnSection& section, const std::string& name,
-                                  const SectionOptions& options = {.pixel_size = side_of_pixel}) {
-  return measure_sections(test::write(section.image, name), options).front().porosity;
-}
+using test::measure;
+using test::pixel;
 
 TEST(SectionQuantities, NamesItsAreasSizesAndZones) {
   const auto drawn =
       test::draw({.outline = test::Outline::ring, .largest_radius = 12.0, .blur = 0.8});
-  const auto measured = quantities(drawn, "areas.png");
-  const double side = 600.0 * side_of_pixel, total = std::numbers::pi * std::pow(0.45 * side, 2);
+  const auto measured = measure(drawn, "areas.png");
+  const double side = 600.0 * pixel, total = std::numbers::pi * std::pow(0.45 * side, 2);
   EXPECT_NEAR(measured.total_area, total, 0.01 * total);
   EXPECT_NEAR(measured.marrow_area, std::numbers::pi * std::pow(0.22 * side, 2), 0.01 * total);
   EXPECT_NEAR(measured.pore_density * measured.bone_area, measured.pore_count, 1e-6);
@@ -41,8 +37,8 @@ TEST(SectionQuantities, NamesItsAreasSizesAndZones) {
 TEST(SectionQuantities, FindsThePoresOfEachZone) {
   auto drawn = test::draw({.outline = test::Outline::ring, .porosity = 0.0, .blur = 0.8});
   for (const int y : {240, 300, 360}) cv::circle(drawn.image, {150, y}, 12, 51, cv::FILLED);
-  const auto measured = quantities(drawn, "zoned.png");
-  const double pores = 3.0 * std::numbers::pi * 144.0 * side_of_pixel * side_of_pixel;
+  const auto measured = measure(drawn, "zoned.png");
+  const double pores = 3.0 * std::numbers::pi * 144.0 * pixel * pixel;
   for (const calib::Zone& zone : measured.zones) {
     const bool holds_all = zone.name == "left" || zone.name == "middle third";
     EXPECT_NEAR(zone.porosity * zone.bone_area, holds_all ? pores : 0.0, 0.06 * pores) << zone.name;
@@ -51,17 +47,14 @@ TEST(SectionQuantities, FindsThePoresOfEachZone) {
 
 TEST(SectionQuantities, LeavesOutTheRimOfTheBone) {
   const auto drawn = test::draw({.porosity = 0.0, .blur = 0.7});
-  const auto whole = quantities(drawn, "whole.png");
-  const auto inner =
-      quantities(drawn, "inner.png", {.pixel_size = side_of_pixel, .rim = 10.0 * side_of_pixel});
+  const auto whole = measure(drawn, "whole.png");
+  const auto inner = measure(drawn, "inner.png", {.pixel_size = pixel, .rim = 10.0 * pixel});
   const double length = 560.0, height = 408.0;  // of the drawn bar. [px]
-  EXPECT_NEAR(whole.bone_area / (length * height * side_of_pixel * side_of_pixel), 1.0, 0.005);
-  EXPECT_NEAR(inner.bone_area / ((length - 20.0) * (height - 20.0) * side_of_pixel * side_of_pixel),
-              1.0, 0.005);
-  EXPECT_THROW(quantities(drawn, "unscaled_rim.png", {.rim = 1e-5}), InputError);
+  EXPECT_NEAR(whole.bone_area / (length * height * pixel * pixel), 1.0, 0.005);
+  EXPECT_NEAR(inner.bone_area / ((length - 20.0) * (height - 20.0) * pixel * pixel), 1.0, 0.005);
+  EXPECT_THROW(measure(drawn, "unscaled_rim.png", {.rim = 1e-5}), InputError);
   for (const double pixels : {300.0, 1e10})  // more than whole numbers hold
-    EXPECT_THROW(quantities(drawn, "all_rim.png",
-                            {.pixel_size = side_of_pixel, .rim = pixels * side_of_pixel}),
+    EXPECT_THROW(measure(drawn, "all_rim.png", {.pixel_size = pixel, .rim = pixels * pixel}),
                  InputError);
 }
 
@@ -72,17 +65,17 @@ TEST(SectionQuantities, ReadsDensityFromMaterialsOfKnownOne) {
   const DensityReference bone{.grey = 204.0, .density = 1900.0};
   for (const DensityReference& zero : {air, phantom}) {
     const auto measured =
-        quantities(drawn, "density.png", {.pixel_size = side_of_pixel, .density = {zero, bone}});
+        measure(drawn, "density.png", {.pixel_size = pixel, .density = {zero, bone}});
     EXPECT_NEAR(measured.density, 1900.0, 10.0);
     EXPECT_TRUE(std::isnan(measured.density_residual)) << "two points lie on their line";
   }
   // A third one 30 above the line lifts it by 10: two residuals of 10, one of 20.
   const DensityReference between{.grey = 127.5, .density = 980.0};
-  const auto measured = quantities(drawn, "residual.png", {.density = {air, bone, between}});
+  const auto measured = measure(drawn, "residual.png", {.density = {air, bone, between}});
   EXPECT_NEAR(measured.density_residual, std::sqrt(200.0), 1e-6);
   const DensityReference light{.grey = 204.0, .density = 0.0}, heavy{.grey = 255.0, .density = 9.0};
-  EXPECT_THROW(quantities(drawn, "reversed.png", {.density = {heavy, light}}), InputError);
-  const auto without = quantities(drawn, "no_reference.png", {});
+  EXPECT_THROW(measure(drawn, "reversed.png", {.density = {heavy, light}}), InputError);
+  const auto without = measure(drawn, "no_reference.png", {});
   EXPECT_TRUE(std::isnan(without.density) && std::isnan(without.density_residual));
 }
 
@@ -92,10 +85,10 @@ TEST(SectionQuantities, HaveNoDensityWhereNoBoneIsSolid) {
       .image = cv::Mat(120, 300, CV_8U, cv::Scalar(51)), .bone = {}, .pores = {}};
   drawn.image(cv::Rect(20, 58, 260, 4)).setTo(204);
   const auto measured =
-      quantities(drawn, "narrow.png",
-                 {.pixel_size = side_of_pixel,
-                  .mask = test::write(drawn.image > 100, "mask.png"),
-                  .density = {{.grey = 51.0, .density = 0.0}, {.grey = 204.0, .density = 1900.0}}});
+      measure(drawn, "narrow.png",
+              {.pixel_size = pixel,
+               .mask = test::write(drawn.image > 100, "mask.png"),
+               .density = {{.grey = 51.0, .density = 0.0}, {.grey = 204.0, .density = 1900.0}}});
   EXPECT_TRUE(std::isnan(measured.density)) << measured.density;
   ASSERT_FALSE(measured.warnings.empty());
   EXPECT_EQ(measured.warnings.back(),
@@ -105,12 +98,12 @@ TEST(SectionQuantities, HaveNoDensityWhereNoBoneIsSolid) {
 TEST(SectionQuantities, ReadDensityBesideCracks) {
   auto drawn = test::draw({.blur = 0.7});
   const SectionOptions options{
-      .pixel_size = side_of_pixel,
+      .pixel_size = pixel,
       .density = {{.grey = 51.0, .density = 0.0}, {.grey = 204.0, .density = 1900.0}}};
-  const double sound = quantities(drawn, "sound.png", options).density;
+  const double sound = measure(drawn, "sound.png", options).density;
   for (int y = 130; y < 480; y += 15) cv::line(drawn.image, {100, y}, {600, y}, 51, 2);
-  EXPECT_GT(quantities(drawn, "cracked.png", options).crack_count, 5);
-  EXPECT_NEAR(quantities(drawn, "cracked.png", options).density, sound, 2.0);
+  EXPECT_GT(measure(drawn, "cracked.png", options).crack_count, 5);
+  EXPECT_NEAR(measure(drawn, "cracked.png", options).density, sound, 2.0);
 }
 
 // Saved in colours, a grey image is the same; levels along a colour's own axis are none of a
@@ -118,18 +111,18 @@ TEST(SectionQuantities, ReadDensityBesideCracks) {
 TEST(SectionQuantities, HaveNoDensityByGreyLevelsOfAColour) {
   auto drawn = test::draw({.blur = 0.7});
   const SectionOptions options{
-      .pixel_size = side_of_pixel,
+      .pixel_size = pixel,
       .density = {{.grey = 51.0, .density = 0.0}, {.grey = 204.0, .density = 1900.0}}};
-  const double grey = quantities(drawn, "grey.png", options).density;
+  const double grey = measure(drawn, "grey.png", options).density;
   cv::cvtColor(drawn.image, drawn.image, cv::COLOR_GRAY2BGR);
-  EXPECT_EQ(quantities(drawn, "colours.png", options).density, grey);
+  EXPECT_EQ(measure(drawn, "colours.png", options).density, grey);
   cv::Mat floats;
   drawn.image.convertTo(floats, CV_32F);
   const auto file = test::write(drawn.image, "floats.tif");
   cv::imwrite(file.string(), floats, {cv::IMWRITE_TIFF_COMPRESSION, 1});
   EXPECT_NEAR(measure_sections(file, options).front().porosity.density, grey, 1e-4 * grey);
   cv::multiply(drawn.image, cv::Scalar(1.0, 0.8, 0.9), drawn.image);
-  EXPECT_THROW(quantities(drawn, "tinted.png", options), InputError);
+  EXPECT_THROW(measure(drawn, "tinted.png", options), InputError);
 }
 
 }  // namespace
