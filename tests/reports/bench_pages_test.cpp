@@ -97,23 +97,6 @@ TEST(ChainsFigure, HasItsLegendOutside) {
   EXPECT_EQ(figure.height, 380 + 4 * 18);
 }
 
-TEST(WorkPrecisionPage, ShowsNoEmptyTableOfABenchStoppedAtOnce) {
-  const std::string page = work_precision_page({}, {}, {});
-  EXPECT_TRUE(contains(page, "Stopped before every setting was run."));
-  EXPECT_FALSE(contains(page, "<table"));
-  EXPECT_FALSE(contains(page, "<figcaption>"));
-}
-
-TEST(WorkPrecisionPage, SaysWhatTheReferencesStrengthMayErrByToo) {
-  sim::WorkPrecision study{.complete = true, .rows = {{.runs = 3, .trusted = 3}}};
-  EXPECT_FALSE(contains(work_precision_page({}, study, {}), "own strength may err"));
-  study.reference_errors.strength.high = 0.014;
-  study.reference_errors.failure_strain.high = 0.0025;
-  EXPECT_TRUE(contains(work_precision_page({}, study, {}),
-                       "own strength may err by 1.4\u00a0%, its failure strain by "
-                       "0.25\u00a0%, the largest of all seeds."));
-}
-
 TEST(CoveragePage, SaysWhichIntervalsHoldLessThanTheyPromise) {
   calib::Coverage coverage;
   coverage.summaries = {

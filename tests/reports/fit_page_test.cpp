@@ -12,8 +12,23 @@ namespace {
 using test::contains;
 using test::expect_sound;
 
-TEST(FitPage, GivesTheVerdictBeforeAnyNumber) {
-  const auto sample = test::fit_sample();
+std::string page_of(const test::FitSample& fit) {
+  return fit_page({fit.study, fit.result, {}, {}});
+}
+
+class FitPage : public testing::Test {
+ protected:
+  // One specimen: its figures are what takes the time of a page.
+  FitPage() {
+    sample.study.specimens.resize(1);
+    sample.result.specimens.resize(1);
+  }
+
+  test::FitSample sample = test::fit_sample();
+};
+
+TEST_F(FitPage, GivesTheVerdictBeforeAnyNumber) {
+  sample = test::fit_sample();
   const std::string page =
       fit_page({sample.study, sample.result, {}, {.havers = "0.1.0", .wall_seconds = 38.2}});
   expect_sound(page);
@@ -23,19 +38,18 @@ TEST(FitPage, GivesTheVerdictBeforeAnyNumber) {
   EXPECT_LT(page.find("goodness of fit"), page.find("13.123\u00a0±\u00a00.087"));
 }
 
-TEST(FitPage, TicksNoCheckThatWasNotDone) {
+TEST_F(FitPage, TicksNoCheckThatWasNotDone) {
   HAVERS_SLOW;
-  auto sample = test::fit_sample();
   for (const bool done : {true, false}) {
     sample.result.verdict = {{"held-out specimens", calib::Outcome::pass, "none was kept", done}};
-    const std::string page = fit_page({sample.study, sample.result, {}, {}});
+    const std::string page = page_of(sample);
     EXPECT_EQ(contains(page, "✓"), done);
     EXPECT_EQ(contains(page, "– not done"), !done);
   }
 }
 
-TEST(FitPage, ShowsEverySpecimenParameterCheckAndStage) {
-  const auto sample = test::fit_sample();
+TEST_F(FitPage, ShowsEverySpecimenParameterCheckAndStage) {
+  sample = test::fit_sample();
   const std::string page =
       fit_page({sample.study, sample.result, {{"A2", {test::tiny_png()}}}, {.wall_seconds = 38.2}});
   for (const auto& specimen : sample.result.specimens)
@@ -52,107 +66,96 @@ TEST(FitPage, ShowsEverySpecimenParameterCheckAndStage) {
 }
 
 // Two reasons side by side are wider than the page, unless their lines break.
-TEST(FitPage, BreaksTheLinesOfReasonsInTheTableOfIntervals) {
-  auto sample = test::fit_sample();
+TEST_F(FitPage, BreaksTheLinesOfReasonsInTheTableOfIntervals) {
   sample.result.fitted = {"young_GPa", "head_tail_MPa"};
   sample.result.correlation = {{1.0, 0.0}, {0.0, 1.0}};
   sample.result.parameters.front().bootstrap_95 = {test::nan, test::nan};
   sample.result.parameters.front().bootstrap_missing = "3 specimens are too few to draw from";
-  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  const std::string page = page_of(sample);
   EXPECT_TRUE(contains(page, "<td class=\"n said\">– (3 specimens are too few"));
   EXPECT_TRUE(contains(page, "td.said { white-space: normal; }"));
 }
 
 // Beside "2 specimens are too few to draw from" it would speak of a fit of six.
-TEST(FitPage, SaysWhatABootstrapIsWorthWhereThereIsOne) {
+TEST_F(FitPage, SaysWhatABootstrapIsWorthWhereThereIsOne) {
   HAVERS_SLOW;
-  auto sample = test::fit_sample();
   sample.result.fitted = {"young_GPa"};
   const std::string worth = "over six they hold the truth in 78 to 91&nbsp;%";
-  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), worth));
+  EXPECT_TRUE(contains(page_of(sample), worth));
   for (auto& parameter : sample.result.parameters)
     parameter.bootstrap_missing = "2 specimens are too few to draw from, 5 are the least";
-  EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), worth));
+  EXPECT_FALSE(contains(page_of(sample), worth));
 }
 
 // What a search asks for again is in memory; the store knows what earlier runs left.
-TEST(FitPage, TellsRepeatsFromTheStore) {
-  auto sample = test::fit_sample();
+TEST_F(FitPage, TellsRepeatsFromTheStore) {
   sample.result.evaluations = 14898;
   sample.result.distinct_simulations = 2540;
   sample.result.simulated = 2538;
-  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}),
-                       "2538 run, 2 taken from the store, 12358 asked for again; "));
+  EXPECT_TRUE(
+      contains(page_of(sample), "2538 run, 2 taken from the store, 12358 asked for again; "));
 }
 
-TEST(FitPage, ShowsNoCorrelationAsZero) {
-  auto sample = test::fit_sample();
+TEST_F(FitPage, ShowsNoCorrelationAsZero) {
   sample.result.fitted = {"young_GPa", "head_tail_MPa"};
   sample.result.correlation = {{1.0, -9e-32}, {-9e-32, 1.0}};
-  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  const std::string page = page_of(sample);
   EXPECT_TRUE(contains(page, "Correlation"));
   EXPECT_FALSE(contains(page, "10⁻³²"));
 }
 
 // A key stands once, beside its symbol; everywhere else parameters have the names of the figures.
-TEST(FitPage, WritesSymbolsInTablesAndFormulas) {
-  auto sample = test::fit_sample();
+TEST_F(FitPage, WritesSymbolsInTablesAndFormulas) {
   auto& result = sample.result;
   result.fitted = {"young_GPa", "head_tail_MPa"};
   result.correlation = {{1.0, 0.5}, {0.5, 1.0}};
   result.directions = {"head_tail_MPa × young_GPa^-0.23 is known to ± 1.9 %."};
   result.next_tests = {{"one more specimen at 45 deg", {0.9, 0.8}}};
   result.parameters.back().left_out_because = "only head_tail_MPa × ratio^0.5 is determined";
-  const std::string page = fit_page({sample.study, result, {}, {}});
+  const std::string page = page_of(sample);
   for (const char* shown : {"σ₁ × E⁻⁰·²³ is known", "at 45°<", "<th>E (GPa)</th>", "<th>E</th>",
                             "<th class=\"n\">σ₁</th>", "only σ₁ × r⁰·⁵ is determined"})
     EXPECT_TRUE(contains(page, shown)) << shown;
   EXPECT_EQ(page.find("young_GPa"), page.rfind("young_GPa"));
 }
 
-TEST(FitPage, LeavesOutTheNumbersOfAnOptimisersMessage) {
-  auto sample = test::fit_sample();
+TEST_F(FitPage, LeavesOutTheNumbersOfAnOptimisersMessage) {
   sample.result.stages.front().message = "Tolerance reached. |cost_change|/cost: 1.1e-05 <= 5e-05";
-  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  const std::string page = page_of(sample);
   EXPECT_TRUE(contains(page, "<td>Tolerance reached</td>"));
 }
 
-TEST(FitPage, NamesTheChecksThatFailed) {
-  auto sample = test::fit_sample();
+TEST_F(FitPage, NamesTheChecksThatFailed) {
   sample.result.verdict[1].outcome = calib::Outcome::fail;
-  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  const std::string page = page_of(sample);
   EXPECT_TRUE(contains(page, "The fit cannot be trusted: 1 of 4 checks failed (goodness of fit)."));
   EXPECT_FALSE(contains(page, "class=\"verdict good\""));
 }
 
-TEST(FitPage, SaysWhyAFitWithoutFailedChecksCannotBeTrusted) {
-  auto sample = test::fit_sample();
+TEST_F(FitPage, SaysWhyAFitWithoutFailedChecksCannotBeTrusted) {
   sample.result.status = calib::CalibrationStatus::cancelled;
-  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}),
-                       "The fit cannot be trusted: " + explain(sample.result.status)));
+  EXPECT_TRUE(
+      contains(page_of(sample), "The fit cannot be trusted: " + explain(sample.result.status)));
 }
 
 // Its check "converged" fails too, and says less.
-TEST(FitPage, SaysHowASearchEndedThatDidNotConverge) {
-  auto sample = test::fit_sample();
+TEST_F(FitPage, SaysHowASearchEndedThatDidNotConverge) {
   sample.result.status = calib::CalibrationStatus::budget_spent;
   sample.result.verdict[0].outcome = calib::Outcome::fail;
-  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}),
-                       "The fit cannot be trusted: " + explain(sample.result.status)));
+  EXPECT_TRUE(
+      contains(page_of(sample), "The fit cannot be trusted: " + explain(sample.result.status)));
 }
 
-TEST(FitPage, NamesNoCostWhereThereIsNoAnswer) {
+TEST_F(FitPage, NamesNoCostWhereThereIsNoAnswer) {
   HAVERS_SLOW;
-  auto sample = test::fit_sample();
-  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), "Cost ½ Σ residual² = "));
+  EXPECT_TRUE(contains(page_of(sample), "Cost ½ Σ residual² = "));
   sample.result.cost = std::numeric_limits<double>::infinity();
-  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  const std::string page = page_of(sample);
   EXPECT_FALSE(contains(page, "Cost ½ Σ residual²"));
   EXPECT_TRUE(contains(page, "No answer after "));
 }
 
-TEST(FitPage, EscapesWhatUsersWrote) {
-  auto sample = test::fit_sample();
+TEST_F(FitPage, EscapesWhatUsersWrote) {
   sample.study.name = "<script>alert(1)</script> & \"co\"";
   sample.result.specimens.front().id = "<b>A1</b>";
   sample.result.specimens.front().measured.warnings = {"1 < 2 & 3"};
@@ -162,16 +165,14 @@ TEST(FitPage, EscapesWhatUsersWrote) {
   EXPECT_TRUE(contains(page, "&lt;script&gt;"));
 }
 
-TEST(FitPage, TellsWhatIsNotOfBoneRightUnderTheVerdict) {
-  auto sample = test::fit_sample();
+TEST_F(FitPage, TellsWhatIsNotOfBoneRightUnderTheVerdict) {
   sample.result.specimens.front().measured.unit_doubt =
       "a strength of 77542 MPa is not that of compact bone (1 to 1000 MPa): check the units";
-  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  const std::string page = page_of(sample);
   EXPECT_LT(page.find("A1: a strength of 77542\u00a0MPa"), page.find("goodness of fit"));
 }
 
-TEST(FitPage, TellsTheDoubtsAboutStudyTestsAndSections) {
-  auto sample = test::fit_sample();
+TEST_F(FitPage, TellsTheDoubtsAboutStudyTestsAndSections) {
   sample.result.notes = {"specimen A1 has no orientation_deg"};
   sample.result.specimens.front().measured.warnings = {"no break was seen"};
   calib::Specimen& declared = sample.study.specimens.front();
@@ -179,7 +180,7 @@ TEST(FitPage, TellsTheDoubtsAboutStudyTestsAndSections) {
   declared.sections.resize(1);
   declared.sections.front().file = "in/A1_s1.png";
   declared.sections.front().warnings = {"the outline touches the edge"};
-  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  const std::string page = page_of(sample);
   expect_sound(page);
   const std::size_t specimen = page.find("<h3>A1 ");
   EXPECT_LT(page.find("<li>specimen A1 has no orientation_deg</li>"), specimen);
@@ -191,61 +192,55 @@ TEST(FitPage, TellsTheDoubtsAboutStudyTestsAndSections) {
 }
 
 // An interval holds wherever the parameter that was left out may be, the curve at its value alone.
-TEST(FitPage, SaysWhyAnIntervalReachesBeyondItsProfile) {
+TEST_F(FitPage, SaysWhyAnIntervalReachesBeyondItsProfile) {
   HAVERS_SLOW;
-  auto sample = test::fit_sample();
   sample.result.fitted = {"young_GPa"};
   sample.result.profiles = {{"young_GPa", {12.9, 13.1, 13.3}, {2.0, 0.0, 2.0}, 1.9, {12.0, 14.0}}};
   const std::string said = "The curves hold r = 1.5";
   sample.result.parameters.back() = {.name = "ratio", .unit = "", .value = 1.5};
-  EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), said));
-  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}),
-                       "drawn straight and taken for a parabola between its points"));
+  const std::string fitted = page_of(sample);
+  EXPECT_FALSE(contains(fitted, said));
+  EXPECT_TRUE(contains(fitted, "drawn straight and taken for a parabola between its points"));
   sample.result.parameters.back().left_out_because = "nothing changes with it";
-  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), said));
+  EXPECT_TRUE(contains(page_of(sample), said));
   sample.result.directions = {
       "young_GPa is known to ± 5.5 % (one standard error, at ratio = 1.5)."};
-  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  const std::string page = page_of(sample);
   EXPECT_TRUE(contains(page, "Standard errors are those at r = 1.5; the 95&nbsp;% intervals let"));
   EXPECT_TRUE(contains(page, "E is known to ±\u00a05.5\u00a0% (one standard error, at r = 1.5)."));
   sample.study.calibrate.automatic = true;
-  EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), said));
+  EXPECT_FALSE(contains(page_of(sample), said));
 }
 
-TEST(FitPage, LeavesAnIntervalOpenWhereItsProfileHasNoEnd) {
-  auto sample = test::fit_sample();
+TEST_F(FitPage, LeavesAnIntervalOpenWhereItsProfileHasNoEnd) {
   sample.result.fitted = {"young_GPa"};
   sample.result.parameters.front().profile_95 = {test::nan, 14.2};
   sample.result.parameters.front().profile_missing = "the cost does not rise enough";
-  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}),
-                       "at most 14.20 (the cost does not rise enough)"));
+  EXPECT_TRUE(contains(page_of(sample), "at most 14.20 (the cost does not rise enough)"));
 }
 
-TEST(FitPage, SpeaksOfAFlatStretchOnlyWhereThereIsOne) {
+TEST_F(FitPage, SpeaksOfAFlatStretchOnlyWhereThereIsOne) {
   HAVERS_SLOW;
-  auto sample = test::fit_sample();
   sample.result.starts = {8.0, 8.1, 20.0};
-  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), "The flat stretch"));
+  EXPECT_TRUE(contains(page_of(sample), "The flat stretch"));
   sample.result.starts = {8.0, 12.0, 20.0};
-  EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), "The flat stretch"));
+  EXPECT_FALSE(contains(page_of(sample), "The flat stretch"));
 }
 
 // Both would be called failure strain, and their residuals have opposite signs.
-TEST(FitPage, NamesTheTermThatStandsForTheFailureStrainByWhatItIs) {
-  auto sample = test::fit_sample();
+TEST_F(FitPage, NamesTheTermThatStandsForTheFailureStrainByWhatItIs) {
   sample.result.specimens.front().terms = {{.term = "strength"}, {.term = "failure strain"}};
-  const std::string page = fit_page({sample.study, sample.result, {}, {}});
+  const std::string page = page_of(sample);
   EXPECT_TRUE(contains(page, "<th>ln (strength &#x2F; (modulus × failure strain))</th>"));
   EXPECT_TRUE(contains(page, "<th>ln strength (Pa)</th>"));
 }
 
-TEST(FitPage, SpeaksOfBoundsOnlyWhereATestWasStopped) {
+TEST_F(FitPage, SpeaksOfBoundsOnlyWhereATestWasStopped) {
   HAVERS_SLOW;
-  auto sample = test::fit_sample();
   sample.result.specimens.front().terms = {{.term = "strength"}};
-  EXPECT_FALSE(contains(fit_page({sample.study, sample.result, {}, {}}), "is but a bound"));
+  EXPECT_FALSE(contains(page_of(sample), "is but a bound"));
   sample.result.specimens.front().terms.front().bound = true;
-  EXPECT_TRUE(contains(fit_page({sample.study, sample.result, {}, {}}), "is but a bound"));
+  EXPECT_TRUE(contains(page_of(sample), "is but a bound"));
 }
 
 TEST(Provenance, KeepsDigestsFolded) {
@@ -256,12 +251,11 @@ TEST(Provenance, KeepsDigestsFolded) {
   EXPECT_LT(page.find("<summary>SHA-256 of 1 input file"), page.find("<td class=\"hash\">12"));
 }
 
-TEST(FitPage, SurvivesAResultOfNothing) {
+TEST_F(FitPage, SurvivesAResultOfNothing) {
   expect_sound(fit_page({calib::Study{}, calib::CalibrationResult{}, {}, {}}));
 }
 
-TEST(FitPage, SurvivesNumbersThatAreNone) {
-  auto sample = test::fit_sample();
+TEST_F(FitPage, SurvivesNumbersThatAreNone) {
   auto& specimen = sample.result.specimens.front();
   specimen.modulus = specimen.strength = specimen.failure_strain = {test::nan, test::nan};
   specimen.residual = {test::nan, test::nan, test::nan};
@@ -270,7 +264,7 @@ TEST(FitPage, SurvivesNumbersThatAreNone) {
   std::fill(specimen.band.residual.begin(), specimen.band.residual.end(), test::nan);
   std::fill(specimen.band.median.begin(), specimen.band.median.end(), test::nan);
   sample.result.parameters.front().value = test::nan;
-  expect_sound(fit_page({sample.study, sample.result, {}, {}}));
+  expect_sound(page_of(sample));
 }
 
 }  // namespace

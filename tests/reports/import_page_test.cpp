@@ -10,10 +10,15 @@ using test::after;
 using test::contains;
 using test::expect_sound;
 
+class ImportPage : public testing::Test {
+ protected:
+  calib::RawTest raw = test::raw_test(13e9, 43e6, 1);
+  calib::MeasuredTest measured = test::measured_test(13e9, 43e6, 1);
+};
+using TestSvg = ImportPage;
+
 // As a machine records it that counts tension negative: no axis goes below zero for it.
-TEST(ImportPage, DrawsATurnedLoadAsItWasUsed) {
-  auto raw = test::raw_test(13e9, 43e6, 1);
-  auto measured = test::measured_test(13e9, 43e6, 1);
+TEST_F(ImportPage, DrawsATurnedLoadAsItWasUsed) {
   for (std::vector<double>* channel : {&raw.force, &raw.stress})
     for (double& value : *channel) value = -value;
   for (const bool turned : {false, true}) {
@@ -25,9 +30,7 @@ TEST(ImportPage, DrawsATurnedLoadAsItWasUsed) {
 }
 
 // A test that was joined with a logger comes turned.
-TEST(ImportPage, SaysThatALoadWasTurnedBeforeItWasJoined) {
-  auto raw = test::raw_test(13e9, 43e6, 1);
-  auto measured = test::measured_test(13e9, 43e6, 1);
+TEST_F(ImportPage, SaysThatALoadWasTurnedBeforeItWasJoined) {
   raw.load_turned = measured.load_turned = true;
   const std::string svg = test_svg({"A1.csv", raw, measured});
   EXPECT_TRUE(contains(svg, ">as read, sign turned<"));
@@ -35,9 +38,7 @@ TEST(ImportPage, SaysThatALoadWasTurnedBeforeItWasJoined) {
   EXPECT_TRUE(contains(test_svg({"A1.csv", raw, {}}), ", sign turned<"));
 }
 
-TEST(ImportPage, SaysWhatTheAreaIs) {
-  auto raw = test::raw_test(13e9, 43e6, 1);
-  const auto measured = test::measured_test(13e9, 43e6, 1);
+TEST_F(ImportPage, SaysWhatTheAreaIs) {
   raw.width = 4e-3;
   raw.thickness = 2e-3;
   raw.area = 7.5e-6;
@@ -47,9 +48,7 @@ TEST(ImportPage, SaysWhatTheAreaIs) {
   EXPECT_TRUE(contains(import_page({{"A1.csv", raw, measured}}, {}), ">7.5\u00a0mm²<"));
 }
 
-TEST(ImportPage, CallsNothingAlignedWhereTheClocksAreNot) {
-  const auto raw = test::raw_test(13e9, 43e6, 1);
-  const auto measured = test::measured_test(13e9, 43e6, 1);
+TEST_F(ImportPage, CallsNothingAlignedWhereTheClocksAreNot) {
   calib::ClockFit clocks;
   const auto page = [&] { return import_page({{"A1.csv", raw, measured, {}, &clocks}}, {}); };
   EXPECT_TRUE(contains(page(), "the aligned signals"));
@@ -58,9 +57,7 @@ TEST(ImportPage, CallsNothingAlignedWhereTheClocksAreNot) {
   EXPECT_TRUE(contains(page(), "cannot be aligned: the signals do not determine the two clocks"));
 }
 
-TEST(ImportPage, ShowsNumbersCorrectionsAndWarningsOfEveryTest) {
-  const auto raw = test::raw_test(13e9, 43e6, 1);
-  auto measured = test::measured_test(13e9, 43e6, 1);
+TEST_F(ImportPage, ShowsNumbersCorrectionsAndWarningsOfEveryTest) {
   measured.warnings = {"The curve is not linear to failure."};
   const std::string page =
       import_page({{"a/A1.csv", raw, measured}, {"a/A2.csv", raw, measured}}, {});
@@ -80,9 +77,7 @@ TEST(ImportPage, ShowsNumbersCorrectionsAndWarningsOfEveryTest) {
   EXPECT_TRUE(contains(stopped, "<td class=\"n\">≥ "));
 }
 
-TEST(ImportPage, SaysFirstWhetherTheTestsCanBeUsed) {
-  const auto raw = test::raw_test(13e9, 43e6, 1);
-  auto measured = test::measured_test(13e9, 43e6, 1);
+TEST_F(ImportPage, SaysFirstWhetherTheTestsCanBeUsed) {
   measured.warnings.clear();
   const calib::MeasuredTest none;
   std::vector<ImportReport> reports{{"A1.csv", raw, measured}};
@@ -95,16 +90,14 @@ TEST(ImportPage, SaysFirstWhetherTheTestsCanBeUsed) {
   EXPECT_TRUE(contains(import_page(reports, {}), "verdict bad"));
 }
 
-TEST(ImportPage, SurvivesAnEmptyTest) {
-  const calib::RawTest raw;
-  const calib::MeasuredTest measured;
+TEST_F(ImportPage, SurvivesAnEmptyTest) {
+  raw = {};
+  measured = {};
   expect_sound(import_page({{"empty.csv", raw, measured}}, {}));
   expect_sound(import_page({}, {}));
 }
 
-TEST(TestSvg, StandsOnItsOwn) {
-  const auto raw = test::raw_test(13e9, 43e6, 1);
-  const auto measured = test::measured_test(13e9, 43e6, 1);
+TEST_F(TestSvg, StandsOnItsOwn) {
   const std::string svg = test_svg({"A1.csv", raw, measured});
   EXPECT_TRUE(contains(svg, "xmlns=\"http://www.w3.org/2000/svg\""));
   EXPECT_TRUE(contains(svg, "modulus; window shaded"));
@@ -112,18 +105,14 @@ TEST(TestSvg, StandsOnItsOwn) {
 }
 
 // The parted specimen goes back in strain: a line would look like a second loading.
-TEST(TestSvg, DrawsWhatWasReadAfterTheBreakApart) {
-  const auto raw = test::raw_test(13e9, 43e6, 1);
-  auto measured = test::measured_test(13e9, 43e6, 1);
+TEST_F(TestSvg, DrawsWhatWasReadAfterTheBreakApart) {
   measured.time = raw.time;
   EXPECT_FALSE(contains(test_svg({"A1.csv", raw, measured}), ">read after the break<"));
   measured.time.resize(raw.time.size() / 2);
   EXPECT_TRUE(contains(test_svg({"A1.csv", raw, measured}), ">read after the break<"));
 }
 
-TEST(TestSvg, DrawsTheStepsOfAClockThatRepeatsItself) {
-  auto raw = test::raw_test(13e9, 43e6, 1);
-  const auto measured = test::measured_test(13e9, 43e6, 1);
+TEST_F(TestSvg, DrawsTheStepsOfAClockThatRepeatsItself) {
   EXPECT_FALSE(contains(test_svg({"A1.csv", raw, measured}), "Time step (s)"));
   for (double& time : raw.time) time = std::floor(time);
   EXPECT_TRUE(contains(test_svg({"A1.csv", raw, measured}), "Time step (s)"));

@@ -9,41 +9,38 @@ namespace {
 using test::contains;
 using test::expect_sound;
 
-sim::Assembly small_assembly() {
-  return sim::build_assembly({.layers = 6, .fibres = 4}, sim::Lateral::periodic);
-}
+class SimulationPage : public testing::Test {
+ protected:
+  [[nodiscard]] std::string page(const calib::Provenance& provenance = {}) const {
+    return simulation_page({scene, assembly, simulation, provenance});
+  }
 
-TEST(SimulationPage, PutsTheErrorBesideTheTime) {
-  const auto assembly = small_assembly();
-  const auto simulation = test::simulation_sample(assembly);
-  const sim::Scene scene;
-  const std::string page =
-      simulation_page({scene, assembly, simulation, {.havers = "0.1.0", .wall_seconds = 12.34}});
-  expect_sound(page);
+  sim::Scene scene;
+  sim::Assembly assembly = sim::build_assembly({.layers = 6, .fibres = 4}, sim::Lateral::periodic);
+  sim::Simulation simulation = test::simulation_sample(assembly);
+};
+
+TEST_F(SimulationPage, PutsTheErrorBesideTheTime) {
+  const std::string shown = page({.havers = "0.1.0", .wall_seconds = 12.34});
+  expect_sound(shown);
   EXPECT_TRUE(
-      contains(page, "The specimen broke: strength 38.90\u00a0MPa at 0.300\u00a0% strain."));
-  EXPECT_TRUE(contains(page,
+      contains(shown, "The specimen broke: strength 38.90\u00a0MPa at 0.300\u00a0% strain."));
+  EXPECT_TRUE(contains(shown,
                        "12.3\u00a0s wall time, for a relative energy defect of "
                        "3.20\u00a0×\u00a010⁻¹⁴, a residual of at most "
                        "6.10\u00a0×\u00a010⁻¹⁰"));
-  EXPECT_LT(page.find("To be trusted"), page.find("<table"));
-  EXPECT_TRUE(contains(page, "time steps up to a strain of 3.978\u00a0×\u00a010⁻⁶"));
+  EXPECT_LT(shown.find("To be trusted"), shown.find("<table"));
+  EXPECT_TRUE(contains(shown, "time steps up to a strain of 3.978\u00a0×\u00a010⁻⁶"));
 }
 
-TEST(SimulationPage, CountsOneLayerAndOneFibre) {
-  const auto assembly = small_assembly();
-  const auto simulation = test::simulation_sample(assembly);
-  sim::Scene scene;
+TEST_F(SimulationPage, CountsOneLayerAndOneFibre) {
   scene.assembly.layers = scene.assembly.fibres = 1;
-  EXPECT_TRUE(contains(simulation_page({scene, assembly, simulation, {}}), "1 layer of 1 fibre,"));
+  EXPECT_TRUE(contains(page(), "1 layer of 1 fibre,"));
 }
 
-TEST(SimulationPage, SaysWhatHalvingTheStepChangedOrThatItIsNotKnown) {
-  const auto assembly = small_assembly();
-  auto simulation = test::simulation_sample(assembly);
+TEST_F(SimulationPage, SaysWhatHalvingTheStepChangedOrThatItIsNotKnown) {
   simulation.regime = sim::Regime::dynamic;
   simulation.step_error = {.failure_strain = 6.5e-4, .strength = 0.022};
-  const auto page = [&] { return simulation_page({sim::Scene{}, assembly, simulation, {}}); };
   EXPECT_TRUE(contains(page(),
                        "changed the failure strain by up to 0.065\u00a0% and the strength by up "
                        "to 2.2\u00a0%."));
@@ -55,125 +52,99 @@ TEST(SimulationPage, SaysWhatHalvingTheStepChangedOrThatItIsNotKnown) {
   EXPECT_FALSE(contains(page(), "time step is"));
 }
 
-TEST(SimulationPage, IsNotGreenWhereTheStepLeavesAnErrorOrOneThatIsNotKnown) {
-  const auto assembly = small_assembly();
-  auto simulation = test::simulation_sample(assembly);
-  const auto page = [&] { return simulation_page({sim::Scene{}, assembly, simulation, {}}); };
+TEST_F(SimulationPage, IsNotGreenWhereTheStepLeavesAnErrorOrOneThatIsNotKnown) {
   simulation.step_error = {.failure_strain = 6.5e-4, .strength = 9e-4};
   EXPECT_TRUE(contains(page(), "verdict good"));
   simulation.step_error = {.failure_strain = 6.5e-4, .strength = 0.022};
-  EXPECT_TRUE(contains(page(), "verdict mixed"));
-  EXPECT_TRUE(contains(page(),
+  const std::string coarse = page();
+  EXPECT_TRUE(contains(coarse, "verdict mixed"));
+  EXPECT_TRUE(contains(coarse,
                        "strength 38.90\u00a0MPa (±\u00a02.2\u00a0% by the step) at "
                        "0.300\u00a0% strain. To be trusted."));
-  EXPECT_TRUE(contains(page(), "<td>38.90\u00a0MPa (±\u00a02.2\u00a0% by the step)</td>"));
+  EXPECT_TRUE(contains(coarse, "<td>38.90\u00a0MPa (±\u00a02.2\u00a0% by the step)</td>"));
   simulation.step_error.reset();
-  EXPECT_TRUE(contains(page(), "verdict mixed"));
+  const std::string unknown = page();
+  EXPECT_TRUE(contains(unknown, "verdict mixed"));
   EXPECT_TRUE(contains(
-      page(),
+      unknown,
       "To be trusted but for the time step: 20\u00a0ns was given, and its error is not known."));
 }
 
-TEST(SimulationPage, NamesTheScenesFile) {
-  const auto assembly = small_assembly();
-  const auto simulation = test::simulation_sample(assembly);
-  const std::string page =
-      simulation_page({sim::Scene{}, assembly, simulation, {}, "bar & wall.toml"});
-  EXPECT_TRUE(contains(page, "<title>havers simulate: bar &amp; wall.toml</title>"));
-  EXPECT_TRUE(contains(page, "<h1>havers simulate: bar &amp; wall.toml</h1>"));
+TEST_F(SimulationPage, NamesTheScenesFile) {
+  const std::string shown = simulation_page({scene, assembly, simulation, {}, "bar & wall.toml"});
+  EXPECT_TRUE(contains(shown, "<title>havers simulate: bar &amp; wall.toml</title>"));
+  EXPECT_TRUE(contains(shown, "<h1>havers simulate: bar &amp; wall.toml</h1>"));
 }
 
-TEST(SimulationPage, SaysDownToWhereItWasFollowed) {
-  const auto assembly = small_assembly();
-  auto simulation = test::simulation_sample(assembly);
-  const auto page = [&] { return simulation_page({sim::Scene{}, assembly, simulation, {}}); };
-  EXPECT_TRUE(contains(page(), "both sides first bear less than 0.3 of the strength, where"));
-  EXPECT_FALSE(contains(page(), "solver.leave_out"));
+TEST_F(SimulationPage, SaysDownToWhereItWasFollowed) {
+  const std::string to_the_end = page();
+  EXPECT_TRUE(contains(to_the_end, "both sides first bear less than 0.3 of the strength, where"));
+  EXPECT_FALSE(contains(to_the_end, "solver.leave_out"));
   simulation.end_fraction_used = 0.85;
+  const std::string shorter = page();
   for (const char* words :
        {"followed to 0.85 of the strength (0.3 where nothing is left out)",
         "after a break both sides bear less than 0.85 of the strength",
         "neither shown nor counted (solver.leave_out = false follows it on, to 0.3)",
         ", counted down to 0.85 of the strength"})
-    EXPECT_TRUE(contains(page(), words)) << words;
+    EXPECT_TRUE(contains(shorter, words)) << words;
 }
 
-TEST(SimulationPage, CountsTheJointsThatWereMissing) {
-  const auto assembly = small_assembly();
-  auto simulation = test::simulation_sample(assembly);
-  EXPECT_FALSE(contains(simulation_page({{}, assembly, simulation, {}}), "missing from the start"));
+TEST_F(SimulationPage, CountsTheJointsThatWereMissing) {
+  EXPECT_FALSE(contains(page(), "missing from the start"));
   simulation.joints.back().threshold = {};
-  EXPECT_TRUE(
-      contains(simulation_page({{}, assembly, simulation, {}}), "; 1 missing from the start"));
+  EXPECT_TRUE(contains(page(), "; 1 missing from the start"));
 }
 
-TEST(SimulationPage, CountsStepsFromTheFirstBreakOnWhereTheRunLeapsToIt) {
-  const auto assembly = small_assembly();
-  auto simulation = test::simulation_sample(assembly);
+TEST_F(SimulationPage, CountsStepsFromTheFirstBreakOnWhereTheRunLeapsToIt) {
   simulation.step = 3.06e-11;
-  const auto page = [&] { return simulation_page({sim::Scene{}, assembly, simulation, {}}); };
   EXPECT_TRUE(contains(page(), ">400 of 30.6\u00a0ps<"));
   simulation.leapt_strain = 1e-3;
   EXPECT_TRUE(contains(page(), ">400, of 30.6\u00a0ps from the first break on<"));
 }
 
-TEST(SimulationPage, GivesABoundOfTheStrengthOfARunThatDidNotBreak) {
-  const auto assembly = small_assembly();
-  auto simulation = test::simulation_sample(assembly);
-  const auto page = [&] { return simulation_page({sim::Scene{}, assembly, simulation, {}}); };
+TEST_F(SimulationPage, GivesABoundOfTheStrengthOfARunThatDidNotBreak) {
   EXPECT_FALSE(contains(page(), "at least"));
   simulation.status = sim::SimulationStatus::strain_limit;
-  EXPECT_TRUE(contains(page(), "<th>Strength, at least</th>"));
-  EXPECT_TRUE(contains(page(), "not reached within the strain limit of 5\u00a0%"));
+  const std::string bound = page();
+  EXPECT_TRUE(contains(bound, "<th>Strength, at least</th>"));
+  EXPECT_TRUE(contains(bound, "not reached within the strain limit of 5\u00a0%"));
   simulation.status = sim::SimulationStatus::step_limit;
   EXPECT_TRUE(contains(page(), "<td>not reached</td>"));
 }
 
-TEST(SimulationPage, SaysWhichSidesStressIsTheStrength) {
-  const auto assembly = small_assembly();
-  auto simulation = test::simulation_sample(assembly);
-  const auto page = [&] { return simulation_page({sim::Scene{}, assembly, simulation, {}}); };
+TEST_F(SimulationPage, SaysWhichSidesStressIsTheStrength) {
   EXPECT_TRUE(contains(page(), "The strength is the largest stress of the right side."));
   simulation.regime = sim::Regime::quasi_static;  // both sides bear the same
   EXPECT_FALSE(contains(page(), "right side"));
 }
 
-TEST(SimulationPage, ShowsWhatTheSceneSets) {
-  const auto assembly = small_assembly();
-  sim::Scene scene;
+TEST_F(SimulationPage, ShowsWhatTheSceneSets) {
   scene.material.viscosity = 1e-8;
   scene.material.layer_contrast = 0.5;
   scene.joints.friction = 0.7;
   scene.joints.flank_tension = 3e6;
-  const std::string page =
-      simulation_page({scene, assembly, test::simulation_sample(assembly), {}});
+  const std::string shown = page();
   for (const char* words : {"τ = 10.0\u00a0ns, every second layer 0.5 E", "friction 0.7",
                             "flank tension 3\u00a0MPa", "8 triangles a fibre"})
-    EXPECT_TRUE(contains(page, words)) << words;
+    EXPECT_TRUE(contains(shown, words)) << words;
 }
 
-TEST(SimulationPage, DoesNotTrustARunWhoseEnergyDoesNotClose) {
-  const auto assembly = small_assembly();
-  auto simulation = test::simulation_sample(assembly);
+TEST_F(SimulationPage, DoesNotTrustARunWhoseEnergyDoesNotClose) {
   simulation.energy_defect = 1e-3;
-  EXPECT_TRUE(contains(simulation_page({sim::Scene{}, assembly, simulation, {}}),
-                       "Not to be trusted: the energy balance does not close."));
+  EXPECT_TRUE(contains(page(), "Not to be trusted: the energy balance does not close."));
 }
 
-TEST(SimulationPage, GivesASeveredSpecimenNoBoundOfStrength) {
-  const auto assembly = small_assembly();
-  auto simulation = test::simulation_sample(assembly);
+TEST_F(SimulationPage, GivesASeveredSpecimenNoBoundOfStrength) {
   simulation.status = sim::SimulationStatus::severed;
-  EXPECT_TRUE(
-      contains(simulation_page({sim::Scene{}, assembly, simulation, {}}),
-               "Missing joints leave nothing that bears a load from end to end. To be trusted."));
+  EXPECT_TRUE(contains(
+      page(), "Missing joints leave nothing that bears a load from end to end. To be trusted."));
 }
 
-TEST(SimulationPage, SurvivesARunWithoutRows) {
-  const sim::Assembly assembly;
-  const sim::Simulation simulation;
-  const sim::Scene scene;
-  expect_sound(simulation_page({scene, assembly, simulation, {}}));
+TEST_F(SimulationPage, SurvivesARunWithoutRows) {
+  assembly = {};
+  simulation = {};
+  expect_sound(page());
 }
 
 }  // namespace

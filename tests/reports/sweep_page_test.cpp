@@ -6,6 +6,7 @@
 
 #include "reports/sweep/sweep_figure.hpp"
 #include "reports/sweep/sweep_words.hpp"
+#include "tests/reports/sound_page.hpp"
 #include "tests/support/sweeps.hpp"
 
 namespace havers::reports {
@@ -44,11 +45,18 @@ struct Case {
     result.laws = fit_laws(sweep.laws.front(), known.plan, known.points, known.runs);
     result.findings = judge(sweep.findings.front(), known.plan, known.points, known.runs);
   }
+
+  [[nodiscard]] std::string page() const { return sweep_page("Title", {{"a", sweep, result}}, {}); }
+
+  // Of the first panel.
+  [[nodiscard]] std::string commands(const calib::SweepFigure& wanted) const {
+    return sweep_figures(sweep, result, wanted, "f").front().figure.commands;
+  }
 };
 
 TEST(SweepPage, SaysTheOutcomeFirstAndEscapesWhatUsersWrote) {
   const Case known;
-  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {});
+  const std::string page = known.page();
   EXPECT_THAT(page, HasSubstr("Of 1 finding: 1 agrees (F7)."));
   EXPECT_THAT(page, HasSubstr("80 runs, 0 failed"));
   EXPECT_THAT(page, HasSubstr("A &lt;sweep&gt;"));
@@ -57,10 +65,9 @@ TEST(SweepPage, SaysTheOutcomeFirstAndEscapesWhatUsersWrote) {
 
 TEST(SweepPage, IsGreenOnlyWhereEveryFindingAgrees) {
   Case known;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
-              HasSubstr("verdict good"));
+  EXPECT_THAT(known.page(), HasSubstr("verdict good"));
   known.result.findings.back().outcome = calib::FindingOutcome::undecided;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
+  EXPECT_THAT(known.page(),
               AllOf(HasSubstr("verdict mixed"), HasSubstr("Of 1 finding: 1 is undecided (F7)")));
 }
 
@@ -68,26 +75,24 @@ TEST(SweepPage, SaysThatAFindingDiffersByRow) {
   Case known;
   known.result.findings.push_back(known.result.findings.front());
   known.result.findings.back().outcome = calib::FindingOutcome::undecided;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
-              HasSubstr("Of 1 finding in 2 rows: 1 differs by row (F7)."));
+  EXPECT_THAT(known.page(), HasSubstr("Of 1 finding in 2 rows: 1 differs by row (F7)."));
 }
 
 TEST(SweepPage, IsRedWhereRunsDidNotBreakAndTellsWhich) {
   Case known;
   known.result.summaries.back().unbroken = 5;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
+  EXPECT_THAT(known.page(),
               AllOf(HasSubstr("verdict bad"), HasSubstr("80 runs, 0 failed, 5 did not break"),
                     HasSubstr("Did not break</th>"), HasSubstr("the modulus alone is drawn")));
   known.result.summaries.back().unbroken = 4;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
-              HasSubstr("verdict good"));
+  EXPECT_THAT(known.page(), HasSubstr("verdict good"));
 }
 
 TEST(SweepPage, SaysHowManyRunsFailedAndWhy) {
   Case known;
   known.result.summaries.back().failed = 3;
   known.result.most_failed_because = "nothing holds the specimen together";
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
+  EXPECT_THAT(known.page(),
               AllOf(HasSubstr("80 runs, 3 failed"), HasSubstr("<th class=\"n\">Failed</th>"),
                     HasSubstr("most often so: nothing holds the specimen together.")));
 }
@@ -98,7 +103,7 @@ TEST(SweepPage, HasADashAloneWhereNothingCouldBeCompared) {
   finding.value = finding.low = finding.high = std::numeric_limits<double>::quiet_NaN();
   finding.compared.clear();
   known.result.laws.front().lack_of_fit = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
+  EXPECT_THAT(known.page(),
               AllOf(HasSubstr("Strength, difference: –<br><span class=\"note\">asked: "),
                     HasSubstr("<td class=\"n\">–</td><td class=\"n\">40</td>")));
 }
@@ -112,24 +117,21 @@ TEST(SweepPage, HasADigitMoreWhereRoundingWouldHideWhyAFindingDoesNotAgree) {
   finding.high = 0.0502;
   finding.asked_low = -0.05;
   finding.asked_high = 0.05;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
-              HasSubstr("1.31\u00a0% (−2.41 to 5.02)"));
+  EXPECT_THAT(known.page(), HasSubstr("1.31\u00a0% (−2.41 to 5.02)"));
 }
 
 TEST(SweepPage, GivesEveryLawWithItsIntervals) {
   const Case known;
-  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {});
+  const std::string page = known.page();
   EXPECT_THAT(page, HasSubstr("scatter d: −10.0 ("));
   EXPECT_THAT(page, HasSubstr("ratio r\u00a0=\u00a03"));
 }
 
 TEST(SweepPage, SaysBesideTheIntervalsThatALawDoesNotFit) {
   Case known;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
-              Not(HasSubstr("The law does not fit")));
+  EXPECT_THAT(known.page(), Not(HasSubstr("The law does not fit")));
   known.result.laws.front().lack_of_fit_p = 0.001;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
-              HasSubstr("). The law does not fit: "));
+  EXPECT_THAT(known.page(), HasSubstr("). The law does not fit: "));
 }
 
 TEST(SweepPage, TypesetsClaimsAndChancesThatAreNextToNothing) {
@@ -137,7 +139,7 @@ TEST(SweepPage, TypesetsClaimsAndChancesThatAreNextToNothing) {
   known.result.findings.front().claim = "and grows with d (1.8e-6 d)";
   known.result.laws.front().lack_of_fit = 709.0;
   known.result.laws.front().lack_of_fit_p = 0.0;
-  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {});
+  const std::string page = known.page();
   EXPECT_THAT(page, HasSubstr("1.8\u00a0×\u00a010⁻⁶ d"));
   EXPECT_THAT(page, HasSubstr("709 (p &lt; 10⁻⁶)"));
 }
@@ -146,7 +148,7 @@ TEST(SweepPage, HasADashForTheInertiaNumberOfTheQuasiStaticLimit) {
   Case known;
   const double none = std::numeric_limits<double>::quiet_NaN();
   known.result.findings.front().inertia_low = known.result.findings.front().inertia_high = none;
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}), HasSubstr("I = –<"));
+  EXPECT_THAT(known.page(), HasSubstr("I = –<"));
 }
 
 TEST(SweepWords, PutTheUnitBehindTheValue) {
@@ -165,23 +167,20 @@ TEST(SweepPage, HasTheUnitBehindBothValuesThatAreCompared) {
   Case known;
   known.result.findings.front().compared = {{"assembly.orientation_deg", "45", "0"},
                                             {"joints.ratio", "3", ""}};
-  EXPECT_THAT(sweep_page("Title", {{"a", known.sweep, known.result}}, {}),
-              HasSubstr("θ\u00a0=\u00a045° against 0°, ratio r\u00a0=\u00a03"));
+  EXPECT_THAT(known.page(), HasSubstr("θ\u00a0=\u00a045° against 0°, ratio r\u00a0=\u00a03"));
 }
 
 TEST(SweepFigures, DrawTheCurveOfTheFirstSeedThatHasNotFailed) {
   Case known;
-  const auto curves = [&] {
-    return sweep_figures(known.sweep, known.result, {.caption = "c"}, "f").front().figure.commands;
-  };
+  const calib::SweepFigure wanted{.caption = "c"};
   calib::SweepRun failed, good;
   good.failed = false;
   good.strain = {0.0, 0.01};
   good.stress = {0.0, 50e6};
   known.result.runs = {failed};
-  EXPECT_EQ(curves(), "");
+  EXPECT_EQ(known.commands(wanted), "");
   known.result.runs.push_back(good);
-  EXPECT_THAT(curves(), HasSubstr("0.01 5e+07"));
+  EXPECT_THAT(known.commands(wanted), HasSubstr("0.01 5e+07"));
 }
 
 TEST(SweepFigures, HaveAPanelForEveryValueOfPer) {
@@ -197,8 +196,7 @@ TEST(SweepFigures, TellCurvesApartWithoutColour) {
   Case known;
   for (calib::SweepRun& run : known.result.runs) run.strain = run.stress = {0.0, 1.0};
   const calib::SweepFigure wanted{.caption = "c", .series = "joints.scatter"};
-  const std::string commands =
-      sweep_figures(known.sweep, known.result, wanted, "f").front().figure.commands;
+  const std::string commands = known.commands(wanted);
   EXPECT_THAT(commands, AllOf(HasSubstr("dt 1 lc rgb blue"), HasSubstr("dt 2 lc rgb red")));
 }
 
@@ -206,7 +204,7 @@ TEST(SweepFigures, JoinPointsThatLieOnACurveAlone) {
   const Case known;
   const auto commands = [&](const std::string& series) {
     const calib::SweepFigure wanted{.caption = "c", .x = "joints.scatter", .series = series};
-    return sweep_figures(known.sweep, known.result, wanted, "f").front().figure.commands;
+    return known.commands(wanted);
   };
   EXPECT_THAT(commands("joints.ratio"), HasSubstr("with linespoints"));
   EXPECT_THAT(commands(""), AllOf(Not(HasSubstr("with linespoints")), Not(HasSubstr("filled"))));
@@ -215,37 +213,33 @@ TEST(SweepFigures, JoinPointsThatLieOnACurveAlone) {
 TEST(SweepFigures, ShowBothOfTwoSeriesThatCoincide) {
   const Case known;
   const calib::SweepFigure wanted{.caption = "c", .x = "joints.scatter", .series = "joints.ratio"};
-  EXPECT_THAT(
-      sweep_figures(known.sweep, known.result, wanted, "f").front().figure.commands,
-      AllOf(HasSubstr("dt 1 pt 4 ps 1.1 lc rgb blue"), HasSubstr("dt 2 pt 7 ps 0.7 lc rgb red")));
+  EXPECT_THAT(known.commands(wanted), AllOf(HasSubstr("dt 1 pt 4 ps 1.1 lc rgb blue"),
+                                            HasSubstr("dt 2 pt 7 ps 0.7 lc rgb red")));
 }
 
 TEST(SweepFigures, GiveTheMeanOfASingleRunNoBand) {
   Case known;
   const calib::SweepFigure wanted{.caption = "c", .x = "joints.scatter", .series = "joints.ratio"};
-  const auto commands = [&] {
-    return sweep_figures(known.sweep, known.result, wanted, "f").front().figure.commands;
-  };
-  EXPECT_THAT(commands(), Not(HasSubstr("NaN NaN")));
+  EXPECT_THAT(known.commands(wanted), Not(HasSubstr("NaN NaN")));
   known.result.summaries.front().measures.at(static_cast<std::size_t>(wanted.response)).n = 1;
-  EXPECT_THAT(commands(), HasSubstr("NaN NaN"));
+  EXPECT_THAT(known.commands(wanted), HasSubstr("NaN NaN"));
 }
 
 TEST(SweepFigures, SayWhatBarsAndBandsAre) {
   Case known;
   known.sweep.figures = {{.caption = "As in fig. 12.", .x = "joints.ratio"}};
-  const auto page = [&] { return sweep_page("Title", {{"a", known.sweep, known.result}}, {}); };
-  EXPECT_THAT(page(), HasSubstr("As in fig. 12. Bars and bands: 95\u00a0% intervals of the means; "
-                                "that of a single run has none."));
+  EXPECT_THAT(known.page(),
+              HasSubstr("As in fig. 12. Bars and bands: 95\u00a0% intervals of the means; "
+                        "that of a single run has none."));
   known.sweep.figures.front().x = "";
-  EXPECT_THAT(page(), Not(HasSubstr("Bars and bands")));
+  EXPECT_THAT(known.page(), Not(HasSubstr("Bars and bands")));
 }
 
 TEST(SweepFigures, WriteTheirSeriesAsTheTextDoes) {
   Case known;
   for (calib::SweepPoint& point : known.result.points) point.values[1] = "1e-07";
   known.sweep.figures = {{.caption = "c", .x = "joints.ratio", .series = "joints.scatter"}};
-  const std::string page = sweep_page("Title", {{"a", known.sweep, known.result}}, {});
+  const std::string page = known.page();
   EXPECT_THAT(page, AllOf(HasSubstr("10⁻⁷"), Not(HasSubstr("1e-07"))));
 }
 
@@ -267,10 +261,7 @@ TEST(Avalanche, ShowsEveryBrokenJointInItsTurn) {
   const std::string svg = avalanche_svg(assembly, run);
   EXPECT_THAT(svg, HasSubstr("3 broken joints"));
   EXPECT_THAT(svg, HasSubstr("at 0.3000\u00a0%, to the last, at 0.5000\u00a0%"));
-  std::size_t animated = 0;
-  for (std::size_t at = svg.find("<animate"); at != svg.npos; at = svg.find("<animate", at + 1))
-    ++animated;
-  EXPECT_EQ(animated, 3U);
+  EXPECT_EQ(test::after(svg, "<animate", " ").size(), 3U);
 }
 
 }  // namespace

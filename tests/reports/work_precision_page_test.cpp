@@ -31,37 +31,40 @@ sim::WorkPrecision work_precision_sample() {
   return study;
 }
 
-TEST(WorkPrecisionPage, WritesNumbersAsAReaderDoes) {
-  const sim::WorkPrecision study = work_precision_sample();
-  const sim::Scene scene;
-  const std::string page = work_precision_page(scene, study, {});
-  expect_sound(page);
-  EXPECT_TRUE(contains(page, "Gauss-Seidel 10⁻⁸, h = 20\u00a0ns, 8 triangles a fibre"));
-  EXPECT_TRUE(contains(page, "h = 10\u00a0ps"));
+class WorkPrecisionPage : public testing::Test {
+ protected:
+  [[nodiscard]] std::string page() const { return work_precision_page({}, study, {}); }
+
+  sim::WorkPrecision study = work_precision_sample();
+};
+
+TEST_F(WorkPrecisionPage, WritesNumbersAsAReaderDoes) {
+  const std::string shown = page();
+  expect_sound(shown);
+  EXPECT_TRUE(contains(shown, "Gauss-Seidel 10⁻⁸, h = 20\u00a0ns, 8 triangles a fibre"));
+  EXPECT_TRUE(contains(shown, "h = 10\u00a0ps"));
   EXPECT_TRUE(
-      contains(page, "3.0\u00a0×\u00a010⁻⁶ (1.5\u00a0×\u00a010⁻⁶ to 6.0\u00a0×\u00a010⁻⁶)"));
-  EXPECT_TRUE(contains(page, ">1234567<"));
+      contains(shown, "3.0\u00a0×\u00a010⁻⁶ (1.5\u00a0×\u00a010⁻⁶ to 6.0\u00a0×\u00a010⁻⁶)"));
+  EXPECT_TRUE(contains(shown, ">1234567<"));
   EXPECT_TRUE(
-      contains(page, "differs by 1.3\u00a0×\u00a010⁻¹³ at most and takes 1.7 times the CPU time"));
-  EXPECT_TRUE(contains(page, "1 of 1 not to be trusted"));
-  EXPECT_FALSE(contains(page, "e-0"));
+      contains(shown, "differs by 1.3\u00a0×\u00a010⁻¹³ at most and takes 1.7 times the CPU time"));
+  EXPECT_TRUE(contains(shown, "1 of 1 not to be trusted"));
+  EXPECT_FALSE(contains(shown, "e-0"));
 }
 
-TEST(WorkPrecisionPage, ShowsFailureStrainsWhereNoForcesOfTheIntactSpecimenAre) {
-  sim::WorkPrecision study = work_precision_sample();
+TEST_F(WorkPrecisionPage, ShowsFailureStrainsWhereNoForcesOfTheIntactSpecimenAre) {
   for (sim::BenchRow& row : study.rows)
     row.errors.bonded_forces.median = std::numeric_limits<double>::quiet_NaN();
-  const std::string page = work_precision_page({}, study, {});
-  EXPECT_TRUE(contains(page, "Relative error of failure strain"));
-  EXPECT_FALSE(contains(page, "Relative error of joint forces"));
+  const std::string shown = page();
+  EXPECT_TRUE(contains(shown, "Relative error of failure strain"));
+  EXPECT_FALSE(contains(shown, "Relative error of joint forces"));
 }
 
-TEST(WorkPrecisionPage, SaysWhatForcesBeforeTheFirstBreakAreComparedWith) {
-  sim::WorkPrecision study = work_precision_sample();
+TEST_F(WorkPrecisionPage, SaysWhatForcesBeforeTheFirstBreakAreComparedWith) {
   const std::string_view words = "before the first break are relative to their closed form";
-  EXPECT_FALSE(contains(work_precision_page({}, study, {}), words));
+  EXPECT_FALSE(contains(page(), words));
   study.closed_form = true;
-  EXPECT_TRUE(contains(work_precision_page({}, study, {}), words));
+  EXPECT_TRUE(contains(page(), words));
 }
 
 // Pieces of the thin lines in both panels, of rows with these settings.
@@ -92,40 +95,51 @@ TEST(WorkPrecisionFigure, JoinsTheStepsOfOneSolverToleranceAndMesh) {
   EXPECT_EQ(pieces_of_lines({sweeps(1e-4, 2e-8), sweeps(1e-4, 5e-9), sweeps(1e-6, 2e-8)}), 2);
 }
 
-TEST(WorkPrecisionPage, IsNotGreenWithoutAReference) {
-  sim::WorkPrecision study = work_precision_sample();
-  EXPECT_TRUE(contains(work_precision_page({}, study, {}), "verdict good"));
+TEST_F(WorkPrecisionPage, IsNotGreenWithoutAReference) {
+  EXPECT_TRUE(contains(page(), "verdict good"));
   study.rows.front().trusted = 0;
-  EXPECT_TRUE(contains(work_precision_page({}, study, {}), "verdict bad"));
+  EXPECT_TRUE(contains(page(), "verdict bad"));
 }
 
-TEST(WorkPrecisionPage, IsNotGreenWhereNothingComesNearTheReference) {
-  sim::WorkPrecision study = work_precision_sample();
+TEST_F(WorkPrecisionPage, IsNotGreenWhereNothingComesNearTheReference) {
   study.cheapest.front().row = {};
   study.rows[1].errors.failure_strain = {0.0005, 0.0001, 0.0042, 1};
-  const std::string page = work_precision_page({}, study, {});
-  EXPECT_TRUE(contains(page, "verdict mixed"));
+  const std::string shown = page();
+  EXPECT_TRUE(contains(shown, "verdict mixed"));
   EXPECT_TRUE(contains(
-      page,
+      shown,
       "0.1\u00a0% for every seed; the nearest comes to 0.42\u00a0%: active set, h = 20\u00a0ns, "));
 }
 
-TEST(WorkPrecisionPage, NamesNoSettingForWhatTheReferenceIsNotKnownTo) {
-  sim::WorkPrecision study = work_precision_sample();
+TEST_F(WorkPrecisionPage, NamesNoSettingForWhatTheReferenceIsNotKnownTo) {
   study.cheapest.front() = {.target = 1e-3, .reference_error = 0.0096};
-  EXPECT_TRUE(contains(work_precision_page({}, study, {}),
-                       "cannot be told: the reference may err by 0.0096"));
+  EXPECT_TRUE(contains(page(), "cannot be told: the reference may err by 0.0096"));
 }
 
-TEST(WorkPrecisionPage, SaysHowFarRunsCameThatWereStopped) {
-  sim::WorkPrecision study = work_precision_sample();
+TEST_F(WorkPrecisionPage, SaysHowFarRunsCameThatWereStopped) {
   study.time_limit = 20.0;
   sim::BenchRow& stopped = study.rows.back();
   stopped.out_of_time = 1;
   stopped.reached = {0.004, 0.0021, 0.004};  // of all seeds
   stopped.stopped_at = {0.0021, 0.0021, 0.0021};
-  EXPECT_TRUE(contains(work_precision_page({}, study, {}),
-                       "1 of 1 stopped after 20.0\u00a0s, at a strain of 0.210\u00a0%"));
+  EXPECT_TRUE(contains(page(), "1 of 1 stopped after 20.0\u00a0s, at a strain of 0.210\u00a0%"));
+}
+
+TEST_F(WorkPrecisionPage, ShowsNoEmptyTableOfABenchStoppedAtOnce) {
+  study = {};
+  EXPECT_TRUE(contains(page(), "Stopped before every setting was run."));
+  EXPECT_FALSE(contains(page(), "<table"));
+  EXPECT_FALSE(contains(page(), "<figcaption>"));
+}
+
+TEST_F(WorkPrecisionPage, SaysWhatTheReferencesStrengthMayErrByToo) {
+  study = {.complete = true, .rows = {{.runs = 3, .trusted = 3}}};
+  EXPECT_FALSE(contains(page(), "own strength may err"));
+  study.reference_errors.strength.high = 0.014;
+  study.reference_errors.failure_strain.high = 0.0025;
+  EXPECT_TRUE(contains(page(),
+                       "own strength may err by 1.4\u00a0%, its failure strain by "
+                       "0.25\u00a0%, the largest of all seeds."));
 }
 
 }  // namespace
