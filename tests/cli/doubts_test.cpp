@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::folder_with_tests;
 using test::own_folder;
+using test::replaced_once;
 using test::run_havers;
 using testing::HasSubstr;
 
@@ -27,10 +28,6 @@ void stop(const fs::path& file, double part) {
   for (auto* channel : {&raw.time, &raw.force, &raw.extension, &raw.strain, &raw.stress})
     channel->resize(std::min(channel->size(), rows));
   io::write_bluehill(file, raw);
-}
-
-std::string replaced_once(std::string text, const std::string& what, const std::string& by) {
-  return text.replace(text.find(what), what.size(), by);
 }
 
 TEST(StoppedTest, IsSaidToBeNoneThatBroke) {

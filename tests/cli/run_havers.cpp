@@ -37,6 +37,10 @@ void write_text(const fs::path& file, const std::string& text) {
   std::ofstream(file) << text;
 }
 
+std::string replaced_once(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
+
 std::string small_scene() {
   return R"([assembly]
 layers = 8
@@ -93,8 +97,16 @@ fs::path folder_with_study() {
 }
 
 fs::path folder_with_tests() {
-  const fs::path folder = folder_with_study();
-  EXPECT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
+  static const ScratchFolder of_this_run;
+  static const fs::path made = [] {
+    const fs::path source = of_this_run.path() / "source";
+    fs::create_directory(source);
+    write_text(source / "study.toml", small_study());
+    EXPECT_EQ(run_havers(source, "synthesize study.toml -o made").exit_code, 0);
+    return source / "made";
+  }();
+  fs::path folder = folder_with_study();
+  fs::copy(made, folder / "made");
   return folder;
 }
 

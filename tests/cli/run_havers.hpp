@@ -24,6 +24,9 @@ std::filesystem::path own_folder();
 
 void write_text(const std::filesystem::path& file, const std::string& text);
 
+/// The text with the first `what` in it, which must be there, replaced.
+std::string replaced_once(std::string text, const std::string& what, const std::string& by);
+
 /// A scene that runs in milliseconds: 5 fibres in 8 layers, quasi-static.
 std::string small_scene();
 

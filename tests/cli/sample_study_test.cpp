@@ -129,10 +129,9 @@ TEST(SampleStudy, DoubtsPixelsThatMakePoresLargerThanFibres) {
   HAVERS_SLOW;
   const fs::path folder = own_folder();
   fs::copy(bars, folder / "bars");
-  std::string study = test::contents(bars / "study.toml");
-  const std::string pixel = "pixel_size_um = 2.0\n";
-  study.replace(study.find(pixel), pixel.size(), "pixel_size_um = 6.0\n");
-  test::write_text(folder / "bars/large.toml", study);
+  test::write_text(folder / "bars/large.toml",
+                   test::replaced_once(test::contents(bars / "study.toml"), "pixel_size_um = 2.0\n",
+                                       "pixel_size_um = 6.0\n"));
   const std::string words = "pores are larger than a fibre and take joints away of A1 (2.4 %): sim";
   EXPECT_THAT(run_havers(folder, "check bars/large.toml").out, HasSubstr(words));
   EXPECT_THAT(run_havers(folder, "check bars/study.toml").out, testing::Not(HasSubstr(words)));
@@ -142,12 +141,10 @@ TEST(SampleStudy, SaysWhichScatterIsTakenWithoutAPixelSizeAndWhoHasTheSameSectio
   const fs::path folder = own_folder();
   fs::copy(bars, folder / "bars");
   std::string study = test::contents(bars / "study.toml");
-  const std::string pixel = "pixel_size_um = 2.0\n";
-  study.erase(study.find(pixel), pixel.size());
-  const std::string own = "\"A2_section.png\"";
-  study.replace(study.find(own), own.size(), "\"A1_section.png\"");
-  const std::string bare = "sections = [\"B2_section.png\"]\n";
-  study.erase(study.find(bare), bare.size());
+  for (const auto& [what, by] : {std::pair("pixel_size_um = 2.0\n", ""),
+                                 {"\"A2_section.png\"", "\"A1_section.png\""},
+                                 {"sections = [\"B2_section.png\"]\n", ""}})
+    study = test::replaced_once(study, what, by);
   test::write_text(folder / "bars/doubtful.toml", study);
   const auto checked =
       run_havers(folder, "check bars/doubtful.toml --set model.joints.scatter=0.3");

@@ -10,6 +10,7 @@ namespace havers {
 namespace {
 
 namespace fs = std::filesystem;
+using test::replaced_once;
 using test::run_havers;
 using testing::HasSubstr;
 
@@ -35,9 +36,8 @@ TEST(Synthesize, KeepsTheStudyAsItIsWhenTheTruthIsSetApart) {
 
 TEST(Synthesize, RefusesFilesOutsideTheStudysFolder) {
   const fs::path folder = test::folder_with_study();
-  std::string study = test::small_study();
-  study.replace(study.find("\"B0.csv\""), 8, "\"../B0.csv\"");
-  test::write_text(folder / "study.toml", study);
+  test::write_text(folder / "study.toml",
+                   replaced_once(test::small_study(), "\"B0.csv\"", "\"../B0.csv\""));
   const auto answer = run_havers(folder, "synthesize study.toml -o made");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_THAT(answer.err, HasSubstr("outside"));
@@ -47,9 +47,7 @@ TEST(Synthesize, RefusesFilesOutsideTheStudysFolder) {
 TEST(Synthesize, RefusesFilesInThePlaceOfItsOwn) {
   const fs::path folder = test::folder_with_study();
   for (const std::string name : {"truth.json", "study.toml"}) {
-    std::string study = test::small_study();
-    study.replace(study.find("B0.csv"), 6, name);
-    test::write_text(folder / "study.toml", study);
+    test::write_text(folder / "study.toml", replaced_once(test::small_study(), "B0.csv", name));
     const auto answer = run_havers(folder, "synthesize study.toml -o made");
     EXPECT_EQ(answer.exit_code, 2);
     EXPECT_THAT(answer.err, HasSubstr(name + ": would be made twice"));
@@ -57,12 +55,12 @@ TEST(Synthesize, RefusesFilesInThePlaceOfItsOwn) {
 }
 
 TEST(Synthesize, RefusesPorosityThatASectionCannotHold) {
-  HAVERS_SLOW;
   if (!test::reads_images()) GTEST_SKIP() << "this build reads no images";
   const fs::path folder = test::folder_with_study();
   test::write_text(folder / "study.toml",
                    test::small_study() + "sections = [\"s.png\"]\nporosity = 0.7\n");
-  const auto answer = run_havers(folder, "synthesize study.toml -o made");
+  const auto answer =
+      run_havers(folder, "synthesize study.toml -o made --set synthesize.section_pixels=128");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_FALSE(fs::exists(folder / "made"));
   EXPECT_THAT(answer.err, HasSubstr("has porosity 0.7, of which"));
@@ -112,16 +110,15 @@ TEST(Synthesize, BringsTheLawsOfTheStudyAlong) {
     "terms": ["joints.scatter"], "coefficients": [1.0, 2.0]}]})";
   fs::create_directories(folder / "sweep");
   test::write_text(folder / "sweep/laws.json", laws);
-  std::string study = test::small_study();
-  study.replace(study.find("[calibrate]\n"), 12, "[calibrate]\nlaws = \"sweep/laws.json\"\n");
+  const std::string study = replaced_once(test::small_study(), "[calibrate]\n",
+                                          "[calibrate]\nlaws = \"sweep/laws.json\"\n");
   test::write_text(folder / "study.toml", study);
   ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
   EXPECT_EQ(test::contents(folder / "made/sweep/laws.json"), laws);
   EXPECT_EQ(run_havers(folder, "check made/study.toml").exit_code, 0);
 
   fs::create_directories(folder / "deep");
-  study.replace(study.find("sweep/laws"), 5, "../sweep");
-  test::write_text(folder / "deep/study.toml", study);
+  test::write_text(folder / "deep/study.toml", replaced_once(study, "sweep/laws", "../sweep/laws"));
   const auto outside = run_havers(folder, "synthesize deep/study.toml -o again");
   EXPECT_EQ(outside.exit_code, 2);
   EXPECT_THAT(outside.err, HasSubstr("outside"));
@@ -151,8 +148,7 @@ TEST(Fit, WritesItsFilesAndResumesOnlyWhatHasNoResult) {
 
 TEST(Fit, GivesTheSameAnswerAgainAndForAnyNumberOfThreads) {
   HAVERS_SLOW;
-  const fs::path folder = test::folder_with_study();
-  ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
+  const fs::path folder = test::folder_with_tests();
   nlohmann::json first;
   for (const std::string threads : {"1", "1", "2", "4"}) {
     SCOPED_TRACE("on " + threads);
@@ -205,8 +201,7 @@ test::Answer stopped_fit(const fs::path& folder) {
 }
 
 TEST(Json, SaysThatAFitWasCancelled) {
-  const fs::path folder = test::folder_with_study();
-  ASSERT_EQ(run_havers(folder, "synthesize study.toml -o made").exit_code, 0);
+  const fs::path folder = test::folder_with_tests();
   EXPECT_EQ(stopped_fit(folder).exit_code, 1);
   EXPECT_EQ(nlohmann::json::parse(test::contents(folder / "said"))["status"], "cancelled");
   EXPECT_FALSE(fs::exists(folder / "out/result.json"));
@@ -214,9 +209,8 @@ TEST(Json, SaysThatAFitWasCancelled) {
 
 // Its simulations would serve no other study, and its folder hold another one's results.
 TEST(Fit, ThatWasStoppedGoesOnWithItsOwnStudyAlone) {
-  const fs::path folder = test::folder_with_study();
-  for (const char* made : {"made", "other"})
-    ASSERT_EQ(run_havers(folder, std::string("synthesize study.toml -o ") + made).exit_code, 0);
+  const fs::path folder = test::folder_with_tests();
+  fs::copy(folder / "made", folder / "other");
   ASSERT_EQ(stopped_fit(folder).exit_code, 1);
 
   const std::string holds =

@@ -36,9 +36,14 @@ keys = ["joints.scatter"]
 x = "joints.scatter"
 )";
 
-TEST(Sweep, LeavesTablesLawsResultAndStore) {
+fs::path folder_with_sweep(const std::string& text = small) {
   const fs::path folder = own_folder();
-  test::write_text(folder / "small.toml", small);
+  test::write_text(folder / "small.toml", text);
+  return folder;
+}
+
+TEST(Sweep, LeavesTablesLawsResultAndStore) {
+  const fs::path folder = folder_with_sweep();
   const auto answer = run_havers(folder, "sweep small.toml -o out");
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   for (const char* file : {"small/runs.csv", "small/summary.csv", "small/laws.json", "result.json",
@@ -51,29 +56,25 @@ TEST(Sweep, LeavesTablesLawsResultAndStore) {
 }
 
 TEST(Sweep, ReadsWholeNumbersOfAnyBase) {
-  const fs::path folder = own_folder();
-  std::string text = small;
-  text.insert(text.find("[assembly]"), "\"assembly.fibres\" = [0x3, 0b101]\n");
-  test::write_text(folder / "small.toml", text);
+  const fs::path folder = folder_with_sweep(
+      test::replaced_once(small, "[assembly]", "\"assembly.fibres\" = [0x3, 0b101]\n[assembly]"));
   EXPECT_EQ(run_havers(folder, "sweep small.toml -o out").exit_code, 0);
   const auto result = nlohmann::json::parse(test::contents(folder / "out/result.json"));
   EXPECT_EQ(result["sweeps"][0]["points"].back()["keys"]["assembly.fibres"], 5);
 }
 
 TEST(Sweep, PrintsMeansInTheirUnitAndDifferencesInPerCent) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "small.toml", std::string(small) +
-                                              "[[finding]]\nid = \"F2\"\nclaim = \"Stiff\"\n"
-                                              "test = \"above\"\nresponse = \"modulus\"\n"
-                                              "margin = 1e9\nper = \"joints.scatter\"\n");
+  const fs::path folder = folder_with_sweep(std::string(small) +
+                                            "[[finding]]\nid = \"F2\"\nclaim = \"Stiff\"\n"
+                                            "test = \"above\"\nresponse = \"modulus\"\n"
+                                            "margin = 1e9\nper = \"joints.scatter\"\n");
   EXPECT_THAT(run_havers(folder, "sweep small.toml -o out").out,
               testing::AllOf(testing::ContainsRegex("F1 .*strength -?[0-9]+ % "),
                              testing::ContainsRegex("F2 .*scatter = 0.8: modulus 13.[0-9]+ GPa ")));
 }
 
 TEST(Sweep, AgainTakesItsRunsFromTheStore) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "small.toml", small);
+  const fs::path folder = folder_with_sweep();
   const std::string first = run_havers(folder, "sweep small.toml -o out").out;
   const auto again = run_havers(folder, "sweep small.toml -o out --force --json");
   EXPECT_EQ(nlohmann::json::parse(again.out)["sweeps"][0]["simulated"], 0);
@@ -84,8 +85,7 @@ TEST(Sweep, AgainTakesItsRunsFromTheStore) {
 }
 
 TEST(Sweep, IsNotTrustedWhereRunsDidNotBreak) {
-  const fs::path folder = own_folder();
-  test::write_text(folder / "small.toml", small);
+  const fs::path folder = folder_with_sweep();
   const auto answer = run_havers(folder, "sweep small.toml -o out --set loading.max_strain=0.001");
   EXPECT_EQ(answer.exit_code, 1) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("NOT to be trusted: too many runs failed or did not break"));
