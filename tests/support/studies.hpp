@@ -52,6 +52,18 @@ struct ClosedForm {
   }
 };
 
+/// A simulator that answers as the law does, but for what `change(response, scene)` makes of it.
+template <class Change>
+calib::Simulator altered(const Change& change, const ClosedForm& law = {}) {
+  calib::Simulator simulator = law.simulator();
+  simulator.run = [law, change](const sim::Scene& scene) {
+    calib::Response response = law(scene);
+    change(response, scene);
+    return response;
+  };
+  return simulator;
+}
+
 /// A measured test as straight as a ruler, with the errors given as parts of the values.
 inline calib::MeasuredTest straight_test(double modulus, double strength,
                                          double modulus_error = 1e-3,

@@ -173,11 +173,6 @@ TEST(Corrections, RejectsAGaugeThatFellOffWithoutACrosshead) {
             std::string::npos);
 }
 
-TEST(Corrections, SaysWhenNoBreakWasSeen) {
-  const MeasuredTest test = reduced(record({.rows_after_break = 0}));
-  EXPECT_NE(test.warnings.at(0).find("no break was seen"), std::string::npos);
-}
-
 TEST(Corrections, QualityControlSaysWhyItRejects) {
   const RawTest noisy = record({.force_noise = 0.5, .strain_noise = 1e-6});
   const ReductionOptions strict{.largest_modulus_error = 1e-4, .largest_noise = 1e-4};

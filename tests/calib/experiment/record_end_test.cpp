@@ -68,12 +68,12 @@ TEST(RecordEnd, NamesALoadThatStaysAfterTheBreak) {
   }
 }
 
-// With noise the largest stress is seldom the last.
+// With noise, as all but the first have, the largest stress is seldom the last.
 TEST(RecordEnd, KnowsATestThatWasStopped) {
-  for (unsigned seed = 1; seed <= 20; ++seed) {
+  for (unsigned seed = 0; seed <= 20; ++seed) {
     TensileTruth truth = the_bar;
-    truth.force_noise = 1.0;
-    truth.strain_noise = 2e-6;
+    truth.force_noise = seed > 0 ? 1.0 : 0.0;
+    truth.strain_noise = seed > 0 ? 2e-6 : 0.0;
     truth.seed = seed;
     const MeasuredTest test = reduced(record(truth));
     EXPECT_FALSE(test.broke) << seed;

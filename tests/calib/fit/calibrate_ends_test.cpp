@@ -19,13 +19,10 @@ namespace {
 using test::expect_within;
 
 TEST(Calibrate, ToleratesSimulationsThatFail) {
-  auto simulator = test::ClosedForm{}.simulator();
-  simulator.run = [](const sim::Scene& scene) {
-    auto response = test::ClosedForm{}(scene);
+  const auto simulator = test::altered([](Response& response, const sim::Scene& scene) {
     if (scene.joints.seed % 10 == 0) throw std::runtime_error("no convergence");
     if (scene.joints.seed % 10 == 1) response.strength = std::numeric_limits<double>::quiet_NaN();
-    return response;
-  };
+  });
   const auto result = calibrate_with(simulator, test::synthetic_study(test::three_orientations));
   EXPECT_EQ(result.status, CalibrationStatus::converged);
   EXPECT_GT(result.failed_simulations, 0);
@@ -34,12 +31,9 @@ TEST(Calibrate, ToleratesSimulationsThatFail) {
 
 // A whole region of the ratio cannot be simulated: the searches go round it.
 TEST(Calibrate, ToleratesARegionThatFails) {
-  auto simulator = test::ClosedForm{}.simulator();
-  simulator.run = [](const sim::Scene& scene) {
-    auto response = test::ClosedForm{}(scene);
+  const auto simulator = test::altered([](Response& response, const sim::Scene& scene) {
     response.failed = sim::ratio(scene.assembly, scene.joints) > 5.0;
-    return response;
-  };
+  });
   const auto result = calibrate_with(simulator, test::synthetic_study(test::three_orientations));
   EXPECT_EQ(result.status, CalibrationStatus::converged);
   expect_within(test::parameter_of(result, "ratio"), 2.0, 0.03);
@@ -120,12 +114,11 @@ TEST(Calibrate, HasItsWholeBudgetWhereNoReplicatesAreAskedFor) {
 TEST(Calibrate, IsNotToBeTrustedWithoutAnInterval) {
   auto study = test::synthetic_study(test::three_orientations);
   apply(study.model, "head_tail_MPa", 60.0);
-  auto simulator = test::ClosedForm{.quasi_static = false}.simulator();
-  simulator.run = [](const sim::Scene& scene) {
-    auto response = test::ClosedForm{}(scene);
-    response.failed = std::abs(std::log(scene.joints.head_tail / 60e6)) > 0.02;
-    return response;
-  };
+  const auto simulator = test::altered(
+      [](Response& response, const sim::Scene& scene) {
+        response.failed = std::abs(std::log(scene.joints.head_tail / 60e6)) > 0.02;
+      },
+      {.quasi_static = false});
   const auto result = calibrate_with(simulator, study);
   EXPECT_EQ(result.status, CalibrationStatus::converged);
   const auto check = test::check_of(result, "converged");
@@ -154,13 +147,10 @@ TEST(Calibrate, HasNoAnswerWhereAllReplicatesOfTheBestPointFail) {
     for (const int replicate : {0, 1, 2})
       of_scouts.insert(replicate_seed(study.calibrate.seed, specimen.id, replicate));
   for (const double around : {0.01, 10.0}) {  // the answer, in the logarithm of the ratio
-    auto simulator = test::ClosedForm{}.simulator();
-    simulator.run = [&](const sim::Scene& scene) {
-      auto response = test::ClosedForm{}(scene);
+    const auto simulator = test::altered([&](Response& response, const sim::Scene& scene) {
       const double away = std::log(sim::ratio(scene.assembly, scene.joints) / 2.0);
       response.failed = !of_scouts.contains(scene.joints.seed) && std::abs(away) < around;
-      return response;
-    };
+    });
     const auto result = calibrate_with(simulator, study);
     EXPECT_EQ(result.status, CalibrationStatus::all_failed) << around;
     EXPECT_FALSE(result.trusted());
@@ -258,12 +248,9 @@ TEST(Calibrate, EndsWithWhatTheStoreThrowsInAnySearch) {
 
 // Two of three replicates fail: what the third says is no cost.
 TEST(Calibrate, HasNoCostWhereNoPointHasAnAnswer) {
-  auto simulator = test::ClosedForm{}.simulator();
-  simulator.run = [](const sim::Scene& scene) {
-    auto response = test::ClosedForm{}(scene);
+  const auto simulator = test::altered([](Response& response, const sim::Scene& scene) {
     response.failed = scene.joints.seed % 3 != 0;
-    return response;
-  };
+  });
   const auto result = calibrate_with(simulator, test::synthetic_study({0.0, 90.0}));
   EXPECT_EQ(result.status, CalibrationStatus::all_failed);
   EXPECT_LT(result.failed_simulations, result.distinct_simulations);

@@ -136,15 +136,14 @@ TEST(Calibrate, FindsAViscosityOfAnyMagnitude) {
   study.model.joints.head_tail = 60e6;
   study.model.joints.flank = sim::flank_from_ratio(study.model.assembly, 60e6, 2.0);
   study.calibrate.parameters = {"viscosity_s"};
-  auto simulator = test::ClosedForm{.quasi_static = false}.simulator();
-  simulator.run = [](const sim::Scene& scene) {
-    auto response = test::ClosedForm{}(scene);
-    const double factor = std::pow((scene.material.viscosity + 1e-9) / 1.01e-7, 0.1);
-    response.strength *= factor;
-    response.modulus = 14e9;
-    response.failure_strain = response.strength / response.modulus;
-    return response;
-  };
+  const auto simulator = test::altered(
+      [](Response& response, const sim::Scene& scene) {
+        const double factor = std::pow((scene.material.viscosity + 1e-9) / 1.01e-7, 0.1);
+        response.strength *= factor;
+        response.modulus = 14e9;
+        response.failure_strain = response.strength / response.modulus;
+      },
+      {.quasi_static = false});
   expect_within(test::parameter_of(calibrate_with(simulator, study), "viscosity_s"), 1e-7, 0.1);
 }
 

@@ -57,17 +57,13 @@ TEST(Identifiability, IsNotFooledByNoise) {
 // Along the fibres the ratio counts below 1.5, as in the study (1.0), and not above, as in truth
 // (2.0): back at the study's value it would make the threshold wrong.
 Simulator informed_of_low_ratios() {
-  auto simulator = test::ClosedForm{}.simulator();
-  simulator.run = [](const sim::Scene& scene) {
-    auto response = test::ClosedForm{}(scene);
+  return test::altered([](Response& response, const sim::Scene& scene) {
     const double r = sim::ratio(scene.assembly, scene.joints);
-    if (scene.assembly.orientation > 0.1) return response;
+    if (scene.assembly.orientation > 0.1) return;
     const double factor = std::pow(std::max(1.5 / r, 1.0), 0.7);
     response.strength *= factor;
     response.failure_strain *= factor;
-    return response;
-  };
-  return simulator;
+  });
 }
 
 TEST(Identifiability, LeavesWhatTheStudyHasWrongWhereTheFitFoundIt) {
@@ -107,7 +103,7 @@ TEST(Identifiability, HoldsTheThresholdWhateverTheRatioThatIsLeftOut) {
   for (unsigned draw = 1; draw <= 10; ++draw) {
     auto study = test::synthetic_study({45.0}, {.specimen_effect = 0.01}, draw);
     study.calibrate.bounds["ratio"] = {0.5, 4.0};
-    const auto result = calibrate_with(test::ClosedForm{}.simulator(), study);
+    const auto result = test::fit(study);
     EXPECT_FALSE(test::parameter_of(result, "ratio").identifiable);
     const auto threshold = test::parameter_of(result, "head_tail_MPa");
     for (const auto& interval :
@@ -126,7 +122,7 @@ TEST(Identifiability, RejectsAnIntervalThatBoundsAloneWouldGive) {
   auto study = test::synthetic_study({45.0}, {.specimen_effect = 0.1});
   study.calibrate.bounds["ratio"] = {0.1, 20.0};
   study.calibrate.bounds["head_tail_MPa"] = {20.0, 200.0};
-  const auto result = calibrate_with(test::ClosedForm{}.simulator(), study);
+  const auto result = test::fit(study);
   const auto threshold = test::parameter_of(result, "head_tail_MPa");
   ASSERT_TRUE(threshold.identifiable);
   const Check check = test::check_of(result, "identifiable");
@@ -154,7 +150,7 @@ TEST(Identifiability, FitsTheScatterWhereTheThresholdIsKnown) {
   study.model.joints.head_tail = 60e6;
   study.model.joints.flank = sim::flank_from_ratio(study.model.assembly, 60e6, 2.0);
   study.calibrate.parameters = {"young_GPa", "scatter"};
-  const auto result = calibrate_with(test::ClosedForm{}.simulator(), study);
+  const auto result = test::fit(study);
   EXPECT_NEAR(test::parameter_of(result, "scatter").value, 0.3, 0.02);
 }
 
@@ -169,7 +165,7 @@ TEST(Identifiability, LeavesOutTheRatioBesideTheThresholdAtOneOrientation) {
 TEST(Identifiability, TriesEverythingWhenAutomaticAndKeepsWhatIsInformed) {
   auto study = test::synthetic_study({0.0, 45.0, 90.0});
   study.calibrate.automatic = true;
-  const auto result = calibrate_with(test::ClosedForm{}.simulator(), study);
+  const auto result = test::fit(study);
   EXPECT_TRUE(test::parameter_of(result, "ratio").identifiable);
   EXPECT_FALSE(test::parameter_of(result, "scatter").identifiable);
   EXPECT_TRUE(result.trusted());
@@ -185,8 +181,7 @@ TEST(Identifiability, WarnsOfNothingWhenAutomaticLeavesOutWhatChangesNothing) {
   study.calibrate.automatic = true;
   study.porosity.to_scatter = ToScatter::linear;
   for (auto& specimen : study.specimens) specimen.porosity = 0.02;
-  const Check check =
-      test::check_of(calibrate_with(test::ClosedForm{}.simulator(), study), "identifiable");
+  const Check check = test::check_of(test::fit(study), "identifiable");
   EXPECT_EQ(check.outcome, Outcome::pass) << check.text;
   EXPECT_TRUE(test::says(check, "has no interval; specimens at another orientation may tell it."));
 }
@@ -194,8 +189,7 @@ TEST(Identifiability, WarnsOfNothingWhenAutomaticLeavesOutWhatChangesNothing) {
 TEST(Identifiability, AsksForABreakWhereEveryTestWasStopped) {
   auto study = test::synthetic_study(test::three_orientations);
   for (auto& specimen : study.specimens) specimen.broke = false;
-  const Check check =
-      test::check_of(calibrate_with(test::ClosedForm{}.simulator(), study), "identifiable");
+  const Check check = test::check_of(test::fit(study), "identifiable");
   EXPECT_EQ(check.outcome, Outcome::warn);
   EXPECT_TRUE(test::says(check, "has no interval; tests up to the break may tell it."))
       << check.text;

@@ -27,13 +27,12 @@ TEST(NextTest, ExpectsOfAFurtherTestWhatTheOthersAreAskedFor) {
   auto study = test::synthetic_study({0.0});
   study.calibrate.parameters = {"young_GPa"};
   study.calibrate.terms = {"modulus"};
-  auto simulator = test::ClosedForm{.quasi_static = false}.simulator();
-  simulator.run = [](const sim::Scene& scene) {
-    auto response = test::ClosedForm{}(scene);
-    response.strength *= scene.material.young / 14e9;
-    response.failure_strain = response.strength / response.modulus;
-    return response;
-  };
+  const auto simulator = test::altered(
+      [](Response& response, const sim::Scene& scene) {
+        response.strength *= scene.material.young / 14e9;
+        response.failure_strain = response.strength / response.modulus;
+      },
+      {.quasi_static = false});
   const auto result = calibrate_with(simulator, study);
   ASSERT_EQ(result.next_tests.size(), 3U);
   const double like_the_others = result.next_tests[0].width.at(0);

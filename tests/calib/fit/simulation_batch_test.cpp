@@ -57,13 +57,10 @@ TEST(SimulationBatch, AsksTheStoreFirst) {
 }
 
 TEST(SimulationBatch, CountsASimulatorThatThrowsOrGivesNoNumberAsFailed) {
-  auto simulator = test::ClosedForm{}.simulator();
-  simulator.run = [](const sim::Scene& scene) {
-    auto response = test::ClosedForm{}(scene);
+  const auto simulator = test::altered([](Response& response, const sim::Scene& scene) {
     if (scene.joints.seed == 1) throw std::runtime_error("out of memory");
     if (scene.joints.seed == 2) response.strength = std::numeric_limits<double>::quiet_NaN();
-    return response;
-  };
+  });
   test::MemoryStore store;
   SimulationBatch batch(simulator, &store, 1);
   const auto scenes = scenes_with_seeds({1, 2, 3});

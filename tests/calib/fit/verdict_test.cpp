@@ -80,8 +80,9 @@ TEST(Verdict, WarnsWhereCurvesStiffenAsWhereTheyBend) {
   };
   EXPECT_EQ(outcome_at(0.98).outcome, Outcome::pass);
   EXPECT_EQ(outcome_at(1.02).outcome, Outcome::pass);
-  EXPECT_TRUE(says(outcome_at(0.94), "bend before they break"));
-  EXPECT_EQ(outcome_at(0.94).outcome, Outcome::warn);
+  const auto bent = outcome_at(0.94);
+  EXPECT_TRUE(says(bent, "bend before they break"));
+  EXPECT_EQ(bent.outcome, Outcome::warn);
   const auto stiffer = outcome_at(1.06);
   EXPECT_EQ(stiffer.outcome, Outcome::warn);
   EXPECT_TRUE(says(stiffer, "stiffen before they break")) << stiffer.text;
@@ -92,20 +93,18 @@ TEST(Verdict, WarnsWhereCurvesStiffenAsWhereTheyBend) {
 TEST(Verdict, SaysThatTheModelBendsWhereTheTestsAreStraight) {
   const auto study = test::synthetic_study(test::three_orientations);
   const auto check_at = [&](double linearity) {
-    auto simulator = test::ClosedForm{}.simulator();
-    simulator.run = [linearity](const sim::Scene& scene) {
-      Response response = test::ClosedForm{}(scene);
+    const auto simulator = test::altered([linearity](Response& response, const sim::Scene&) {
       response.failure_strain /= linearity;
       response.strain = {0.0, response.failure_strain, response.failure_strain};
-      return response;
-    };
+    });
     return check_of(calibrate_with(simulator, study), "brittle");
   };
-  EXPECT_EQ(check_at(0.5).outcome, Outcome::fail);
-  EXPECT_TRUE(says(check_at(0.5), "The tests are brittle, and the model's curves are not brittle"))
-      << check_at(0.5).text;
-  EXPECT_EQ(check_at(0.94).outcome, Outcome::warn);
-  EXPECT_TRUE(says(check_at(0.94), "The model's curves bend before they break"));
+  const auto half = check_at(0.5), little = check_at(0.94);
+  EXPECT_EQ(half.outcome, Outcome::fail);
+  EXPECT_TRUE(says(half, "The tests are brittle, and the model's curves are not brittle"))
+      << half.text;
+  EXPECT_EQ(little.outcome, Outcome::warn);
+  EXPECT_TRUE(says(little, "The model's curves bend before they break"));
 }
 
 TEST(Verdict, LeavesCurvesUncheckedWhereNoTestBroke) {
@@ -223,12 +222,9 @@ TEST(Verdict, SaysThatSimulationsDoNotBreak) {
 }
 
 TEST(Verdict, CountsFailedSimulations) {
-  auto simulator = test::ClosedForm{}.simulator();
-  simulator.run = [](const sim::Scene& scene) {
-    auto response = test::ClosedForm{}(scene);
+  const auto simulator = test::altered([](Response& response, const sim::Scene& scene) {
     response.failed = scene.joints.seed % 10 < 3;
-    return response;
-  };
+  });
   const auto result = calibrate_with(simulator, test::synthetic_study(test::three_orientations));
   EXPECT_EQ(check_of(result, "simulations").outcome, Outcome::fail);
 }

@@ -12,18 +12,21 @@ namespace {
 using test::deviation;
 using test::KnownSweep;
 
+Finding judged(const FindingRequest& request, const KnownSweep& known) {
+  return judge(request, known.plan, known.points, known.runs).front();
+}
+
 // Strengths of mean 100 + slope x with the standard deviation sd.
 Finding found(FindingTest test, double slope, double sd, double margin = 0.05) {
   const KnownSweep known({{"x", {"0", "1", "2"}}}, 20, [&](const SweepPoint& p, int k) {
     return 100.0 + slope * p.numbers[0] + sd * deviation(k);
   });
-  FindingRequest request;
-  request.id = "R";
-  request.test = test;
-  request.keys = {"x"};
-  request.margin = margin;
-  request.if_agrees = "so it is";
-  request.if_undecided = "who knows";
+  const FindingRequest request{.id = "R",
+                               .test = test,
+                               .keys = {"x"},
+                               .margin = margin,
+                               .if_agrees = "so it is",
+                               .if_undecided = "who knows"};
   const auto findings = judge(request, known.plan, known.points, known.runs);
   EXPECT_EQ(findings.size(), 1U);
   return findings.front();
@@ -50,8 +53,7 @@ TEST(Finding, ShowsTheComparisonThatLeavesItUndecided) {
   const KnownSweep known({{"x", {"0", "1"}}}, 20, [](const SweepPoint& p, int k) {
     return p.numbers[0] < 0.5 ? 103.0 + 0.1 * deviation(k) : 100.0 + 10.0 * deviation(k);
   });
-  FindingRequest request{.test = FindingTest::below, .margin = 104.0};
-  const Finding finding = judge(request, known.plan, known.points, known.runs).front();
+  const Finding finding = judged({.test = FindingTest::below, .margin = 104.0}, known);
   EXPECT_EQ(finding.outcome, FindingOutcome::undecided);
   EXPECT_EQ(to_string(finding.compared), "x = 1");
   EXPECT_GT(finding.high, finding.asked_high);
@@ -61,8 +63,7 @@ TEST(Finding, ShowsTheComparisonThatContradictsTheClaim) {
   const KnownSweep known({{"x", {"0", "1"}}}, 20, [](const SweepPoint& p, int k) {
     return p.numbers[0] < 0.5 ? 106.0 + 0.1 * deviation(k) : 106.5 + 10.0 * deviation(k);
   });
-  FindingRequest request{.test = FindingTest::below, .margin = 104.0};
-  const Finding finding = judge(request, known.plan, known.points, known.runs).front();
+  const Finding finding = judged({.test = FindingTest::below, .margin = 104.0}, known);
   EXPECT_EQ(finding.outcome, FindingOutcome::disagrees);
   EXPECT_EQ(to_string(finding.compared), "x = 0");
 }
@@ -107,10 +108,7 @@ Finding rising(std::vector<double> means, double sd) {
   const KnownSweep known({{"x", {"0", "1", "2"}}}, 20, [&](const SweepPoint& p, int k) {
     return means.at(static_cast<std::size_t>(p.numbers[0])) + sd * deviation(k);
   });
-  FindingRequest request;
-  request.test = FindingTest::rises;
-  request.keys = {"x"};
-  return judge(request, known.plan, known.points, known.runs).front();
+  return judged({.test = FindingTest::rises, .keys = {"x"}}, known);
 }
 
 TEST(Finding, IsUndecidedWhereTheEndsRiseAndAStepBetweenNeighboursFalls) {
@@ -153,8 +151,7 @@ TEST(Finding, AboveAndBelowCompareTheMeanWithTheMargin) {
 TEST(Finding, TakesRoundingForNoInterval) {
   const KnownSweep known({{"x", {"0"}}}, 20,
                          [](const SweepPoint&, int k) { return 13.0 + 1e-14 * deviation(k); });
-  FindingRequest request{.test = FindingTest::above, .margin = 1.0};
-  const Finding finding = judge(request, known.plan, known.points, known.runs).front();
+  const Finding finding = judged({.test = FindingTest::above, .margin = 1.0}, known);
   EXPECT_EQ(finding.low, finding.value);
   EXPECT_EQ(finding.high, finding.value);
 }
@@ -165,23 +162,21 @@ TEST(Finding, OfAShareShowsNoIntervalBeyondWhatAShareCanBe) {
   });
   FindingRequest request{.test = FindingTest::below, .response = Measure::crack_span};
   request.margin = 0.95;
-  Finding finding = judge(request, known.plan, known.points, known.runs).front();
+  Finding finding = judged(request, known);
   EXPECT_EQ(finding.high, 1.0);
   request.test = FindingTest::above;
-  finding = judge(request, known.plan, known.points, known.runs).front();
+  finding = judged(request, known);
   EXPECT_EQ(finding.low, 0.0);
   EXPECT_EQ(finding.outcome, FindingOutcome::undecided);
   request.response = Measure::fall_part;
-  EXPECT_LT(judge(request, known.plan, known.points, known.runs).front().low, 0.0);
+  EXPECT_LT(judged(request, known).low, 0.0);
 }
 
 TEST(Finding, SaysWhatWasAskedInTheUnitOfTheMeasure) {
   FindingRequest request{.test = FindingTest::above, .margin = 2e7};
   const KnownSweep known({{"x", {"0", "1"}}}, 20,
                          [](const SweepPoint&, int k) { return 3e7 + deviation(k); });
-  const auto ground = [&] {
-    return judge(request, known.plan, known.points, known.runs).front().ground;
-  };
+  const auto ground = [&] { return judged(request, known).ground; };
   EXPECT_EQ(ground(), "all means above 20 MPa");
   request = {.test = FindingTest::below, .response = Measure::failure_strain, .margin = 0.005};
   EXPECT_EQ(ground(), "all means below 0.5 %");
@@ -197,11 +192,8 @@ Finding judged_with_failed_runs(FindingTest test) {
     return 1e6 * (100.0 - 10.0 * p.numbers[0] + deviation(k));
   });
   for (std::size_t i = 41; i < known.runs.size(); ++i) known.runs[i].failed = true;
-  FindingRequest request;
-  request.test = test;
-  request.keys = {"x"};
-  request.margin = test == FindingTest::above ? 1e6 : 0.5;
-  return judge(request, known.plan, known.points, known.runs).front();
+  const double margin = test == FindingTest::above ? 1e6 : 0.5;
+  return judged({.test = test, .keys = {"x"}, .margin = margin}, known);
 }
 
 TEST(Finding, IsUndecidedWhereAPointHasTooFewRuns) {
@@ -223,10 +215,7 @@ TEST(Finding, LinearDisagreesWithAParabola) {
   const KnownSweep known({{"x", {"0", "1", "2"}}}, 20, [](const SweepPoint& p, int k) {
     return 100.0 + 30.0 * p.numbers[0] * p.numbers[0] + deviation(k);
   });
-  FindingRequest request;
-  request.test = FindingTest::linear;
-  request.keys = {"x"};
-  EXPECT_EQ(judge(request, known.plan, known.points, known.runs).front().outcome,
+  EXPECT_EQ(judged({.test = FindingTest::linear, .keys = {"x"}}, known).outcome,
             FindingOutcome::disagrees);
 }
 
@@ -247,13 +236,11 @@ TEST(Finding, IsJudgedForEveryValueOfPerWithTheOtherKeysHeld) {
 
 TEST(Finding, HasNoInertiaNumberWhereNoneOfItsPointsHasOne) {
   KnownSweep known({{"x", {"0", "1"}}}, 20, [](const SweepPoint&, int k) { return deviation(k); });
-  FindingRequest request;
-  request.keys = {"x"};
+  const FindingRequest request{.keys = {"x"}};
   for (SweepPoint& point : known.points) point.inertia_number = std::nan("");
-  EXPECT_TRUE(
-      std::isnan(judge(request, known.plan, known.points, known.runs).front().inertia_high));
+  EXPECT_TRUE(std::isnan(judged(request, known).inertia_high));
   known.points.back().inertia_number = 0.1;
-  const Finding finding = judge(request, known.plan, known.points, known.runs).front();
+  const Finding finding = judged(request, known);
   EXPECT_EQ(finding.inertia_low, 0.1);
   EXPECT_EQ(finding.inertia_high, 0.1);
 }
@@ -263,11 +250,7 @@ Finding judged_with_an_unbroken_run(Measure response) {
   KnownSweep known({{"x", {"0", "1"}}}, 20,
                    [](const SweepPoint&, int k) { return 100.0 + deviation(k); });
   known.runs.back().broke = false;
-  FindingRequest request;
-  request.keys = {"x"};
-  request.response = response;
-  request.if_undecided = "who knows";
-  return judge(request, known.plan, known.points, known.runs).front();
+  return judged({.response = response, .keys = {"x"}, .if_undecided = "who knows"}, known);
 }
 
 TEST(Finding, IsUndecidedWhereARunDidNotBreak) {

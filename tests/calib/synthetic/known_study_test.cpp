@@ -15,6 +15,7 @@ namespace havers::calib {
 namespace {
 
 const Design along{.name = "along", .degrees = {0.0, 0.0, 0.0, 0.0}};
+const Design one_bar{.name = "one", .degrees = {0.0}};
 
 void expect_left_out(const CalibrationResult& result, const std::string& name) {
   const auto parameter = test::parameter_of(result, name);
@@ -48,7 +49,7 @@ TEST(KnownStudy, HasNoSpecimensThatDidNotBreak) {
 
 TEST(KnownStudy, OneSpecimenDoesNotTellTheScatter) {
   HAVERS_SLOW;
-  KnownStudy known = known_study({.name = "one", .degrees = {0.0}}, 1);
+  KnownStudy known = known_study(one_bar, 1);
   known.study.calibrate.parameters = {"young_GPa", "head_tail_MPa", "scatter"};
   const auto result = calibrate(known.study);
   expect_left_out(result, "scatter");
@@ -78,8 +79,7 @@ TEST(Coverage, OfAFewStudiesHoldsTheTruth) {
 TEST(Coverage, StopsWhenTold) {
   HAVERS_SLOW;
   int asked = 0;
-  const Coverage coverage =
-      measure_coverage({three_orientations()}, 6, 1, [&] { return ++asked < 2; });
+  const Coverage coverage = measure_coverage({one_bar}, 6, 1, [&] { return ++asked < 2; });
   EXPECT_EQ(coverage.rows.size(), 3U);
   EXPECT_FALSE(coverage.complete);
 }
