@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "sim/assembly/assembly.hpp"
@@ -253,33 +252,6 @@ bool is_missing(const Threshold& threshold) {
 
 bool some_are_missing(const JointOptions& joints) {
   return joints.missing > 0.0 || std::ranges::any_of(joints.thresholds, is_missing);
-}
-
-std::vector<std::string> Scene::doubts() const {
-  constexpr double stiffest = 1.5e12;     // [Pa], beyond diamond
-  constexpr double largest_strain = 0.2;  // the model is of small strains
-  // Of head-tail joints and of flanks, which a large ratio makes weak: far below any bone's.
-  constexpr double least_strain = 1e-5, least_of_flanks = 2e-6;
-  if (material.young > stiffest)
-    return {fmt::format("material.young_GPa is {:.4g}, stiffer than any material: is it in GPa?",
-                        material.young / 1e9)};
-  std::vector<std::string> all;
-  for (const auto& [key, threshold, least] :
-       {std::tuple("head_tail_MPa", joints.head_tail, least_strain),
-        {"flank_MPa", joints.flank, least_of_flanks}}) {
-    const double strain = threshold / material.young;
-    if (strain > largest_strain)
-      all.push_back(fmt::format(
-          "joints.{} is {:.4g}, {:.2g} times material.young_GPa: fibres would stretch by as much, "
-          "and the model is of small strains; are both in their units?",
-          key, threshold / 1e6, strain));
-    if (strain < least)
-      all.push_back(fmt::format(
-          "joints.{} is {:.4g}, {:.2g} times material.young_GPa: bone bears hundreds of times as "
-          "much; are both in their units?",
-          key, threshold / 1e6, strain));
-  }
-  return all;
 }
 
 std::vector<Scene::Problem> Scene::problems() const {

@@ -120,7 +120,7 @@ LocalContactResult solve_as_it_is(const LocalContact& problem, const States& sta
 // (C7). Joints held by springs where the last answer has left them, until these bear nothing, or
 // no less than what rounding leaves on a piece that hangs on nothing: the best of all answers.
 LocalContactResult solve_with_springs(const LocalContact& problem, const States& states,
-                                      LocalContactResult best) {
+                                      LocalContactResult best, int most_ways) {
   const States nearest = best.converged ? best.states : states;
   double least = best.converged ? law_residual_of(problem, best.y) : nearly_met;
   best.converged = best.converged && least <= nearly_met;
@@ -134,7 +134,7 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
     for (int i = 0; i < times_moved && least > well_met && spent < changes_in_all &&
                     !stop_is_asked(problem.stop_asked);
          ++i) {
-      result = solve_as_it_is(held, result.states, ways, changes_in_all - spent);
+      result = solve_as_it_is(held, result.states, most_ways, changes_in_all - spent);
       spent += result.iterations;
       if (!result.converged) break;
       const double residual = law_residual_of(problem, result.y);
@@ -153,13 +153,11 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
 LocalContactResult solve_local_contact(const LocalContact& problem, const States& states,
                                        Effort effort) {
   if (states.empty()) return {.converged = true, .y = {}, .states = {}, .iterations = 0};
-  LocalContactResult result =
-      solve_as_it_is(problem, states, effort == Effort::little ? 1 : ways, changes_in_all);
+  const int most_ways = effort == Effort::little ? 1 : ways;
+  LocalContactResult result = solve_as_it_is(problem, states, most_ways, changes_in_all);
   const bool solved = result.converged && law_residual_of(problem, result.y) <= well_met;
-  if (solved || effort == Effort::all)
-    return solved ? result : solve_with_springs(problem, states, std::move(result));
-  result.converged = false;
-  return result;
+  if (solved || (effort == Effort::little && !result.converged)) return result;
+  return solve_with_springs(problem, states, std::move(result), most_ways);
 }
 
 }  // namespace havers::sim

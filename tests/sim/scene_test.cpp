@@ -162,6 +162,19 @@ TEST(Scene, DoubtsValuesThatAreInOtherUnits) {
               testing::ElementsAre(testing::StartsWith("material.young_GPa is 1.3e+04, stiffer")));
 }
 
+TEST(Scene, DoubtsAViscosityThatBreaksItAtOnce) {
+  Scene scene;
+  scene.loading.strain_rate = 1e3;
+  scene.material.viscosity = 1e-7;  // E tau times the rate is a fortieth of the threshold
+  EXPECT_TRUE(scene.doubts().empty());
+  scene.material.viscosity = 1.0;
+  EXPECT_THAT(scene.doubts(),
+              testing::ElementsAre(testing::StartsWith(
+                  "material.viscosity_s is 1: at 1000 /s it stresses the fibres by 1.3e+07 MPa")));
+  scene.solver.regime = Regime::quasi_static;  // which has no rates
+  EXPECT_TRUE(scene.doubts().empty());
+}
+
 // A box around a long row that is turned holds the square of its fibres.
 TEST(Scene, RefusesAGridThatIsMuchLargerThanTheSpecimen) {
   Scene scene;
