@@ -16,7 +16,7 @@ namespace havers::sim {
 
 /// How the contact of an event is solved.
 enum class Care : char {
-  little,     ///< Digits as they come; what little effort does not solve ends the run.
+  little,     ///< Digits as they come, until little effort does not solve an event.
   digits,     ///< Every answer is refined: influences of joints on each other have few digits where
               ///< cracks are wide. All effort, at last without contact.
   all_effort  ///< Digits as they come.

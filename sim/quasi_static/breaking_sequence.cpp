@@ -158,12 +158,12 @@ Simulation simulate_quasi_static(const Scene& scene, const Observer& observer,
     return break_event_by_event(scene, intact, care, observer, stop_asked);
   };
   Simulation best = run(Care::little);
-  const bool ended = has_ended(best);
+  const bool all_solved = has_ended(best) && best.events_without_contact == 0;
   Care of_best = Care::little, last = Care::little;
   // Where a piece hangs on next to nothing either may miss an answer that the other finds.
   for (const Care care : {Care::digits, Care::all_effort}) {
     if (best.status == SimulationStatus::cancelled || is_enough(best) ||
-        (care == Care::all_effort && ended))
+        (care == Care::all_effort && all_solved))
       break;
     Simulation other = run(care);
     last = care;
