@@ -50,7 +50,7 @@ struct Assembly {
   std::vector<int> left, right;      ///< Nodes on the sides x = 0 and x = W.
   int corner = 0;                    ///< The node at (0, 0), held in y as well.
   double width = 0.0, height = 0.0;  ///< [m]
-  int dropped = 0;  ///< Half fibres left out because they are smaller than 1e-6 of a whole one.
+  int dropped = 0;  ///< Half fibres left out, as less than 1e-6 of their area is inside.
 };
 
 /// Weights of an edge's nodes in the mean of what is linear between neighbours. [-]

@@ -67,7 +67,7 @@ struct WorkPrecision {
   BenchSetting reference;
   std::string reference_ground;  ///< What the errors are measured against, in a sentence.
   /// What the reference itself may err by: its change from a step twice as long, as errors are of
-  /// first order in h. Zero in the limit, and where `closed_form`.
+  /// first order in h. Zero in the limit; that of the bonded forces also where `closed_form`.
   BenchErrors reference_errors;
   double bonded_strain = 0.0;  ///< Where forces before any seed's first break are compared. [-]
   /// Whether those are compared with their closed form instead of with the reference's.

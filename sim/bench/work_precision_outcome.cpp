@@ -79,12 +79,10 @@ std::string summary(const WorkPrecision& study) {
   if (const double error = study.reference_errors.failure_strain.high; !(error <= 1e-3))
     return std::isnan(error)
                ? "What the reference's failure strain may err by is not known, as runs of twice "
-                 "its "
-                 "step did not end."
+                 "its step did not end."
                : fmt::format(
                      "The reference's own failure strain may err by {:.2g} %, which a step twice "
-                     "as "
-                     "long changes it by: which setting gives it to 0.1 % cannot be told.",
+                     "as long changes it by: which setting gives it to 0.1 % cannot be told.",
                      100.0 * error);
   const std::string none =
       "On the reference's mesh no other setting gives the failure strain to 0.1 % for every seed";

@@ -1,11 +1,11 @@
 #include "sim/contact/active_set.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace havers::sim {
 
-using Eigen::Index;
 using Eigen::VectorXd;
 
 namespace {

@@ -4,9 +4,6 @@
 
 namespace havers::sim {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 namespace {
 
 constexpr int sweeps_between_checks = 10;

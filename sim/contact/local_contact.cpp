@@ -1,6 +1,5 @@
 #include "sim/contact/local_contact.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +12,6 @@ namespace havers::sim {
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using States = std::vector<JointState>;
 

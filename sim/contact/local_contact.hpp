@@ -66,8 +66,9 @@ double law_missed(const LocalContact& problem, const Eigen::VectorXd& reactions,
 double law_residual_of(const LocalContact& problem, const Eigen::VectorXd& y);
 constexpr double law_is_met = 1e-10;
 
-/// Which state a joint with that reaction and gap belongs in. `scale` is a force: less than 1e-12
-/// of it is rounding.
+/// Which state a joint belongs in.
+/// @param gap  times a stiffness, so that it is a force as well
+/// @param scale  a force: less than 1e-12 of it is rounding. [N/m]
 JointState state_of(const Local& reaction, const Local& gap, JointState now, const JointLaw& law,
                     double scale);
 

@@ -86,6 +86,8 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
   simulation.left_out = left_out_in_time(scene, simulation);
   summarise(simulation);
   std::vector<double> strain, stress;
+  strain.reserve(simulation.curve.size());
+  stress.reserve(simulation.curve.size());
   for (const CurvePoint& point : simulation.curve) {
     strain.push_back(point.strain);
     stress.push_back(point.stress_right);

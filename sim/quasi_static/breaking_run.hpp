@@ -16,10 +16,10 @@ namespace havers::sim {
 
 /// How the contact of an event is solved.
 enum class Care : char {
-  little,     ///< Digits as they come, until little effort does not solve an event.
+  little,     ///< Digits as they come. From an event on that little effort does not solve: digits.
   digits,     ///< Every answer is refined: influences of joints on each other have few digits where
               ///< cracks are wide. All effort, at last without contact.
-  all_effort  ///< Digits as they come.
+  all_effort  ///< Digits as they come, all effort, at last without contact.
 };
 
 /// The structure as it is between two events, at one strain. Its answer is proportional to that: it

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <list>
 #include <tuple>
-#include <utility>
 
 #include "sim/contact/joint_step.hpp"
 #include "sim/structure/pieces.hpp"

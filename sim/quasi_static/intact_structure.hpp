@@ -53,8 +53,8 @@ class IntactStructure {
   [[nodiscard]] SharedJump jump(int joint) const;
   /// Structure::nearly_reactions_to of a unit jump at one joint, normal and tangential. [N/m²]
   using SharedColumn = std::shared_ptr<const NearReactions>;
-  /// What runs have asked for before; nothing else is worth it.
-  /// @param make  if it was only asked for
+  /// None the first time that a joint is asked for, as most never are again.
+  /// @param make  whether to make it from the second time on; else none until it is made
   [[nodiscard]] SharedColumn column(const SharedJump& jump, bool make) const;
   /// So many columns are added up in the time of nearly_reactions_to.
   [[nodiscard]] std::size_t columns_of_a_glance() const;
