@@ -83,6 +83,7 @@ TEST(WorkPrecision, NamesTheCheapestSettingThatReachesATarget) {
     EXPECT_EQ(row.trusted, row.runs);
     const BenchSpread& error = cheapest.quantity == "strength"         ? row.errors.strength
                                : cheapest.quantity == "failure strain" ? row.errors.failure_strain
+                               : cheapest.quantity == "curve"          ? row.errors.curve
                                                                        : row.errors.bonded_forces;
     EXPECT_LE(error.high, cheapest.target) << "for every seed";
   }

@@ -230,9 +230,8 @@ TEST_P(TinyStructure, HeldInAnotherWayIsAsOneMadeForThat) {
   for (const auto& now : {held, std::vector<Held>(held.size(), Held::not_at_all), held}) {
     structure.hold(now);
     const Structure made(bodies, now);
-    ASSERT_EQ(structure.ok(), made.ok());
+    ASSERT_TRUE(structure.ok() && made.ok());
     EXPECT_EQ(structure.held(), now);
-    if (!made.ok()) continue;
     EXPECT_EQ(structure.solve(loads).reactions, made.solve(loads).reactions);
   }
 }
@@ -252,7 +251,7 @@ TEST_P(TinyStructure, BearsNothingWhereNothingActsWhereverItStarts) {
 TEST_P(TinyStructure, HoldsNothingTogetherWhenAllIsDetached) {
   const std::vector<Held> all(assembly.joints.size(), Held::not_at_all);
   const Structure structure(bodies, all);
-  if (assembly.ties.empty() && !structure.ok()) GTEST_SKIP() << "no unknowns are left";
+  ASSERT_TRUE(structure.ok());
   const StructureLoads loads = random_loads(bodies, 4);
   const auto truth = dense.solve(loads, all);
   const StructureResponse found = structure.solve(loads);
