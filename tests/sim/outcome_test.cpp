@@ -108,13 +108,5 @@ TEST(StressAt, FollowsTheCurveFromTheOriginToWhereItFirstReachesAStrain) {
   EXPECT_FALSE(stress_at(curve, 0.005));
 }
 
-TEST(LateralContraction, IsLargerInPlaneStrain) {
-  Material material;
-  material.poisson = 0.25;
-  EXPECT_DOUBLE_EQ(lateral_contraction(material), 0.25);
-  material.plane = Plane::strain;
-  EXPECT_DOUBLE_EQ(lateral_contraction(material), 1.0 / 3.0);
-}
-
 }  // namespace
 }  // namespace havers::sim

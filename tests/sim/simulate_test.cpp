@@ -261,15 +261,6 @@ TEST(Simulate, SaysWhatItLeftOut) {
   }
 }
 
-TEST(Simulate, IsNotTrustedWhereContactWasLeftOutBeforeTheStrength) {
-  Simulation simulation = simulate(test::small_scene());
-  EXPECT_EQ(simulation.why_not_trusted(), "");
-  simulation.events_without_contact = 2;
-  EXPECT_EQ(simulation.why_not_trusted(), "");
-  simulation.without_contact_to_strength = 1;
-  EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("no solution"));
-}
-
 TEST(Simulate, EndsWhereNothingIsLeftToBear) {
   Scene scene = test::small_scene(45.0, 2, 2);
   scene.joints.scatter = 0.0;

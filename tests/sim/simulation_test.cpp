@@ -59,6 +59,15 @@ TEST(Simulation, IsNotTrustedUnlessItsChecksHold) {
   simulation.rounding_error = 2e-4;
   EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("too few digits"));
   simulation.rounding_error = 0.0;
+  simulation.events_without_contact = 2;
+  EXPECT_TRUE(simulation.trusted()) << "after the strength";
+  simulation.without_contact_to_strength = 1;
+  EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("had no solution in an event before"));
+  simulation.without_contact_to_strength = 0;
+  simulation.step_error = StepError{.failure_strain = 0.009};
+  EXPECT_TRUE(simulation.trusted());
+  simulation.step_error = StepError{.failure_strain = 0.011};
+  EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("still changes the failure strain"));
   simulation.step_error = StepError{.strength = 0.025};
   EXPECT_TRUE(simulation.trusted());
   simulation.step_error = StepError{.strength = 0.035};

@@ -46,35 +46,6 @@ TEST(AfterTheBreak, AChainOfThousandIsAsStrongAsItsWeakestJoint) {
   EXPECT_TRUE(stepped.joints[at].broken);
 }
 
-// A modulus of 1 kPa to 1 TPa, and thresholds and times with it: all of the curve scales.
-class Stiffness : public testing::TestWithParam<std::tuple<double, double>> {};
-INSTANTIATE_TEST_SUITE_P(OrientationAndModulus, Stiffness,
-                         testing::Combine(testing::Values(0.0, 45.0), testing::Values(1e3, 1e12)));
-
-TEST_P(Stiffness, ScalesTheResponseAfterTheBreakToo) {
-  const auto [degrees, young] = GetParam();
-  for (const Scene& scene : {test::small_scene(degrees), test::dynamic_scene(degrees)}) {
-    const double factor = young / scene.material.young, slower = 1.0 / std::sqrt(factor);
-    Scene other = scene;
-    other.material.young = young;
-    other.joints.head_tail *= factor;
-    other.joints.flank *= factor;
-    other.loading.strain_rate /= slower;
-    if (other.solver.step) *other.solver.step *= slower;
-    const Simulation one = simulate(scene), two = simulate(other);
-    EXPECT_EQ(one.status, two.status);
-    ASSERT_EQ(one.curve.size(), two.curve.size());
-    EXPECT_GT(one.broken_joints, 1);
-    for (std::size_t i = 0; i < one.curve.size(); ++i) {
-      EXPECT_NEAR(two.curve[i].stress_right / factor, one.curve[i].stress_right,
-                  1e-9 * one.strength);
-      EXPECT_EQ(two.curve[i].broken_joints, one.curve[i].broken_joints);
-    }
-    for (std::size_t j = 0; j < one.joints.size(); ++j)
-      EXPECT_EQ(one.joints[j].broken, two.joints[j].broken);
-  }
-}
-
 class AnyStep : public testing::TestWithParam<std::tuple<double, double>> {};
 INSTANTIATE_TEST_SUITE_P(OrientationAndLength, AnyStep,
                          testing::Combine(testing::Values(0.0, 30.0),

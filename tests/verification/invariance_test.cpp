@@ -1,7 +1,8 @@
-// The same specimen seen otherwise: in other units, in the mirror, again, and from two threads.
+// The same specimen in other units, again, and from two threads.
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <thread>
 
 #include "sim/simulation.hpp"
@@ -33,10 +34,12 @@ Scene in_units(Scene scene, const Units& units) {
   return scene;
 }
 
-// Powers of two change no digit, other factors round every number.
+// Powers of two change no digit, other factors round every number. The last two make of this wall
+// one of 1.3 kPa, and of 1 TPa, and of the same density.
 TEST_P(Invariance, DoesNotDependOnUnits) {
   for (const Units& units :
-       {Units{8.0, 2.0, 16.0}, Units{1e3, 7.3, 1e6 / 3.0}, Units{1.0 / 7.0, 1e-6, 0.11}})
+       {Units{8.0, 2.0, 16.0}, Units{1e3, 7.3, 1e6 / 3.0}, Units{1.0 / 7.0, 1e-6, 0.11},
+        Units{1.0, 1e-7, std::sqrt(1e7)}, Units{1.0, 77.0, std::sqrt(1.0 / 77.0)}})
     for (const Scene& scene : {quasi_static, dynamic}) {
       const Simulation one = simulate(scene), two = simulate(in_units(scene, units));
       EXPECT_EQ(one.status, two.status);
@@ -90,18 +93,6 @@ TEST_P(Invariance, GivesTheSameBitsAgainAndFromSeveralThreads) {
     for (std::thread& thread : threads) thread.join();
     for (const Simulation& simulation : found) EXPECT_TRUE(same(first, simulation));
   }
-}
-
-// Both regimes tell the same story where the loading is slow.
-TEST_P(Invariance, HasTheQuasiStaticLimitForItsSlowMotion) {
-  Scene slow = dynamic;
-  slow.loading.strain_rate = 10.0;
-  slow.solver.step = 1e-7;
-  slow.loading.lateral = quasi_static.loading.lateral;
-  const Simulation limit = simulate(quasi_static), motion = simulate(slow);
-  EXPECT_NEAR(motion.first_break_strain / limit.first_break_strain, 1.0, 2e-3);
-  EXPECT_NEAR(motion.modulus / limit.modulus, 1.0, 1e-8);
-  EXPECT_NEAR(motion.curve[1].stress_right, limit.modulus * motion.curve[1].strain, 1.0);
 }
 
 }  // namespace

@@ -67,23 +67,6 @@ TEST_P(Waves, TravelAtTheBarSpeedAndDoubleTheShocksStressAtTheFixedEnd) {
               0.01);
 }
 
-// Implicit Euler is of first order: halving h halves the error, here of the left side's stress.
-TEST_P(Waves, ConvergeWithFirstOrderInTheStep) {
-  const auto stress_at_end = [&](double step) {
-    Scene scene = bar(GetParam(), step);
-    scene.material.viscosity =
-        2e-8;  // without it the front is a jump, and no smooth solution is there
-    scene.loading.max_strain = 2.56e-4;
-    return simulate(scene).curve.back().stress_left;
-  };
-  const double h = 0.5e-9;
-  const double coarse = stress_at_end(4 * h), middle = stress_at_end(2 * h),
-               fine = stress_at_end(h);
-  const double order = std::log2(std::abs((coarse - middle) / (middle - fine)));
-  EXPECT_GT(order, 0.9);
-  EXPECT_LT(order, 1.1);
-}
-
 // A viscous bar that is pulled at one end, by its modes: a uniform stretch and sines, each damped.
 // Stress at the fixed end over ρ c V.
 double exact_stress_left(const Scene& scene, double time) {

@@ -154,16 +154,6 @@ TEST(StepChosen, SaysWhatItsLastHalvingChanged) {
   }));
 }
 
-TEST(StepChosen, IsNotTrustedWhereItStillChangesTheAnswer) {
-  HAVERS_SLOW;
-  Simulation run = run_in_chosen_steps(without_step(90.0), {});
-  run.strength = 1.0;
-  run.tolerance = 1e-8;
-  EXPECT_TRUE(run.trusted());
-  run.step_error->failure_strain = 0.02;
-  EXPECT_FALSE(run.trusted());
-}
-
 // The motion is uniform, but rounding of velocities over so short a time is an acceleration.
 TEST(StepChosen, LeapsHoweverShortItIs) {
   HAVERS_SLOW;

@@ -23,12 +23,6 @@ TEST(SimulateDynamic, TakesTheStepOfTheScene) {
   EXPECT_DOUBLE_EQ(simulation.curve[10].strain, 3e-4);
 }
 
-TEST(RunInSteps, SaysNothingOfTheErrorOfItsStep) {
-  Scene scene = test::dynamic_scene();
-  scene.loading.max_strain = 1e-4;
-  EXPECT_FALSE(run_in_steps(scene, {.step = 2e-8}).step_error.has_value());
-}
-
 // In uniform motion implicit Euler takes ½ (hε̇)² E of a volume each step, here of the few that are
 // taken, and the loss is relative to all work, that of viscosity during the leap too.
 TEST(RunInSteps, CountsTheViscousWorkOfALeap) {
@@ -79,7 +73,6 @@ TEST(SimulateDynamic, GivesTheSameRunByGaussSeidelAsByTheActiveSet) {
   }
 }
 
-// Waves in one fibre whose sides are tied: there is no joint that sweeps could ask.
 // Sweeps leave the ties apart by their tolerance, and what ties do on the way is work (M4).
 TEST(SimulateDynamic, CountsTheWorkOfTiesThatSweepsLeaveApart) {
   Scene scene = test::small_scene(0.0, 3, 3);
@@ -94,6 +87,7 @@ TEST(SimulateDynamic, CountsTheWorkOfTiesThatSweepsLeaveApart) {
   EXPECT_TRUE(run.trusted()) << run.why_not_trusted();
 }
 
+// Waves in one fibre whose sides are tied: there is no joint that sweeps could ask.
 TEST(SimulateDynamic, TiesAFibreAloneByGaussSeidelToo) {
   Scene scene = test::dynamic_scene();
   scene.assembly.layers = scene.assembly.fibres = 1;
@@ -220,17 +214,6 @@ TEST(SimulateDynamic, TakesTheAnswerOfSweepsWhereFrictionLeavesSeveral) {
       EXPECT_EQ(direct.curve[i].broken_joints, other->curve[i].broken_joints) << i;
     EXPECT_NEAR(direct.strength / other->strength, 1.0, 1e-6);
   }
-}
-
-TEST(SimulateDynamic, GivesTheSameRunWhenNothingIsLeftOut) {
-  HAVERS_SLOW;
-  Scene scene = test::dynamic_scene(0.0);
-  const Simulation one = simulate_dynamic(scene, {});
-  scene.solver.leave_out = false;
-  const Simulation other = simulate_dynamic(scene, {});
-  ASSERT_EQ(one.curve.size(), other.curve.size());
-  EXPECT_NEAR(one.strength / other.strength, 1.0, 1e-9);
-  EXPECT_EQ(one.curve.back().broken_joints, other.curve.back().broken_joints);
 }
 
 }  // namespace

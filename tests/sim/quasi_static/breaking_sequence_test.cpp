@@ -220,26 +220,6 @@ TEST(BreakingSequence, KeepsTheLawAtEveryBreakWherePiecesHangLoosely) {
   }
 }
 
-// Two rows mirrored about the middle: what breaks in one breaks in the other.
-TEST(BreakingSequence, BreaksASymmetricSpecimenSymmetrically) {
-  Scene scene = test::small_scene(0.0, 3, 4);
-  const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
-  std::vector<std::size_t> mirror(assembly.joints.size());
-  scene.joints.thresholds = draw_thresholds(scene, assembly);
-  for (std::size_t i = 0; i < mirror.size(); ++i)
-    for (std::size_t j = 0; j < mirror.size(); ++j) {
-      const Eigen::Vector2d image(assembly.joints[j].position.x(),
-                                  assembly.height - assembly.joints[j].position.y());
-      if ((assembly.joints[i].position - image).norm() < 1e-12) mirror[i] = j;
-    }
-  for (std::size_t i = 0; i < mirror.size(); ++i)
-    if (mirror[i] > i) scene.joints.thresholds[mirror[i]] = scene.joints.thresholds[i];
-  const Simulation simulation = simulate_quasi_static(scene, {});
-  EXPECT_GT(simulation.curve.back().broken_joints, 1);
-  for (std::size_t i = 0; i < mirror.size(); ++i)
-    EXPECT_EQ(simulation.joints[i].broken, simulation.joints[mirror[i]].broken);
-}
-
 // Friction acts on what is pressed together, and there is no jump where it vanishes: what it
 // changes in the curve, up to and after the peak, is proportional to it.
 TEST(BreakingSequence, HasALimitWithoutFriction) {
