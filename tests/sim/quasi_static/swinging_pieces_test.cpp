@@ -197,19 +197,6 @@ TEST(SwingingPieces, AreSolvedWithCareWhereTheEnergyDoesNotClose) {
   }
 }
 
-// Severed by missing joints: the reactions are rounding, of which slivers make much.
-TEST(SwingingPieces, BreakNothingWhereTheSpecimenBearsNothing) {
-  Scene scene = test::small_scene(89.99, 5, 3);
-  scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 50.0);
-  scene.joints.scatter = 1.5;
-  scene.joints.missing = 0.6;
-  scene.joints.seed = 930;
-  const Simulation simulation = simulate(scene);
-  EXPECT_EQ(simulation.status, SimulationStatus::severed);
-  EXPECT_EQ(simulation.broken_joints, 0);
-  EXPECT_EQ(simulation.strength, 0.0);
-}
-
 // What rounding leaves is more than that: the residual says so, and the answer stays the same.
 TEST(SwingingPieces, KeepTheirContactsWhateverTheTolerance) {
   HAVERS_SLOW;
@@ -239,58 +226,6 @@ TEST(SwingingPieces, AreSolvedWithCareWhereTheToleranceAsksForIt) {
     if (careful <= scene.solver.tolerance) ++met;
   }
   EXPECT_GT(met, 0);
-}
-
-// Columns of fibres that nothing holds lie anywhere, but not far away.
-TEST(SeveredSpecimen, LiesWhereItWasWhereAllBreakTogether) {
-  HAVERS_SLOW;
-  for (const int layers : {6, 9, 14})
-    for (const double degrees : {90.0, 89.99}) {
-      SCOPED_TRACE(testing::Message() << layers << " layers at " << degrees);
-      Scene scene = test::small_scene(degrees, layers, layers - 1);
-      scene.joints.scatter = 0.0;
-      const Simulation simulation = simulate(scene);
-      EXPECT_EQ(simulation.steps, 1);
-      EXPECT_LE(simulation.worst_residual, 1e-8);
-      EXPECT_LE(simulation.energy_defect, 1e-8);
-      EXPECT_LE(simulation.displacements.lpNorm<Eigen::Infinity>(), scene.assembly.width());
-    }
-}
-
-// Nearly incompressible and of unlike layers: rounding is not small there.
-TEST(SeveredSpecimen, BearsNothingAtAll) {
-  for (const double length : {40e-6, 55e-6, 70e-6, 85e-6, 100e-6}) {
-    Scene scene = test::small_scene(90.0, 1, 2);
-    scene.assembly.fibre_length = length;
-    scene.loading.lateral = Lateral::free;
-    scene.loading.end_fraction = 0.0;
-    scene.material.plane = Plane::strain;
-    scene.material.poisson = 0.4999;
-    scene.material.layer_contrast = 0.02;
-    const Simulation simulation = simulate(scene);
-    EXPECT_EQ(simulation.why_not_trusted(), "");
-    EXPECT_EQ(simulation.status, SimulationStatus::broken);
-    EXPECT_EQ(simulation.curve.back().stress_right, 0.0);
-  }
-}
-
-// A row of fibres whose pieces still touch. What rounding leaves of the force would do work that
-// nothing stores, and more of it the further the ends are pulled.
-TEST(SeveredSpecimen, BearsNothingWhereItsPiecesTouch) {
-  for (const double degrees : {10.0, 36.0}) {
-    Scene scene = test::small_scene(degrees, 1, 8);
-    scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 3.0);
-    scene.joints.scatter = 1.2;
-    scene.loading.lateral = Lateral::free;
-    scene.loading.end_fraction = 0.0;
-    for (scene.joints.seed = 1; scene.joints.seed <= 40; ++scene.joints.seed) {
-      SCOPED_TRACE(testing::Message() << degrees << " degrees, seed " << scene.joints.seed);
-      const Simulation simulation = simulate(scene);
-      EXPECT_EQ(simulation.why_not_trusted(), "");
-      EXPECT_EQ(simulation.status, SimulationStatus::broken);
-      EXPECT_EQ(simulation.curve.back().stress_right, 0.0);
-    }
-  }
 }
 
 // Layers far apart in strength at a small angle: a run is done again with more care, and its first
