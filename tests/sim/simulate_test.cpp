@@ -270,12 +270,6 @@ TEST(Simulate, EndsWhereNothingIsLeftToBear) {
   EXPECT_TRUE(simulation.trusted()) << simulation.why_not_trusted();
 }
 
-TEST(Simulate, KnowsNoDifferenceBetweenNoAngleAndNextToNone) {
-  const Simulation straight = simulate(test::small_scene(0.0, 4, 3)),
-                   turned = simulate(test::small_scene(1e-6, 4, 3));
-  EXPECT_NEAR(turned.modulus / straight.modulus, 1.0, 1e-9);
-}
-
 TEST(Simulate, SaysThatTheErrorOfAGivenStepIsNotKnown) {
   Scene scene;
   scene.assembly.layers = scene.assembly.fibres = 2;

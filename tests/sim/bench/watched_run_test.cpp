@@ -16,6 +16,7 @@ TEST_P(FirstBreak, IsThatOfTheUniformStress) {
   for (const Plane plane : {Plane::stress, Plane::strain}) {
     Scene scene = test::small_scene(GetParam());
     scene.material.plane = plane;
+    scene.solver.leave_out = false;  // the limit would take that stress for what it has solved for
     EXPECT_NEAR(first_break_by_uniform_stress(scene) / simulate(scene).first_break_strain, 1.0,
                 1e-9);
   }
