@@ -36,6 +36,24 @@ void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStud
 
 namespace {
 
+// Checks compare specimens of one orientation, which is one angle.
+void doubt_angles(LoadedStudy& loaded) {
+  constexpr double hardly = 3.0 * calib::degree;
+  std::map<double, std::string> ids;  // of each angle, the first
+  for (const calib::Specimen& specimen : loaded.study.specimens)
+    ids.try_emplace(specimen.orientation, specimen.id);
+  std::vector<std::string> alike;
+  for (auto next = ids.begin(), one = next; next != ids.end(); one = next++)
+    if (one != next && next->first - one->first < hardly)
+      alike.push_back(fmt::format("{:.4g} ({}) and {:.4g} ({})", one->first / calib::degree,
+                                  one->second, next->first / calib::degree, next->second));
+  if (!alike.empty())
+    loaded.notes.push_back(fmt::format(
+        "orientation_deg of {} count as different orientations, and what compares specimens of one "
+        "has fewer: give them the angle that was meant, if it is one",
+        fmt::join(alike, ", ")));
+}
+
 // Where sections do not tell the scatter, the model's is taken.
 void doubt_scatter(LoadedStudy& loaded) {
   if (loaded.study.porosity.to_scatter != calib::ToScatter::window) return;
@@ -127,6 +145,7 @@ void doubt_search(LoadedStudy& loaded) {
 void doubt_model(bool rate_is_given, LoadedStudy& loaded) {
   for (const std::string& doubt : loaded.study.model.doubts())
     loaded.notes.push_back("model." + doubt);
+  doubt_angles(loaded);
   doubt_scatter(loaded);
   doubt_bare(loaded);
   doubt_pores(loaded);

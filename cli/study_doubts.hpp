@@ -10,7 +10,7 @@ namespace havers::cli {
 /// Sections that count twice, angles that are not said.
 void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStudy& loaded);
 
-/// Scatter, pores, rate and search, once all specimens are taken.
+/// Angles that hardly differ, scatter, pores, rate and search, once all specimens are taken.
 void doubt_model(bool rate_is_given, LoadedStudy& loaded);
 
 }  // namespace havers::cli

@@ -122,6 +122,19 @@ TEST(Check, SaysWhatAStudyLeavesOutAndTakesTwice) {
   EXPECT_FALSE(fs::exists(folder / "again"));
 }
 
+TEST(Check, SaysWhichAnglesHardlyDiffer) {
+  const fs::path folder = folder_with_tests();
+  const auto noted = [&](const std::string& degrees) {
+    test::write_text(folder / "made/turned.toml",
+                     replaced_once(test::small_study(), "orientation_deg = 0\n",
+                                   "orientation_deg = " + degrees + "\n"));
+    return run_havers(folder, "check made/turned.toml").out;
+  };
+  EXPECT_THAT(noted("89.2"),
+              HasSubstr("orientation_deg of 89.2 (B0) and 90 (B90) count as different"));
+  EXPECT_EQ(noted("86"), "no problems in this study\n");
+}
+
 // What went over the terminal stands in the results too.
 TEST(Fit, LeavesItsNotesOnThePageAndInTheResult) {
   const fs::path folder = folder_with_tests();
