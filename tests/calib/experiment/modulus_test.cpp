@@ -102,7 +102,7 @@ struct Scatter {
 
 // Root mean squares of errors and of standard errors. [Pa]
 Scatter scatter(const TensileTruth& truth, double kept) {
-  constexpr unsigned draws = 200;
+  constexpr unsigned draws = 80;
   const RawTest clean = record(truth);
   Scatter sum;
   const auto add = [](double& squares, double error) { squares += error * error / draws; };

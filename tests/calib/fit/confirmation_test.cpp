@@ -29,6 +29,8 @@ TEST(Confirmation, SaysHowMuchTheLimitDiffersFromTimeStepsAtEachOrientation) {
   Study study = known_study(three_orientations(), 3).study;
   study.calibrate.seed = 1;
   study.calibrate.confirm = 3;
+  study.model.assembly.layers = 5;  // of the 8 x 6 of the truth: steps in time take long
+  study.model.assembly.fibres = 4;
   study.model.solver.step_accuracy = 0.01;  // finer steps take ten times as long
   const CalibrationResult result = calibrate(study);
   ASSERT_EQ(result.confirmations.size(), 3U);
@@ -38,7 +40,7 @@ TEST(Confirmation, SaysHowMuchTheLimitDiffersFromTimeStepsAtEachOrientation) {
     EXPECT_FALSE(one.failed);
     EXPECT_GT(one.strain_rate, 1.0);
     // Along the fibres (S1) the waves of a break break the next joints, once steps are short enough
-    // to see them: 12 to 25 % too early with seeds 1 to 3 and 6 to 11.
+    // to see them: 13 % too early, and 12 to 25 % in larger walls.
     const double earliest = one.specimen == "S1" ? 0.7 : 0.95;
     EXPECT_GE(one.strength_in_time / one.strength_limit, earliest);
     EXPECT_LE(one.strength_in_time / one.strength_limit, 1.05);

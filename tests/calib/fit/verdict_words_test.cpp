@@ -119,6 +119,10 @@ TEST(Verdict, SpeaksOfOneAsOfOne) {
                                .failure_strain_in_time = 1.0});
   const FitProblem problem{.study = study, .unknowns = {}, .fitted = {0, 1}};
   EXPECT_TRUE(says(check_confirmation(problem, one), "1 replicate step by step in time differs"));
+  EXPECT_EQ(check_confirmation(problem, one).outcome, Outcome::pass);
+  one.confirmations.push_back({.failed = true});
+  EXPECT_TRUE(says(check_confirmation(problem, one), "in time 1 more has no answer to be trusted"));
+  EXPECT_EQ(check_confirmation(problem, one).outcome, Outcome::warn);
   Answer answer;
   answer.best.predictions.resize(2);
   answer.best.predictions[0].censored = true;
