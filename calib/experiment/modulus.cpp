@@ -98,7 +98,8 @@ Window clear_of_toe(const Curve& curve, const Window& window, double strength,
                     const ReductionOptions& options) {
   const double high = before_failure * strength;
   const Bend onward = bend_at(curve, window.low, window.high, high);
-  const bool gentle = onward.stiffens() && onward.upper.slope < gentle_toe * onward.lower.slope;
+  const double most = gentle_toe * onward.lower.slope + 3.0 * onward.lower.slope_standard_error;
+  const bool gentle = onward.stiffens() && onward.upper.slope < most;
   if (!gentle || onward.is_straight(options.straightness)) return window;
   const Bend bend = bend_of(curve, window.high, high);
   return bend.is_straight(options.straightness) ? Window{window.high, high, bend, true} : window;

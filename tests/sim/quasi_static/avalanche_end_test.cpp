@@ -65,7 +65,7 @@ TEST(AvalancheEnd, FollowsAvalanchesThatStopAsFarAsTheyDo) {
     scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, wall.ratio);
     scene.joints.scatter = wall.scatter;
     scene.joints.seed = wall.seed;
-    scene.loading.end_fraction = 0.4;  // below where any of them is left, and soon enough
+    scene.loading.end_fraction = 0.4;  // below where any is left
     const Simulation one = simulate(scene);
     scene.solver.leave_out = false;
     const Simulation all = simulate(scene);
