@@ -73,7 +73,7 @@ nlohmann::json write_results(const OutputFolder& output, const io::SceneFile& fi
 // No time without its error. The runs of longer steps were timed too.
 std::string steps_text(const sim::Simulation& run) {
   if (run.regime == sim::Regime::quasi_static) return calib::count(run.steps, "event");
-  const sim::StepError unknown{.failure_strain = NAN, .strength = NAN};
+  const sim::StepError unknown{NAN, NAN, NAN};
   const sim::StepError error = run.step_error.value_or(unknown);
   return fmt::format("{}{}, {}", calib::count(run.steps, "step"),
                      run.step_error ? " after runs of longer ones" : "",
@@ -135,8 +135,8 @@ void print_summary(const sim::Scene& scene, const sim::Simulation& run, double w
   fmt::print("{}\n", headline(run));
   fmt::print("strength       {}\n", strength_text(scene, run));
   if (!std::isnan(run.strength_over_a_wave))
-    fmt::print("over a wave    {:.4g} MPa, the largest mean stress\n",
-               1e-6 * run.strength_over_a_wave);
+    fmt::print("over a wave    {:.4g} MPa{}, the largest mean stress\n",
+               1e-6 * run.strength_over_a_wave, by_step(run.error_beyond_accuracy().over_a_wave));
   fmt::print("modulus        {:.4g} GPa\n", 1e-9 * run.modulus);
   fmt::print("broken joints  {}\n", breaks_text(scene, run));
   fmt::print("regime         {}: {}\n",

@@ -61,8 +61,9 @@ std::string step_in_words(double step) {
 
 namespace {
 // Changes by the last halving of a chosen step that are still trusted. Waves between breaks change
-// the peak of the stress more than its place. [-]
-constexpr StepError largest_step_error{.failure_strain = 1e-2, .strength = 3e-2};
+// the peak of the stress more than its place, and may change it without end where its mean over the
+// time of a wave has settled. [-]
+constexpr double largest_error_of_failure_strain = 1e-2, largest_error_of_strength = 3e-2;
 constexpr const char* instead_of_halving =
     "; a step_s that is shorter still, or the quasi-static regime, may help";
 // Relative defect of (M4) in time steps, and in the quasi-static limit, where pieces that swing by
@@ -95,10 +96,11 @@ std::string Simulation::why_not_trusted() const {
   if (status == SimulationStatus::severed) return "";  // however its pieces lie
   if (step_error && std::isnan(step_error->failure_strain))
     return "the error of the chosen time step is not known: no run of half of it has an answer";
-  if (step_error && step_error->failure_strain > largest_step_error.failure_strain)
+  if (step_error && step_error->failure_strain > largest_error_of_failure_strain)
     return fmt::format("halving the time step still changes the failure strain{}",
                        instead_of_halving);
-  if (step_error && step_error->strength > largest_step_error.strength)
+  if (step_error && step_error->strength > largest_error_of_strength &&
+      !(step_error->over_a_wave <= largest_error_of_strength))
     return fmt::format("halving the time step still changes the strength{}", instead_of_halving);
   if (steps_over_failure(*this))
     return "a time step is longer than a tenth of the time to failure; a shorter step_s shows more";
@@ -120,6 +122,10 @@ std::string Simulation::why_not_trusted() const {
   return std::isfinite(strength) ? "" : explain(SimulationStatus::not_finite);
 }
 
+double Simulation::strength_without_ringing() const {
+  return ringing > 0.0 ? strength / (1.0 + ringing) : strength;
+}
+
 std::string Simulation::reservation() const {
   constexpr double worth_saying = 0.01;
   std::vector<std::string> reservations;
@@ -134,7 +140,7 @@ std::string Simulation::reservation() const {
         fmt::format("the strength: waves that ring, which steps and meshes change, raise it by "
                     "{:.2g} %, from {:.4g} MPa, its mean over the time of one and half the rise in "
                     "that time",
-                    100.0 * ringing, 1e-6 * strength / (1.0 + ringing)));
+                    100.0 * ringing, 1e-6 * strength_without_ringing()));
   // The slope of a stair that a wave climbs by crossing n times errs by up to this over n.
   constexpr double of_a_stair = 0.6;
   if (crossings < 2.0)
@@ -152,7 +158,7 @@ std::string Simulation::reservation() const {
 StepError Simulation::error_beyond_accuracy() const {
   const auto beyond = [&](double error) { return error > step_accuracy ? error : 0.0; };
   const StepError error = step_error.value_or(StepError{});
-  return {.failure_strain = beyond(error.failure_strain), .strength = beyond(error.strength)};
+  return {beyond(error.failure_strain), beyond(error.strength), beyond(error.over_a_wave)};
 }
 
 }  // namespace havers::sim

@@ -67,7 +67,9 @@ struct LeftOut {
 /// Relative changes, NaN when the step was never halved. [-]
 struct StepError {
   double failure_strain = 0.0, strength = 0.0;
+  double over_a_wave = 0.0;  ///< Of `strength_over_a_wave`.
 
+  /// Of the two that a chosen step is to settle.
   [[nodiscard]] double largest() const { return std::max(failure_strain, strength); }
 };
 
@@ -132,6 +134,9 @@ struct Simulation {
   /// The check that does not hold, as a sentence; empty when all do. What helps, where that is
   /// known, stands behind a semicolon.
   [[nodiscard]] std::string why_not_trusted() const;
+  /// The strength without waves that ring, as a testing machine would see it; the strength itself
+  /// in the limit, and where the run was shorter than a wave. [Pa]
+  [[nodiscard]] double strength_without_ringing() const;
   /// What a trusted run is to be trusted but for: a time step that was given, whose error nobody
   /// knows; waves in the strength. Nouns with what is to be said of them, semicolons between; empty
   /// where there is nothing.

@@ -161,10 +161,9 @@ struct Confirmation {
   std::uint64_t seed = 0;
   double strain_rate = 0.0;  ///< Of the simulation in time. [1/s]
   bool failed = true;
-  double strength_limit = 0.0;  ///< [Pa]
-  /// Largest stress, averaged over the time in which a wave goes through the specimen (F21). [Pa]
-  double strength_in_time = 0.0;
-  double peak_in_time = 0.0;                                        ///< With single waves. [Pa]
+  double strength_limit = 0.0;    ///< [Pa]
+  double strength_in_time = 0.0;  ///< Without waves that ring (F21). [Pa]
+  double peak_in_time = 0.0;      ///< With single waves. [Pa]
   double failure_strain_limit = 0.0, failure_strain_in_time = 0.0;  ///< [-]
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "sim/outcome.hpp"
 #include "sim/simulate.hpp"
 
 namespace havers::calib {
@@ -12,7 +11,6 @@ namespace {
 /// One replicate as it was fitted, and the same in time.
 struct RunPair {
   Confirmation names;
-  double transit = 0.0;  // strain that is imposed while a wave goes through the specimen
   sim::Scene still, moving;
 };
 
@@ -30,8 +28,6 @@ std::vector<RunPair> pairs_of(const FitProblem& problem, const Answer& answer) {
     pair.moving.loading.strain_rate *= sim::quasi_static_below / choice.inertia_number;
     pair.moving.solver.regime = sim::Regime::dynamic;
     pair.moving.solver.leave_out = problem.study.model.solver.leave_out;
-    pair.transit =
-        sim::quasi_static_below * pair.still.joints.head_tail / pair.still.material.young;
     pair.names = {.specimen = problem.study.specimens[s].id,
                   .seed = pair.still.joints.seed,
                   .strain_rate = pair.moving.loading.strain_rate};
@@ -57,9 +53,8 @@ std::vector<Confirmation> confirm_in_time(SimulationBatch& batch, const FitProbl
     one.failed = limit[i].failed || in_time[i].failed;
     if (one.failed) continue;
     one.strength_limit = limit[i].strength;
-    one.strength_in_time =
-        sim::largest_mean_stress(in_time[i].strain, in_time[i].stress, pairs[i].transit);
-    one.peak_in_time = in_time[i].strength;
+    one.strength_in_time = in_time[i].strength;
+    one.peak_in_time = *std::ranges::max_element(in_time[i].stress);
     one.failure_strain_limit = limit[i].failure_strain;
     one.failure_strain_in_time = in_time[i].failure_strain;
   }

@@ -13,7 +13,7 @@ struct Response {
   bool broke = false;  ///< false: the strain limit came first, the strength is a lower bound.
   std::string why;
   double modulus = 0.0;         ///< [Pa]
-  double strength = 0.0;        ///< [Pa]
+  double strength = 0.0;        ///< In time without waves that ring, as a machine sees it. [Pa]
   double failure_strain = 0.0;  ///< [-]
   std::vector<double> strain;   ///< Curve. [-]
   std::vector<double> stress;   ///< Curve. [Pa]

@@ -26,7 +26,7 @@ std::optional<Response> response_of(const sim::Simulation& run) {
                                "; with fewer of them or more fibres a chain is left that bears"
                          : run.why_not_trusted();
   response.modulus = run.modulus;
-  response.strength = run.strength;
+  response.strength = run.strength_without_ringing();
   response.failure_strain = run.failure_strain;
   const std::size_t stride = run.curve.size() / rows_kept + 1;
   for (std::size_t i = 0; i < run.curve.size(); ++i) {

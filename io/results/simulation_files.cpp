@@ -15,7 +15,7 @@ nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& sim
                                const calib::Provenance& provenance) {
   nlohmann::json scene = scene_json(file.scene);
   scene["output"]["snapshots"] = file.snapshots;
-  const sim::StepError error = simulation.step_error.value_or(sim::StepError{NAN, NAN});
+  const sim::StepError error = simulation.step_error.value_or(sim::StepError{NAN, NAN, NAN});
   std::vector<sim::LeftOut> left_out = simulation.left_out;
   return {
       {"status", sim::to_string(simulation.status)},
@@ -26,6 +26,7 @@ nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& sim
       {"step_s", json_of(simulation.step)},
       {"step_error", json_of(error.failure_strain)},
       {"step_error_of_strength", json_of(error.strength)},
+      {"step_error_over_a_wave", json_of(error.over_a_wave)},
       {"strength_Pa", json_of(simulation.strength)},
       {"strength_over_a_wave_Pa", json_of(simulation.strength_over_a_wave)},
       {"failure_strain",

@@ -125,7 +125,8 @@ Facts key_numbers(const SimulationReport& report) {
               {"Contact iterations", std::to_string(s.iterations)}};
   if (!std::isnan(s.strength_over_a_wave))
     facts.insert(facts.begin() + 1, {"Largest mean stress over the time of a wave",
-                                     quantity(s.strength_over_a_wave / in::MPa, "MPa")});
+                                     quantity(s.strength_over_a_wave / in::MPa, "MPa") +
+                                         by_step(s.error_beyond_accuracy().over_a_wave)});
   return facts;
 }
 

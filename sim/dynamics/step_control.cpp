@@ -24,7 +24,8 @@ double most_steps(const Simulation& run) {
   return std::max(of_any, of_all_joints / static_cast<double>(run.joints.size() + 1));
 }
 
-constexpr double never_compared = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+constexpr StepError never_compared{not_known, not_known, not_known};
 
 std::string ground_of(const Simulation& run, double accuracy, const std::string& finer_failed) {
   std::string halved;
@@ -41,16 +42,19 @@ std::string ground_of(const Simulation& run, double accuracy, const std::string&
 
 // Half a run tells nothing.
 StepError error_of(const Simulation& finer, const Simulation& coarser) {
-  if (!has_ended(finer)) return {never_compared, never_compared};
-  return {std::abs(finer.failure_strain - coarser.failure_strain) / finer.failure_strain,
-          std::abs(finer.strength - coarser.strength) / finer.strength};
+  if (!has_ended(finer)) return never_compared;
+  const auto change = [](double now, double before) { return std::abs(now - before) / now; };
+  return {change(finer.failure_strain, coarser.failure_strain),
+          change(finer.strength, coarser.strength),
+          change(finer.strength_over_a_wave, coarser.strength_over_a_wave)};
 }
 
 // Of two halvings in turn, where there were two: one alone may change little by chance.
 StepError larger_of(const StepError& change, const StepError& before) {
   if (std::isnan(change.failure_strain)) return change;
   return {std::fmax(change.failure_strain, before.failure_strain),
-          std::fmax(change.strength, before.strength)};
+          std::fmax(change.strength, before.strength),
+          std::fmax(change.over_a_wave, before.over_a_wave)};
 }
 
 // A watcher sees the answer last.
@@ -60,7 +64,7 @@ void show_again(const Scene& scene, Stepping stepping, const Observer& observer,
   const StepError error = *run.step_error;
   stepping.step = run.step;
   run = run_in_steps(scene, stepping, observer, stop_asked);
-  run.step_error = has_ended(run) ? error : StepError{never_compared, never_compared};
+  run.step_error = has_ended(run) ? error : never_compared;
 }
 
 }  // namespace
@@ -96,7 +100,7 @@ Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer,
                                const StopAsked& stop_asked) {
   Stepping stepping{.step = first_step(scene), .leap = may_leap(scene)};
   Simulation run;
-  run.failure_strain = run.strength = never_compared;
+  run.failure_strain = run.strength = not_known;
   std::string finer_failed;
   StepError change{};                  // by the last halving
   int agreed = 0, without_answer = 0;  // in a row

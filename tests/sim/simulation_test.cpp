@@ -70,9 +70,13 @@ TEST(Simulation, IsNotTrustedUnlessItsChecksHold) {
   EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("still changes the failure strain"));
   simulation.step_error = StepError{.strength = 0.025};
   EXPECT_TRUE(simulation.trusted());
-  simulation.step_error = StepError{.strength = 0.035};
+  simulation.step_error = StepError{.strength = 0.035, .over_a_wave = 0.035};
   EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("still changes the strength"));
-  simulation.step_error = StepError{std::numeric_limits<double>::quiet_NaN(), 0.0};
+  simulation.step_error->over_a_wave = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("still changes the strength"));
+  simulation.step_error->over_a_wave = 0.025;
+  EXPECT_TRUE(simulation.trusted()) << "but for waves that ring";
+  simulation.step_error = StepError{.failure_strain = std::numeric_limits<double>::quiet_NaN()};
   EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("not known"));
 }
 

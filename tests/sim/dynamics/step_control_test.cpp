@@ -9,6 +9,7 @@
 #include "sim/bench/watched_run.hpp"
 #include "sim/dynamics/time_stepping.hpp"
 #include "sim/outcome.hpp"
+#include "sim/simulate.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/slow.hpp"
 
@@ -113,6 +114,28 @@ TEST(StepChosen, RingsAfterABreakButLittleInTheMeanOverTheTimeOfAWave) {
   EXPECT_GT(run.strength / limit, 1.05);
   EXPECT_NEAR(run.strength_over_a_wave / limit, 1.0, 0.03);
   EXPECT_NEAR(run.ringing, run.strength / run.strength_over_a_wave - 1.0, 1e-3);
+}
+
+// Single waves after the break, which every step changes by tenths, are no strength; without them
+// the run bears what it bears in the limit.
+TEST(StepChosen, KnowsTheStrengthWithoutWavesWhereStepsChangeThePeak) {
+  HAVERS_SLOW;
+  Scene scene = test::small_scene(60.0, 5, 4);
+  scene.joints.head_tail = 50e6;
+  scene.joints.flank = 10e6;
+  scene.joints.friction = 0.3;
+  scene.joints.scatter = 1.0;
+  scene.joints.seed = 134;
+  const double limit = simulate(scene).strength;
+  scene.loading.strain_rate *= 2e-4 / choose_regime(scene).inertia_number;
+  scene.solver.regime = Regime::dynamic;
+  const Simulation run = simulate(scene);
+  ASSERT_GT(run.step_error.value().strength, 0.03);
+  EXPECT_GT(run.strength / limit, 1.1);
+  EXPECT_LT(run.step_error->over_a_wave, 1e-3);
+  EXPECT_NEAR(run.strength_without_ringing() / limit, 1.0, 2e-3);
+  EXPECT_TRUE(run.trusted()) << run.why_not_trusted();
+  EXPECT_THAT(run.reservation(), testing::HasSubstr("waves that ring"));
 }
 
 // So fast that the stress rises by a fifth while a wave runs through.
