@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "calib/count.hpp"
+#include "calib/experiment/robust_line.hpp"
 #include "calib/fit/model_checks.hpp"
 
 namespace havers::calib {
@@ -72,6 +76,23 @@ WideIntervals wide_intervals(const FitProblem& problem, const CalibrationResult&
   return wide;
 }
 
+// Slope of a curve over its modulus, less 1: the upper half of what lies between the beginning of
+// the modulus's window and nine tenths of the strength.
+std::optional<double> steepening(const MeasuredTest& test) {
+  constexpr double before_failure = 0.9;
+  constexpr std::size_t fewest_rows = 5;
+  const double low = test.modulus * test.window_low, high = before_failure * test.strength;
+  const auto peak = std::ranges::max_element(test.stress);
+  std::vector<double> strain, stress;
+  for (auto row = test.stress.begin(); row != peak; ++row) {
+    if (*row < 0.5 * (low + high) || *row > high) continue;
+    strain.push_back(test.strain[static_cast<std::size_t>(row - test.stress.begin())]);
+    stress.push_back(*row);
+  }
+  if (stress.size() < fewest_rows || !(test.modulus > 0.0)) return std::nullopt;
+  return fit_plain_line(strain, stress).slope / test.modulus - 1.0;
+}
+
 }  // namespace
 
 Check check_bounds(const CalibrationResult& result) {
@@ -114,6 +135,64 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer,
     text += " The intervals of the others hold wherever the specimens allow it to be.";
   const bool doubted = asked || none_fitted || conditional || !wide.empty();
   return {"identifiable", doubted ? doubt : Outcome::pass, text + wide};
+}
+
+// (F25) A strength of the answer below what a test bore is contradicted by it.
+Check check_broke(const FitProblem& problem, const Answer& answer) {
+  constexpr const char* name = "tests broke";
+  constexpr double certain = 3.0;  // standard deviations
+  const std::size_t all = problem.fitted.size();
+  const auto broken = std::ranges::count_if(
+      problem.fitted, [&](std::size_t s) { return !problem.targets[s].censored; });
+  if (broken > 0)
+    return {name, Outcome::pass, fmt::format("{} of {} broke.", broken, count(all, "fitted test"))};
+  std::vector<std::string> stronger;
+  for (std::size_t f = 0; f < all && answer.best.residuals.size() > 0; ++f)
+    if (answer.best.residuals[first_row(f) + strength] < -certain)
+      stronger.push_back(problem.study.specimens[problem.fitted[f]].id);
+  const std::string what =
+      "Every fitted test was stopped before it broke: the strengths are lower bounds, and bound "
+      "the "
+      "joints' thresholds from below only. ";
+  if (stronger.empty())
+    return {name, Outcome::warn,
+            what + "Those of the answer are among many that may be; test up to the break."};
+  return {
+      name, Outcome::fail,
+      what + fmt::format("Those of the answer are too low: {} bore more. Fit head_tail_MPa too, "
+                         "and test up to the break.",
+                         fmt::join(stronger, ", "))};
+}
+
+// (F28) What no single test shows may be plain in all: each window is straight within its noise.
+Check check_toe(const FitProblem& problem, const Answer& answer) {
+  constexpr const char* name = "modulus clear of toes";
+  constexpr double certain = 3.0;  // standard errors
+  const auto found = std::ranges::find_if(
+      answer.active, [&](Eigen::Index k) { return problem.unknown(k).info->name == "young_GPa"; });
+  if (found == answer.active.end() || answer.uncertainty.half_width.size() == 0)
+    return not_checked(name, "young_GPa has no interval.");
+  double n = 0.0, sum = 0.0, squares = 0.0;
+  for (const std::size_t s : problem.fitted)
+    if (const auto part = steepening(problem.study.specimens[s].test)) {
+      ++n;
+      sum += *part;
+      squares += *part * *part;
+    }
+  if (n < 3.0) return not_checked(name, "it takes three tests with rows enough.");
+  const double mean = sum / n, error = std::sqrt((squares / n - mean * mean) / (n - 1.0));
+  const double known_to = answer.uncertainty.half_width[found - answer.active.begin()];
+  if (mean < certain * error || mean < known_to)
+    return {name, Outcome::pass,
+            "Above the windows of the moduli curves are no steeper than the interval of young_GPa "
+            "allows."};
+  return {
+      name, Outcome::warn,
+      fmt::format("Above the windows of the moduli curves are steeper by {} ± {} on average, as "
+                  "after toes that no single test shows: young_GPa is too low by about as much, "
+                  "and its interval, ± {}, does not contain that. Raise reduction.window_low "
+                  "and window_high.",
+                  percent_text(mean), percent_text(error), percent_text(known_to))};
 }
 
 Check check_strain(const FitProblem& problem, const Answer& answer) {

@@ -13,6 +13,13 @@ Check check_bounds(const CalibrationResult& result);
 Check check_identifiable(const FitProblem& problem, const Answer& answer,
                          const CalibrationResult& result);
 
+/// Some test broke; else strengths are bounds, and so are the thresholds (F25).
+Check check_broke(const FitProblem& problem, const Answer& answer);
+
+/// Curves are, above the windows of their moduli, no steeper than the modulus's interval allows
+/// (F28).
+Check check_toe(const FitProblem& problem, const Answer& answer);
+
 /// No modulus that is fitted has the machine's compliance in it (X2).
 Check check_strain(const FitProblem& problem, const Answer& answer);
 

@@ -11,18 +11,19 @@
 namespace havers::calib {
 namespace {
 
-// "A1 (A1_s1.png, A1_s2.png)"; empty where none is in doubt.
-std::string sections_in_doubt(const Specimen& specimen) {
+// "A1 (A1_s1.png, A1_s2.png)"; empty where there is none.
+template <class Doubt>
+std::string sections_in_doubt(const Specimen& specimen, const Doubt& in_doubt) {
   std::vector<std::string> files;
   for (const SectionPorosity& section : specimen.sections)
-    if (section.doubtful) files.push_back(section.file.substr(section.file.rfind('/') + 1));
+    if (in_doubt(section)) files.push_back(section.file.substr(section.file.rfind('/') + 1));
   return files.empty() ? "" : fmt::format("{} ({})", specimen.id, fmt::join(files, ", "));
 }
 
 // What the specimens' porosity does not tell of what a study takes from it.
 struct Untold {
-  std::vector<std::string> doubted, scatter, modulus;  // specimens
-  bool any = false;                                    // has sections, or tells one of these
+  std::vector<std::string> doubted, scaled, scatter, modulus;  // specimens
+  bool any = false;  // has sections, or tells one of these
 };
 
 Untold untold_of(const FitProblem& problem) {
@@ -32,8 +33,13 @@ Untold untold_of(const FitProblem& problem) {
     const Specimen& specimen = problem.study.specimens[s];
     const SpecimenModel& model = problem.models[s];
     const bool known = std::isfinite(model.porosity);
-    if (std::string doubt = sections_in_doubt(specimen); !doubt.empty())
-      found.doubted.push_back(std::move(doubt));
+    const auto collect = [&](std::vector<std::string>& all, const auto& in_doubt) {
+      if (std::string doubt = sections_in_doubt(specimen, in_doubt); !doubt.empty())
+        all.push_back(std::move(doubt));
+    };
+    collect(found.doubted, [](const SectionPorosity& section) { return section.doubtful; });
+    if (laws.to_scatter == ToScatter::window)
+      collect(found.scaled, [](const SectionPorosity& one) { return !pores_may_be_canals(one); });
     if (laws.to_scatter != ToScatter::none && !model.scatter_told)
       found.scatter.push_back(specimen.id);
     if (laws.to_modulus != ToModulus::none && !known) found.modulus.push_back(specimen.id);
@@ -64,6 +70,11 @@ Check check_sections(const FitProblem& problem) {
         "model takes from it may be off by more than any error here says. Mend what the warnings "
         "name, or leave these sections out.",
         fmt::join(found.doubted, ", ")));
+  if (!found.scaled.empty())
+    sentences.push_back(fmt::format(
+        "Pores are too narrow or too wide for canals in bone (10 to 500 µm) in sections of {}, and "
+        "the scatter that the model takes from them goes with their size: is pixel_size_um right?",
+        fmt::join(found.scaled, ", ")));
   if (!found.scatter.empty())
     sentences.push_back(
         fmt::format("Nothing tells the scatter of {}: it is taken to be {:g} "

@@ -143,7 +143,9 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_starts(problem, answer));
   checks.push_back(check_bounds(result));
   checks.push_back(check_identifiable(problem, answer, result));
+  checks.push_back(check_broke(problem, answer));
   checks.push_back(check_strain(problem, answer));
+  checks.push_back(check_toe(problem, answer));
   checks.push_back(check_orientations(problem, answer));
   checks.push_back(check_sections(problem));
   checks.push_back(check_porosity(problem, answer));

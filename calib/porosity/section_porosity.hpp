@@ -1,7 +1,9 @@
 // The porosity of one section, as measured on an image. Filled by io/images.
 #pragma once
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -56,6 +58,19 @@ struct SectionPorosity {
   std::vector<std::string> warnings;
   bool doubtful = false;  ///< Whether a warning doubts the porosity itself.
 };
+
+/// Diameter of the pore that a point in pores lies in on average, as a circle of a*. [m]
+inline double usual_pore_diameter(const SectionPorosity& section) {
+  return std::sqrt(section.pore_area_ratio * 4.0 / std::numbers::pi);
+}
+
+/// Whether pores are as wide as canals in bone are, or of unknown size; else the pixel size is
+/// mostly wrong.
+inline bool pores_may_be_canals(const SectionPorosity& section) {
+  constexpr double narrowest = 10e-6, widest = 500e-6;  // [m]
+  const double diameter = usual_pore_diameter(section);
+  return !(diameter > 0.0) || (diameter >= narrowest && diameter <= widest);
+}
 
 /// How many of a section's bone pixels are how deep; the depth is 0 in bone and 1 in pores.
 struct DepthHistogram {

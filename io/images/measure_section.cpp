@@ -35,6 +35,15 @@ void warn_of_scale(const io::SectionOptions& options, Warnings& warnings) {
                     *options.pixel_size * 1e6, options.window_height * 1e6));
 }
 
+// Not a doubt about the porosity, which no pixel size changes.
+void warn_of_canals(const calib::SectionPorosity& section, Warnings& warnings) {
+  if (!calib::pores_may_be_canals(section))
+    warnings.push_back(
+        fmt::format("pores are {:.2g} µm wide (mean by area), unlike canals in bone (10 to 500 "
+                    "µm): is the pixel size, {:g} µm, right?",
+                    1e6 * calib::usual_pore_diameter(section), 1e6 * section.pixel_size));
+}
+
 void warn_of_bone(const PoreMap& map, bool outlined, cv::Size image,
                   const io::SectionOptions& options, Warnings& warnings) {
   if (options.mask || options.fills_image) return;
@@ -242,6 +251,7 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
   warn_of_side(map, !regions.outlined || map.dark == regions.dark_pores, options.pores, doubts);
   warn_of_size(map, measured.porosity, doubts);
   warn_of_objects(map, doubts, warnings);
+  warn_of_canals(measured.porosity, warnings);
   if (!options.density.empty() && std::isnan(measured.porosity.density))
     warnings.emplace_back(
         "density stays unknown: nowhere is bone two pixels from its surface, pores and cracks");

@@ -120,5 +120,21 @@ TEST(Bound, SaysWhichStrengthsChiSquaredIsWithout) {
       << check.text;
 }
 
+// Nothing bounds the thresholds from above; those of an answer that breaks earlier are wrong.
+TEST(Bound, SaysThatStoppedTestsBoundThresholdsFromBelowOnly) {
+  Study study = test::synthetic_study({0.0, 90.0});
+  EXPECT_TRUE(test::says(test::check_of(test::fit(study), "tests broke"), "4 of 4 fitted tests"));
+  for (Specimen& specimen : study.specimens) specimen.broke = false;
+  const Check open = test::check_of(test::fit(study), "tests broke");
+  EXPECT_EQ(open.outcome, Outcome::warn);
+  EXPECT_TRUE(
+      test::says(open, "joints' thresholds from below only. Those of the answer are among"));
+  study.calibrate.parameters = {"young_GPa"};
+  study.model.joints.head_tail = 20e6;
+  const Check weak = test::check_of(test::fit(study), "tests broke");
+  EXPECT_EQ(weak.outcome, Outcome::fail);
+  EXPECT_TRUE(test::says(weak, "are too low: S1, S2, S3, S4 bore more")) << weak.text;
+}
+
 }  // namespace
 }  // namespace havers::calib

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/support/studies.hpp"
 
@@ -42,6 +43,23 @@ TEST(Verdict, WarnsOfSectionsWhosePorosityIsInDoubt) {
   EXPECT_FALSE(check().done);
   study.porosity.to_modulus = ToModulus::power;
   EXPECT_EQ(check().outcome, Outcome::warn);
+}
+
+// Canals in bone are 10 to 500 µm wide; the scatter by windows goes with the pixels' size.
+TEST(Verdict, WarnsOfPoresThatNoCanalHas) {
+  Study study = porous_study();
+  const auto check = [&] { return check_sections(make_problem(study)); };
+  study.porosity.to_scatter = ToScatter::window;
+  for (const double wide : {60e-6, 6e-6, 600e-6}) {
+    for (Specimen& specimen : study.specimens)
+      specimen.sections = {{.file = "one.png",
+                            .porosity = *specimen.porosity,
+                            .pore_area_ratio = 0.25 * std::numbers::pi * wide * wide}};
+    EXPECT_EQ(check().outcome, wide == 60e-6 ? Outcome::pass : Outcome::warn) << check().text;
+    EXPECT_EQ(says(check(), "in sections of S1 (one.png), S2 (one.png)"), wide != 60e-6);
+  }
+  study.porosity.to_scatter = ToScatter::linear;  // by the porosity alone
+  EXPECT_EQ(check().outcome, Outcome::pass) << check().text;
 }
 
 // Beside others they have the scatter of the study's model, and the modulus of bone without pores.

@@ -77,6 +77,17 @@ TEST(SectionDoubt, WarnsWhereItsPixelsAreCoarserThanTheFibre) {
   EXPECT_TRUE(warns(measured, "larger than the fibre's height"));
 }
 
+TEST(SectionDoubt, WarnsOfPoresThatNoCanalHas) {
+  const auto drawn = test::draw({.largest_radius = 20.0});
+  EXPECT_FALSE(warns(measure(drawn, "sound.png", {.pixel_size = 2e-6}), "unlike canals"));
+  for (const double wrong : {0.1e-6, 40e-6}) {
+    const auto measured = measure(drawn, "scaled.png", {.pixel_size = wrong});
+    EXPECT_TRUE(warns(measured, "unlike canals in bone (10 to 500 µm): is the pixel size"))
+        << wrong;
+    EXPECT_FALSE(measured.doubtful);
+  }
+}
+
 TEST(SectionDoubt, WarnsOfAPoreThatMayBeMarrow) {
   auto drawn = test::draw({.porosity = 0.0});
   cv::circle(drawn.image, {350, 300}, 70, 51, cv::FILLED);
