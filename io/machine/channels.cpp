@@ -86,6 +86,11 @@ double factor(const Column& column, const std::string& where, const ReadOptions&
   if (column.quantity == Quantity::strain && unit->dimension == Dimension::length) {
     const std::optional<double> length = gauge_length_of(test, options);
     if (!length) throw without_gauge_length(where, column);
+    if (!test.extensometer_length && !options.gauge_length)
+      test.warnings.push_back(fmt::format(
+          "column \"{}\" is an elongation, divided by the gauge length, {:g} mm: of an "
+          "extensometer of another length the strain is wrong (gauge_length_mm says it)",
+          column.name, *length * 1e3));
     return unit->to_si / *length;
   }
   return unit->to_si;
@@ -118,6 +123,30 @@ std::string other_choice(const TestFile& file, std::size_t taken, std::size_t ot
       column_setting(options, to_string(key_of(column.quantity)), std::to_string(other + 1)));
 }
 
+// The one other gauge of the same kind; of three or more none tells which face it is on, and
+// beside a second load it is another bar's.
+std::optional<std::size_t> second_gauge(const TestFile& file,
+                                        const std::vector<Candidate>& candidates,
+                                        const ReadOptions& options, const Chosen& chosen) {
+  const auto first = chosen.find(Quantity::strain);
+  if (first == chosen.end() || options.columns.contains(Quantity::strain)) return std::nullopt;
+  const std::size_t i = first->second;
+  std::vector<std::size_t> found;
+  for (std::size_t k = 0; k < candidates.size(); ++k)
+    if (k != i && candidates[k].quantity == Quantity::strain && candidates[i].rank != in_doubt &&
+        candidates[k].rank == candidates[i].rank &&
+        dimension_of(file.columns[k]) == dimension_of(file.columns[i]) &&
+        are_alike(file.columns[k].name, file.columns[i].name))
+      found.push_back(k);
+  std::vector<std::size_t> loads;
+  for (std::size_t k = 0; k < candidates.size(); ++k)
+    if (candidates[k].quantity == Quantity::force) loads.push_back(k);
+  const bool two_bars = std::ranges::any_of(loads, [&](std::size_t k) {
+    return are_alike(file.columns[k].name, file.columns[loads.front()].name);
+  });
+  return found.size() == 1 && !two_bars ? std::optional(found.front()) : std::nullopt;
+}
+
 // The best columns first; a second column of a quantity is not used, and that is said unless the
 // user has chosen.
 void choose(TestFile& file, const std::vector<Candidate>& candidates, const ReadOptions& options,
@@ -136,7 +165,9 @@ void choose(TestFile& file, const std::vector<Candidate>& candidates, const Read
             fmt::format("column \"{}\" is an elongation, and the gauge length is unknown: not used",
                         column.name));
       else if (const auto [first, fresh] = chosen.try_emplace(column.quantity, i);
-               !fresh && !hinted.contains(column.quantity))
+               !fresh && !hinted.contains(column.quantity) &&
+               (column.quantity != Quantity::strain ||
+                second_gauge(file, candidates, options, chosen) != i))
         file.test.warnings.push_back(other_choice(file, first->second, i, options));
     }
   }
@@ -210,6 +241,9 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   for (const auto& [quantity, column] : chosen)
     channels.push_back({quantity, table.first_column + column, column,
                         signed_factor(file.columns[column], where, options, file.test)});
+  if (const auto i = second_gauge(file, candidates, options, chosen))
+    channels.push_back({Quantity::strain, table.first_column + *i, *i,
+                        signed_factor(file.columns[*i], where, options, file.test), true});
   return channels;
 }
 

@@ -146,7 +146,8 @@ Number parse_lone_number(std::string_view cell) {
 }
 
 std::string_view without_half_day(std::string_view cell) {
-  for (const std::string_view half : {"AM", "PM", "am", "pm"}) {
+  for (const std::string_view half :
+       {"AM", "PM", "am", "pm", "a.m.", "p.m.", "a. m.", "p. m.", "A.M.", "P.M."}) {
     if (cell.size() <= half.size() || !cell.ends_with(half)) continue;
     cell.remove_suffix(half.size());
     if (cell.ends_with(' ')) cell.remove_suffix(1);
@@ -183,7 +184,7 @@ Number parse_time_of_day(std::string_view cell) {
 Number parse_clock(std::string_view cell) {
   constexpr double half_day = 43200.0;
   if (const std::string_view hours = without_half_day(cell); hours.size() < cell.size()) {
-    const bool afternoon = cell[cell.size() - 2] == 'P' || cell[cell.size() - 2] == 'p';
+    const bool afternoon = cell.find_first_of("Pp", hours.size()) != std::string_view::npos;
     Number time = parse_time_of_day(hours);
     if (time.value >= half_day + 3600.0 || time.value < 3600.0) time.fault = NumberFault::text;
     time.value = std::fmod(time.value, half_day) + (afternoon ? half_day : 0.0);

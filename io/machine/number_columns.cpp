@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -67,7 +68,7 @@ bool take_cells(const Row& row, char decimal, SpecimenColumns& specimen,
                       number.fault);
     };
     if (is_no_reading_of(channel, cell, number.fault)) {
-      if (!specimen.lost) specimen.lost = complaint();
+      if (!specimen.lost && !channel.second_gauge) specimen.lost = complaint();
       specimen.values[i].push_back(std::numeric_limits<double>::quiet_NaN());
       continue;
     }
@@ -75,7 +76,8 @@ bool take_cells(const Row& row, char decimal, SpecimenColumns& specimen,
       problems.push_back(complaint());
       return false;
     }
-    if (channel.quantity == Quantity::strain) take_reading(specimen, problems);
+    if (channel.quantity == Quantity::strain && !channel.second_gauge)
+      take_reading(specimen, problems);
     specimen.values[i].push_back(number.value);
   }
   return true;
@@ -128,10 +130,15 @@ void take_numbers(const Row& row, char decimal, std::span<SpecimenColumns> side_
 
 Problem bad_cell(const TestFile& file, std::size_t line, const Column& column,
                  std::string_view cell, NumberFault fault) {
+  const bool clock = column.quantity == Quantity::time && !cell.empty() &&
+                     std::isdigit(static_cast<unsigned char>(cell.front())) != 0 &&
+                     cell.find(':') != std::string_view::npos;
   return {
       at_line(file.file, line),
       fmt::format(R"(column "{}": "{}" {})", excerpt(column.name), excerpt(cell), to_string(fault)),
-      fault == NumberFault::empty ? "export all channels at one rate, or leave the row out" : ""};
+      fault == NumberFault::empty ? "export all channels at one rate, or leave the row out"
+      : clock                     ? "a clock's time is 10:00:01, or 1:00:01 PM"
+                                  : ""};
 }
 
 }  // namespace havers::io

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <utility>
 
+#include "calib/experiment/gauge_pair.hpp"
 #include "calib/experiment/lost_gauge.hpp"
+#include "io/machine/column_hints.hpp"
 #include "io/machine/excerpt.hpp"
 #include "io/machine/fact_names.hpp"
 #include "io/machine/facts.hpp"
@@ -60,6 +62,18 @@ void take_given_sizes(const ReadOptions& options, calib::RawTest& test) {
   test.width = options.width;
   test.thickness = options.thickness;
   test.gauge_length = options.gauge_length;
+}
+
+// What was made of a second gauge, and how one is taken alone.
+void join_second_gauge(TestFile& file, std::span<const Channel> channels,
+                       const std::vector<double>& values, const ReadOptions& options) {
+  const std::size_t i = std::ranges::find(channels, Quantity::strain, &Channel::quantity)->in_file,
+                    k = channels.back().in_file;
+  const std::string &a = file.columns[i].name, &b = file.columns[k].name;
+  file.test.warnings.push_back(
+      fmt::format(R"(columns "{}" and "{}" both hold strain: {} ({} or {} takes one alone))", a, b,
+                  calib::join_gauge_pair(file.test, values, a, b),
+                  column_setting(options, "strain", std::to_string(i + 1)), k + 1));
 }
 
 }  // namespace
@@ -215,8 +229,11 @@ std::vector<TestFile> SpecimenTables::take() {
   std::vector<TestFile> files;
   for (SpecimenColumns& specimen : specimens_) {
     TestFile& file = specimen.file;
+    const bool pair = !specimen.channels.empty() && specimen.channels.back().second_gauge;
     for (std::size_t i = 0; i < specimen.channels.size(); ++i)
-      file.test.*info_of(specimen.channels[i].quantity).channel = std::move(specimen.values[i]);
+      if (!specimen.channels[i].second_gauge)
+        file.test.*info_of(specimen.channels[i].quantity).channel = std::move(specimen.values[i]);
+    if (pair) join_second_gauge(file, specimen.channels, specimen.values.back(), options_);
     if (const std::string problem = calib::mend_lost_gauge(file.test); !problem.empty())
       throw InputError(file.file, problem, "give all rows a strain, or leave them out");
     file.rows = file.test.rows();

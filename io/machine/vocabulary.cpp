@@ -146,6 +146,21 @@ bool is_of_sensor(std::string_view name) {
   return contains_any(text, sensor_words) || contains_any(text, sensor_alone, Match::alone);
 }
 
+bool are_alike(std::string_view one, std::string_view other) {
+  const std::string a = lower(one), b = lower(other);
+  if (a == b) return false;
+  const auto both = [&](std::string_view word, Match match) {
+    return contains(a, word, match) && contains(b, word, match);
+  };
+  const auto undigited = [](std::string text) {
+    std::erase_if(text, [](char c) { return c >= '0' && c <= '9'; });
+    return text;
+  };
+  return undigited(a) == undigited(b) ||
+         std::ranges::any_of(sensor_words, [&](auto w) { return both(w, Match::anywhere); }) ||
+         std::ranges::any_of(sensor_alone, [&](auto w) { return both(w, Match::alone); });
+}
+
 bool counts_compression(std::string_view name) {
   const std::string text = lower(name);
   return contains_any(text, compression_words) && !contains_any(text, tension_words);

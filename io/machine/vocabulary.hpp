@@ -19,6 +19,10 @@ bool is_no_reading(std::string_view name);
 /// Whether the name speaks of a sensor of its own: a gauge, an extensometer, a load cell.
 bool is_of_sensor(std::string_view name);
 
+/// Whether two names are those of sensors of one kind, or differ in digits only: "SG1" and "SG2",
+/// "Gauge left" and "Gauge right".
+bool are_alike(std::string_view one, std::string_view other);
+
 /// Whether the name says that the column counts compression: "Compressive load", "Druckkraft".
 bool counts_compression(std::string_view name);
 

@@ -91,6 +91,8 @@ TEST(ParseClock, ReadsTheTwoHalvesOfADay) {
   EXPECT_EQ(parse_clock("5/1/2026 1:00:01.5 pm").value, 46801.5);
   EXPECT_EQ(parse_clock("12:00:01AM").value, 1.0);
   EXPECT_EQ(parse_clock("12:00:01 PM").value, 43201.0);
+  EXPECT_EQ(parse_clock("10:00:01 a.m.").value, 36001.0);
+  EXPECT_EQ(parse_clock("1:00:01 p. m.").value, 46801.0);
   for (const char* cell : {"PM", " PM", "13:00:01 PM", "0:00:01 AM", "12:01.5 PM"})
     EXPECT_EQ(parse_clock(cell).fault, NumberFault::text) << cell;
 }
