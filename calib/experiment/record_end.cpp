@@ -90,17 +90,33 @@ struct Fall {
 // What a load cell shows that holds nothing any more is its offset, as one has that was zeroed with
 // the specimen in the grips.
 std::string offset_after(const Fall& fall, std::size_t row, double strength) {
-  constexpr std::size_t enough_rows = 5;
-  constexpr double least = 0.025, steady = 0.01;  // of the strength
+  constexpr std::size_t fewest_rows = 3, enough_rows = 5;
+  constexpr double steady = 0.01;  // of the strength
   const std::span<const double> rest = fall.stress.subspan(row + (fall.stress.size() - row) / 2);
-  if (rest.size() < enough_rows) return {};
+  if (rest.size() < fewest_rows) return {};
   const auto [low, high] = std::ranges::minmax(rest);
   const double middle = 0.5 * (low + high);
+  const double least = rest.size() < enough_rows ? 0.03 : 0.025;  // of the strength
   if (high - low > steady * strength || std::abs(middle) < least * strength) return {};
   return fmt::format(
       "after the break the load stays at {:.3g} MPa, {:.1f} % of the strength: if the load cell "
       "was not zeroed without the specimen, the strength is wrong by that",
       middle * 1e-6, 100.0 * middle / strength);
+}
+
+// Rows that are missing where the specimen parts may have held a larger stress.
+std::string gap_before(const Fall& fall, std::size_t row, double strength) {
+  constexpr double steps = 5.0, least = 0.02;  // of those before; of the strength
+  if (fall.time.empty() || row >= fall.stress.size() || row < 3 * held_rows) return {};
+  const std::size_t last = row - 1, first = last - 2 * held_rows;
+  const double gap = fall.at(row) - fall.at(last), before = fall.at(last) - fall.at(first);
+  const double missed = gap / before * (fall.stress[last] - fall.stress[first]);
+  if (!(gap > steps * before / (2 * held_rows)) || missed < least * strength) return {};
+  return fmt::format(
+      "{:.3g} s without a row lie before the break, in which the stress may have risen by {:.3g} "
+      "MPa "
+      "more: the strength may be too low by as much",
+      gap, missed * 1e-6);
 }
 
 RecordEnd parted_at(const Fall& fall, std::size_t row) {
@@ -115,6 +131,8 @@ RecordEnd parted_at(const Fall& fall, std::size_t row) {
         fall.part, count(again, "row")));
   if (std::string offset = offset_after(fall, row, strength); !offset.empty())
     end.warnings.push_back(std::move(offset));
+  if (std::string gap = gap_before(fall, row, strength); !gap.empty())
+    end.warnings.push_back(std::move(gap));
   return end;
 }
 
@@ -221,6 +239,28 @@ std::string jump_of_stress(const MeasuredTest& test) {
       "the stress jumps from {:.4g} to {:.4g} MPa between two rows: if that is a fault of the "
       "record, the strength may be wrong",
       loading[steepest - 1] * 1e-6, loading[steepest] * 1e-6);
+}
+
+std::string drop_of_stress(const MeasuredTest& test) {
+  constexpr double smallest = 0.1, back = 0.02;
+  const std::size_t peak = largest_row(test.stress);
+  const double least = std::max(smallest * test.stress[peak], 10.0 * test.strength_standard_error);
+  std::size_t top = 0, deepest = 0;
+  double drop = least;
+  for (std::size_t row = 1; row + held_rows <= peak; ++row) {
+    if (test.stress[row] > test.stress[top]) top = row;
+    const double held = std::ranges::max(std::span(test.stress).subspan(row, held_rows));
+    const bool stretched =
+        test.strain[row] > test.strain[top] - back * (test.strain[peak] - test.strain.front());
+    if (test.stress[top] - held <= drop || !stretched) continue;
+    drop = test.stress[top] - held;
+    deepest = top;
+  }
+  if (drop <= least) return {};
+  return fmt::format(
+      "the stress falls by {:.3g} MPa at {:.4g} MPa and grows again, while the strain does not go "
+      "back: if the specimen slid in its grips, the failure strain is too large by that",
+      drop * 1e-6, test.stress[deepest] * 1e-6);
 }
 
 }  // namespace havers::calib

@@ -26,4 +26,7 @@ RecordEnd end_of_record(const MeasuredTest& test, std::span<const double> crossh
 /// (X21) Where the stress jumps on its way to the largest; empty where it does not.
 std::string jump_of_stress(const MeasuredTest& test);
 
+/// (X21) Where the stress falls on its way, and the strain not with it; empty where it does not.
+std::string drop_of_stress(const MeasuredTest& test);
+
 }  // namespace havers::calib

@@ -65,8 +65,8 @@ void find_strength(const RawTest& raw, MeasuredTest& test) {
   test.strength = test.stress[row_of_strength(test)];
   if (!raw.force.empty())
     test.max_force = std::ranges::max(std::span(raw.force).first(test.stress.size()));
-  if (std::string jump = jump_of_stress(test); !jump.empty())
-    test.warnings.push_back(std::move(jump));
+  for (std::string doubt : {jump_of_stress(test), drop_of_stress(test)})
+    if (!doubt.empty()) test.warnings.push_back(std::move(doubt));
 }
 
 // Why no line goes through the rows of the window: they are too few, or all of one strain.
