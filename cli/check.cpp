@@ -35,7 +35,7 @@ Findings look_at(const std::filesystem::path& file, const io::Overrides& overrid
     findings.kind = io::kind_of_file(file, overrides);
     switch (*findings.kind) {
       case io::FileKind::study:
-        findings.warnings = load_study(file, overrides).all_notes();
+        findings.warnings = load_study(file, overrides, &findings.warnings).all_notes();
         break;
       case io::FileKind::sweep:
         findings.warnings = io::read_sweep(file, overrides).warnings;
@@ -71,8 +71,8 @@ int run_check(const std::filesystem::path& file, const CommonOptions& common) {
     print_json(file, findings);
     return findings.problems.empty() ? done : bad_input;
   }
-  if (!findings.problems.empty()) throw io::InputError(findings.problems);
   for (const std::string& warning : findings.warnings) fmt::print("note: {}\n", warning);
+  if (!findings.problems.empty()) throw io::InputError(findings.problems);
   const std::size_t notes = findings.warnings.size();
   fmt::print("no problems in this {}{}\n", io::name_of(*findings.kind),
              notes == 0 ? "" : ", " + calib::count(notes, "note"));

@@ -123,6 +123,9 @@ Outcome load_specimen(const calib::Specimen& declared, const io::SpecimenFiles& 
   read_specimen(files, study.reduction, outcome);
   if (sound && outcome.problems.empty() && outcome.rejections.empty())
     reduce(files, study.reduction, outcome);
+  else
+    for (const std::string& warning : outcome.record.raw.warnings)
+      outcome.warnings.push_back(files.test.string() + ": " + warning);
   if (!can_be_measured(files, study)) return outcome;
   io::SectionOptions options = study.sections;
   options.pixel_size = files.pixel_size;
@@ -160,6 +163,7 @@ void doubt_tests(const std::vector<io::SpecimenFiles>& specimens,
   std::map<std::pair<std::filesystem::path, std::size_t>, std::string> tests;
   for (std::size_t i = 0; i < specimens.size(); ++i) {
     const io::SpecimenFiles& files = specimens[i];
+    if (outcomes[i].record.raw.rows() == 0) continue;  // not read
     const auto [earlier, fresh] =
         tests.try_emplace({files.test, outcomes[i].number_in_file}, files.id);
     if (!fresh)
@@ -183,6 +187,14 @@ void doubt_names(const std::vector<io::SpecimenFiles>& specimens,
   }
 }
 
+// What is known whether the study is sound or not.
+std::vector<std::string> notes_of(const LoadedStudy& loaded, const std::vector<Outcome>& outcomes) {
+  std::vector<std::string> notes = loaded.notes;
+  for (const Outcome& outcome : outcomes)
+    notes.insert(notes.end(), outcome.warnings.begin(), outcome.warnings.end());
+  return notes;
+}
+
 // Rejections are problems where they leave nothing to fit.
 void require_specimens(const LoadedStudy& loaded, const std::filesystem::path& file) {
   const bool some = std::ranges::any_of(
@@ -203,7 +215,8 @@ std::vector<std::string> LoadedStudy::all_notes() const {
   return all;
 }
 
-LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& overrides) {
+LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& overrides,
+                       std::vector<std::string>* known) {
   std::vector<io::Problem> problems;
   io::StudyFile read = io::read_study(file, overrides, problems);
   const bool sound = problems.empty();
@@ -213,7 +226,6 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   });
 
   for (const Outcome& outcome : outcomes) collect(problems, outcome.problems);
-  if (!problems.empty()) throw io::InputError(std::move(problems));
 
   LoadedStudy loaded;
   loaded.study = std::move(read.study);
@@ -223,6 +235,8 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   doubt_specimens(read.specimens, loaded);
   doubt_tests(read.specimens, outcomes, loaded);
   doubt_names(read.specimens, outcomes, loaded);
+  if (known != nullptr) *known = notes_of(loaded, outcomes);
+  if (!problems.empty()) throw io::InputError(std::move(problems));
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     take_specimen(read.specimens[i], std::move(outcomes[i]), loaded);
   require_specimens(loaded, file);

@@ -36,7 +36,8 @@ struct LoadedStudy {
 
 /// Reads a study, its tests and its sections, the specimens in parallel. A test that cannot be
 /// reduced, or that quality control rejects, is left out. @throws io::InputError with the problems
-/// of all files together, or why no specimen can be fitted.
-LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& overrides);
+/// of all files together, or why no specimen can be fitted; `known` then has the notes so far.
+LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& overrides,
+                       std::vector<std::string>* known = nullptr);
 
 }  // namespace havers::cli

@@ -64,7 +64,7 @@ toml::table parse_override(const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string key = text.substr(0, equals);
   const std::string source = std::string(override_mark) + key;
-  if (equals == std::string::npos)
+  if (text.find_first_not_of(" \t", std::min(equals, text.size() - 1) + 1) == std::string::npos)
     throw InputError(source, "has no value", "write --set joints.scatter=0.3");
   try {
     return toml::parse(text, source);

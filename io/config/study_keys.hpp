@@ -78,6 +78,7 @@ void keys(Table& table, calib::ReductionOptions& options) {
 /// A name, or a number that stands for one.
 template <class Table>
 bool name_or_number(Table& table, const std::string& key, std::string& name) {
+  if (!table.is_name_or_number(key)) return false;
   if (!table.has(key) || table.is_text(key)) return table.key(key, name);
   int number = 0;
   const bool given = table.key(key, number);
@@ -105,6 +106,7 @@ void keys(Table& table, ReadOptions& options) {
 template <class Table>
 void specimen_in_file(Table& table, ReadOptions& options) {
   const char* key = "specimen_in_file";
+  if (!table.is_name_or_number(key)) return;
   if (table.is_text(key))
     table.key(key, options.specimen);
   else

@@ -62,6 +62,12 @@ bool TableReader::is_text(std::string_view name) const {
   return has(name) && table_->get(name)->is_string();
 }
 
+bool TableReader::is_name_or_number(std::string_view name) {
+  const toml::node* node = ask(name);
+  if (node == nullptr || node->is_string() || node->is_number()) return true;
+  return wrong_type(name, *node, "a text, its name, or a whole number, which it is");
+}
+
 const toml::node* TableReader::ask(std::string_view name) {
   file_->asked_[path_].emplace(name);
   return table_ == nullptr ? nullptr : table_->get(name);

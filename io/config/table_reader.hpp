@@ -80,6 +80,8 @@ class TableReader {
   [[nodiscard]] bool has(std::string_view name) const;
   /// Whether the key holds a text, for keys that take a text or something else.
   [[nodiscard]] bool is_text(std::string_view name) const;
+  /// Complains of a key that holds neither a text nor a number.
+  bool is_name_or_number(std::string_view name);
   /// A complaint about a key, dotted where it is of an inner table; it need not be in the file.
   void complain(std::string_view name, std::string what, std::string hint = {});
   void complain(const std::vector<Problem>& problems);  ///< Of a file that is named here.

@@ -31,6 +31,8 @@ void check_file(const std::filesystem::path& file) {
     throw io::InputError(file.string(), "is a folder, not an image", "name the images in it");
   if (!std::ifstream(file))
     throw io::InputError(file.string(), std::string("cannot be read: ") + std::strerror(errno));
+  if (!std::filesystem::is_regular_file(file, error))
+    throw io::InputError(file.string(), "is a device, not an image", "name an image's file");
   if (std::filesystem::file_size(file) == 0)
     throw io::InputError(file.string(), "is an empty file", "export the image again");
 }

@@ -50,6 +50,12 @@ class Columns {
 
   bool find_columns(const Row& header) {
     cells_ = header.cells.size();
+    if (cells_ == 1 && header.cells[0].find_first_of(";\t|") != std::string_view::npos) {
+      problems_.push_back({at_line(file_, header.line),
+                           fmt::format("has one column, \"{}\"", excerpt(header.cells[0])),
+                           "separate cells by commas, and write decimals with a point"});
+      return false;
+    }
     for (const std::string& name : names_) {
       const auto found = std::ranges::find(header.cells, name);
       if (found == header.cells.end())

@@ -205,6 +205,17 @@ TEST(Check, TellsTheProblemsOfAllStagesAtOnce) {
   EXPECT_EQ(std::ranges::count(answer.err, '\n'), 6) << answer.err;
 }
 
+TEST(Check, TellsDoubtsBesideProblems) {
+  const fs::path folder = folder_with_tests();
+  const auto answer = run_havers(folder,
+                                 "check made/study.toml --set calibrate.local=sbplx --set "
+                                 "calibrate.bounds.friction=[0.1,0.5]");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("calibrate.local: is not a known key"));
+  EXPECT_EQ(answer.out,
+            "note: calibrate.bounds.friction changes nothing: friction is not fitted\n");
+}
+
 TEST(Import, TakesOneOfSeveralSpecimensByNameOrNumber) {
   const fs::path folder = own_folder();
   std::string text;

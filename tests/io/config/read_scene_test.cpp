@@ -290,8 +290,9 @@ TEST_F(ReadScene, BlamesTheCommandLineForWhatItOverrides) {
               ElementsAre("--set joints.seed: is 18446744073709551615, must be at most 2^63 - "
                           "1"));
   EXPECT_THAT(complaints("[joints]\n", {"joints.seed=9223372036854775807"}), ElementsAre());
-  EXPECT_THAT(complaints("[joints]\n", {"joints.scatter", "=3"}),
+  EXPECT_THAT(complaints("[joints]\n", {"joints.scatter", "joints.seed= ", "=3"}),
               ElementsAre("--set joints.scatter: has no value (write --set joints.scatter=0.3)",
+                          "--set joints.seed: has no value (write --set joints.scatter=0.3)",
                           HasSubstr("--set : is not TOML")));
 }
 

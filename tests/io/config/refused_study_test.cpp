@@ -79,6 +79,13 @@ TEST_F(RefusedStudy, NamesFoldersAndNamesThatNoFileHas) {
                 ElementsAre(testing::HasSubstr("must be usable as a file's name")));
 }
 
+TEST_F(RefusedStudy, NamesTheTwoWaysToSayWhich) {
+  for (const char* key : {"specimen_in_file", "columns.force"})
+    EXPECT_THAT(complaints(one_specimen + key + " = true\n"),
+                ElementsAre(testing::EndsWith("is true or false, must be a text, its name, or a "
+                                              "whole number, which it is")));
+}
+
 TEST_F(RefusedStudy, ReportsFaultyLawsAmongTheOthers) {
   folder.write("laws.json", "{}");
   EXPECT_THAT(complaints(one_specimen + "width_mm = 0\n[calibrate]\nlaws = \"laws.json\"\n"),

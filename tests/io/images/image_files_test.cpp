@@ -122,6 +122,10 @@ TEST(ImageFile, ThatIsAFolderIsNamed) {
   expect_contains(complaint(std::filesystem::temp_directory_path()), "is a folder, not an image");
 }
 
+TEST(ImageFile, ThatIsADeviceIsNamed) {
+  expect_contains(complaint("/dev/null"), "/dev/null: is a device, not an image");
+}
+
 TEST(ImageFile, ThatIsEmptyIsNamed) {
   expect_contains(complaint(write_text("nothing.png", "")), "is an empty file");
 }

@@ -165,6 +165,9 @@ TEST(Thresholds, MustNameEveryJointOnce) {
               HasSubstr("t.csv:2: column f_T is empty, must be a number"));
   EXPECT_THAT(refused("joint,f_N,f_T\n0,505,58,7,9\n"),
               HasSubstr("t.csv:2: has 5 cells, the header has 3 (is the decimal mark also"));
+  EXPECT_THAT(refused("joint;f_N;f_T\n0;1,5;2\n"),
+              testing::EndsWith("t.csv:1: has one column, \"joint;f_N;f_T\" (separate cells by "
+                                "commas, and write decimals with a point)"));
   EXPECT_EQ(read_thresholds(folder.write("t.csv", "\xEF\xBB\xBFjoint,f_N,f_T\n0,1,2\n")).size(),
             1U);
   EXPECT_THAT(refused(""), HasSubstr("t.csv: is empty (the columns needed are joint,f_N,f_T)"));
