@@ -10,8 +10,8 @@
 namespace havers::calib {
 namespace {
 
-// Growth of a gauge in two equal parts of the loading.
-struct Growth {
+// GaugeGrowth of a gauge in two equal parts of the loading.
+struct GaugeGrowth {
   double early = 0.0, late = 0.0;
   bool whole = false;  // no reading is missing
 
@@ -33,7 +33,7 @@ std::vector<double> loading_of(const RawTest& raw, const std::vector<double>& ot
 }
 
 // The rows at which the loading first has 0.1, 0.5 and 0.9 of its largest value.
-std::array<std::size_t, 3> rows_of(const std::vector<double>& loading) {
+std::array<std::size_t, 3> rows_at_parts(const std::vector<double>& loading) {
   double largest = 0.0;
   for (const double one : loading) largest = std::fmax(largest, std::abs(one));
   std::array<std::size_t, 3> rows{};
@@ -46,7 +46,7 @@ std::array<std::size_t, 3> rows_of(const std::vector<double>& loading) {
   return rows;
 }
 
-Growth growth_of(const std::vector<double>& strain, const std::array<std::size_t, 3>& rows) {
+GaugeGrowth growth_of(const std::vector<double>& strain, const std::array<std::size_t, 3>& rows) {
   return {strain[rows[1]] - strain[rows[0]], strain[rows[2]] - strain[rows[1]],
           std::ranges::all_of(strain, [](double one) { return std::isfinite(one); })};
 }
@@ -57,8 +57,8 @@ Growth growth_of(const std::vector<double>& strain, const std::array<std::size_t
 std::string join_gauge_pair(RawTest& raw, const std::vector<double>& other, const std::string& a,
                             const std::string& b) {
   if (raw.strain.empty()) return fmt::format("\"{}\" is used", a);
-  const auto rows = rows_of(loading_of(raw, other));
-  const Growth first = growth_of(raw.strain, rows), second = growth_of(other, rows);
+  const auto rows = rows_at_parts(loading_of(raw, other));
+  const GaugeGrowth first = growth_of(raw.strain, rows), second = growth_of(other, rows);
   if (first.failed() != second.failed()) {
     if (first.failed()) raw.strain = other;
     return fmt::format("\"{}\" has gaps, stands still or jumps, and \"{}\" alone is used",
