@@ -90,10 +90,10 @@ struct Fall {
 // What a load cell shows that holds nothing any more is its offset, as one has that was zeroed with
 // the specimen in the grips.
 std::string offset_after(const Fall& fall, std::size_t row, double strength) {
-  constexpr std::size_t fewest_rows = 3, enough_rows = 5;
+  constexpr std::size_t least_rows = 3, enough_rows = 5;
   constexpr double steady = 0.01;  // of the strength
   const std::span<const double> rest = fall.stress.subspan(row + (fall.stress.size() - row) / 2);
-  if (rest.size() < fewest_rows) return {};
+  if (rest.size() < least_rows) return {};
   const auto [low, high] = std::ranges::minmax(rest);
   const double middle = 0.5 * (low + high);
   const double least = rest.size() < enough_rows ? 0.03 : 0.025;  // of the strength

@@ -79,9 +79,9 @@ WideIntervals wide_intervals(const FitProblem& problem, const CalibrationResult&
 // Slope of a curve over its modulus, less 1: the upper half of what lies between the beginning of
 // the modulus's window and nine tenths of the strength.
 std::optional<double> steepening(const MeasuredTest& test) {
-  constexpr double before_failure = 0.9;
-  constexpr std::size_t fewest_rows = 5;
-  const double low = test.modulus * test.window_low, high = before_failure * test.strength;
+  constexpr double nearly_failed = 0.9;
+  constexpr std::size_t rows_that_tell = 5;
+  const double low = test.modulus * test.window_low, high = nearly_failed * test.strength;
   const auto peak = std::ranges::max_element(test.stress);
   std::vector<double> strain, stress;
   for (auto row = test.stress.begin(); row != peak; ++row) {
@@ -89,7 +89,7 @@ std::optional<double> steepening(const MeasuredTest& test) {
     strain.push_back(test.strain[static_cast<std::size_t>(row - test.stress.begin())]);
     stress.push_back(*row);
   }
-  if (stress.size() < fewest_rows || !(test.modulus > 0.0)) return std::nullopt;
+  if (stress.size() < rows_that_tell || !(test.modulus > 0.0)) return std::nullopt;
   return fit_plain_line(strain, stress).slope / test.modulus - 1.0;
 }
 
