@@ -69,15 +69,13 @@ std::string setting_text(const sim::CheapestSetting& cheapest, const sim::BenchR
 }
 
 mstch::array cheapest_rows(const sim::WorkPrecision& study) {
-  mstch::array rows;
-  for (const sim::CheapestSetting& cheapest : study.cheapest) {
+  return list_of(study.cheapest, [&](const sim::CheapestSetting& cheapest) {
     const sim::BenchRow* row = cheapest.row ? &study.rows[*cheapest.row] : nullptr;
-    rows.emplace_back(mstch::map{{"quantity", text(cheapest.quantity)},
-                                 {"target", text(fmt::format("{:g}", cheapest.target))},
-                                 {"setting", text(setting_text(cheapest, row))},
-                                 {"cpu", text(row ? number(row->cpu.median, 3) : "–")}});
-  }
-  return rows;
+    return mstch::map{{"quantity", text(cheapest.quantity)},
+                      {"target", text(fmt::format("{:g}", cheapest.target))},
+                      {"setting", text(setting_text(cheapest, row))},
+                      {"cpu", text(row ? number(row->cpu.median, 3) : "–")}};
+  });
 }
 
 // The headline speaks of the failure strain alone.
@@ -123,27 +121,25 @@ std::string work_precision_page(const sim::Scene& scene, const sim::WorkPrecisio
                                 "their closed form."
                               : "",
             what_reference_errs_by(study.reference_errors)))},
-       {"has_rows", mstch::node{!study.rows.empty()}},
+       {"has_rows", !study.rows.empty()},
        {"grade", text(grade_of(study))},
        {"figure", text(work_precision_svg(study))},
        {"strain", text(quantity(study.bonded_strain / in::percent, "%", 3))},
-       {"cheapest", mstch::node{cheapest_rows(study)}},
+       {"cheapest", cheapest_rows(study)},
        {"twice",
         text(study.reference.step ? typeset(sim::step_in_words(2.0 * *study.reference.step)) : "")},
        {"omissions", text(study.omissions ? typeset(explain(*study.omissions)) : "")},
-       {"rows", mstch::node{rows}}},
+       {"rows", rows}},
       provenance);
 }
 
 std::string stability_page(const sim::StabilityBench& bench, const calib::Provenance& provenance) {
-  mstch::array rows;
-  for (const sim::StabilityResult& result : bench.scenes) rows.emplace_back(stability_row(result));
   return render_page("havers bench: stiff and extreme scenes", "stability",
                      {{"sentence", text(summary(bench))},
                       {"detail", text("h c/L is the time step over L/c, the time that a wave takes "
                                       "along a fibre.")},
                       {"grade", text(bench.good() ? "good" : "bad")},
-                      {"rows", mstch::node{rows}}},
+                      {"rows", list_of(bench.scenes, stability_row)}},
                      provenance);
 }
 

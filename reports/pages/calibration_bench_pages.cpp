@@ -74,9 +74,9 @@ std::string chains_page(const calib::ChainBenchmark& benchmark,
   const auto fits = static_cast<long>(benchmark.rows.size());
   const std::size_t studies = benchmark.rows.size() / summaries.size();
   const std::vector<std::string> near = near_the_winner(benchmark);
-  mstch::array chains;
-  for (const calib::ChainSummary& chain : summaries)
-    chains.emplace_back(chain_row(chain, &chain == &summaries.front()));
+  const auto row = [&](const calib::ChainSummary& chain) {
+    return chain_row(chain, &chain == &summaries.front());
+  };
   return render_page(
       "havers bench: chains of optimisers", "chains",
       {{"grade", text(usual          ? "good"
@@ -92,7 +92,7 @@ std::string chains_page(const calib::ChainBenchmark& benchmark,
                                    near.empty() ? ""
                                                 : fmt::format(" Its range meets that of {}.",
                                                               fmt::join(near, ", "))))},
-       {"chains", mstch::node{chains}},
+       {"chains", list_of(summaries, row)},
        {"by_simulations",
         text(draw(chains_figure(benchmark, ChainCost::simulations, "bysimulations")))},
        {"by_seconds", text(draw(chains_figure(benchmark, ChainCost::seconds, "byseconds")))}},
@@ -120,7 +120,7 @@ std::string coverage_page(const calib::Coverage& coverage, const calib::Provenan
        {"sentence", text(fmt::format("{}Of {} {}\u00a0% hold the truth; 95\u00a0% should.", stopped,
                                      count(informed, "interval"), rate_text(all)))},
        {"detail", text(what_shares_say(widths))},
-       {"rows", mstch::node{rows}}},
+       {"rows", rows}},
       provenance);
 }
 

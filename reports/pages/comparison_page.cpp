@@ -182,9 +182,9 @@ std::string comparison_page(const std::vector<FitReport>& reports) {
     footer.add(fit.provenance, fit.study.name + ": ");
   }
   mstch::map content = verdict_of_fits(reports);
-  content["fits"] = mstch::node{fits};
+  content["fits"] = fits;
   content["intervals"] = text(draw(intervals_figure(reports, "intervals")));
-  content["parameters"] = mstch::node{parameter_rows(reports)};
+  content["parameters"] = parameter_rows(reports);
   return render_page(fmt::format("havers report: {} side by side", count(reports.size(), "fit")),
                      "comparison", content, footer);
 }

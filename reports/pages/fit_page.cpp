@@ -52,22 +52,17 @@ mstch::array correlation_rows(const calib::CalibrationResult& result) {
     mstch::array cells;
     for (const double value : result.correlation[i])  // to a hundredth: what rounding leaves is 0
       cells.push_back(text(number(std::round(100.0 * value) / 100.0 + 0.0, 2)));
-    rows.emplace_back(
-        mstch::map{{"name", text(symbol_of(result.fitted[i]))}, {"cells", mstch::node{cells}}});
+    rows.emplace_back(mstch::map{{"name", text(symbol_of(result.fitted[i]))}, {"cells", cells}});
   }
   return rows;
 }
 
 // What a further test would leave of each standard error.
 mstch::array next_rows(const calib::CalibrationResult& result) {
-  mstch::array rows;
-  for (const calib::NextTest& test : result.next_tests) {
-    mstch::array cells;
-    for (const double part : test.width) cells.push_back(text(number(part, 2)));
-    rows.emplace_back(
-        mstch::map{{"what", text(typeset(test.what))}, {"cells", mstch::node{cells}}});
-  }
-  return rows;
+  return list_of(result.next_tests, [](const calib::NextTest& test) {
+    const auto cell = [](double part) { return text(number(part, 2)); };
+    return mstch::map{{"what", text(typeset(test.what))}, {"cells", list_of(test.width, cell)}};
+  });
 }
 
 // The same interval by three means.
@@ -96,22 +91,15 @@ mstch::array influence_rows(const calib::CalibrationResult& result) {
     mstch::array cells;
     for (const calib::Influence& one : specimen.influence)
       cells.push_back(text(number(without_rounding(one.shift), 2)));
-    rows.emplace_back(mstch::map{{"id", text(specimen.id)}, {"cells", mstch::node{cells}}});
+    rows.emplace_back(mstch::map{{"id", text(specimen.id)}, {"cells", cells}});
   }
   return rows;
 }
 
 mstch::array directions(const calib::CalibrationResult& result) {
-  mstch::array list;
-  for (const std::string& sentence : result.directions)
-    list.push_back(text(typeset(with_symbols(sentence, asked_for(result)))));
-  return list;
-}
-
-mstch::array fitted_symbols(const calib::CalibrationResult& result) {
-  mstch::array list;
-  for (const std::string& name : result.fitted) list.push_back(text(symbol_of(name)));
-  return list;
+  return list_of(result.directions, [&](const std::string& sentence) {
+    return text(typeset(with_symbols(sentence, asked_for(result))));
+  });
 }
 
 // "r = 1.5, μ = 0.3": what was asked for and left out stays there along the profiles, while the
@@ -131,11 +119,11 @@ mstch::node knowledge(const FitReport& report) {
   const calib::CalibrationResult& result = report.result;
   if (result.fitted.empty()) return section({});
   return section({mstch::map{
-      {"directions", mstch::node{directions(result)}},
-      {"fitted", mstch::node{fitted_symbols(result)}},
-      {"intervals", mstch::node{interval_rows(result)}},
-      {"drawn", mstch::node{has_bootstrap(result)}},
-      {"correlation", mstch::node{correlation_rows(result)}},
+      {"directions", directions(result)},
+      {"fitted", list_of(result.fitted, symbol_of)},
+      {"intervals", interval_rows(result)},
+      {"drawn", has_bootstrap(result)},
+      {"correlation", correlation_rows(result)},
       {"next", section(next_rows(result))},
       {"influence", section(influence_rows(result))},
       {"held_along", text(held_along(report))},
@@ -149,15 +137,14 @@ std::string first_sentence(const std::string& message) {
 }
 
 mstch::array stage_rows(const std::vector<calib::StageLog>& stages) {
-  mstch::array rows;
-  for (const calib::StageLog& stage : stages)
-    rows.emplace_back(mstch::map{{"optimiser", text(stage.optimiser)},
-                                 {"before", text(number(stage.cost_before))},
-                                 {"after", text(number(stage.cost_after))},
-                                 {"evaluations", text(std::to_string(stage.evaluations))},
-                                 {"wall", text(duration(stage.wall_seconds))},
-                                 {"message", text(first_sentence(stage.message))}});
-  return rows;
+  return list_of(stages, [](const calib::StageLog& stage) {
+    return mstch::map{{"optimiser", text(stage.optimiser)},
+                      {"before", text(number(stage.cost_before))},
+                      {"after", text(number(stage.cost_after))},
+                      {"evaluations", text(std::to_string(stage.evaluations))},
+                      {"wall", text(duration(stage.wall_seconds))},
+                      {"message", text(first_sentence(stage.message))}};
+  });
 }
 
 // Tests whose numbers are not those of bone: the first thing to look at, whatever came of them.
@@ -179,9 +166,7 @@ bool starts_agree(const calib::CalibrationResult& result) {
 
 std::string fit_page(const FitReport& report) {
   const calib::CalibrationResult& result = report.result;
-  mstch::array parameters, specimens;
-  for (const auto& parameter : result.parameters)
-    parameters.emplace_back(parameter_row(parameter, asked_for(result)));
+  mstch::array specimens;
   for (std::size_t i = 0; i < result.specimens.size(); ++i)
     specimens.emplace_back(specimen_content(report, i));
   return render_page(
@@ -189,20 +174,21 @@ std::string fit_page(const FitReport& report) {
       {{"grade", text(result.trusted() ? "good" : "bad")},
        {"sentence", text(fit_sentence(result))},
        {"detail", text(status_sentence(result))},
-       {"doubts", mstch::node{doubts_of(result)}},
+       {"doubts", doubts_of(result)},
        {"checks", check_section(result.verdict)},
        {"study_notes", text_section(result.notes)},
-       {"parameters", mstch::node{parameters}},
+       {"parameters", list_of(result.parameters,
+                              [&](const auto& p) { return parameter_row(p, asked_for(result)); })},
        {"held_at", text(held_along(report))},
        {"strength_figure", text(draw(strength_figure(result.specimens, "strength")))},
-       {"specimens", mstch::node{specimens}},
+       {"specimens", specimens},
        {"knowledge", knowledge(report)},
        {"waterfall",
         text(result.starts.empty() ? "" : draw(waterfall_figure(result, "waterfall")))},
-       {"flat", mstch::node{starts_agree(result)}},
+       {"flat", starts_agree(result)},
        {"search", text(search_sentence(report))},
-       {"weighed_anew", mstch::node{result.stages.size() > 1}},
-       {"stages", mstch::node{stage_rows(result.stages)}},
+       {"weighed_anew", result.stages.size() > 1},
+       {"stages", stage_rows(result.stages)},
        {"left_out", left_out_section(result.left_out)}},
       report.provenance);
 }

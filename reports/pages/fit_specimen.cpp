@@ -46,15 +46,14 @@ std::string measured_text(const Compared& c) {
 }
 
 mstch::array comparison_rows(const calib::SpecimenResult& specimen) {
-  mstch::array rows;
-  for (const Compared& c : compared(specimen))
-    rows.emplace_back(mstch::map{
+  return list_of(compared(specimen), [](const Compared& c) {
+    return mstch::map{
         {"quantity", text(c.quantity)},
         {"unit", text(c.unit)},
         {"measured", text(measured_text(c))},
         {"simulated", text(plus_minus(c.simulated.mean / c.scale, c.simulated.sd / c.scale))},
-        {"residual", text(number(c.residual, 2))}});
-  return rows;
+        {"residual", text(number(c.residual, 2))}};
+  });
 }
 
 mstch::array overview_cells(const calib::SpecimenResult& specimen) {
@@ -96,16 +95,14 @@ std::string logarithm_of(const std::string& term) {
 }
 
 mstch::array term_rows(const calib::SpecimenResult& specimen) {
-  mstch::array rows;
-  for (const calib::TermResult& term : specimen.terms)
-    rows.emplace_back(
-        mstch::map{{"term", text(logarithm_of(term.term))},
-                   {"measured", text((term.bound ? "≥ " : "") + number(term.measured))},
-                   {"simulated", text(number(without_rounding(term.simulated)))},
-                   {"sd", text(number(term.sd, 2))},
-                   {"residual", text(number(term.residual, 2))},
-                   {"share", text(number(term.share / in::percent, 2))}});
-  return rows;
+  return list_of(specimen.terms, [](const calib::TermResult& term) {
+    return mstch::map{{"term", text(logarithm_of(term.term))},
+                      {"measured", text((term.bound ? "≥ " : "") + number(term.measured))},
+                      {"simulated", text(number(without_rounding(term.simulated)))},
+                      {"sd", text(number(term.sd, 2))},
+                      {"residual", text(number(term.residual, 2))},
+                      {"share", text(number(term.share / in::percent, 2))}};
+  });
 }
 
 // Of the test, then of the sections by their files.
@@ -145,14 +142,14 @@ mstch::map specimen_content(const FitReport& report, std::size_t index) {
           {"orientation", text(degrees(s.orientation))},
           {"porosity", text(porosity)},
           {"scatter", text(number(s.scatter, 3))},
-          {"overview", mstch::node{overview_cells(s)}},
+          {"overview", overview_cells(s)},
           {"summary", text(fmt::format("{}{}, θ = {}, porosity {}, scatter d = {}", use,
                                        s.measured.broke ? "" : ", not broken",
                                        degrees(s.orientation), porosity, number(s.scatter, 3)))},
           {"figure", text(draw(specimen_figure(s, fmt::format("s{}", index))))},
-          {"rows", mstch::node{comparison_rows(s)}},
+          {"rows", comparison_rows(s)},
           {"terms", section(term_rows(s))},
-          {"bounded", mstch::node{std::ranges::any_of(s.terms, &calib::TermResult::bound)}},
+          {"bounded", std::ranges::any_of(s.terms, &calib::TermResult::bound)},
           {"failed", text(s.failed_simulations == 0 ? ""
                                                     : count(s.failed_simulations, "simulation") +
                                                           " of this specimen failed.")},
@@ -160,7 +157,7 @@ mstch::map specimen_content(const FitReport& report, std::size_t index) {
           {"warnings", text_section(warnings_of(report, s))},
           {"tests", section(test_items(report, s.id))},
           {"sections", section(section_items(report, s.id))},
-          {"overlaid", mstch::node{report.overlays.contains(s.id)}}};
+          {"overlaid", report.overlays.contains(s.id)}};
 }
 
 }  // namespace havers::reports

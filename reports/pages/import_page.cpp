@@ -101,7 +101,7 @@ mstch::map content_of(const ImportReport& report, std::size_t index) {
       {"clocks", clocks_section(report, index)},
       {"problems", text_section(report.problems)},
       {"figure", text(draw(test_figure(report, fmt::format("t{}", index))))},
-      {"facts", mstch::node{fact_list(facts_of(report))}},
+      {"facts", fact_list(facts_of(report))},
       {"corrections", correction_section(test.corrections)},
       {"warnings", text_section(test.warnings)}};
 }
@@ -138,7 +138,7 @@ std::string import_page(const std::vector<ImportReport>& reports,
   mstch::array tests;
   for (std::size_t i = 0; i < reports.size(); ++i) tests.emplace_back(content_of(reports[i], i));
   mstch::map content = verdict_of_tests(reports);
-  content["tests"] = mstch::node{tests};
+  content["tests"] = tests;
   return render_page(fmt::format("havers import: {}", count(reports.size(), "test")), "import",
                      content, provenance);
 }

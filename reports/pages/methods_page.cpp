@@ -22,10 +22,10 @@ mstch::map method_row(const calib::MethodSummary& method) {
 }
 
 mstch::map hardship_row(const calib::HardshipSummary& hardship) {
-  mstch::array cells;
-  for (const calib::MethodSummary& method : hardship.methods)
-    cells.emplace_back(mstch::map{{"worst", text(points(method.worst_error))}});
-  return {{"hardship", text(hardship.hardship)}, {"cells", mstch::node{cells}}};
+  const auto cell = [](const calib::MethodSummary& method) {
+    return mstch::map{{"worst", text(points(method.worst_error))}};
+  };
+  return {{"hardship", text(hardship.hardship)}, {"cells", list_of(hardship.methods, cell)}};
 }
 
 }  // namespace
@@ -33,11 +33,6 @@ mstch::map hardship_row(const calib::HardshipSummary& hardship) {
 std::string methods_page(const calib::MethodComparison& comparison,
                          const calib::Provenance& provenance) {
   const calib::MethodSummary& ours = comparison.methods.back();
-  mstch::array methods, hardships;
-  for (const calib::MethodSummary& method : comparison.methods)
-    methods.emplace_back(method_row(method));
-  for (const calib::HardshipSummary& hardship : comparison.hardships)
-    hardships.emplace_back(hardship_row(hardship));
   const bool complete = comparison.complete;
   return render_page(
       "havers bench: porosity of sections", "methods",
@@ -50,8 +45,8 @@ std::string methods_page(const calib::MethodComparison& comparison,
                                      to_string(ours.method), points(ours.worst_error)))},
        {"detail", text("Asked: at most 0.3 points, and 0.05 where there are no pores.")},
        {"figure", text(draw(methods_figure(comparison, "methods")))},
-       {"methods", mstch::node{methods}},
-       {"hardships", mstch::node{hardships}}},
+       {"methods", list_of(comparison.methods, method_row)},
+       {"hardships", list_of(comparison.hardships, hardship_row)}},
       provenance);
 }
 

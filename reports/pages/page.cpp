@@ -25,15 +25,14 @@ bool available() {
 }
 
 mstch::array fact_list(const Facts& facts) {
-  mstch::array list;
-  for (const auto& [name, value] : facts)
-    list.emplace_back(mstch::map{{"name", text(name)}, {"value", text(value)}});
-  return list;
+  return list_of(facts, [](const auto& fact) {
+    return mstch::map{{"name", text(fact.first)}, {"value", text(fact.second)}};
+  });
 }
 
 mstch::node section(mstch::array items) {
   if (items.empty()) return mstch::node{false};
-  return mstch::map{{"items", mstch::node{std::move(items)}}};
+  return mstch::map{{"items", std::move(items)}};
 }
 
 mstch::node left_out_section(const std::vector<sim::LeftOut>& left_out) {
@@ -49,20 +48,16 @@ mstch::node correction_section(const std::vector<calib::Correction>& corrections
 }
 
 mstch::node text_section(const std::vector<std::string>& sentences) {
-  mstch::array items;
-  for (const std::string& sentence : sentences) items.push_back(text(typeset(sentence)));
-  return section(std::move(items));
+  return section(list_of(sentences, [](const auto& one) { return text(typeset(one)); }));
 }
 
 mstch::node check_section(const std::vector<calib::Check>& checks) {
-  mstch::array items;
-  for (const calib::Check& check : checks)
-    items.emplace_back(
-        mstch::map{{"outcome", text(check.done ? to_string(check.outcome) : "not done")},
-                   {"mark", text(mark_of(check))},
-                   {"check", text(check.check)},
-                   {"text", text(typeset(check.text))}});
-  return section(std::move(items));
+  return section(list_of(checks, [](const calib::Check& check) {
+    return mstch::map{{"outcome", text(check.done ? to_string(check.outcome) : "not done")},
+                      {"mark", text(mark_of(check))},
+                      {"check", text(check.check)},
+                      {"text", text(typeset(check.text))}};
+  }));
 }
 
 std::string how_many_can(const std::string& verb, const std::string& noun, std::size_t all,
@@ -153,11 +148,11 @@ std::string render_page(const std::string& title, const std::string& name, mstch
       templates().at("page"),
       mstch::map{{"title", text(title)},
                  {"body", text(body)},
-                 {"has_provenance", mstch::node{!footer.facts.empty()}},
-                 {"provenance", mstch::node{fact_list(footer.facts)}},
-                 {"has_digests", mstch::node{!footer.digests.empty()}},
+                 {"has_provenance", !footer.facts.empty()},
+                 {"provenance", fact_list(footer.facts)},
+                 {"has_digests", !footer.digests.empty()},
                  {"digest_count", text(count(footer.digests.size(), "input file"))},
-                 {"digests", mstch::node{fact_list(footer.digests)}}},
+                 {"digests", fact_list(footer.digests)}},
       templates());
 }
 

@@ -19,6 +19,14 @@ inline mstch::node text(std::string value) {
   return mstch::node{std::move(value)};
 }
 
+/// What `row` makes of each item: the rows of a table, the entries of a list.
+template <class Items, class Row>
+mstch::array list_of(const Items& items, Row row) {
+  mstch::array list;
+  for (const auto& item : items) list.emplace_back(row(item));
+  return list;
+}
+
 /// {name, value} of each.
 mstch::array fact_list(const Facts& facts);
 

@@ -43,22 +43,16 @@ mstch::map row(const std::string& name, const calib::SectionPorosity& s, double 
           {"window_sd", text(number(s.window_sd, 3))}};
 }
 
-mstch::array zone_rows(const std::vector<calib::Zone>& zones) {
-  mstch::array rows;
-  for (const calib::Zone& zone : zones)
-    rows.emplace_back(mstch::map{{"name", text(zone.name)},
-                                 {"porosity", text(number(zone.porosity / in::percent, 3))},
-                                 {"area", text(number(zone.bone_area / in::mm2, 3))}});
-  return rows;
+mstch::map zone_row(const calib::Zone& zone) {
+  return {{"name", text(zone.name)},
+          {"porosity", text(number(zone.porosity / in::percent, 3))},
+          {"area", text(number(zone.bone_area / in::mm2, 3))}};
 }
 
-mstch::array class_rows(const std::vector<calib::PoreClass>& classes) {
-  mstch::array rows;
-  for (const calib::PoreClass& one : classes)
-    rows.emplace_back(mstch::map{{"name", text(one.name)},
-                                 {"count", text(std::to_string(one.count))},
-                                 {"area", text(number(one.area / in::mm2, 3))}});
-  return rows;
+mstch::map class_row(const calib::PoreClass& pores) {
+  return {{"name", text(pores.name)},
+          {"count", text(std::to_string(pores.count))},
+          {"area", text(number(pores.area / in::mm2, 3))}};
 }
 
 // What no column of the table says of a section.
@@ -89,9 +83,9 @@ mstch::map detail(const PorosityReport& report, std::size_t i) {
       {"file", text(base_name(s.file))},
       {"png", text(base64(report.overlays[i]))},
       {"histogram", text(draw(histogram_figure(report.histograms[i], fmt::format("depth{}", i))))},
-      {"facts", mstch::node{fact_list(facts_of(s))}},
-      {"zones", section(zone_rows(s.zones))},
-      {"classes", section(class_rows(s.classes))},
+      {"facts", fact_list(facts_of(s))},
+      {"zones", section(list_of(s.zones, zone_row))},
+      {"classes", section(list_of(s.classes, class_row))},
       {"corrections", section({})},
       {"warnings", text_section(s.warnings)}};
 }
@@ -147,8 +141,8 @@ std::string porosity_page(const PorosityReport& report) {
                      {{"grade", text(in_doubt(report) == 0 ? "good" : "mixed")},
                       {"sentence", text(sentence_of(report))},
                       {"detail", text(detail_of(report))},
-                      {"rows", mstch::node{rows}},
-                      {"sections", mstch::node{details}}},
+                      {"rows", rows},
+                      {"sections", details}},
                      report.provenance);
 }
 

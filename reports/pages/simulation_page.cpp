@@ -211,19 +211,19 @@ Facts scene_facts(const SimulationReport& report) {
 
 std::string simulation_page(const SimulationReport& report) {
   const sim::Simulation& simulation = report.simulation;
-  return render_page(
-      "havers simulate" + (report.file.empty() ? "" : ": " + report.file), "simulation",
-      {{"grade", text(grade_of(simulation))},
-       {"sentence", text(sentence_of(simulation))},
-       {"detail", text(cost_of(report))},
-       {"facts", mstch::node{fact_list(key_numbers(report))}},
-       {"curve", text(draw(simulation_figure(report, "curve")))},
-       {"in_time", mstch::node{simulation.regime == sim::Regime::dynamic}},
-       {"end", text(end_of(report))},
-       {"fracture", text(fracture_svg(report.assembly, simulation))},
-       {"left_out", left_out_section(simulation.left_out)},
-       {"scene", mstch::node{mstch::map{{"facts", mstch::node{fact_list(scene_facts(report))}}}}}},
-      report.provenance);
+  return render_page("havers simulate" + (report.file.empty() ? "" : ": " + report.file),
+                     "simulation",
+                     {{"grade", text(grade_of(simulation))},
+                      {"sentence", text(sentence_of(simulation))},
+                      {"detail", text(cost_of(report))},
+                      {"facts", fact_list(key_numbers(report))},
+                      {"curve", text(draw(simulation_figure(report, "curve")))},
+                      {"in_time", simulation.regime == sim::Regime::dynamic},
+                      {"end", text(end_of(report))},
+                      {"fracture", text(fracture_svg(report.assembly, simulation))},
+                      {"left_out", left_out_section(simulation.left_out)},
+                      {"scene", mstch::map{{"facts", fact_list(scene_facts(report))}}}},
+                     report.provenance);
 }
 
 }  // namespace havers::reports

@@ -72,23 +72,22 @@ std::vector<FindingRow> findings_of(const std::vector<SweepReport>& sweeps) {
 }
 
 mstch::array finding_rows(const std::vector<FindingRow>& rows) {
-  mstch::array list;
-  for (const auto& [finding, sweep] : rows)
-    list.emplace_back(
-        mstch::map{{"grade", text(grade_of(finding->outcome))},
-                   {"mark", text(mark_of(finding->outcome))},
-                   {"outcome", text(to_string(finding->outcome))},
-                   {"id", text(finding->id)},
-                   {"claim", text(typeset(finding->claim))},
-                   {"at", text(place_of(*sweep, *finding))},
-                   {"inertia", text(inertia_of(*finding))},
-                   {"value", text(value_of(*finding))},
-                   {"what", text(words_for(finding->compared))},
-                   {"ground", text(typeset("asked: " + finding->ground))},
-                   {"meaning", finding->meaning.empty() ? mstch::node{false}
-                                                        : text(typeset(finding->meaning))},
-                   {"runs", text(std::to_string(finding->runs))}});
-  return list;
+  return list_of(rows, [](const FindingRow& row) {
+    const auto& [finding, sweep] = row;
+    return mstch::map{{"grade", text(grade_of(finding->outcome))},
+                      {"mark", text(mark_of(finding->outcome))},
+                      {"outcome", text(to_string(finding->outcome))},
+                      {"id", text(finding->id)},
+                      {"claim", text(typeset(finding->claim))},
+                      {"at", text(place_of(*sweep, *finding))},
+                      {"inertia", text(inertia_of(*finding))},
+                      {"value", text(value_of(*finding))},
+                      {"what", text(words_for(finding->compared))},
+                      {"ground", text(typeset("asked: " + finding->ground))},
+                      {"meaning", finding->meaning.empty() ? mstch::node{false}
+                                                           : text(typeset(finding->meaning))},
+                      {"runs", text(std::to_string(finding->runs))}};
+  });
 }
 
 std::string findings_sentence(const std::vector<FindingRow>& rows) {

@@ -70,17 +70,13 @@ std::string lack_of_fit(const calib::Law& law) {
                                         : ratio;
 }
 
-mstch::array law_rows(const std::vector<calib::Law>& laws) {
-  mstch::array list;
-  for (const calib::Law& law : laws)
-    list.emplace_back(
-        mstch::map{{"law", text(law_text(law))},
-                   {"at", text(law.request.per.empty() ? "" : place(law.request.per, law.at))},
-                   {"coefficients", text(coefficients_of(law))},
-                   {"explained", text(number(law.explained, 3))},
-                   {"lack", text(lack_of_fit(law))},
-                   {"runs", text(std::to_string(law.runs))}});
-  return list;
+mstch::map law_row(const calib::Law& law) {
+  return {{"law", text(law_text(law))},
+          {"at", text(law.request.per.empty() ? "" : place(law.request.per, law.at))},
+          {"coefficients", text(coefficients_of(law))},
+          {"explained", text(number(law.explained, 3))},
+          {"lack", text(lack_of_fit(law))},
+          {"runs", text(std::to_string(law.runs))}};
 }
 
 mstch::array point_heads(const SweepReport& report) {
@@ -120,7 +116,7 @@ mstch::node point_row(const SweepReport& report, std::size_t i) {
   const auto [low, high] = law.weibull_modulus_95;
   cells.push_back(cell(law.runs > 0 ? with_interval(law.weibull_modulus, low, high) : number(NAN)));
   cells.push_back(cell(law.runs > 0 ? number(law.log_likelihood_gain, 2) : number(NAN)));
-  return mstch::map{{"cells", mstch::node{cells}}};
+  return mstch::map{{"cells", cells}};
 }
 
 // Words of a user, as sentences before others.
@@ -131,17 +127,18 @@ std::string ended(const std::string& text) {
 mstch::array figures_of(const SweepReport& report) {
   mstch::array figures;
   for (const calib::SweepFigure& wanted : report.sweep.figures) {
-    mstch::array panels;
     const std::string shown =
         wanted.x.empty()
             ? "Each curve is one run: the first seed that has not failed, at the first value of "
               "every key that the figure does not tell apart."
             : "Bars and bands: 95\u00a0% intervals of the means; that of a single run has none.";
     const std::string id = fmt::format("{}-{}", report.id, figures.size());
-    for (const SweepPanel& panel : sweep_figures(report.sweep, report.result, wanted, id))
-      panels.emplace_back(mstch::map{{"svg", text(draw(panel.figure))}, {"at", text(panel.at)}});
+    const mstch::array panels = list_of(
+        sweep_figures(report.sweep, report.result, wanted, id), [](const SweepPanel& panel) {
+          return mstch::map{{"svg", text(draw(panel.figure))}, {"at", text(panel.at)}};
+        });
     figures.emplace_back(mstch::map{{"layout", text(panels.size() > 1 ? "images" : "one")},
-                                    {"panels", mstch::node{panels}},
+                                    {"panels", panels},
                                     {"caption", text(ended(wanted.caption) + shown)}});
   }
   return figures;
@@ -164,12 +161,12 @@ mstch::node sweep_part(const SweepReport& report) {
     rows.push_back(point_row(report, i));
   return mstch::map{{"name", text(report.sweep.name)},
                     {"about", text(about(report))},
-                    {"figures", mstch::node{figures_of(report)}},
-                    {"has_laws", mstch::node{!report.result.laws.empty()}},
-                    {"laws", mstch::node{law_rows(report.result.laws)}},
+                    {"figures", figures_of(report)},
+                    {"has_laws", !report.result.laws.empty()},
+                    {"laws", list_of(report.result.laws, law_row)},
                     {"count", text(count(report.result.points.size(), "point"))},
-                    {"heads", mstch::node{point_heads(report)}},
-                    {"rows", mstch::node{rows}}};
+                    {"heads", point_heads(report)},
+                    {"rows", rows}};
 }
 
 }  // namespace
@@ -200,9 +197,9 @@ std::string sweep_page(const std::string& title, const std::vector<SweepReport>&
             "{}, {} failed, {} did not break; {} of them simulated now, in {} wall time. Seeds are "
             "not shared between points.",
             count(runs, "run"), failed, unbroken, simulated, duration(provenance.wall_seconds)))},
-       {"has_findings", mstch::node{!rows.empty()}},
-       {"findings", mstch::node{finding_rows(rows)}},
-       {"sweeps", mstch::node{parts}}},
+       {"has_findings", !rows.empty()},
+       {"findings", finding_rows(rows)},
+       {"sweeps", parts}},
       provenance);
 }
 
