@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "cli/interrupt.hpp"
 #include "cli/number_check.hpp"
+#include "cli/output_folder.hpp"
 #include "io/input_error.hpp"
+#include "io/results/result_files.hpp"
 
 namespace havers::cli {
 namespace {
@@ -78,6 +81,14 @@ int run_mode(const CLI::App& parser, const Mode& mode, const BenchArguments& arg
 }
 
 }  // namespace
+
+void leave(const BenchFiles& files, const CommonOptions& common, OutputFolder& output,
+           const std::function<void()>& print) {
+  output.write("result.json", io::json_text(files.result));
+  output.write(files.csv_name, files.csv);
+  if (!files.page.empty()) output.write("report.html", files.page);
+  answer(common, &output, files.result, files.page.empty() ? "result.json" : "report.html", print);
+}
 
 Command bench_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(app, common, "bench", "error against run time", bench_examples);

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "cli/command.hpp"
 
@@ -17,6 +20,15 @@ struct BenchArguments {
 
 /// A mode is one function that returns the exit code; bench.cpp lists them with their flags.
 using BenchMode = int (*)(const BenchArguments& arguments, const CommonOptions& common);
+
+/// What every mode leaves.
+struct BenchFiles {
+  const nlohmann::json& result;
+  std::string csv_name, csv;
+  std::string page;  ///< Empty: none.
+};
+void leave(const BenchFiles& files, const CommonOptions& common, OutputFolder& output,
+           const std::function<void()>& print);
 
 int bench_scene(const BenchArguments& arguments, const CommonOptions& common);
 int bench_stability(const BenchArguments& arguments, const CommonOptions& common);

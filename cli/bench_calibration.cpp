@@ -93,14 +93,15 @@ int bench_calibration(const BenchArguments& arguments, const CommonOptions& comm
       calib::benchmark_chains(costly, studies, common.threads, std::ref(counter));
   const calib::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::chains_json(benchmark, provenance);
-  output.write("result.json", io::json_text(result));
-  output.write("chains.csv", io::chains_csv(benchmark));
-  const bool page = reports::available() && !benchmark.summaries.empty();
-  if (page) output.write("report.html", reports::chains_page(benchmark, provenance));
-  answer(common, &output, result, page ? "report.html" : "result.json",
-         [&] { print_chains(benchmark); });
+  const bool summed_up = !benchmark.summaries.empty();
+  leave({.result = result,
+         .csv_name = "chains.csv",
+         .csv = io::chains_csv(benchmark),
+         .page =
+             reports::available() && summed_up ? reports::chains_page(benchmark, provenance) : ""},
+        common, output, [&] { print_chains(benchmark); });
   const bool usual_wins =
-      !benchmark.summaries.empty() && benchmark.winner().chain == benchmark.summaries.front().chain;
+      summed_up && benchmark.winner().chain == benchmark.summaries.front().chain;
   return usual_wins ? done : answer_is_no;
 }
 
@@ -114,11 +115,11 @@ int bench_coverage(const BenchArguments& arguments, const CommonOptions& common)
       calib::measure_coverage(designs, studies, common.threads, std::ref(counter), interrupted);
   const calib::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::coverage_json(coverage, provenance);
-  output.write("result.json", io::json_text(result));
-  output.write("coverage.csv", io::coverage_csv(coverage));
-  if (reports::available())
-    output.write("report.html", reports::coverage_page(coverage, provenance));
-  answer(common, &output, result, page_or("result.json"), [&] { print_coverage(coverage); });
+  leave({.result = result,
+         .csv_name = "coverage.csv",
+         .csv = io::coverage_csv(coverage),
+         .page = reports::available() ? reports::coverage_page(coverage, provenance) : ""},
+        common, output, [&] { print_coverage(coverage); });
   return coverage.holds() && coverage.complete ? done : answer_is_no;
 }
 

@@ -51,11 +51,11 @@ int bench_porosity(const BenchArguments& arguments, const CommonOptions& common)
       try_all(arguments, common, output.stage("section.png"));
   const calib::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::methods_json(comparison, provenance);
-  output.write("result.json", io::json_text(result));
-  output.write("porosity.csv", io::methods_csv(comparison));
-  if (reports::available())
-    output.write("report.html", reports::methods_page(comparison, provenance));
-  answer(common, &output, result, page_or("result.json"), [&] { print_methods(comparison); });
+  leave({.result = result,
+         .csv_name = "porosity.csv",
+         .csv = io::methods_csv(comparison),
+         .page = reports::available() ? reports::methods_page(comparison, provenance) : ""},
+        common, output, [&] { print_methods(comparison); });
   return comparison.good() && comparison.complete ? done : answer_is_no;
 }
 

@@ -84,13 +84,13 @@ int bench_scene(const BenchArguments& arguments, const CommonOptions& common) {
   const sim::WorkPrecision study = watched(file.scene, arguments, common);
   const calib::Provenance provenance = provenance_of(common, std::move(inputs), watch);
   const nlohmann::json result = io::work_precision_json(file.scene, study, provenance);
-  output.write("result.json", io::json_text(result));
-  output.write("bench.csv", io::work_precision_csv(study));
-  if (reports::available()) {
-    output.write("work_precision.svg", reports::work_precision_svg(study));
-    output.write("report.html", reports::work_precision_page(file.scene, study, provenance));
-  }
-  answer(common, &output, result, page_or("result.json"), [&] { print_summary(study); });
+  if (reports::available()) output.write("work_precision.svg", reports::work_precision_svg(study));
+  leave({.result = result,
+         .csv_name = "bench.csv",
+         .csv = io::work_precision_csv(study),
+         .page = reports::available() ? reports::work_precision_page(file.scene, study, provenance)
+                                      : ""},
+        common, output, [&] { print_summary(study); });
   return study.complete && reference_is_trusted(study) ? done : answer_is_no;
 }
 

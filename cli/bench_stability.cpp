@@ -41,10 +41,11 @@ int bench_stability(const BenchArguments& arguments, const CommonOptions& common
   const sim::StabilityBench bench = run_all(common);
   const calib::Provenance provenance = provenance_of(common, {}, watch);
   const nlohmann::json result = io::stability_json(bench, provenance);
-  output.write("result.json", io::json_text(result));
-  output.write("stability.csv", io::stability_csv(bench.scenes));
-  if (reports::available()) output.write("report.html", reports::stability_page(bench, provenance));
-  answer(common, &output, result, page_or("result.json"), [&] { print_summary(bench); });
+  leave({.result = result,
+         .csv_name = "stability.csv",
+         .csv = io::stability_csv(bench.scenes),
+         .page = reports::available() ? reports::stability_page(bench, provenance) : ""},
+        common, output, [&] { print_summary(bench); });
   return bench.good() ? done : answer_is_no;
 }
 

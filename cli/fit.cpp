@@ -12,11 +12,10 @@
 #include "cli/fit_files.hpp"
 #include "cli/fit_summary.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/kept_run.hpp"
 #include "cli/load_study.hpp"
-#include "cli/output_folder.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/provenance.hpp"
-#include "io/store/sqlite_store.hpp"
 
 namespace havers::cli {
 namespace {
@@ -71,24 +70,19 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
 
   Digests inputs = digests_of(loaded.inputs);
   catch_interrupts();
-  const std::string run = name_of_run("fit", {arguments.study});
-  const bool resumes = goes_on(arguments.folder, run, common.force);
-  OutputFolder output(arguments.folder, common.force || resumes);
-  if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
-  const auto store = io::open_store(output.keep("evaluations.sqlite"));
-  output.sign(run);
-  calib::CalibrationResult result = watched_fit(loaded.study, *store, common);
+  KeptRun run("fit", {arguments.study}, arguments.folder, common);
+  calib::CalibrationResult result = watched_fit(loaded.study, run.store(), common);
   result.notes = loaded.notes;
   tell_left_out(loaded.left_out, result);
   if (result.status == calib::CalibrationStatus::cancelled)
     return without_result(common, "cancelled",
                           fmt::format("stopped by you; the simulations so far are kept in {}: the "
                                       "same command goes on from there",
-                                      output.folder().string()));
+                                      run.output().folder().string()));
 
   const calib::Provenance provenance = provenance_of(common, std::move(inputs), watch);
-  const nlohmann::json json = write_fit(output, loaded, result, provenance);
-  answer(common, &output, json, page_or("result.json"),
+  const nlohmann::json json = write_fit(run.output(), loaded, result, provenance);
+  answer(common, &run.output(), json, page_or("result.json"),
          [&] { print_fit_summary(result, provenance.wall_seconds, common.verbose); });
   return result.trusted() ? done : answer_is_no;
 }

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/provenance.hpp"
+#include "cli/kept_run.hpp"
 #include "io/input_error.hpp"
 #include "io/read_text.hpp"
 

@@ -13,7 +13,6 @@
 #include <system_error>
 
 #include "io/input_error.hpp"
-#include "io/read_text.hpp"
 #include "io/results/result_files.hpp"
 
 namespace havers::cli {
@@ -25,7 +24,6 @@ namespace fs = std::filesystem;
 constexpr const char* own_names = ".havers";
 constexpr const char* last_name = "result.json";
 constexpr const char* staging_name = ".partial";  // in a target that is there
-constexpr const char* run_name = ".run";          // whose simulations are kept
 
 std::set<std::string> names_of_runs(const fs::path& folder) {
   std::set<std::string> names;
@@ -125,27 +123,6 @@ std::string name_of_its_own(const std::string& name, std::set<std::string>& used
   return own;
 }
 
-bool was_stopped(const fs::path& folder) {
-  return fs::exists(folder / "evaluations.sqlite") && !fs::exists(folder / last_name);
-}
-
-std::string name_of_run(const char* command, const std::vector<fs::path>& inputs) {
-  std::vector<std::string> files;
-  files.reserve(inputs.size());
-  for (const fs::path& input : inputs) files.push_back(fs::weakly_canonical(input).string());
-  return fmt::format("{} of {}", command, fmt::join(files, ", "));
-}
-
-bool goes_on(const fs::path& folder, const std::string& run, bool force) {
-  if (!was_stopped(folder)) return false;
-  const fs::path file = folder / run_name;
-  const std::string stopped = fs::is_regular_file(file) ? io::read_text(file, "") : run;
-  if (stopped != run && !force)
-    throw io::InputError(folder.string(), "holds an unfinished " + stopped,
-                         "give another folder, or --force to put this run in its place");
-  return stopped == run;
-}
-
 OutputFolder::OutputFolder(const fs::path& folder, bool force)
     : folder_(without_trailing_slash(folder)),
       staging_(fs::exists(folder_) ? folder_ / staging_name : staging_beside(folder_)),
@@ -175,11 +152,6 @@ fs::path OutputFolder::stage(const fs::path& name) const {
 
 void OutputFolder::write(const fs::path& name, const std::string& content) const {
   io::write_file(stage(name), content);
-}
-
-void OutputFolder::sign(const std::string& run) const {
-  io::write_file(keep(run_name), run);
-  take_note(folder_, run_name);
 }
 
 fs::path OutputFolder::keep(const fs::path& name) const {

@@ -14,16 +14,6 @@ void take_note(const std::filesystem::path& folder, const std::string& name);
 /// `name`, or with the first number from 2 on that is not in `used` yet; it is then.
 std::string name_of_its_own(const std::string& name, std::set<std::string>& used);
 
-/// Whether a fit or sweep was stopped in a folder: simulations are kept, and there is no result.
-bool was_stopped(const std::filesystem::path& folder);
-
-/// What a stopped run is known by: "fit of /home/me/femur/study.toml".
-std::string name_of_run(const char* command, const std::vector<std::filesystem::path>& inputs);
-
-/// Whether one was, so that the run of the same name goes on with it.
-/// @throws InputError when that of another name was stopped there, and `force` is false
-bool goes_on(const std::filesystem::path& folder, const std::string& run, bool force);
-
 /// Files are written into a staging folder beside the target, or in it where it is there already
 /// and may be a disk of its own, and moved by `publish`; whatever was not published is removed
 /// again, so that no run leaves half of its files.
@@ -46,9 +36,6 @@ class OutputFolder {
 
   /// Writes a file there.
   void write(const std::filesystem::path& name, const std::string& content) const;
-
-  /// Leaves the name of the run in the target, for `goes_on` to know it if it is stopped.
-  void sign(const std::string& run) const;
 
   /// A file's place in the target itself, for what must survive a kill.
   [[nodiscard]] std::filesystem::path keep(const std::filesystem::path& name) const;

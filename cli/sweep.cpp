@@ -12,11 +12,10 @@
 #include "calib/sweep/measure_words.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/output_folder.hpp"
+#include "cli/kept_run.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/provenance.hpp"
 #include "io/input_error.hpp"
-#include "io/store/sqlite_store.hpp"
 #include "io/sweep/read_sweep.hpp"
 #include "io/sweep/sweep_files.hpp"
 #include "io/sweep/sweep_keys.hpp"
@@ -190,25 +189,20 @@ int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
   std::vector<Done> all = read_all(arguments, common);
   Digests inputs = digests_of(inputs_of(all));
   catch_interrupts();
-  const std::string run = name_of_run("sweep", arguments.files);
-  const bool resumes = goes_on(arguments.folder, run, common.force);
-  OutputFolder output(arguments.folder, common.force || resumes);
-  if (resumes) note(common, "going on with the simulations kept in " + arguments.folder.string());
-  const auto store = io::open_store(output.keep("evaluations.sqlite"));
-  output.sign(run);
-  if (!run_all(all, *store, common)) {
+  KeptRun run("sweep", arguments.files, arguments.folder, common);
+  if (!run_all(all, run.store(), common)) {
     const bool patterns =
         std::ranges::any_of(all, [](const Done& one) { return one.sweep.patterns; });
     return without_result(
         common, "cancelled",
         fmt::format("stopped by you; the runs so far are kept in {}{}: the same command goes on "
                     "from there",
-                    output.folder().string(),
+                    run.output().folder().string(),
                     patterns ? ", but those of sweeps with patterns, which begin anew" : ""));
   }
   const calib::Provenance provenance = provenance_of(common, std::move(inputs), watch);
-  const nlohmann::json json = write_all(output, arguments, all, provenance);
-  answer(common, &output, json, page_or("result.json"),
+  const nlohmann::json json = write_all(run.output(), arguments, all, provenance);
+  answer(common, &run.output(), json, page_or("result.json"),
          [&] { print_summary(all, provenance.wall_seconds); });
   return trusted(all) ? done : answer_is_no;
 }

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <set>
 
 #include "calib/experiment/measured_test.hpp"
@@ -43,15 +42,6 @@ struct Made {
   sim::Simulation simulation;
   std::vector<std::string> problems;  ///< That the test has for a fit.
 };
-
-calib::Laboratory laboratory_of(const io::SynthesizeOptions& options) {
-  return {.crosshead_rate = options.crosshead_rate,
-          .sampling = options.sampling,
-          .preload = options.preload,
-          .toe_strain = options.toe_strain,
-          .force_noise = options.force_noise,
-          .strain_noise = options.strain_noise};
-}
 
 calib::Bar bar_of(const io::SpecimenFiles& files) {
   calib::Bar bar;
@@ -144,7 +134,7 @@ Made make_specimen(const fs::path& study, const OutputFolder& output, const io::
                    std::size_t s) {
   const std::uint64_t seed = calib::specimen_seed(file.study.calibrate.seed, s);
   const calib::Bar bar = bar_of(file.specimens[s]);
-  const calib::Laboratory laboratory = laboratory_of(file.synthesize);
+  const calib::Laboratory& laboratory = file.synthesize.laboratory;
 
   calib::Study one = file.study;
   calib::Specimen& specimen = one.specimens[s];
@@ -182,17 +172,16 @@ nlohmann::json truth_of(const io::StudyFile& file, const std::vector<Made>& made
       parameters[std::string(parameter.name)] = calib::value_of(file.study.model, parameter.name);
   nlohmann::json specimens = nlohmann::json::array();
   for (const Made& one : made) {
-    nlohmann::json specimen{
-        {"id", one.specimen.id},
-        {"orientation_deg", one.specimen.orientation * 180.0 / std::numbers::pi},
-        {"scatter", one.scene.joints.scatter},
-        {"missing_joints", one.scene.joints.missing},
-        {"seed", one.scene.joints.seed},
-        {"young_GPa", 1e-9 * one.scene.material.young},
-        {"status", sim::to_string(one.simulation.status)},
-        {"modulus_Pa", one.simulation.modulus},
-        {"strength_Pa", one.simulation.strength},
-        {"failure_strain", one.simulation.failure_strain}};
+    nlohmann::json specimen{{"id", one.specimen.id},
+                            {"orientation_deg", io::from_si(one.specimen.orientation, io::degree)},
+                            {"scatter", one.scene.joints.scatter},
+                            {"missing_joints", one.scene.joints.missing},
+                            {"seed", one.scene.joints.seed},
+                            {"young_GPa", 1e-9 * one.scene.material.young},
+                            {"status", sim::to_string(one.simulation.status)},
+                            {"modulus_Pa", one.simulation.modulus},
+                            {"strength_Pa", one.simulation.strength},
+                            {"failure_strain", one.simulation.failure_strain}};
     if (!one.specimen.sections.empty()) {
       const calib::SpecimenPorosity porosity = calib::pool_sections(one.specimen.sections);
       specimen["porosity"] = porosity.porosity;
@@ -229,7 +218,7 @@ void print_summary(const std::vector<Made>& made) {
   fmt::print("specimen    angle [deg]   scatter   E [GPa]   strength [MPa]   failure strain [%]\n");
   for (const Made& one : made)
     fmt::print("{:<12}{:>11.1f}{:>10.3f}{:>10.3f}{:>17.2f}{:>21.4f}\n", one.specimen.id,
-               one.specimen.orientation * 180.0 / std::numbers::pi, one.scene.joints.scatter,
+               one.specimen.orientation / calib::degree, one.scene.joints.scatter,
                1e-9 * one.simulation.modulus, 1e-6 * one.simulation.strength,
                100.0 * one.simulation.failure_strain);
 }

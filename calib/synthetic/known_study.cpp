@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 #include "calib/study/parameter.hpp"
 #include "calib/synthetic/laboratory_record.hpp"
@@ -60,7 +59,7 @@ Study empty_study(const Design& design, int number) {
 sim::Scene scene_of(const KnownStudy& known, const Design& design, int number,
                     std::size_t specimen) {
   sim::Scene scene = known.study.model;
-  scene.assembly.orientation = design.degrees[specimen] * std::numbers::pi / 180.0;
+  scene.assembly.orientation = design.degrees[specimen] * degree;
   const auto own = [&](Purpose purpose) {
     return std::exp(design.specimen_effect *
                     gsl_cdf_ugaussian_Pinv(fraction(number, number_of(purpose, specimen))));

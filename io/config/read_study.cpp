@@ -197,13 +197,14 @@ void read_laws_file(TableReader calibrate, std::vector<calib::SweepLaw>& laws) {
 
 void read_synthesize(TableReader table, SynthesizeOptions& options) {
   keys(table, options);
-  require_not_negative(table, "force_noise_N", options.force_noise);
-  require_not_negative(table, "strain_noise", options.strain_noise);
-  require_not_negative(table, "preload_N", options.preload);
-  require_not_negative(table, "toe_strain", options.toe_strain);
+  require_not_negative(table, "force_noise_N", options.laboratory.force_noise);
+  require_not_negative(table, "strain_noise", options.laboratory.strain_noise);
+  require_not_negative(table, "preload_N", options.laboratory.preload);
+  require_not_negative(table, "toe_strain", options.laboratory.toe_strain);
   require_not_negative(table, "modulus_cv", options.modulus_cv);
-  require_positive(table, "sampling_s", options.sampling);
-  require_positive(table, "crosshead_mm_per_min", options.crosshead_rate, millimetre_per_minute);
+  require_positive(table, "sampling_s", options.laboratory.sampling);
+  require_positive(table, "crosshead_mm_per_min", options.laboratory.crosshead_rate,
+                   millimetre_per_minute);
   require_positive(table, "pore_radius_um", options.pore_radius, micrometre);
   table.require(options.section_pixels >= 16 && options.section_pixels <= 4096, "section_pixels",
                 options.section_pixels, "from 16 to 4096");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calib/study/study.hpp"
+#include "calib/synthetic/laboratory_record.hpp"
 #include "io/config/read_scene.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/input_error.hpp"
@@ -34,15 +35,10 @@ struct SpecimenFiles {
 /// [synthesize]: how `havers synthesize` dresses the model's answers as a laboratory's files. SI
 /// units.
 struct SynthesizeOptions {
-  double force_noise = 0.5;             ///< SD of the force channel. [N]
-  double strain_noise = 2e-6;           ///< SD of the strain channel. [-]
-  double preload = 10.0;                ///< Force at the first row. [N]
-  double toe_strain = 1e-4;             ///< Strain lost in the toe. [-]
-  double sampling = 0.1;                ///< Time between rows. [s]
-  double crosshead_rate = 0.5e-3 / 60;  ///< Speed of the crosshead. [m/s]
-  double pore_radius = 8e-6;            ///< Mean radius of the drawn pores. [m]
-  double modulus_cv = 0.0;              ///< Coefficient of variation of E between specimens. [-]
-  int section_pixels = 512;             ///< Side of a drawn section.
+  calib::Laboratory laboratory;
+  double pore_radius = 8e-6;  ///< Mean radius of the drawn pores. [m]
+  double modulus_cv = 0.0;    ///< Coefficient of variation of E between specimens. [-]
+  int section_pixels = 512;   ///< Side of a drawn section.
 };
 
 struct StudyFile {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -102,19 +101,18 @@ void doubt_specimens(TableReader top, const StudyFile& read, Sentences& found) {
 // 15, 30 ... 90 degrees that it is.
 void doubt_angles(const StudyFile& read, Sentences& found) {
   constexpr double most = 1.6;  // a little more than a right angle in radians
-  constexpr double per_radian = 180.0 / std::numbers::pi;
   double largest = 0.0;
   for (const calib::Specimen& specimen : read.study.specimens)
-    largest = std::max(largest, std::abs(specimen.orientation) * per_radian);
+    largest = std::max(largest, std::abs(specimen.orientation) / calib::degree);
   if (largest > 0.0 && largest < most) {
     found.push_back(fmt::format(
         "orientation_deg is in degrees, and the largest is {:.4g}: were radians meant?", largest));
     return;
   }
   for (const calib::Specimen& specimen : read.study.specimens) {
-    const double given = specimen.orientation * per_radian;
-    const double meant = 15.0 * std::round(given * per_radian / 15.0);
-    if (given == 0.0 || std::abs(given) >= most || std::abs(given * per_radian - meant) > 0.3)
+    const double given = specimen.orientation / calib::degree;
+    const double meant = 15.0 * std::round(given / calib::degree / 15.0);
+    if (given == 0.0 || std::abs(given) >= most || std::abs(given / calib::degree - meant) > 0.3)
       continue;
     found.push_back(fmt::format(
         "orientation_deg of specimen {} is {:.4g}, as {:g} degrees are in radians: were radians "

@@ -46,12 +46,12 @@ void keys(Table& table, calib::CalibrateOptions& options) {
 
 template <class Table>
 void keys(Table& table, SynthesizeOptions& options) {
-  table.key("force_noise_N", options.force_noise);
-  table.key("strain_noise", options.strain_noise);
-  table.key("preload_N", options.preload);
-  table.key("toe_strain", options.toe_strain);
-  table.key("sampling_s", options.sampling);
-  table.key("crosshead_mm_per_min", options.crosshead_rate, millimetre_per_minute);
+  table.key("force_noise_N", options.laboratory.force_noise);
+  table.key("strain_noise", options.laboratory.strain_noise);
+  table.key("preload_N", options.laboratory.preload);
+  table.key("toe_strain", options.laboratory.toe_strain);
+  table.key("sampling_s", options.laboratory.sampling);
+  table.key("crosshead_mm_per_min", options.laboratory.crosshead_rate, millimetre_per_minute);
   table.key("pore_radius_um", options.pore_radius, micrometre);
   table.key("modulus_cv", options.modulus_cv);
   table.key("section_pixels", options.section_pixels);

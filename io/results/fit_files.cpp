@@ -69,14 +69,12 @@ void read_curves(const std::filesystem::path& folder, calib::SpecimenResult& spe
 
 nlohmann::json calibration_json(const calib::Study& study, const calib::CalibrationResult& result,
                                 const calib::Provenance& provenance) {
-  calib::CalibrationResult answer = result;
-  calib::Study question = study;
-  nlohmann::json json = json_of(answer);
+  nlohmann::json json = json_of(result);
   json["status_text"] = calib::explain(result.status);
   json["trusted"] = result.trusted();
   json["wall_s"] = provenance.wall_seconds;
   json["scene"] = scene_json(result.scene);
-  json["study"] = json_of(question);
+  json["study"] = json_of(study);
   json["provenance"] = provenance_object(provenance);
   return json;
 }

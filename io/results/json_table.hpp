@@ -42,7 +42,13 @@ inline nlohmann::json json_of(const std::optional<double>& value) {
 
 /// JSON of anything else, its numbers given in SI units.
 template <class T>
-nlohmann::json json_of(T& value, KeyUnit unit = {});
+nlohmann::json written(T& value, KeyUnit unit = {});
+
+/// The same of a copy: keys are declared once, for writing and for reading.
+template <class T>
+nlohmann::json json_of(T value) {
+  return written(value);
+}
 
 /// Writes keys into a JSON object.
 class JsonWriter {
@@ -51,7 +57,7 @@ class JsonWriter {
 
   template <class T>
   void key(const char* name, T& value, KeyUnit unit = {}) {
-    (*object_)[name] = json_of(value, unit);
+    (*object_)[name] = written(value, unit);
   }
   template <class T>
   void key(const char* name, std::optional<T>& value, KeyUnit unit = {}) {
@@ -69,16 +75,18 @@ class JsonWriter {
 };
 
 template <class T>
-nlohmann::json json_of(T& value, KeyUnit unit) {
+nlohmann::json written(T& value, KeyUnit unit) {
   nlohmann::json json;
-  if constexpr (Worded<T>) {
+  if constexpr (std::is_same_v<T, double>) {
+    json = json_of(value, unit);
+  } else if constexpr (Worded<T>) {
     json = word(value);
   } else if constexpr (TextMap<T>) {
     json = nlohmann::json::object();
-    for (auto& [name, item] : value) json[name] = json_of(item, unit);
+    for (auto& [name, item] : value) json[name] = written(item, unit);
   } else if constexpr (List<T>) {
     json = nlohmann::json::array();
-    for (auto& item : value) json.push_back(json_of(item, unit));
+    for (auto& item : value) json.push_back(written(item, unit));
   } else if constexpr (Keyed<T>) {
     json = nlohmann::json::object();
     JsonWriter table(json);

@@ -14,10 +14,10 @@ nlohmann::json column_json(const Column& column) {
 }  // namespace
 
 nlohmann::json import_json(const TestFile& file, const calib::Reduction& reduction) {
-  calib::MeasuredTest test = reduction.test;
-  nlohmann::json json = json_of(test);  // modulus_Pa, strength_Pa, ... , corrections and warnings
+  nlohmann::json json =
+      json_of(reduction.test);  // modulus_Pa, strength_Pa, ... , corrections and warnings
   for (const auto& [key, value] : json.items())  // what is not known is null
-    if (value == 0.0 || (!value.is_array() && test.strain.empty() && key != "area_m2"))
+    if (value == 0.0 || (!value.is_array() && reduction.test.strain.empty() && key != "area_m2"))
       value = nullptr;
   json["file"] = file.file;
   json["layout"] = file.layout;
@@ -36,8 +36,7 @@ nlohmann::json import_json(const TestFile& file, const calib::Reduction& reducti
 }
 
 nlohmann::json porosity_json(const calib::SectionPorosity& section, double scatter) {
-  calib::SectionPorosity copy = section;
-  nlohmann::json json = json_of(copy);
+  nlohmann::json json = json_of(section);
   const calib::SpecimenPorosity alone = calib::pool_sections({section});
   json["scatter"] = json_of(calib::removes_joints(alone) ? std::nan("") : scatter);
   json["missing_joints"] = calib::missing_joints(alone);

@@ -14,7 +14,7 @@ std::string compiler_version() {
   return HAVERS_COMPILER;
 }
 
-nlohmann::json provenance_object(calib::Provenance provenance) {
+nlohmann::json provenance_object(const calib::Provenance& provenance) {
   return json_of(provenance);
 }
 

@@ -21,7 +21,7 @@ std::string version();
 std::string compiler_version();
 
 /// The `provenance` object of a result.json.
-nlohmann::json provenance_object(calib::Provenance provenance);
+nlohmann::json provenance_object(const calib::Provenance& provenance);
 
 /// The objects of result.json and of --json.
 nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& simulation,

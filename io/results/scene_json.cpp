@@ -7,8 +7,7 @@
 namespace havers::io {
 namespace {
 
-// A copy, as keys are declared once, for reading and writing.
-nlohmann::json tables_of_scene(sim::Scene scene) {
+nlohmann::json tables_of_scene(const sim::Scene& scene) {
   nlohmann::json json = json_of(scene);
   // A scene cannot hold thresholds joint by joint; the joints.csv beside the result does.
   if (!scene.joints.thresholds.empty()) json["joints"]["thresholds_file"] = "joints.csv";

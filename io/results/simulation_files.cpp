@@ -16,7 +16,6 @@ nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& sim
   nlohmann::json scene = scene_json(file.scene);
   scene["output"]["snapshots"] = file.snapshots;
   const sim::StepError error = simulation.step_error.value_or(sim::StepError{NAN, NAN, NAN});
-  std::vector<sim::LeftOut> left_out = simulation.left_out;
   return {
       {"status", sim::to_string(simulation.status)},
       {"status_text", sim::explain(simulation)},
@@ -48,7 +47,7 @@ nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& sim
       {"residual_to_strength", json_of(simulation.residual_to_strength)},
       {"worst_penetration_m", json_of(simulation.worst_penetration)},
       {"wall_s", json_of(provenance.wall_seconds)},
-      {"left_out", json_of(left_out)},
+      {"left_out", json_of(simulation.left_out)},
       {"scene", scene},
       {"provenance", provenance_object(provenance)},
   };

@@ -70,11 +70,10 @@ std::string summary_csv(const calib::Sweep& sweep, const calib::SweepResult& res
 }
 
 nlohmann::json laws_json(const calib::SweepResult& result) {
-  std::vector<calib::Law> laws = result.laws;
   return {{"form",
            "response = sum of coefficients[i] * terms[i] + coefficients.back(); the "
            "terms as in a scene file, the response in SI units"},
-          {"laws", json_of(laws)}};
+          {"laws", json_of(result.laws)}};
 }
 
 std::vector<calib::SweepLaw> read_laws(const std::filesystem::path& file) {
@@ -122,7 +121,7 @@ nlohmann::json sweep_json(const calib::Sweep& sweep, const calib::SweepResult& r
                                 {"sd", json_of(s.sd)},
                                 {"standard_error", json_of(s.standard_error())}};
     }
-    calib::StrengthLaw strength = result.strengths[i];
+    const calib::StrengthLaw& strength = result.strengths[i];
     points.push_back({{"level", point.level},
                       {"keys", values},
                       {"inertia_number", point.inertia_number},
@@ -132,13 +131,11 @@ nlohmann::json sweep_json(const calib::Sweep& sweep, const calib::SweepResult& r
                       {"measures", measures},
                       {"strength_law", strength.runs > 0 ? json_of(strength) : nlohmann::json()}});
   }
-  std::vector<calib::Law> laws = result.laws;
-  std::vector<calib::Finding> findings = result.findings;
   return {{"name", sweep.name},
           {"trusted", result.trusted()},
           {"points", points},
-          {"laws", json_of(laws)},
-          {"findings", json_of(findings)},
+          {"laws", json_of(result.laws)},
+          {"findings", json_of(result.findings)},
           {"evaluations", result.runs.size()},
           {"simulated", result.simulated},
           {"failed_simulations", result.failed},

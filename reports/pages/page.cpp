@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "reports/templates/templates.hpp"
 #include "reports/text/format.hpp"
@@ -120,7 +119,7 @@ std::string duration(double seconds) {
 }
 
 std::string degrees(double radians) {
-  return fmt::format("{:.4g}°", radians * 180.0 / std::numbers::pi);
+  return fmt::format("{:.4g}°", radians / calib::degree);
 }
 
 std::string base_name(const std::string& path) {

@@ -159,12 +159,12 @@ section_pixels = 256
   EXPECT_EQ(calibrate.budget, 100);
   EXPECT_EQ(calibrate.seed, 9U);
 
-  EXPECT_EQ(file.synthesize.force_noise, 0.25);
-  EXPECT_EQ(file.synthesize.strain_noise, 1e-6);
-  EXPECT_EQ(file.synthesize.preload, 5.0);
-  EXPECT_EQ(file.synthesize.toe_strain, 2e-4);
-  EXPECT_EQ(file.synthesize.sampling, 0.05);
-  EXPECT_DOUBLE_EQ(file.synthesize.crosshead_rate, 1e-4);
+  EXPECT_EQ(file.synthesize.laboratory.force_noise, 0.25);
+  EXPECT_EQ(file.synthesize.laboratory.strain_noise, 1e-6);
+  EXPECT_EQ(file.synthesize.laboratory.preload, 5.0);
+  EXPECT_EQ(file.synthesize.laboratory.toe_strain, 2e-4);
+  EXPECT_EQ(file.synthesize.laboratory.sampling, 0.05);
+  EXPECT_DOUBLE_EQ(file.synthesize.laboratory.crosshead_rate, 1e-4);
   EXPECT_EQ(file.synthesize.pore_radius, 10e-6);
   EXPECT_EQ(file.synthesize.modulus_cv, 0.02);
   EXPECT_EQ(file.synthesize.section_pixels, 256);
