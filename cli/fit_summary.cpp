@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "calib/count.hpp"
@@ -38,12 +37,9 @@ void print_specimen(const calib::SpecimenResult& specimen) {
 // Whether the fit can be trusted, and what speaks against that.
 std::string headline(const calib::CalibrationResult& result) {
   if (!result.trusted()) return "NOT to be trusted: " + why_not_trusted(result);
-  std::vector<std::string_view> warned;
-  for (const calib::Check& check : result.verdict)
-    if (check.outcome == calib::Outcome::warn) warned.push_back(check.check);
+  const auto warned = checks_with(result, calib::Outcome::warn);
   if (warned.empty()) return "to be trusted: " + calib::explain(result.status);
-  return fmt::format("to be trusted, with {}: {}",
-                     calib::count(static_cast<long>(warned.size()), "reservation"),
+  return fmt::format("to be trusted, with {}: {}", calib::count(warned.size(), "reservation"),
                      fmt::join(warned, ", "));
 }
 

@@ -154,7 +154,7 @@ void assess_answer(Trail& trail, Answer& answer) {
   answer.asked_slopes = with_left_out(trail, answer, answer.slopes);
   answer.uncertainty = uncertainty_of(trail.problem(), answer.weights, answer.best, answer.active,
                                       answer.asked_slopes);
-  for (const Eigen::Index unknown : asked_and_left(trail, answer)) {
+  for (const Eigen::Index unknown : asked_and_left(trail.problem(), answer)) {
     trail.enter("unknowns left out");
     std::ranges::move(walk_along(trail, unknown, answer.active, answer.slopes.jacobian),
                       std::back_inserter(answer.elsewhere));

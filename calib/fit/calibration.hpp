@@ -210,6 +210,9 @@ struct CalibrationResult {
 /// Precondition: the result is not trusted.
 std::string why_not_trusted(const CalibrationResult& result);
 
+/// The names of the verdict's checks that came to an outcome.
+std::vector<std::string> checks_with(const CalibrationResult& result, Outcome outcome);
+
 /// What the caller may watch: called after every evaluated point of a search. False stops the fit.
 struct CalibrationProgress {
   std::string stage;

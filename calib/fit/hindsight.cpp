@@ -9,6 +9,7 @@
 #include "calib/count.hpp"
 #include "calib/fit/answer.hpp"
 #include "calib/fit/confirmation.hpp"
+#include "calib/fit/left_out.hpp"
 #include "calib/fit/next_test.hpp"
 #include "calib/fit/randomness.hpp"
 #include "calib/fit/resampling.hpp"
@@ -40,15 +41,13 @@ std::string product(const FitProblem& problem, const Answer& answer,
   return text;
 }
 
-// ", at ratio = 1.5": where the slopes are those of, as what was asked for is left out there. What
-// "auto" leaves out the study knows.
+// ", at ratio = 1.5": where the slopes are those of, as what was asked for is left out there.
 std::string where_held(const FitProblem& problem, const Answer& answer) {
   std::string text;
-  if (problem.study.calibrate.automatic) return text;
-  for (const LeftUnknown& left : answer.left) {
-    const Unknown& unknown = problem.unknowns[static_cast<std::size_t>(left.unknown)];
+  for (const Index k : asked_and_left(problem, answer)) {
+    const Unknown& unknown = problem.unknown(k);
     text += fmt::format("{} {} = {:.4g}{}{}", text.empty() ? ", at" : " and", unknown.label,
-                        value_in_unit(unknown, answer.best.point[left.unknown]),
+                        value_in_unit(unknown, answer.best.point[k]),
                         unknown.info->unit.empty() ? "" : " ", unknown.info->unit);
   }
   return text;

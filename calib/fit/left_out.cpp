@@ -53,16 +53,16 @@ bool mend_left_out(Trail& trail, const Eigen::MatrixXd& jacobian, Answer& answer
   return false;
 }
 
-Active asked_and_left(const Trail& trail, const Answer& answer) {
+Active asked_and_left(const FitProblem& problem, const Answer& answer) {
   Active unknowns;
-  if (!trail.problem().study.calibrate.automatic)
+  if (!problem.study.calibrate.automatic)
     for (const LeftUnknown& one : answer.left) unknowns.push_back(one.unknown);
   return unknowns;
 }
 
 Eigen::MatrixXd with_left_out(Trail& trail, const Answer& answer, const Differences& fitted) {
   const Evaluation best = trail.best();
-  const Active left = asked_and_left(trail, answer);
+  const Active left = asked_and_left(trail.problem(), answer);
   const auto others = differentiate(trail, best, left, slope_step);
   trail.restart(trail.weights(), best);
   if (others.failed) return fitted.jacobian;

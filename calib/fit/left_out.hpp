@@ -24,7 +24,7 @@ bool mend_left_out(Trail& trail, const Eigen::MatrixXd& jacobian, Answer& answer
 
 /// What the study asks for, and the specimens do not tell; what "auto" leaves out is as the study
 /// says.
-Active asked_and_left(const Trail& trail, const Answer& answer);
+Active asked_and_left(const FitProblem& problem, const Answer& answer);
 
 /// Slopes of what is fitted and, beside them, of what was asked for and left out: its value is a
 /// choice too, and takes freedom from the residuals (F9), unless it cannot move them by one

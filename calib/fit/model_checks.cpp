@@ -7,12 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "calib/count.hpp"
@@ -96,11 +95,6 @@ std::optional<double> chance(const FitProblem& problem, const Answer& answer, Ei
   return gsl_cdf_fdist_Q(squares / between, between, within);
 }
 
-bool is_fitted(const FitProblem& problem, const Answer& answer, std::string_view parameter) {
-  return std::ranges::any_of(
-      answer.active, [&](Eigen::Index k) { return problem.unknown(k).info->name == parameter; });
-}
-
 // Whether a fitted parameter moves the strengths; so, for all that is known, where slopes failed.
 bool strengths_are_fitted(const FitProblem& problem, const Answer& answer) {
   if (answer.active.empty()) return false;
@@ -144,14 +138,12 @@ constexpr double largest_off = 3.0;
 // as far from their mean.
 bool is_among_replicates(const SpecimenResult& specimen, double ReplicateResult::*number,
                          double measured) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  double lowest = infinite, highest = -infinite;
-  for (const ReplicateResult& one : specimen.replicates) {
-    if (one.failed) continue;
-    lowest = std::min(lowest, one.*number);
-    highest = std::max(highest, one.*number);
-  }
-  return lowest <= measured && measured <= highest;
+  const auto some = [&](auto compare) {
+    return std::ranges::any_of(specimen.replicates, [&](const ReplicateResult& one) {
+      return !one.failed && compare(one.*number, measured);
+    });
+  };
+  return some(std::less_equal{}) && some(std::greater_equal{});
 }
 
 // (F24) What is left out may explain it, and excuses nothing: the model that is handed over has the
@@ -170,6 +162,11 @@ std::string prediction_off(const std::vector<std::string>& off,
 }
 
 }  // namespace
+
+bool is_fitted(const FitProblem& problem, const Answer& answer, std::string_view parameter) {
+  return std::ranges::any_of(
+      answer.active, [&](Eigen::Index k) { return problem.unknown(k).info->name == parameter; });
+}
 
 std::string two_digits(double value) {
   constexpr double rounding = 1e-12;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "calib/fit/answer.hpp"
@@ -16,6 +17,9 @@ std::string percent_text(double part);
 
 /// "p = 0.03", "p < 1e-6": the probability of a test.
 std::string chance_text(double p);
+
+/// Whether a parameter of that name is, for any of the specimens.
+bool is_fitted(const FitProblem& problem, const Answer& answer, std::string_view parameter);
 
 /// Tests less likely than this reject what they test. [-]
 inline constexpr double significance = 0.01;

@@ -197,10 +197,7 @@ Check check_toe(const FitProblem& problem, const Answer& answer) {
 
 Check check_strain(const FitProblem& problem, const Answer& answer) {
   constexpr const char* name = "strain of bone alone";
-  const auto is_modulus = [&](Eigen::Index k) {
-    return problem.unknown(k).info->name == "young_GPa";
-  };
-  if (std::ranges::none_of(answer.active, is_modulus))
+  if (!is_fitted(problem, answer, "young_GPa"))
     return not_checked(name, "young_GPa is not fitted.");
   std::vector<std::string> with_machine;
   for (const std::size_t s : problem.fitted)

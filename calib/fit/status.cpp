@@ -1,8 +1,7 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
-#include <string_view>
 #include <vector>
 
 #include "calib/count.hpp"
@@ -25,16 +24,20 @@ std::string to_string(Outcome outcome) {
   return words.at(static_cast<std::size_t>(outcome));
 }
 
+std::vector<std::string> checks_with(const CalibrationResult& result, Outcome outcome) {
+  std::vector<std::string> names;
+  for (const Check& check : result.verdict)
+    if (check.outcome == outcome) names.push_back(check.check);
+  return names;
+}
+
 bool CalibrationResult::trusted() const {
-  const auto failed = [](const Check& check) { return check.outcome == Outcome::fail; };
-  return status == CalibrationStatus::converged && std::ranges::none_of(verdict, failed);
+  return status == CalibrationStatus::converged && checks_with(*this, Outcome::fail).empty();
 }
 
 std::string why_not_trusted(const CalibrationResult& result) {
   if (result.status != CalibrationStatus::converged) return explain(result.status);
-  std::vector<std::string_view> failed;
-  for (const Check& check : result.verdict)
-    if (check.outcome == Outcome::fail) failed.push_back(check.check);
+  const auto failed = checks_with(result, Outcome::fail);
   return fmt::format("{} of {} failed ({})", failed.size(), count(result.verdict.size(), "check"),
                      fmt::join(failed, ", "));
 }

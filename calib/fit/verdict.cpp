@@ -7,6 +7,7 @@
 
 #include "calib/fit/answer.hpp"
 #include "calib/fit/answer_checks.hpp"
+#include "calib/fit/left_out.hpp"
 #include "calib/fit/model_checks.hpp"
 #include "calib/fit/parameter_checks.hpp"
 #include "calib/fit/porosity_check.hpp"
@@ -107,11 +108,10 @@ void leave_all_unchecked(std::vector<Check>& checks, const char* because) {
     if (check.check != "converged") check = not_checked(check.check, because);
 }
 
-// What "auto" leaves out nobody asked for: the study knows its value.
 std::vector<std::string> missed(const FitProblem& problem, const Answer& answer) {
   std::vector<std::string> labels;
-  if (problem.study.calibrate.automatic) return labels;
-  for (const LeftUnknown& left : answer.left) labels.push_back(problem.unknown(left.unknown).label);
+  for (const Eigen::Index k : asked_and_left(problem, answer))
+    labels.push_back(problem.unknown(k).label);
   return labels;
 }
 

@@ -29,10 +29,6 @@ std::vector<ComparedKey> keys_of(const SweepPlan& plan, const SweepPoint& point,
   return keys;
 }
 
-std::vector<ComparedKey> all_keys_of(const Evidence& evidence, std::size_t point) {
-  return keys_of(evidence.plan, evidence.points[point], evidence.plan.keys.size());
-}
-
 Statistics at(const Evidence& evidence, std::size_t point) {
   return statistics_of(values_of(evidence.runs, point, evidence.request.response));
 }
@@ -107,51 +103,54 @@ std::vector<Comparison> differences(const Evidence& evidence, const PointGroup& 
   return all;
 }
 
-// (W4) Coefficient of variation of each point, its interval by χ².
-std::vector<Comparison> variations(const Evidence& evidence, const PointGroup& group) {
+// What `compare` says of each point by its statistics, at its share of the risk.
+template <class Compare>
+std::vector<Comparison> point_by_point(const Evidence& evidence, const PointGroup& group,
+                                       Compare compare) {
   const double share = risk / static_cast<double>(group.points.size());
   std::vector<Comparison> all;
   for (const std::size_t point : group.points) {
-    const Statistics s = at(evidence, point);
-    const auto freedom = static_cast<double>(std::max(s.n - 1, 1L));
-    const double cv = s.sd / std::abs(s.mean);  // NaN of fewer than two runs
-    all.push_back({.compared = all_keys_of(evidence, point),
-                   .value = cv,
-                   .low = cv * std::sqrt(freedom / gsl_cdf_chisq_Qinv(0.5 * share, freedom)),
-                   .high = cv * std::sqrt(freedom / gsl_cdf_chisq_Pinv(0.5 * share, freedom))});
+    Comparison& one = all.emplace_back(compare(point, at(evidence, point), share));
+    one.compared = keys_of(evidence.plan, evidence.points[point], evidence.plan.keys.size());
   }
   return all;
 }
 
+// (W4) Coefficient of variation of each point, its interval by χ².
+std::vector<Comparison> variations(const Evidence& evidence, const PointGroup& group) {
+  return point_by_point(evidence, group, [](std::size_t, const Statistics& s, double share) {
+    const auto freedom = static_cast<double>(std::max(s.n - 1, 1L));
+    const double cv = s.sd / std::abs(s.mean);  // NaN of fewer than two runs
+    return Comparison{.value = cv,
+                      .low = cv * std::sqrt(freedom / gsl_cdf_chisq_Qinv(0.5 * share, freedom)),
+                      .high = cv * std::sqrt(freedom / gsl_cdf_chisq_Pinv(0.5 * share, freedom))};
+  });
+}
+
 std::vector<Comparison> means(const Evidence& evidence, const PointGroup& group) {
-  const double share = risk / static_cast<double>(group.points.size());
-  std::vector<Comparison> all;
-  for (const std::size_t point : group.points) {
-    const Statistics s = at(evidence, point);
+  return point_by_point(evidence, group, [](std::size_t, const Statistics& s, double share) {
     const double half = s.half_width(share);
-    all.push_back({all_keys_of(evidence, point), s.mean, s.mean - half, s.mean + half});
-  }
-  return all;
+    return Comparison{.value = s.mean, .low = s.mean - half, .high = s.mean + half};
+  });
 }
 
 // (W5) Distance of each point's mean from the law, over the mean of all.
 std::vector<Comparison> deviations(const Evidence& evidence, const PointGroup& group) {
   const LawRequest request{evidence.request.response, evidence.request.keys, evidence.request.per};
-  const double share = risk / static_cast<double>(group.points.size());
-  std::vector<Comparison> all;
   for (const Law& law : fit_laws(request, evidence.plan, evidence.points, evidence.runs)) {
     if (law.at != group.value || law.status != LawStatus::fitted) continue;
-    Statistics level{};
-    for (const std::size_t point : group.points) level.mean += at(evidence, point).mean;
-    level.mean /= static_cast<double>(group.points.size());
-    for (const std::size_t point : group.points) {
-      const Statistics s = at(evidence, point);
-      const double value = (s.mean - law.value(evidence.points[point], evidence.plan)) / level.mean;
-      const double half = s.half_width(share) / std::abs(level.mean);
-      all.push_back({all_keys_of(evidence, point), value, value - half, value + half});
-    }
+    double level = 0.0;
+    for (const std::size_t point : group.points) level += at(evidence, point).mean;
+    level /= static_cast<double>(group.points.size());
+    return point_by_point(
+        evidence, group, [&](std::size_t point, const Statistics& s, double share) {
+          const double off = s.mean - law.value(evidence.points[point], evidence.plan);
+          const double value = off / level;
+          const double half = s.half_width(share) / std::abs(level);
+          return Comparison{.value = value, .low = value - half, .high = value + half};
+        });
   }
-  return all;
+  return {};
 }
 
 }  // namespace

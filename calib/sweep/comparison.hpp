@@ -6,7 +6,7 @@
 namespace havers::calib {
 
 struct Comparison {
-  std::vector<ComparedKey> compared;
+  std::vector<ComparedKey> compared{};
   double value = 0.0, low = 0.0, high = 0.0;
   bool step = false;  ///< Between neighbours, beside a claim about the ends.
 };

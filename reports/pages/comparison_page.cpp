@@ -150,11 +150,6 @@ mstch::map fit_content(const FitReport& fit, const FitReport& first) {
           {"checks", check_section(result.verdict)}};
 }
 
-bool has_reservations(const FitReport& fit) {
-  return std::ranges::find(fit.result.verdict, calib::Outcome::warn, &calib::Check::outcome) !=
-         fit.result.verdict.end();
-}
-
 // Which fits can be trusted, and how many with reservations.
 mstch::map verdict_of_fits(const std::vector<FitReport>& fits) {
   std::vector<std::string> cannot;
@@ -162,7 +157,7 @@ mstch::map verdict_of_fits(const std::vector<FitReport>& fits) {
   for (const FitReport& fit : fits)
     if (!fit.result.trusted())
       cannot.push_back(fit.study.name);
-    else if (has_reservations(fit))
+    else if (!checks_with(fit.result, calib::Outcome::warn).empty())
       ++reserved;
   const std::string reserve = reserved == 0 ? "" : fmt::format(", {} with reservations", reserved);
   return {

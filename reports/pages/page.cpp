@@ -71,8 +71,7 @@ std::string how_many_can(const std::string& verb, const std::string& noun, std::
 std::string fit_sentence(const calib::CalibrationResult& result) {
   if (!result.trusted())
     return fmt::format("The fit cannot be trusted: {}.", why_not_trusted(result));
-  const long warned =
-      std::ranges::count(result.verdict, calib::Outcome::warn, &calib::Check::outcome);
+  const std::size_t warned = checks_with(result, calib::Outcome::warn).size();
   return warned == 0
              ? "The fit can be trusted."
              : fmt::format("The fit can be trusted, with {}.", count(warned, "reservation"));
