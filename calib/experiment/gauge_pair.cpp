@@ -10,7 +10,7 @@
 namespace havers::calib {
 namespace {
 
-// GaugeGrowth of a gauge in two equal parts of the loading.
+// What a gauge grew by in two equal parts of the loading.
 struct GaugeGrowth {
   double early = 0.0, late = 0.0;
   bool whole = false;  // no reading is missing

@@ -114,8 +114,7 @@ std::string gap_before(const Fall& fall, std::size_t row, double strength) {
   if (!(gap > steps * before / (2 * held_rows)) || missed < least * strength) return {};
   return fmt::format(
       "{:.3g} s without a row lie before the break, in which the stress may have risen by {:.3g} "
-      "MPa "
-      "more: the strength may be too low by as much",
+      "MPa more: the strength may be too low by as much",
       gap, missed * 1e-6);
 }
 

@@ -83,7 +83,7 @@ TEST(Verdict, NamesWhyMostSimulationsFailedAndWhatWouldAvoidIt) {
   };
   sim::Simulation run;
   run.status = sim::SimulationStatus::broken;
-  run.step_error->strength = 0.5;
+  run.step_error->strength = run.step_error->over_a_wave = 0.5;
   EXPECT_THAT(advice(run.why_not_trusted()), testing::HasSubstr("quasi-static regime, may help."));
   EXPECT_THAT(advice(explain(sim::SimulationStatus::step_limit)),
               testing::HasSubstr("takes fewer."));
