@@ -152,8 +152,7 @@ Check check_broke(const FitProblem& problem, const Answer& answer) {
       stronger.push_back(problem.study.specimens[problem.fitted[f]].id);
   const std::string what =
       "Every fitted test was stopped before it broke: the strengths are lower bounds, and bound "
-      "the "
-      "joints' thresholds from below only. ";
+      "the joints' thresholds from below only. ";
   if (stronger.empty())
     return {name, Outcome::warn,
             what + "Those of the answer are among many that may be; test up to the break."};

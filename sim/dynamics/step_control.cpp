@@ -24,8 +24,9 @@ double most_steps(const Simulation& run) {
   return std::max(of_any, of_all_joints / static_cast<double>(run.joints.size() + 1));
 }
 
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-constexpr StepError never_compared{not_known, not_known, not_known};
+constexpr StepError never_compared{.failure_strain = std::numeric_limits<double>::quiet_NaN(),
+                                   .strength = std::numeric_limits<double>::quiet_NaN(),
+                                   .over_a_wave = std::numeric_limits<double>::quiet_NaN()};
 
 std::string ground_of(const Simulation& run, double accuracy, const std::string& finer_failed) {
   std::string halved;
@@ -100,7 +101,7 @@ Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer,
                                const StopAsked& stop_asked) {
   Stepping stepping{.step = first_step(scene), .leap = may_leap(scene)};
   Simulation run;
-  run.failure_strain = run.strength = not_known;
+  run.failure_strain = run.strength = never_compared.strength;
   std::string finer_failed;
   StepError change{};                  // by the last halving
   int agreed = 0, without_answer = 0;  // in a row
