@@ -56,17 +56,17 @@ GaugeGrowth growth_of(const std::vector<double>& strain, const std::array<std::s
 // (X23)
 std::string join_gauge_pair(RawTest& raw, const std::vector<double>& other, const std::string& a,
                             const std::string& b) {
-  if (raw.strain.empty()) return fmt::format("\"{}\" is used", a);
+  if (raw.strain.empty()) return fmt::format(R"("{}" is used)", a);
   const auto rows = rows_at_parts(loading_of(raw, other));
   const GaugeGrowth first = growth_of(raw.strain, rows), second = growth_of(other, rows);
   if (first.failed() != second.failed()) {
     if (first.failed()) raw.strain = other;
-    return fmt::format("\"{}\" has gaps, stands still or jumps, and \"{}\" alone is used",
+    return fmt::format(R"("{}" has gaps, stands still or jumps, and "{}" alone is used)",
                        first.failed() ? a : b, first.failed() ? b : a);
   }
   const double bending = std::abs(first.early - second.early) / (first.early + second.early);
   if (first.failed() || !(bending >= 0.0 && bending < 1.0))
-    return fmt::format("they do not both stretch, and \"{}\" is used", a);
+    return fmt::format(R"(they do not both stretch, and "{}" is used)", a);
   for (std::size_t i = 0; i < other.size(); ++i) raw.strain[i] = 0.5 * (raw.strain[i] + other[i]);
   return fmt::format(
       "their mean is used, which bending does not move; it adds {:.2g} % to the strain at a face",
