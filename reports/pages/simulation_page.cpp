@@ -54,10 +54,12 @@ std::string step_error_of(const sim::Simulation& s) {
   if (!s.step_error || std::isnan(s.step_error->failure_strain))
     return " The error of the time step is not known.";
   return fmt::format(
-      " The last halvings of the time step, two at most, changed the failure strain by up to {} "
-      "and the strength by up to {}. Implicit Euler took {} of all energy.",
+      " The last halvings of the time step, two at most, changed the failure strain by up to {}, "
+      "the strength by up to {} and its mean over the time of a wave by up to {}. Implicit Euler "
+      "took {} of all energy.",
       quantity(s.step_error->failure_strain / in::percent, "%", 2),
       quantity(s.step_error->strength / in::percent, "%", 2),
+      quantity(s.step_error->over_a_wave / in::percent, "%", 2),
       quantity(s.numerical_loss / in::percent, "%", 2));
 }
 
