@@ -50,26 +50,56 @@ std::optional<double> stress_at(const std::vector<CurvePoint>& curve, double str
   return (1.0 - w) * before.stress_right + w * next->stress_right;
 }
 
-double largest_mean_stress(std::span<const double> strain, std::span<const double> stress,
-                           double span) {
-  assert(span > 0.0);
-  double largest = std::numeric_limits<double>::quiet_NaN();
-  if (strain.empty() || strain.back() - strain.front() < span) return largest;
-  // So short a stretch has few digits in the area, or none in the strain.
-  if (span <= 1e-9 * strain.back()) return *std::ranges::max_element(stress);
+namespace {
+struct Rows {
+  std::vector<double> strain, stress;
+};
+
+// What was leapt over is straight, and gets rows where the two stretches before its end begin.
+Rows rows_for_means(const std::vector<CurvePoint>& curve, double span) {
+  Rows rows;
+  for (const CurvePoint& point : curve) {
+    for (const double before : {2.0 * span, span}) {
+      if (rows.strain.empty() || point.strain - rows.strain.back() <= before) continue;
+      const double part = before / (point.strain - rows.strain.back());
+      rows.stress.push_back(part * rows.stress.back() + (1.0 - part) * point.stress_right);
+      rows.strain.push_back(point.strain - before);
+    }
+    rows.strain.push_back(point.strain);
+    rows.stress.push_back(point.stress_right);
+  }
+  return rows;
+}
+
+// Means over the stretch before each row that has one.
+Rows means_of(const Rows& rows, double span) {
+  const auto& [strain, stress] = rows;
   std::vector<double> area{0.0};  // under the curve up to each row
-  for (std::size_t i = 1; i < strain.size(); ++i)
-    area.push_back(area.back() + 0.5 * (stress[i] + stress[i - 1]) * (strain[i] - strain[i - 1]));
+  Rows means;
   for (std::size_t i = 1, left = 0; i < strain.size(); ++i) {
+    area.push_back(area.back() + 0.5 * (stress[i] + stress[i - 1]) * (strain[i] - strain[i - 1]));
     const double begin = strain[i] - span;
     if (begin < strain.front()) continue;
     while (left + 1 < i && strain[left + 1] <= begin) ++left;
     const double part = (begin - strain[left]) / (strain[left + 1] - strain[left]);
     const double height = stress[left] + part * (stress[left + 1] - stress[left]);
     const double before = area[left] + 0.5 * (stress[left] + height) * (begin - strain[left]);
-    largest = std::fmax(largest, (area[i] - before) / span);
+    means.strain.push_back(strain[i]);
+    means.stress.push_back((area[i] - before) / span);
   }
-  return largest;
+  return means;
+}
+}  // namespace
+
+double largest_mean_stress(const std::vector<CurvePoint>& curve, double span) {
+  assert(span > 0.0);
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (curve.empty() || curve.back().strain - curve.front().strain < span) return none;
+  // So short a stretch has few digits in the area, or none in the strain.
+  if (span <= 1e-9 * curve.back().strain)
+    return std::ranges::max(curve, {}, &CurvePoint::stress_right).stress_right;
+  const Rows means = means_of(means_of(rows_for_means(curve, span), span), span);
+  return means.stress.empty() ? none : *std::ranges::max_element(means.stress);
 }
 
 namespace {

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "sim/simulation.hpp"
@@ -32,11 +31,12 @@ bool has_ended(const Simulation& run);
 /// the origin to the first; none beyond the largest strain. [Pa]
 std::optional<double> stress_at(const std::vector<CurvePoint>& curve, double strain);
 
-/// Largest mean of the stress over a stretch of strain that ends at a row; NaN where the curve is
-/// shorter, the largest stress where the stretch is next to nothing of it. Strains rise. [Pa]
-/// @param span  length of the stretch, > 0. [-]
-double largest_mean_stress(std::span<const double> strain, std::span<const double> stress,
-                           double span);
+/// Largest mean over a stretch of strain of the mean stress over such a stretch, which weighs two
+/// of them that end at a row by a triangle: of waves that take a stretch, or the n-th part of one,
+/// it leaves nothing, of all that ring n times as fast some 1/n². NaN where the curve is shorter,
+/// the largest stress where a stretch is next to nothing of it. Strains rise. [Pa]
+/// @param span  length of a stretch, > 0. [-]
+double largest_mean_stress(const std::vector<CurvePoint>& curve, double span);
 
 /// The modulus is the slope from a tenth of this strain on: of the first break, or of the last row
 /// where nothing broke. Precondition: the curve has rows.

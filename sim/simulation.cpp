@@ -61,8 +61,8 @@ std::string step_in_words(double step) {
 
 namespace {
 // Changes by the last halving of a chosen step that are still trusted. Waves between breaks change
-// the peak of the stress more than its place, and may change it without end where its mean over the
-// time of a wave has settled. [-]
+// the peak of the stress more than its place, and may change it without end where its mean over a
+// wave has settled. [-]
 constexpr double largest_error_of_failure_strain = 1e-2, largest_error_of_strength = 3e-2;
 constexpr const char* instead_of_halving =
     "; a step_s that is shorter still, or the quasi-static regime, may help";
@@ -123,7 +123,7 @@ std::string Simulation::why_not_trusted() const {
 }
 
 double Simulation::strength_without_ringing() const {
-  return ringing > 0.0 ? strength / (1.0 + ringing) : strength;
+  return strength / (1.0 + ringing);
 }
 
 std::string Simulation::reservation() const {
@@ -138,8 +138,8 @@ std::string Simulation::reservation() const {
   if (ringing >= worth_saying)
     reservations.push_back(
         fmt::format("the strength: waves that ring, which steps and meshes change, raise it by "
-                    "{:.2g} %, from {:.4g} MPa, its mean over the time of one and half the rise in "
-                    "that time",
+                    "{:.2g} %, from {:.4g} MPa, its mean over the period of the longest and what "
+                    "the modulus adds in half of it",
                     100.0 * ringing, 1e-6 * strength_without_ringing()));
   // The slope of a stair that a wave climbs by crossing n times errs by up to this over n.
   constexpr double of_a_stair = 0.6;

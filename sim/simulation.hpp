@@ -85,12 +85,13 @@ struct Simulation {
   Eigen::VectorXd displacements;  ///< Of the last row, x and y of every node of the assembly. [m]
 
   double strength = 0.0;  ///< Largest stress at the right side. [Pa]
-  /// Largest mean of the stress over the time W/c of a wave through the specimen, as breaks set
-  /// waves free that no machine sees; NaN in the limit, and where the run was shorter. [Pa]
+  /// Largest mean of the stress over the period 2W/c of the longest wave, in which its two ends
+  /// count least (a triangle), as breaks set waves free that no machine sees; NaN in the limit, and
+  /// where the run was shorter. [Pa]
   double strength_over_a_wave = std::numeric_limits<double>::quiet_NaN();
   /// By how much the strength is more than that mean and what the specimen's modulus adds to it in
-  /// half the time of a wave: waves that ring. NaN as above. [-]
-  double ringing = std::numeric_limits<double>::quiet_NaN();
+  /// half that period: waves that ring; 0 where it is not, and where that is NaN. [-]
+  double ringing = 0.0;
   double failure_strain = 0.0;  ///< Strain of the strength. [-]
   /// Slope from 0.1 to 0.5 of the first break's strain, or of the last row's without one. [Pa]
   double modulus = 0.0;
@@ -135,7 +136,7 @@ struct Simulation {
   /// known, stands behind a semicolon.
   [[nodiscard]] std::string why_not_trusted() const;
   /// The strength without waves that ring, as a testing machine would see it; the strength itself
-  /// in the limit, and where the run was shorter than a wave. [Pa]
+  /// in the limit, and where the run was shorter than that period. [Pa]
   [[nodiscard]] double strength_without_ringing() const;
   /// What a trusted run is to be trusted but for: a time step that was given, whose error nobody
   /// knows; waves in the strength. Nouns with what is to be said of them, semicolons between; empty

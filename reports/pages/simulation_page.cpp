@@ -55,7 +55,7 @@ std::string step_error_of(const sim::Simulation& s) {
     return " The error of the time step is not known.";
   return fmt::format(
       " The last halvings of the time step, two at most, changed the failure strain by up to {}, "
-      "the strength by up to {} and its mean over the time of a wave by up to {}. Implicit Euler "
+      "the strength by up to {} and its mean over the longest wave by up to {}. Implicit Euler "
       "took {} of all energy.",
       quantity(s.step_error->failure_strain / in::percent, "%", 2),
       quantity(s.step_error->strength / in::percent, "%", 2),
@@ -126,7 +126,7 @@ Facts key_numbers(const SimulationReport& report) {
               {dynamic ? "Time steps" : "Events", steps_of(s)},
               {"Contact iterations", std::to_string(s.iterations)}};
   if (!std::isnan(s.strength_over_a_wave))
-    facts.insert(facts.begin() + 1, {"Largest mean stress over the time of a wave",
+    facts.insert(facts.begin() + 1, {"Largest mean stress over the longest wave",
                                      quantity(s.strength_over_a_wave / in::MPa, "MPa") +
                                          by_step(s.error_beyond_accuracy().over_a_wave)});
   return facts;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <vector>
 
 #include "sim/dynamics/dynamic_run.hpp"
@@ -85,22 +86,13 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
   simulation.dropped = assembly.dropped;
   simulation.left_out = left_out_in_time(scene, simulation);
   summarise(simulation);
-  std::vector<double> strain, stress;
-  strain.reserve(simulation.curve.size());
-  stress.reserve(simulation.curve.size());
-  for (const CurvePoint& point : simulation.curve) {
-    strain.push_back(point.strain);
-    stress.push_back(point.stress_right);
-  }
-  const double over_a_wave =
-      scene.loading.strain_rate * assembly.width / wave_speed(scene.material);
-  simulation.strength_over_a_wave = largest_mean_stress(strain, stress, over_a_wave);
+  const double of_a_crossing = scene.loading.strain_rate * time_across(scene);
+  simulation.strength_over_a_wave = largest_mean_stress(simulation.curve, of_a_crossing);
   const double without_ringing =
-      simulation.strength_over_a_wave + 0.5 * simulation.modulus * over_a_wave;
-  simulation.ringing = simulation.strength / without_ringing - 1.0;
+      simulation.strength_over_a_wave + simulation.modulus * of_a_crossing;
+  simulation.ringing = std::fmax(0.0, simulation.strength / without_ringing - 1.0);
   if (scene.loading.start == Start::rest)
-    simulation.crossings = modulus_stretch * strain_of_modulus(simulation) /
-                           (scene.loading.strain_rate * time_across(scene));
+    simulation.crossings = modulus_stretch * strain_of_modulus(simulation) / of_a_crossing;
   return simulation;
 }
 

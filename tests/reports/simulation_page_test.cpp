@@ -43,7 +43,7 @@ TEST_F(SimulationPage, SaysWhatHalvingTheStepChangedOrThatItIsNotKnown) {
   simulation.step_error = {.failure_strain = 6.5e-4, .strength = 0.022, .over_a_wave = 4.1e-4};
   EXPECT_TRUE(contains(page(),
                        "changed the failure strain by up to 0.065\u00a0%, the strength by up to "
-                       "2.2\u00a0% and its mean over the time of a wave by up to 0.041\u00a0%."));
+                       "2.2\u00a0% and its mean over the longest wave by up to 0.041\u00a0%."));
   simulation.numerical_loss = 0.48;
   EXPECT_TRUE(contains(page(), "Implicit Euler took 48\u00a0% of all energy."));
   simulation.step_error.reset();

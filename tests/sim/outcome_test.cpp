@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 namespace havers::sim {
 namespace {
@@ -80,22 +83,40 @@ TEST(Worse, ForgetsNoNumberThatIsNone) {
   EXPECT_TRUE(std::isnan(worse(worse(1.0, std::nan("")), 2.0)));
 }
 
-// A straight curve to σ = 1 with a wave of height 3 on its last tenth: the mean over two tenths.
-TEST(LargestMeanStress, IsThatOverAStretchOfStrain) {
-  const std::vector<double> strain{0.0, 0.9, 0.9 + 1e-12, 1.0}, stress{1.0, 1.0, 3.0, 3.0};
-  EXPECT_NEAR(largest_mean_stress(strain, stress, 0.2), 2.0, 1e-9);
-  EXPECT_NEAR(largest_mean_stress(strain, stress, 0.1), 3.0, 1e-9);
-  EXPECT_NEAR(largest_mean_stress(strain, stress, 1.0), 1.2, 1e-9);
-  EXPECT_TRUE(std::isnan(largest_mean_stress(strain, stress, 1.5))) << "longer than the curve";
+std::vector<CurvePoint> curve_through(const std::vector<std::pair<double, double>>& points) {
+  std::vector<CurvePoint> curve;
+  curve.reserve(points.size());
+  for (const auto& [strain, stress] : points) curve.push_back(row(strain, stress, 0.0));
+  return curve;
+}
+
+// A straight curve at σ = 1 with a jump to 3 on its last tenth: of the two stretches of 0.2 the
+// jump is the last half of the second, an eighth by a triangle. What is leapt over counts.
+TEST(LargestMeanStress, WeighsTwoStretchesOfStrainByATriangle) {
+  const auto curve = curve_through({{0.0, 1.0}, {0.9, 1.0}, {0.9 + 1e-12, 3.0}, {1.0, 3.0}});
+  EXPECT_NEAR(largest_mean_stress(curve, 0.2), 1.25, 1e-9);
+  EXPECT_NEAR(largest_mean_stress(curve, 0.1), 2.0, 1e-9);
+  EXPECT_NEAR(largest_mean_stress(curve_through({{0.0, 0.0}, {1.0, 1.0}}), 0.1), 0.9, 1e-12);
+  EXPECT_TRUE(std::isnan(largest_mean_stress(curve, 0.6))) << "longer than the curve";
+}
+
+// σ = 1 and waves that take a stretch, a third of it and 2.5 of it: their part of 1 that is left.
+TEST(LargestMeanStress, LeavesLittleOfWaves) {
+  for (const auto& [times, left] : {std::pair{1.0, 0.0}, {3.0, 0.0}, {0.4, 0.573}, {5.5, 0.0034}}) {
+    std::vector<std::pair<double, double>> points;
+    for (int i = 0; i <= 20000; ++i)
+      points.emplace_back(5e-5 * i, 1.0 + std::sin(times * 2.0 * std::numbers::pi * 1e-3 * i));
+    EXPECT_NEAR(largest_mean_stress(curve_through(points), 0.05) - 1.0, left, 1e-3) << times;
+  }
 }
 
 // So little of the strain has no digits in the area under the curve, or none in the strain itself.
 TEST(LargestMeanStress, OverNextToNoStrainIsTheLargestStress) {
-  const std::vector<double> strain{0.0, 0.003, 0.006}, stress{0.0, 40.0, 30.0};
+  const auto curve = curve_through({{0.0, 0.0}, {0.003, 40.0}, {0.006, 30.0}});
   for (const double span : {1e-30, 1e-17, 1e-12, 1e-11})
-    EXPECT_NEAR(largest_mean_stress(strain, stress, span), 40.0, 1e-4) << span;
-  EXPECT_TRUE(std::isnan(largest_mean_stress({}, {}, 1e-17)));
-  EXPECT_TRUE(std::isnan(largest_mean_stress(std::vector{0.0}, std::vector{1.0}, 1e-17)));
+    EXPECT_NEAR(largest_mean_stress(curve, span), 40.0, 1e-3) << span;
+  EXPECT_TRUE(std::isnan(largest_mean_stress({}, 1e-17)));
+  EXPECT_TRUE(std::isnan(largest_mean_stress(curve_through({{0.0, 1.0}}), 1e-17)));
 }
 
 TEST(StressAt, FollowsTheCurveFromTheOriginToWhereItFirstReachesAStrain) {

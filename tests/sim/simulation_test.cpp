@@ -104,7 +104,8 @@ TEST(Simulation, IsTrustedButForWavesInItsStrength) {
   EXPECT_TRUE(simulation.trusted());
   EXPECT_EQ(simulation.reservation(),
             "the strength: waves that ring, which steps and meshes change, raise it by 4.2 %, "
-            "from 50 MPa, its mean over the time of one and half the rise in that time");
+            "from 50 MPa, its mean over the period of the longest and what the modulus adds in "
+            "half of it");
   simulation.step = 2e-8;
   simulation.step_error.reset();
   EXPECT_THAT(simulation.reservation(), HasSubstr("is not known; the strength: waves"));
