@@ -135,8 +135,9 @@ void print_summary(const sim::Scene& scene, const sim::Simulation& run, double w
   fmt::print("{}\n", headline(run));
   fmt::print("strength       {}\n", strength_text(scene, run));
   if (!std::isnan(run.strength_over_a_wave))
-    fmt::print("over a wave    {:.4g} MPa{}, the largest mean over the longest one\n",
-               1e-6 * run.strength_over_a_wave, by_step(run.error_beyond_accuracy().over_a_wave));
+    fmt::print("without waves  {:.4g} MPa{}, the part of it that does not ring\n",
+               1e-6 * run.strength_without_ringing(),
+               by_step(run.error_beyond_accuracy().over_a_wave));
   fmt::print("modulus        {:.4g} GPa\n", 1e-9 * run.modulus);
   fmt::print("broken joints  {}\n", breaks_text(scene, run));
   fmt::print("regime         {}: {}\n",

@@ -28,6 +28,7 @@ nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& sim
       {"step_error_over_a_wave", json_of(error.over_a_wave)},
       {"strength_Pa", json_of(simulation.strength)},
       {"strength_over_a_wave_Pa", json_of(simulation.strength_over_a_wave)},
+      {"strength_without_ringing_Pa", json_of(simulation.strength_without_ringing())},
       {"failure_strain",
        json_of(simulation.status == sim::SimulationStatus::broken ? simulation.failure_strain
                                                                   : NAN)},  // not reached

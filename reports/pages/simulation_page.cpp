@@ -126,8 +126,8 @@ Facts key_numbers(const SimulationReport& report) {
               {dynamic ? "Time steps" : "Events", steps_of(s)},
               {"Contact iterations", std::to_string(s.iterations)}};
   if (!std::isnan(s.strength_over_a_wave))
-    facts.insert(facts.begin() + 1, {"Largest mean stress over the longest wave",
-                                     quantity(s.strength_over_a_wave / in::MPa, "MPa") +
+    facts.insert(facts.begin() + 1, {"Strength without waves that ring",
+                                     quantity(s.strength_without_ringing() / in::MPa, "MPa") +
                                          by_step(s.error_beyond_accuracy().over_a_wave)});
   return facts;
 }

@@ -128,6 +128,7 @@ TEST(SimulationJson, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(json["step_error"], 0.0);
   EXPECT_EQ(json["step_error_of_strength"], 0.0);
   EXPECT_EQ(json["step_error_over_a_wave"], 0.0);
+  EXPECT_EQ(json["strength_without_ringing_Pa"], json["strength_Pa"]);
   EXPECT_EQ(json["left_out"][0]["what"], "snapshots");
   EXPECT_EQ(json["left_out"][0]["why"], "none were asked for");
   EXPECT_EQ(json["scene"]["assembly"]["layers"], 4);
