@@ -29,7 +29,8 @@ std::set<std::string> names_of_runs(const fs::path& folder) {
   std::set<std::string> names;
   std::ifstream file(folder / own_names);
   for (std::string name; std::getline(file, name);)
-    if (fs::path(name).filename() == name && name != "." && name != "..") names.insert(name);
+    if (!name.empty() && fs::path(name).filename() == name && name != "." && name != "..")
+      names.insert(name);
   return names;
 }
 

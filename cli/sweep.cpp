@@ -47,10 +47,10 @@ struct Done {
 std::vector<Done> read_all(const SweepArguments& arguments, const CommonOptions& common) {
   std::vector<Done> all;
   std::vector<io::Problem> problems;
-  std::set<std::string> stems;
+  std::set<std::string> stems{"result.json", "report.html"};
   for (const fs::path& file : arguments.files) {
     if (!stems.insert(file.stem().string()).second)
-      problems.push_back({file.string(), "has the file name of another sweep",
+      problems.push_back({file.string(), "has the file name of another sweep or of a result",
                           "rename one: its results are in a folder of that name"});
     try {
       io::SweepFile read = io::read_sweep(file, common.set, common.seed);

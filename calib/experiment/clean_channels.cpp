@@ -25,7 +25,7 @@ bool is_spike(const double* y, double threshold) {
 // (X12) A clock that stands still, or is written with too few digits, tells no rate.
 void drop_standing_time(RawTest& test) {
   const std::vector<double>& time = test.time;
-  const bool loaded = !test.force.empty() || !test.stress.empty();
+  const bool loaded = !test.force.empty() || !test.stress.empty() || !test.load_volts.empty();
   if (!loaded || time.size() < 2 ||
       std::ranges::any_of(time, [&](double t) { return t != time.front(); }))
     return;

@@ -235,7 +235,9 @@ std::string match_rates(const ClockRecords& whole, ClockEvidence evidence, Clock
 std::string match(const Signal& machine, const Signal& logger, ClockFit& fit) {
   if (machine.time.size() < fewest_rows || logger.time.size() < fewest_rows)
     return "there are too few rows";
-  const ClockRecords whole{machine, logger, std::max(telling_step(machine), telling_step(logger))};
+  const double step = std::max(telling_step(machine), telling_step(logger));
+  if (!(step > 0.0)) return "the time is the same in all rows of both";
+  const ClockRecords whole{machine, logger, step};
   if (std::min(whole.machine_rates.value.size(), whole.logger_rates.value.size()) < fewest_rows)
     return "one of the records is too short for the steps of the other";
   ClockEvidence evidence{

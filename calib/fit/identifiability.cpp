@@ -86,9 +86,10 @@ std::string combination(const Unknown& unknown, const Unknown& partner, double c
     const double law = -0.5 / (1.0 - 0.5 * position);
     if (std::abs(coefficient / law - 1.0) < 0.15)
       return fmt::format("only {} × (1 − {}/2) is determined", partner.label, unknown.label);
+  }
+  if (unknown.info->scale != Scale::logarithmic)
     return fmt::format("only {} × exp({:.2g} {}) is determined", partner.label, coefficient,
                        unknown.label);
-  }
   return fmt::format("only {} × {}^{:.2g} is determined", partner.label, unknown.label,
                      coefficient);
 }

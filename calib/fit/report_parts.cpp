@@ -83,7 +83,7 @@ std::vector<sim::LeftOut> left_out_of(const FitProblem& problem, const Simulatio
       list.push_back({"specimen " + problem.study.specimens[s].id,
                       "its test gives no modulus, strength and failure strain"});
   for (std::size_t s = 0; s < problem.models.size(); ++s)
-    if (problem.models[s].scene.joints.missing > 0.0)
+    if (problem.models[s].scene.joints.missing != problem.study.model.joints.missing)
       list.push_back({"the scatter that the sections of " + problem.study.specimens[s].id + " give",
                       fmt::format("their pores are larger than a fibre's window: {:.1f} % of the "
                                   "joints are missing instead",

@@ -23,7 +23,7 @@ class Trail {
       : problem_(problem),
         batch_(batch),
         observer_(observer),
-        replicates_(problem.study.calibrate.replicates) {}
+        replicates_(all_replicates(problem.study.calibrate)) {}
 
   /// Scored evaluations in the order of the points; failed ones once stopped.
   std::vector<Evaluation> evaluate(const std::vector<Point>& points);

@@ -63,25 +63,19 @@ Check check_starts(const FitProblem& problem, const Answer& answer) {
             "Only one start gave an answer; nothing to compare it with."};
   const auto ends = ends_of(problem, answer);
   const auto& best = ends.front();
-  std::size_t same_cost = 0, elsewhere = 0;
-  for (const auto& end : ends) {
-    if (end.cost > best.cost + 0.5) continue;
-    ++same_cost;
-    const auto differs = [&](const LeftUnknown& one) {
+  const auto is_low = [&](const Evaluation& end) { return end.cost <= best.cost + 0.5; };
+  // What was searched along then, and is left out by now, moves the others.
+  const auto is_elsewhere = [&](const Evaluation& end) {
+    const auto moved = [&](const LeftUnknown& one) {
       return end.point[one.unknown] != best.point[one.unknown];
     };
-    // What was searched along then, and is left out by now, moves the others.
-    if (answer.uncertainty.half_width.size() == 0 || std::ranges::any_of(answer.left, differs))
-      continue;
-    for (std::size_t i = 0; i < answer.active.size(); ++i) {
-      const Eigen::Index k = answer.active[i];
-      const double apart = std::abs(end.point[k] - best.point[k]);
-      if (apart > 2.0 * answer.uncertainty.half_width[static_cast<Eigen::Index>(i)] + 0.02) {
-        ++elsewhere;
-        break;
-      }
-    }
-  }
+    const auto& half = answer.uncertainty.half_width;
+    if (!is_low(end) || half.size() == 0 || std::ranges::any_of(answer.left, moved)) return false;
+    const Eigen::ArrayXd apart = (end.point - best.point)(answer.active).array().abs();
+    return (apart > 2.0 * half.array() + 0.02).any();
+  };
+  const auto same_cost = std::ranges::count_if(ends, is_low);
+  const auto elsewhere = std::ranges::count_if(ends, is_elsewhere);
   if (elsewhere > 0)
     return {"starts agree", Outcome::fail,
             fmt::format("{} of {} starts {} at another point that fits as well: the answer is not "

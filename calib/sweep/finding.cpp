@@ -58,7 +58,7 @@ FindingOutcome outcome_of(const std::vector<Comparison>& comparisons, Bracket ra
   bool agrees = true;
   for (const Comparison& c : comparisons) {
     if (!c.step && outside(c, range)) return FindingOutcome::disagrees;
-    agrees = agrees && (c.step ? !outside(c, range) : inside(c, range));
+    agrees = agrees && !std::isnan(c.low) && (c.step ? !outside(c, range) : inside(c, range));
   }
   return agrees ? FindingOutcome::agrees : FindingOutcome::undecided;
 }
@@ -72,11 +72,12 @@ double excess(const Comparison& c, Bracket range) {
 }
 
 // What speaks most against the claim, first of all what makes it disagree; a step does only where
-// its interval lies wholly outside.
+// its interval lies wholly outside, or is not known.
 Comparison worst_of(const std::vector<Comparison>& comparisons, Bracket range) {
   return *std::ranges::max_element(comparisons, {}, [range](const Comparison& c) {
     const bool beyond = outside(c, range);
-    return std::pair{beyond && !c.step, c.step && !beyond ? -infinity : excess(c, range)};
+    const bool idle = c.step && !beyond && !std::isnan(c.low);
+    return std::pair{beyond && !c.step, idle ? -infinity : excess(c, range)};
   });
 }
 

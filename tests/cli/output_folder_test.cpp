@@ -24,7 +24,8 @@ TEST(OutputFolder, IsNotReplacedUnlessForceIsGiven) {
   const fs::path folder = test::folder_with_scene();
   ASSERT_EQ(run_havers(folder, "simulate scene.toml -o out").exit_code, 0);
   fs::create_directories(folder / "out/snapshots");  // as a run with VTK leaves and notes them
-  test::write_text(folder / "out/.havers", test::contents(folder / "out/.havers") + "snapshots\n");
+  test::write_text(folder / "out/.havers",
+                   test::contents(folder / "out/.havers") + "snapshots\n\n");
   const std::string first = test::contents(folder / "out/curve.csv");
   test::write_text(folder / "out/notes.txt", "mine");
 

@@ -107,8 +107,9 @@ TEST(Sweep, NamesTheProblemsOfAllFilesTogether) {
   EXPECT_THAT(answer.err, HasSubstr("did you mean scatter?"));
   fs::create_directories(folder / "other");
   test::write_text(folder / "other/a.toml", small);
-  EXPECT_THAT(run_havers(folder, "sweep a.toml other/a.toml -o out").err,
-              HasSubstr("other/a.toml: has the file name of another sweep (rename one: "));
+  EXPECT_THAT(
+      run_havers(folder, "sweep a.toml other/a.toml -o out").err,
+      HasSubstr("other/a.toml: has the file name of another sweep or of a result (rename one: "));
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 

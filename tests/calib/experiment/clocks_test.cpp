@@ -81,6 +81,10 @@ TEST(Clocks, RefusesSignalsThatDoNotDetermineThem) {
   RawTest noise = logger_record({}, 1, 61.0, 68.0);
   EXPECT_THAT(problem(noise), HasSubstr("do not determine the two clocks"));
   EXPECT_THAT(problem({}), HasSubstr("too few rows"));
+  RawTest still = machine, too = noise;
+  std::ranges::fill(still.time, 1.0);
+  std::ranges::fill(too.time, 1.0);
+  EXPECT_THAT(fitted(still, too).problem, HasSubstr("the time is the same in all rows of both"));
 }
 
 TEST(Clocks, RefusesCyclesThatFitAnywhere) {

@@ -186,12 +186,12 @@ TEST(Finding, SaysWhatWasAskedInTheUnitOfTheMeasure) {
   EXPECT_EQ(ground(), "all differences within ±33.33 %");
 }
 
-// Of three points over x the last has one run left, the others having failed.
-Finding judged_with_failed_runs(FindingTest test) {
+// Of three points over x one has one run left, the others having failed.
+Finding judged_with_failed_runs(FindingTest test, std::size_t point = 2) {
   KnownSweep known({{"x", {"0", "1", "2"}}}, 20, [](const SweepPoint& p, int k) {
     return 1e6 * (100.0 - 10.0 * p.numbers[0] + deviation(k));
   });
-  for (std::size_t i = 41; i < known.runs.size(); ++i) known.runs[i].failed = true;
+  for (std::size_t i = 1; i < 20; ++i) known.runs[20 * point + i].failed = true;
   const double margin = test == FindingTest::above ? 1e6 : 0.5;
   return judged({.test = test, .keys = {"x"}, .margin = margin}, known);
 }
@@ -205,6 +205,12 @@ TEST(Finding, IsUndecidedWhereAPointHasTooFewRuns) {
     EXPECT_TRUE(std::isnan(finding.low));
     EXPECT_THAT(finding.ground, testing::EndsWith("; 19 runs failed and do not count"));
   }
+}
+
+TEST(Finding, IsUndecidedWhereAStepOnTheWayHasTooFewRuns) {
+  const Finding finding = judged_with_failed_runs(FindingTest::falls, 1);
+  EXPECT_EQ(finding.outcome, FindingOutcome::undecided);
+  EXPECT_TRUE(std::isnan(finding.low));
 }
 
 TEST(Finding, LinearAgreesWithALine) {
