@@ -29,7 +29,8 @@ bool goes_on(const fs::path& folder, const std::string& run, bool force) {
   const std::string stopped = fs::is_regular_file(file) ? io::read_text(file, "") : run;
   if (stopped != run && !force)
     throw io::InputError(folder.string(), "holds an unfinished " + stopped,
-                         "give another folder, or --force to put this run in its place");
+                         "give another folder, or --force to put this run in its place, with the "
+                         "simulations that both need");
   return stopped == run;
 }
 

@@ -16,6 +16,7 @@ constexpr double narrowing_step = 0.1;         // part of the window's stress ra
 constexpr double fewest_remaining = 0.3;  // a window shorter than this part shows no straight line
 constexpr double yielded = 0.5;           // slope ratio of the halves that only yielding explains
 constexpr double before_failure = 0.9;    // of the strength: what follows may be failure already
+constexpr int waves = 5;                  // swings of the slope that no toe and yielding make
 constexpr double gentle_toe = 1.1;        // slope after to slope in it; else a gauge may slide
 // Strains of the window of ISO 527-1, for curves without a straight part.
 constexpr double standard_low = 5e-4, standard_high = 25e-4;
@@ -66,6 +67,38 @@ Bend bend_of(const Curve& curve, double low, double high) {
   return bend_at(curve, low, 0.5 * (low + high), high);
 }
 
+// How often the slope along the curve swings by more than curvature and noise explain: a toe makes
+// it rise, yielding fall, a slip in the grips fall and rise again; waves do so again and again.
+int swings_along(const Curve& curve, double strength, const ReductionOptions& options) {
+  constexpr std::size_t most_parts = 16;
+  constexpr double curvature = 0.15, errors = 4.0;
+  const RowRange rows =
+      between(curve.stress, options.window_low * strength, before_failure * strength);
+  const std::size_t parts = std::min(most_parts, rows.rows() / fewest_half_window);
+  const auto part = [&](std::size_t k) {
+    return curve.robust(
+        {rows.first + k * rows.rows() / parts, rows.first + (k + 1) * rows.rows() / parts});
+  };
+  int swings = 0;
+  double direction = 0.0;
+  Line extreme;  // of the swing that goes on
+  for (std::size_t k = 0; k < parts; ++k) {
+    const Line now = part(k);
+    if (k == 0) extreme = now;
+    const double change = now.slope - extreme.slope;
+    const double noise = std::hypot(now.slope_standard_error, extreme.slope_standard_error);
+    const double larger = std::max(std::abs(now.slope), std::abs(extreme.slope));
+    if (change * direction > 0.0) {
+      extreme = now;
+    } else if (std::abs(change) > std::max(curvature * larger, errors * noise)) {
+      extreme = now;
+      direction = change;
+      ++swings;
+    }
+  }
+  return swings;
+}
+
 // The window in stress, and whether what is left of it is straight.
 struct Window {
   double low = 0.0, high = 0.0;  // [Pa]
@@ -103,6 +136,22 @@ Window clear_of_toe(const Curve& curve, const Window& window, double strength,
   if (!gentle || onward.is_straight(options.straightness)) return window;
   const Bend bend = bend_of(curve, window.high, high);
   return bend.is_straight(options.straightness) ? Window{window.high, high, bend, true} : window;
+}
+
+bool differs(const Window& window, double strength, const ReductionOptions& options) {
+  return window.low / strength > options.window_low + 1e-9 ||
+         std::abs(window.high / strength - options.window_high) > 1e-9;
+}
+
+Correction correction_of(const Window& window, double strength, const ReductionOptions& options) {
+  const double low = window.low / strength, high = window.high / strength;
+  const bool longer = low <= options.window_low + 1e-9 && high > options.window_high;
+  return {"modulus window", fmt::format("{} from {:.2g}-{:.2g} to {:.2g}-{:.2g} of the strength{}",
+                                        longer                       ? "extended"
+                                        : high > options.window_high ? "moved"
+                                                                     : "narrowed",
+                                        options.window_low, options.window_high, low, high,
+                                        longer ? "" : ", where the curve is straight")};
 }
 
 // (X6) The line of ISO 527-1, where it can be one: the curve spans its window, and the line meets
@@ -170,22 +219,25 @@ void fall_back(const Curve& curve, const Window& window, ModulusFit& fit) {
 ModulusFit fit_modulus(std::span<const double> strain, std::span<const double> stress,
                        double strength, const ReductionOptions& options) {
   const Curve curve{strain, stress};
-  const Window window =
-      clear_of_toe(curve, straight_window(curve, strength, options), strength, options);
+  Window window = clear_of_toe(curve, straight_window(curve, strength, options), strength, options);
   ModulusFit fit;
+  if (swings_along(curve, strength, options) >= waves) {
+    window = {options.window_low * strength,
+              std::max(options.window_high, before_failure) * strength,
+              {},
+              true};
+    fit.warnings.emplace_back(
+        "the slope of the curve falls and rises again and again, as where waves run through the "
+        "specimen or the load cell: the modulus is the mean slope over more of them");
+  }
   fit.window = between(stress, window.low, window.high);
   fit.line = curve.robust(fit.window);
   if (window.straight)
     steepen(curve, fit.window, fit.line);
   else
     fall_back(curve, window, fit);
-  const double low = window.low / strength, high = window.high / strength;
-  if (low > options.window_low + 1e-9 || high < options.window_high - 1e-9)
-    fit.corrections.push_back(
-        {"modulus window", fmt::format("{} from {:.2g}-{:.2g} to {:.2g}-{:.2g} of the strength, "
-                                       "where the curve is straight",
-                                       high > options.window_high ? "moved" : "narrowed",
-                                       options.window_low, options.window_high, low, high)});
+  if (differs(window, strength, options))
+    fit.corrections.push_back(correction_of(window, strength, options));
   return fit;
 }
 

@@ -55,7 +55,7 @@ double strength_by(std::span<const SweepLaw> laws, const Broken& specimen) {
   for (const SweepLaw& law : laws) {
     double away = 0.0;
     if (law.per == "assembly.orientation_deg")
-      away = std::abs(law.at * degree - specimen.orientation);
+      away = std::abs(std::abs(law.at * degree) - std::abs(specimen.orientation));
     else if (law.per == "joints.ratio")
       away = std::abs(std::log(law.at / specimen.ratio));
     if (away >= distance || (law.per == "assembly.orientation_deg" && away > same_angle)) continue;
@@ -101,7 +101,8 @@ PlainLaw best_plain_law(std::span<const Broken> specimens, double model_paramete
   Eigen::VectorXd off(strength.size());  // by the sweep's laws; their factor is the mean
   for (Index i = 0; i < off.size(); ++i)
     off[i] = strength[i] - std::log(strength_by(laws, specimens[static_cast<std::size_t>(i)]));
-  if (!laws.empty() && off.allFinite()) {
+  best.laws_compared = !laws.empty() && off.allFinite();
+  if (best.laws_compared) {
     const double criterion = aicc((off.array() - off.mean()).matrix().squaredNorm(), n, 1.0);
     if (criterion < best.criterion) best.name = "the sweep's laws times a factor";
     best.criterion = std::min(best.criterion, criterion);

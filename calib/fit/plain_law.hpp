@@ -33,6 +33,7 @@ struct PlainLaw {
   std::string name;
   double criterion = 0.0;        ///< aicc of the law.
   double model_criterion = 0.0;  ///< aicc of the model, on the same strengths.
+  bool laws_compared = false;    ///< A sweep's laws, which have to hold for every specimen.
 };
 
 /// @param model_parameters  spent by the model on the strengths.

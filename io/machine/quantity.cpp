@@ -7,7 +7,7 @@ namespace havers::io {
 const QuantityInfo& info_of(Quantity quantity) {
   using calib::RawTest;
   static constexpr std::array<QuantityInfo, 8> infos{{
-      {"time", &RawTest::time, Dimension::time, "s", "s, ms, min or h"},
+      {"time", &RawTest::time, Dimension::time, "s", "s, ms, us, min or h"},
       {"force", &RawTest::force, Dimension::force, "N",
        "N, kN, lbf, kgf, V, or a factor such as 500 N/V"},
       {"extension", &RawTest::extension, Dimension::length, "mm", "mm, um, m or in"},

@@ -30,6 +30,13 @@ constexpr std::array units{
     NamedUnit{"seconds", {time, 1.0}},
     NamedUnit{"secs", {time, 1.0}},
     NamedUnit{"msec", {time, 1e-3}},
+    NamedUnit{"us", {time, 1e-6}},
+    NamedUnit{"µs", {time, 1e-6}},  // micro sign
+    NamedUnit{"μs", {time, 1e-6}},  // Greek mu
+    NamedUnit{"usec", {time, 1e-6}},
+    NamedUnit{"microseconds", {time, 1e-6}},
+    NamedUnit{"milliseconds", {time, 1e-3}},
+    NamedUnit{"ns", {time, 1e-9}},
     NamedUnit{"minute", {time, 60.0}},
     NamedUnit{"minutes", {time, 60.0}},
     NamedUnit{"hour", {time, 3600.0}},
@@ -114,6 +121,9 @@ constexpr std::array units{
     NamedUnit{"µε", {strain, microstrain}},
     NamedUnit{"με", {strain, microstrain}},
     NamedUnit{"ue", {strain, microstrain}},
+    NamedUnit{"ppm", {strain, microstrain}},
+    NamedUnit{"1e-6", {strain, microstrain}},
+    NamedUnit{"10^-6", {strain, microstrain}},
     NamedUnit{"uε", {strain, microstrain}},
     NamedUnit{"V", {voltage, 1.0}},
     NamedUnit{"mV", {voltage, 1e-3}},

@@ -100,8 +100,11 @@ std::vector<calib::SweepLaw> read_laws(const std::filesystem::path& file) {
     throw InputError(file.string(), "is no file of laws", "name the laws.json of a sweep");
   }
   if (laws.empty())
-    throw InputError(file.string(), "has no law of strength in joints.scatter or joints.ratio",
-                     "ask for one in the sweep file: [[law]] response = \"strength\"");
+    throw InputError(
+        file.string(),
+        "has no law of strength in joints.scatter or joints.ratio, per orientation, per "
+        "ratio or for all",
+        R"(ask for one in the sweep file: [[law]] response = "strength")");
   return laws;
 }
 

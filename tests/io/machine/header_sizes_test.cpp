@@ -152,7 +152,14 @@ TEST(HeaderSizes, DivideAnExtensometersElongationByItsOwnLength) {
   EXPECT_DOUBLE_EQ(test.strain.at(1), 0.02);
   EXPECT_EQ(test.gauge_length, 25e-3);
   EXPECT_TRUE(test.warnings.empty());
-  EXPECT_DOUBLE_EQ(sized(text, {.gauge_length = 20e-3}).strain.at(1), 0.01);
+  const calib::RawTest given = sized(text, {.gauge_length = 20e-3});
+  EXPECT_DOUBLE_EQ(given.strain.at(1), 0.01);
+  EXPECT_EQ(
+      given.warnings,
+      std::vector<std::string>{
+          "column \"Strain 1\" is an elongation, divided by the given gauge length, 20 mm, and "
+          "the file says that its extensometer has 10 mm: without gauge_length_mm that one "
+          "counts"});
   EXPECT_EQ(sized("Gauge length,25,mm\nLoad (N),Strain 1 (mm)\n1,0.1\n2,0.2\n").warnings,
             std::vector<std::string>{
                 "column \"Strain 1\" is an elongation, divided by the gauge length, 25 mm: of an "

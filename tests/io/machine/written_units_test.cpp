@@ -41,6 +41,10 @@ TEST(WrittenUnits, OfStrainLengthStressAndTimeAreReadToo) {
   EXPECT_DOUBLE_EQ(test_of("Dehnung in %;Load (N)").strain.at(1), 0.01);
   EXPECT_DOUBLE_EQ(test_of("Extension (microns);Load (N)").extension.at(1), 1e-6);
   EXPECT_DOUBLE_EQ(test_of("Time (minutes);Load (N)").time.at(1), 60.0);
+  for (const char* name : {"Time (us)", "Time (µs)", "Zeit [μs]", "time_us", "Time / usec"})
+    EXPECT_DOUBLE_EQ(test_of(name + std::string(";Load (N)")).time.at(1), 1e-6) << name;
+  for (const char* name : {"Strain (ppm)", "Strain [1e-6]", "Strain (10^-6)"})
+    EXPECT_DOUBLE_EQ(test_of(name + std::string(";Load (N)")).strain.at(1), 1e-6) << name;
   EXPECT_DOUBLE_EQ(test_of("Time (s);Stress/N/mm2").stress.at(1), 2e6);
   EXPECT_DOUBLE_EQ(test_of("Width_mm;4,02\nTime (s);Load (N)").width.value(), 4.02e-3);
 }
@@ -109,7 +113,7 @@ TEST(WrittenUnits, AreOverruledByAUnitAlone) {
 TEST(WrittenUnits, InVoltsAreOfForceAndStrainAlone) {
   const char* const names = "Time (s);Load (N);Extension (mm)";
   const std::string refusal =
-      "\"V\" is not a known unit of time (time_unit may be s, ms, min or h)";
+      "\"V\" is not a known unit of time (time_unit may be s, ms, us, min or h)";
   EXPECT_EQ(refusal_of(names, {.units = {{Quantity::time, "V"}}}), refusal);
   EXPECT_EQ(refusal_of(names, {{{Quantity::time, {"1", "V"}}}}), refusal);
   EXPECT_EQ(refusal_of(names, {.units = {{Quantity::extension, "V"}}}),
