@@ -95,8 +95,7 @@ double factor(const Column& column, const std::string& where, const ReadOptions&
     if (test.extensometer_length && std::abs(*test.extensometer_length / *length - 1.0) > rounding)
       test.warnings.push_back(fmt::format(
           "column \"{}\" is an elongation, divided by the given gauge length, {:g} mm, and the "
-          "file "
-          "says that its extensometer has {:g} mm: without gauge_length_mm that one counts",
+          "file says that its extensometer has {:g} mm: without gauge_length_mm that one counts",
           column.name, *length * 1e3, *test.extensometer_length * 1e3));
     return unit->to_si / *length;
   }
