@@ -68,6 +68,7 @@ TEST(PlainLaw, TakesASweepsLawsWhereTheyHold) {
   specimens.front().orientation = 0.7;
   EXPECT_TRUE(best.laws_compared);
   EXPECT_FALSE(best_plain_law(specimens, 2.0, laws).laws_compared) << "none at 0.7 rad";
+  EXPECT_NE(best_plain_law(specimens, 2.0, laws).name, best.name);
 }
 
 TEST(PlainLaw, TakesTheLawOfTheNearestRatio) {
