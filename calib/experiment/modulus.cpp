@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "calib/experiment/channel_noise.hpp"
+#include "calib/experiment/damped_wave.hpp"
 
 namespace havers::calib {
 namespace {
@@ -44,14 +47,22 @@ struct Bend {
   bool known = false;
   Line lower, upper;
 
+  // What noise explains of the difference of the slopes.
+  [[nodiscard]] double noise() const {
+    return 3.0 * std::hypot(lower.slope_standard_error, upper.slope_standard_error);
+  }
+  // (X5) What it does not.
+  [[nodiscard]] double curvature() const {
+    const double difference = upper.slope - lower.slope;
+    return std::sqrt(std::max(0.0, difference * difference - noise() * noise()));
+  }
   [[nodiscard]] bool stiffens() const { return known && lower.slope < upper.slope; }
 
-  // (X5) What noise and the accepted curvature cannot explain.
+  // (X5) Up to noise and the curvature that is accepted.
   [[nodiscard]] bool is_straight(double tolerance) const {
     if (!known) return true;
-    const double noise = std::hypot(lower.slope_standard_error, upper.slope_standard_error);
     const double larger = std::max(std::abs(lower.slope), std::abs(upper.slope));
-    return std::abs(upper.slope - lower.slope) <= std::max(tolerance * larger, 3.0 * noise);
+    return std::abs(upper.slope - lower.slope) <= std::max(tolerance * larger, noise());
   }
 };
 
@@ -69,11 +80,9 @@ Bend bend_of(const Curve& curve, double low, double high) {
 
 // How often the slope along the curve swings by more than curvature and noise explain: a toe makes
 // it rise, yielding fall, a slip in the grips fall and rise again; waves do so again and again.
-int swings_along(const Curve& curve, double strength, const ReductionOptions& options) {
+int swings_along(const Curve& curve, RowRange rows) {
   constexpr std::size_t most_parts = 16;
   constexpr double curvature = 0.15, errors = 4.0;
-  const RowRange rows =
-      between(curve.stress, options.window_low * strength, before_failure * strength);
   const std::size_t parts = std::min(most_parts, rows.rows() / fewest_half_window);
   const auto part = [&](std::size_t k) {
     return curve.robust(
@@ -214,28 +223,54 @@ void fall_back(const Curve& curve, const Window& window, ModulusFit& fit) {
   }
 }
 
+// (X5), (X24) The line over all the loading where waves run through it: beneath the one that is
+// told, or the mean slope over many. None where there are no waves.
+std::optional<ModulusFit> fit_through_waves(const Curve& curve, const Window& all) {
+  ModulusFit fit{.window = between(curve.stress, all.low, all.high)};
+  const auto x = curve.strain.subspan(fit.window.first, fit.window.rows());
+  const auto y = curve.stress.subspan(fit.window.first, fit.window.rows());
+  if (const std::optional<CarriedWave> wave = find_damped_wave(x, y)) {
+    fit.line = wave->line;
+    fit.warnings.push_back(
+        fmt::format("the stress carries a damped wave, {:.1f} periods of it up to {:.4g} MPa and "
+                    "{:.2g} MPa at first, as where a load cell rings: the modulus is the slope "
+                    "beneath it",
+                    wave->periods, all.high * 1e-6, wave->amplitude * 1e-6));
+    return fit;
+  }
+  if (swings_along(curve, fit.window) < waves) return {};
+  fit.line = curve.robust(fit.window);
+  fit.warnings.emplace_back(
+      "the slope of the curve falls and rises again and again, as where waves run through the "
+      "specimen or the load cell: the modulus is the mean slope over more of them");
+  return fit;
+}
+
 }  // namespace
 
 ModulusFit fit_modulus(std::span<const double> strain, std::span<const double> stress,
                        double strength, const ReductionOptions& options) {
   const Curve curve{strain, stress};
-  Window window = clear_of_toe(curve, straight_window(curve, strength, options), strength, options);
-  ModulusFit fit;
-  if (swings_along(curve, strength, options) >= waves) {
-    window = {options.window_low * strength,
-              std::max(options.window_high, before_failure) * strength,
-              {},
-              true};
-    fit.warnings.emplace_back(
-        "the slope of the curve falls and rises again and again, as where waves run through the "
-        "specimen or the load cell: the modulus is the mean slope over more of them");
+  const Window all{options.window_low * strength,
+                   std::max(options.window_high, before_failure) * strength,
+                   {},
+                   true};
+  std::optional<ModulusFit> waved = fit_through_waves(curve, all);
+  const Window window =
+      waved ? all
+            : clear_of_toe(curve, straight_window(curve, strength, options), strength, options);
+  ModulusFit fit = std::move(waved).value_or(ModulusFit{});
+  if (!fit.line.fitted) {
+    fit.window = between(stress, window.low, window.high);
+    fit.line = curve.robust(fit.window);
   }
-  fit.window = between(stress, window.low, window.high);
-  fit.line = curve.robust(fit.window);
-  if (window.straight)
+  if (window.straight) {
     steepen(curve, fit.window, fit.line);
-  else
+    fit.line.slope_standard_error =
+        std::hypot(fit.line.slope_standard_error, window.bend.curvature());
+  } else {
     fall_back(curve, window, fit);
+  }
   if (differs(window, strength, options))
     fit.corrections.push_back(correction_of(window, strength, options));
   return fit;

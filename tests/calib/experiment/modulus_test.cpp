@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "calib/experiment/measured_test.hpp"
@@ -88,29 +89,81 @@ TEST(Modulus, LeavesAToeThatReachesThroughTheWindowOfAWeakSpecimen) {
   EXPECT_NEAR(failure_strain, truth.failure_strain(), 0.015 * truth.failure_strain());
 }
 
-// A load cell that rings in a fast test: a window on one flank of a wave is straight and steep, by
-// up to nine tenths.
-TEST(Modulus, IsTheMeanSlopeWhereWavesRunThroughTheLoad) {
-  const TensileTruth truth{
-      .young = 15e9, .strength = 100e6, .force_noise = 0.5, .strain_rate = 1e-3, .sampling = 5e-3};
-  const RawTest quiet = record(truth);
-  const double peak = std::ranges::max(quiet.force);
-  int extended = 0;
-  for (int phase = 0; phase < 8; ++phase) {
-    RawTest raw = quiet;
-    for (double& force : raw.force) {
-      const double part = force / peak;
-      force += 0.03 * peak * std::exp(-part) *
-               std::sin(2.0 * std::numbers::pi * (3.5 * part + 0.125 * phase));
-    }
-    const MeasuredTest test = reduced(raw, {.remove_toe = false});
-    EXPECT_NEAR(test.modulus, truth.young, 0.06 * truth.young) << phase;
-    if (detail_of(test, "modulus window") != "extended from 0.1-0.4 to 0.1-0.9 of the strength")
-      continue;  // too few swings to tell
-    ++extended;
-    EXPECT_THAT(test.warnings, testing::Contains(testing::HasSubstr("falls and rises again and")));
+// A specimen of a fast test, and what a load cell that rings adds: damped sines, each with its
+// periods up to the break, its part of the strength and its phase.
+struct Ringing {
+  double periods = 0.0, part = 0.0, phase = 0.0;
+};
+const TensileTruth fast{
+    .young = 15e9, .strength = 100e6, .force_noise = 0.5, .strain_rate = 1e-3, .sampling = 5e-3};
+
+MeasuredTest ringing(const std::vector<Ringing>& waves) {
+  RawTest raw = record(fast);
+  const double peak = std::ranges::max(raw.force);
+  for (double& force : raw.force) {
+    const double part = force / peak;
+    for (const Ringing& wave : waves)
+      force += wave.part * peak * std::exp(-part) *
+               std::sin(2.0 * std::numbers::pi * (wave.periods * part + wave.phase));
   }
-  EXPECT_GE(extended, 6);
+  return reduced(raw, {.remove_toe = false});
+}
+
+// A window on one flank of the wave is straight and steep, by up to nine tenths.
+TEST(Modulus, IsTheSlopeBeneathAWaveOnTheLoad) {
+  for (const double periods : {1.4, 1.8, 2.5, 3.5, 7.0})
+    for (const double phase : {0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875}) {
+      SCOPED_TRACE(testing::Message() << periods << " periods, phase " << phase);
+      const MeasuredTest test = ringing({{periods, 0.1 / periods, phase}});
+      EXPECT_NEAR(test.modulus, fast.young, 0.003 * fast.young);
+      EXPECT_NEAR(test.modulus, fast.young, 4.0 * test.modulus_standard_error);
+      EXPECT_THAT(test.warnings, testing::Contains(testing::HasSubstr("carries a damped wave")));
+    }
+}
+
+// Several waves are no single one.
+TEST(Modulus, IsTheMeanSlopeWhereSeveralWavesRunThroughTheLoad) {
+  for (const double phase : {0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875}) {
+    const MeasuredTest test = ringing({{4.0, 0.03, phase}, {6.5, 0.02, 0.25}});
+    EXPECT_NEAR(test.modulus, fast.young, 0.06 * fast.young) << phase;
+    EXPECT_EQ(detail_of(test, "modulus window"), "extended from 0.1-0.4 to 0.1-0.9 of the strength")
+        << phase;
+    EXPECT_THAT(test.warnings, testing::Contains(testing::HasSubstr("falls and rises again and")))
+        << phase;
+  }
+}
+
+// A toe, yielding and two slips in the grips: up and down, and no wave.
+TEST(Modulus, TakesNoBendForAWave) {
+  using Bend = double (*)(double);  // stress over strain, both as parts
+  const std::vector<Bend> bends{
+      [](double e) { return e - 0.08 * (1.0 - std::exp(-e / 0.1)); },
+      [](double e) { return e - 0.5 * std::max(0.0, e - 0.6); },
+      [](double e) {
+        return e - 0.1 * (1.0 - std::exp(-e / 0.15)) - std::max(0.0, 0.6 * e - 0.42);
+      },
+      [](double e) { return e - (e > 0.35 ? 0.03 : 0.0) - (e > 0.7 ? 0.03 : 0.0); }};
+  for (std::size_t k = 0; k < bends.size(); ++k) {
+    RawTest raw = record(fast);
+    const double peak = std::ranges::max(raw.force);
+    for (double& force : raw.force) force = peak * bends[k](force / peak);
+    for (const std::string& warning : reduced(raw).warnings)
+      EXPECT_EQ(warning.find("wave"), std::string::npos) << k << ": " << warning;
+  }
+}
+
+// A toe that the window still holds: what its halves differ by, beyond noise, is an error too.
+TEST(Modulus, CountsTheCurvatureThatItAcceptsAsError) {
+  for (const double length : {0.03, 0.05, 0.07, 0.09, 0.11})
+    for (const double softness : {0.3, 0.5, 0.7, 0.9}) {
+      RawTest raw = record(fast);
+      const double peak = std::ranges::max(raw.force);
+      for (double& force : raw.force)
+        force -= softness * length * peak * (1.0 - std::exp(-force / (length * peak)));
+      const MeasuredTest test = reduced(raw, {.remove_toe = false});
+      EXPECT_NEAR(test.modulus, fast.young, 2.0 * test.modulus_standard_error)
+          << length << ", " << softness;
+    }
 }
 
 // Stationary noise of which each row keeps a part of the one before, added to the force. [N]

@@ -1,0 +1,147 @@
+#include "calib/experiment/damped_wave.hpp"
+
+#include <ceres/tiny_solver.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "calib/experiment/channel_noise.hpp"
+
+namespace havers::calib {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr std::size_t fewest_wave_points = 24, most_wave_points = 512;
+constexpr double fewest_periods = 0.75, most_periods = 8.0, period_step = 0.25;
+constexpr double shortest_told = 0.8;  // periods; a bend is as good an account of less
+constexpr double least_fading = -0.5,
+                 most_fading = 12;        // fading that a wave has, e-folds along the points
+constexpr double least_f = 25.0;          // of the F test of a wave beside a bend
+constexpr double most_unexplained = 0.1;  // part of what the bend leaves
+constexpr double turn = 2.0 * std::numbers::pi;
+
+// What y = a + b x + exp(−g x) (c cos ωx + s sin ωx) leaves of the points; parameters a, b, c, s,
+// ω, g.
+struct LineAndWave {
+  using Scalar = double;
+  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = 6 };
+  using Parameters = Eigen::Matrix<double, NUM_PARAMETERS, 1>;
+  using Jacobian = Eigen::Matrix<double, NUM_RESIDUALS, NUM_PARAMETERS>;
+  VectorXd x, y;
+
+  [[nodiscard]] int NumResiduals() const { return static_cast<int>(x.size()); }
+
+  bool operator()(const double* parameters, double* residuals, double* jacobian) const {
+    const Eigen::Map<const Parameters> p(parameters);
+    Jacobian columns(x.size(), NUM_PARAMETERS);
+    columns.leftCols<4>() = basis(p[4], p[5]);
+    const auto cosine = columns.col(2).array(), sine = columns.col(3).array();
+    columns.col(4) = x.array() * (p[3] * cosine - p[2] * sine);
+    columns.col(5) = -x.array() * (p[2] * cosine + p[3] * sine);
+    Eigen::Map<VectorXd>(residuals, x.size()) = columns.leftCols<4>() * p.head<4>() - y;
+    if (jacobian != nullptr) Eigen::Map<Jacobian>(jacobian, x.size(), NUM_PARAMETERS) = columns;
+    return true;
+  }
+
+  [[nodiscard]] Eigen::MatrixX4d basis(double frequency, double fading) const {
+    Eigen::MatrixX4d columns(x.size(), 4);
+    const Eigen::ArrayXd fade = (-fading * x.array()).exp();
+    columns.col(0).setOnes();
+    columns.col(1) = x;
+    columns.col(2) = fade * (frequency * x.array()).cos();
+    columns.col(3) = fade * (frequency * x.array()).sin();
+    return columns;
+  }
+};
+
+// Means of successive rows, mapped to [0, 1].
+struct Mapped {
+  double low = 0.0, extent = 0.0;
+  VectorXd points;
+};
+
+Mapped mapped(std::span<const double> values) {
+  const std::size_t rows = (values.size() + most_wave_points - 1) / most_wave_points;
+  VectorXd points(static_cast<Eigen::Index>(values.size() / rows));
+  for (Eigen::Index i = 0; i < points.size(); ++i)
+    points[i] = Eigen::Map<const VectorXd>(&values[static_cast<std::size_t>(i) * rows],
+                                           static_cast<Eigen::Index>(rows))
+                    .mean();
+  const double low = points.minCoeff(), extent = points.maxCoeff() - low;
+  points = (points.array() - low) / extent;
+  return {low, extent, points};
+}
+
+double squares_beside(const Eigen::MatrixXd& columns, const VectorXd& y) {
+  const VectorXd answer = columns.colPivHouseholderQr().solve(y);
+  return (columns * answer - y).squaredNorm();
+}
+
+// Of a bend without waves: a cubic has a toe and yielding.
+double squares_of_bend(const LineAndWave& points) {
+  Eigen::MatrixXd columns(points.x.size(), 4);
+  for (int power = 0; power < 4; ++power) columns.col(power) = points.x.array().pow(power);
+  return squares_beside(columns, points.y);
+}
+
+LineAndWave::Parameters best_wave(const LineAndWave& points) {
+  LineAndWave::Parameters best;
+  double least = std::numeric_limits<double>::infinity();
+  for (double periods = fewest_periods; periods <= most_periods; periods += period_step)
+    for (const double fading : {0.0, 1.0, 2.0, 4.0}) {
+      const Eigen::MatrixX4d columns = points.basis(turn * periods, fading);
+      const Eigen::Vector4d answer = columns.colPivHouseholderQr().solve(points.y);
+      const double squares = (columns * answer - points.y).squaredNorm();
+      if (squares >= least) continue;
+      least = squares;
+      best << answer, turn * periods, fading;
+    }
+  ceres::TinySolver<LineAndWave> solver;
+  solver.Solve(points, &best);
+  return best;
+}
+
+}  // namespace
+
+std::optional<CarriedWave> find_damped_wave(std::span<const double> x, std::span<const double> y) {
+  if (x.size() < fewest_wave_points) return {};
+  const Mapped mx = mapped(x), my = mapped(y);
+  if (!(mx.extent > 0.0 && my.extent > 0.0)) return {};
+  const LineAndWave points{mx.points, my.points};
+  const auto count = static_cast<double>(points.x.size());
+  const double noise = noise_of(std::span(my.points.data(), my.points.data() + my.points.size()));
+  const double of_noise = count * noise * noise;
+  const double of_bend = squares_of_bend(points);
+  const double certain = 1.0 + 2.0 * least_f / count;
+  if (of_bend < certain * of_noise) return {};
+
+  const LineAndWave::Parameters wave = best_wave(points);
+  std::vector<double> left(static_cast<std::size_t>(points.x.size()));
+  LineAndWave::Jacobian columns(points.x.size(), 6);
+  points(wave.data(), left.data(), columns.data());
+  const double squares = Eigen::Map<VectorXd>(left.data(), points.x.size()).squaredNorm();
+  const bool is_wave =
+      wave[4] >= shortest_told * turn && wave[5] >= least_fading && wave[5] <= most_fading;
+  if (!is_wave || of_bend < certain * squares ||
+      squares - of_noise > most_unexplained * (of_bend - of_noise))
+    return {};
+
+  const Eigen::Matrix<double, 6, 6> covariance = (columns.transpose() * columns).inverse();
+  const double freedom = std::max(count / rows_per_independent(left) - 6.0, 3.0);
+  CarriedWave found;
+  found.line.fitted = true;
+  found.line.slope = wave[1] * my.extent / mx.extent;
+  found.line.slope_standard_error =
+      std::sqrt(covariance(1, 1) * squares / (freedom - 2.0)) * my.extent / mx.extent;
+  found.line.intercept = my.low + wave[0] * my.extent - found.line.slope * mx.low;
+  found.periods = wave[4] / turn;
+  found.amplitude = std::hypot(wave[2], wave[3]) * my.extent;
+  return found;
+}
+
+}  // namespace havers::calib
