@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -114,9 +113,7 @@ std::string breaks_text(const sim::Scene& scene, const sim::Simulation& run) {
   std::string breaks = fmt::format("{} of {}", run.broken_joints, run.joints.size());
   if (run.broken_joints > 0)
     breaks += fmt::format(", the first at {:.4g} %", 100.0 * run.first_break_strain);
-  if (const auto missing =
-          std::ranges::count_if(run.joints, sim::is_missing, &sim::JointOutcome::threshold);
-      missing > 0)
+  if (const long missing = run.missing_joints(); missing > 0)
     breaks += fmt::format("; {} missing from the start", missing);
   if (run.status == sim::SimulationStatus::broken &&
       run.end_fraction_used > scene.loading.end_fraction)

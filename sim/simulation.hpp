@@ -130,6 +130,10 @@ struct Simulation {
   int dropped = 0;                      ///< Half fibres of which the clipping left but a sliver.
   std::vector<LeftOut> left_out;
 
+  /// Joints that were missing from the start.
+  [[nodiscard]] long missing_joints() const {
+    return std::ranges::count_if(joints, is_missing, &JointOutcome::threshold);
+  }
   /// Whether the numbers may be used: the run ended as it should and the checks hold.
   [[nodiscard]] bool trusted() const { return why_not_trusted().empty(); }
   /// The check that does not hold, as a sentence; empty when all do. What helps, where that is

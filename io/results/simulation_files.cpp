@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -35,8 +34,7 @@ nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& sim
       {"modulus_Pa", json_of(simulation.modulus)},
       {"first_break_strain", json_of(simulation.first_break_strain)},
       {"broken_joints", simulation.broken_joints},
-      {"missing_joints",
-       std::ranges::count_if(simulation.joints, sim::is_missing, &sim::JointOutcome::threshold)},
+      {"missing_joints", simulation.missing_joints()},
       {"end_fraction_used", json_of(simulation.end_fraction_used)},
       {"steps", simulation.steps},
       {"iterations", simulation.iterations},

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -97,9 +96,7 @@ std::string broken_joints_of(const SimulationReport& report) {
   if (s.status == Status::broken && ends_early(report))
     joints +=
         fmt::format(", counted down to {} of the strength", setting(s.end_fraction_used, "", 3));
-  if (const auto missing =
-          std::ranges::count_if(s.joints, sim::is_missing, &sim::JointOutcome::threshold);
-      missing > 0)
+  if (const long missing = s.missing_joints(); missing > 0)
     joints += fmt::format("; {} missing from the start", missing);
   return joints;
 }
