@@ -54,10 +54,8 @@ std::string panel_commands(const std::vector<Estimate>& estimates, std::size_t n
 
 // At most 24 characters of a name, none of them cut in two.
 std::string shortened(const std::string& name) {
-  std::size_t end = 0, characters = 0;
-  for (; end < name.size() && characters <= 24; ++end)
-    if ((static_cast<unsigned char>(name[end]) & 0xc0U) != 0x80U) ++characters;
-  return characters <= 24 ? plain(name) : plain(name.substr(0, end - 1)) + "…";
+  const std::string start = fmt::format("{:.24}", name);
+  return plain(start) + (start.size() < name.size() ? "…" : "");
 }
 
 std::string fit_names(const std::vector<FitReport>& fits) {
