@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "calib/experiment/join_logger.hpp"
-#include "cli/study_doubts.hpp"
+#include "cli/loaded_doubts.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/input_error.hpp"
 #include "io/machine/read_test.hpp"

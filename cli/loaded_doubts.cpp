@@ -1,4 +1,4 @@
-#include "cli/study_doubts.hpp"
+#include "cli/loaded_doubts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
