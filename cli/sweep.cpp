@@ -85,40 +85,22 @@ std::vector<fs::path> inputs_of(const std::vector<Done>& all) {
   return inputs;
 }
 
-long runs_of(const std::vector<Done>& all) {
-  long runs = 0;
-  for (const Done& one : all) runs += static_cast<long>(one.result.runs.size());
-  return runs;
-}
-
-// Those that were not in the store: what the time was spent on.
-long simulated_of(const std::vector<Done>& all) {
-  long simulated = 0;
-  for (const Done& one : all) simulated += one.result.simulated;
-  return simulated;
-}
-
-// Runs that failed, or did not break.
-long sum_of(const std::vector<Done>& all, long calib::PointSummary::*runs) {
-  long sum = 0;
-  for (const Done& one : all)
-    for (const calib::PointSummary& summary : one.result.summaries) sum += summary.*runs;
-  return sum;
-}
-
-bool trusted(const std::vector<Done>& all) {
-  return std::ranges::all_of(all, [](const Done& one) { return one.result.trusted(); });
+calib::SweepTotals totals_of(const std::vector<Done>& all) {
+  calib::SweepTotals totals;
+  for (const Done& one : all) totals.add(one.result);
+  return totals;
 }
 
 nlohmann::json json_of_all(const std::vector<Done>& all, const calib::Provenance& provenance) {
   nlohmann::json sweeps = nlohmann::json::array();
   for (const Done& one : all) sweeps.push_back(io::sweep_json(one.sweep, one.result));
+  const calib::SweepTotals totals = totals_of(all);
   return {{"status", "finished"},
-          {"trusted", trusted(all)},
-          {"evaluations", runs_of(all)},
-          {"simulated", simulated_of(all)},
-          {"failed_simulations", sum_of(all, &calib::PointSummary::failed)},
-          {"unbroken_simulations", sum_of(all, &calib::PointSummary::unbroken)},
+          {"trusted", totals.trusted},
+          {"evaluations", totals.runs},
+          {"simulated", totals.simulated},
+          {"failed_simulations", totals.failed},
+          {"unbroken_simulations", totals.unbroken},
           {"wall_s", provenance.wall_seconds},
           {"sweeps", sweeps},
           {"provenance", io::provenance_object(provenance)}};
@@ -172,11 +154,10 @@ std::string place_of(const calib::Finding& finding) {
 }
 
 void print_summary(const std::vector<Done>& all, double wall_seconds) {
-  fmt::print(
-      "{}: {}, {} failed, {} did not break; {} of them simulated now, in {:.3g} s\n",
-      trusted(all) ? "to be trusted" : "NOT to be trusted: too many runs failed or did not break",
-      calib::count(runs_of(all), "run"), sum_of(all, &calib::PointSummary::failed),
-      sum_of(all, &calib::PointSummary::unbroken), simulated_of(all), wall_seconds);
+  const auto [trusted, runs, failed, unbroken, simulated] = totals_of(all);
+  fmt::print("{}: {}, {} failed, {} did not break; {} of them simulated now, in {:.3g} s\n",
+             trusted ? "to be trusted" : "NOT to be trusted: too many runs failed or did not break",
+             calib::count(runs, "run"), failed, unbroken, simulated, wall_seconds);
   for (const Done& one : all)
     for (const calib::Finding& finding : one.result.findings)
       fmt::print("{:<6}{:<12}{}{}; {}  {}\n", finding.id, calib::to_string(finding.outcome),
@@ -204,7 +185,7 @@ int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
   const nlohmann::json json = write_all(run.output(), arguments, all, provenance);
   answer(common, &run.output(), json, page_or("result.json"),
          [&] { print_summary(all, provenance.wall_seconds); });
-  return trusted(all) ? done : answer_is_no;
+  return totals_of(all).trusted ? done : answer_is_no;
 }
 
 }  // namespace

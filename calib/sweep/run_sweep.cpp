@@ -133,6 +133,16 @@ void climb(SweepResult& result, std::size_t first) {
 
 }  // namespace
 
+void SweepTotals::add(const SweepResult& result) {
+  trusted = trusted && result.trusted();
+  runs += static_cast<long>(result.runs.size());
+  simulated += result.simulated;
+  for (const PointSummary& summary : result.summaries) {
+    failed += summary.failed;
+    unbroken += summary.unbroken;
+  }
+}
+
 bool SweepResult::trusted() const {
   long without_strength = 0;
   for (const PointSummary& summary : summaries)

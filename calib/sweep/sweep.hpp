@@ -54,6 +54,15 @@ struct SweepResult {
   [[nodiscard]] std::vector<Measure> known() const;
 };
 
+/// Of several sweeps together.
+struct SweepTotals {
+  bool trusted = true;
+  long runs = 0, failed = 0, unbroken = 0;
+  long simulated = 0;  ///< Not in the store: what the time was spent on.
+
+  void add(const SweepResult& result);
+};
+
 /// Called with the finished and all runs of a sweep; returning false stops it.
 using SweepObserver = std::function<bool(std::size_t done, std::size_t all)>;
 

@@ -21,13 +21,9 @@ mstch::node cell(std::string value) {
   return mstch::map{{"text", text(std::move(value))}};
 }
 
-bool all_trusted(const std::vector<SweepReport>& sweeps) {
-  return std::ranges::all_of(sweeps, [](const SweepReport& one) { return one.result.trusted(); });
-}
-
 // Runs without an answer are worse than claims that do not hold.
-std::string grade_of(const std::vector<FindingRow>& rows, const std::vector<SweepReport>& sweeps) {
-  if (!all_trusted(sweeps)) return "bad";
+std::string grade_of(const std::vector<FindingRow>& rows, bool trusted) {
+  if (!trusted) return "bad";
   const bool agree = std::ranges::all_of(rows, [](const FindingRow& row) {
     return row.finding->outcome == calib::FindingOutcome::agrees;
   });
@@ -174,29 +170,26 @@ mstch::node sweep_part(const SweepReport& report) {
 std::string sweep_page(const std::string& title, const std::vector<SweepReport>& sweeps,
                        const calib::Provenance& provenance) {
   const std::vector<FindingRow> rows = findings_of(sweeps);
-  long runs = 0, simulated = 0, failed = 0, unbroken = 0;
+  calib::SweepTotals totals;
   mstch::array parts;
   for (const SweepReport& report : sweeps) {
-    runs += static_cast<long>(report.result.runs.size());
-    simulated += report.result.simulated;
-    for (const calib::PointSummary& summary : report.result.summaries) {
-      failed += summary.failed;
-      unbroken += summary.unbroken;
-    }
+    totals.add(report.result);
     parts.push_back(sweep_part(report));
   }
   const std::string why_not_trusted =
-      all_trusted(sweeps) ? "" : "Not to be trusted: too many runs failed or did not break. ";
+      totals.trusted ? "" : "Not to be trusted: too many runs failed or did not break. ";
   return render_page(
       title, "sweep",
-      {{"grade", text(grade_of(rows, sweeps))},
-       {"sentence", text(why_not_trusted + (rows.empty() ? count(runs, "run") + " of the model."
-                                                         : findings_sentence(rows)))},
+      {{"grade", text(grade_of(rows, totals.trusted))},
+       {"sentence",
+        text(why_not_trusted + (rows.empty() ? count(totals.runs, "run") + " of the model."
+                                             : findings_sentence(rows)))},
        {"detail",
         text(fmt::format(
             "{}, {} failed, {} did not break; {} of them simulated now, in {} wall time. Seeds are "
             "not shared between points.",
-            count(runs, "run"), failed, unbroken, simulated, duration(provenance.wall_seconds)))},
+            count(totals.runs, "run"), totals.failed, totals.unbroken, totals.simulated,
+            duration(provenance.wall_seconds)))},
        {"has_findings", !rows.empty()},
        {"findings", finding_rows(rows)},
        {"sweeps", parts}},
