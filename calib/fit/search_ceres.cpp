@@ -26,12 +26,10 @@ SearchResult search_ceres(Trail& trail, const Evaluation& start, const Active& a
 
   const auto count = static_cast<Eigen::Index>(active.size());
   LeastSquares problem{.residuals = {}, .lower = Point(count), .upper = Point(count)};
-  Point from(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Index k = active[static_cast<std::size_t>(i)];
     problem.lower[i] = trail.problem().unknown(k).lower;
     problem.upper[i] = trail.problem().unknown(k).upper;
-    from[i] = start.point[k];
   }
   problem.residuals = [&](const std::vector<Point>& moved) {
     std::vector<Point> points(moved.size(), start.point);
@@ -43,7 +41,7 @@ SearchResult search_ceres(Trail& trail, const Evaluation& start, const Active& a
     }
     return residuals;
   };
-  const auto end = least_squares(problem, from,
+  const auto end = least_squares(problem, start.point(active),
                                  {.step = slope_step,
                                   .max_iterations = max_steps,
                                   .cost_tolerance = std::min(left_on_the_table / start.cost, 0.1)});

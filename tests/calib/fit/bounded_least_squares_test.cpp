@@ -26,7 +26,6 @@ struct Bounded {
 };
 
 constexpr LeastSquaresOptions to_the_last_digit{.step = 1e-6,
-                                                .stencil = 2,
                                                 .max_iterations = 10000,
                                                 .cost_tolerance = 1e-16,
                                                 .search_steps = true,

@@ -185,7 +185,6 @@ constexpr LeastSquaresOptions exact{.step = 5e-4,
                                     .stencil = 4,
                                     .max_iterations = 10000,
                                     .cost_tolerance = 1e-16,
-                                    .search_steps = true,
                                     .step_tolerance = 1e-16};
 
 // A bold first step may leap onto a plateau, where an unknown has no effect any more.
