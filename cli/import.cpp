@@ -17,6 +17,8 @@
 #include "cli/provenance.hpp"
 #include "io/config/read_import.hpp"
 #include "io/input_error.hpp"
+#include "io/results/result_files.hpp"
+#include "reports/pages.hpp"
 
 namespace havers::cli {
 namespace {

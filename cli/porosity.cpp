@@ -19,6 +19,8 @@
 #include "io/config/words.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/input_error.hpp"
+#include "io/results/result_files.hpp"
+#include "reports/pages.hpp"
 
 namespace havers::cli {
 namespace {

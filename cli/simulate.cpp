@@ -11,7 +11,9 @@
 #include "cli/output_folder.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/provenance.hpp"
+#include "io/results/result_files.hpp"
 #include "io/snapshots/snapshots.hpp"
+#include "reports/pages.hpp"
 #include "sim/dynamics/step_control.hpp"
 
 namespace havers::cli {

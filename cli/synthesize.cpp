@@ -14,6 +14,7 @@
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output_folder.hpp"
+#include "io/config/key_unit.hpp"
 #include "io/config/read_study.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/input_error.hpp"
