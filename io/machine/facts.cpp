@@ -150,11 +150,6 @@ bool is_name(Fact fact) {
   return fact == Fact::specimen_id || fact == Fact::specimen_number;
 }
 
-// The first of two counts.
-void take_name(const HeaderLine& line, Fact name, calib::RawTest& test) {
-  if (test.specimen_id.empty() && fact_of_key(line.key) == name) test.specimen_id = line.value;
-}
-
 void take_fact(const HeaderLine& line, std::size_t number, std::vector<HeaderSize>& sizes,
                calib::RawTest& test) {
   const std::optional<Fact> fact = fact_of_key(line.key);
@@ -188,9 +183,11 @@ void read_facts(std::span<const PreviewRow> header, calib::RawTest& test) {
   std::vector<HeaderSize> sizes;
   for (const PreviewRow& row : header)
     for (const HeaderLine& line : header_lines(row)) take_fact(line, row.line, sizes, test);
-  for (const Fact name : {Fact::specimen_id, Fact::specimen_number})
+  for (const Fact name : {Fact::specimen_id, Fact::specimen_number})  // the first of two counts
     for (const PreviewRow& row : header)
-      for (const HeaderLine& line : header_lines(row)) take_name(line, name, test);
+      for (const HeaderLine& line : header_lines(row))
+        if (test.specimen_id.empty() && fact_of_key(line.key) == name)
+          test.specimen_id = line.value;
   compare_area(test);
 }
 

@@ -131,19 +131,15 @@ mstch::node knowledge(const FitReport& report) {
        text(result.profiles.empty() ? "" : draw(profile_figure(result.profiles, "profiles")))}}});
 }
 
-// What Ceres adds are its own numbers, to seven digits.
-std::string first_sentence(const std::string& message) {
-  return message.substr(0, message.find(". "));
-}
-
 mstch::array stage_rows(const std::vector<calib::StageLog>& stages) {
   return list_of(stages, [](const calib::StageLog& stage) {
+    const std::string& said = stage.message;  // by Ceres, behind a sentence, to seven digits
     return mstch::map{{"optimiser", text(stage.optimiser)},
                       {"before", text(number(stage.cost_before))},
                       {"after", text(number(stage.cost_after))},
                       {"evaluations", text(std::to_string(stage.evaluations))},
                       {"wall", text(duration(stage.wall_seconds))},
-                      {"message", text(first_sentence(stage.message))}};
+                      {"message", text(said.substr(0, said.find(". ")))}};
   });
 }
 

@@ -13,10 +13,6 @@ namespace {
 
 using Status = sim::SimulationStatus;
 
-bool has_no_bounds(const sim::Simulation& s) {
-  return s.status == Status::broken || s.status == Status::severed;
-}
-
 std::string by_step(double error) {
   return error > 0.0
              ? fmt::format(" (±\u00a0{} by the step)", quantity(error / in::percent, "%", 2))
@@ -112,7 +108,8 @@ std::string steps_of(const sim::Simulation& s) {
 Facts key_numbers(const SimulationReport& report) {
   const sim::Simulation& s = report.simulation;
   const bool dynamic = s.regime == sim::Regime::dynamic;
-  Facts facts{{has_no_bounds(s) ? "Strength" : "Strength, at least",
+  const bool bounded = s.status != Status::broken && s.status != Status::severed;
+  Facts facts{{bounded ? "Strength, at least" : "Strength",
                quantity(s.strength / in::MPa, "MPa") + by_step(s.error_beyond_accuracy().strength)},
               {"Failure strain", failure_strain_of(report)},
               {"Modulus", quantity(s.modulus / in::GPa, "GPa")},
