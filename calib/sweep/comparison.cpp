@@ -15,11 +15,6 @@ namespace {
 
 constexpr double risk = 0.05;
 
-std::size_t column_of(const SweepPlan& plan, const std::string& key) {
-  return static_cast<std::size_t>(std::ranges::find(plan.keys, key, &SweepKey::name) -
-                                  plan.keys.begin());
-}
-
 // The values that tell a point of the sweep from others, but for one column.
 std::vector<ComparedKey> keys_of(const SweepPlan& plan, const SweepPoint& point,
                                  std::size_t without) {
@@ -92,7 +87,7 @@ Comparison difference(const Evidence& evidence, Pair pair, std::size_t column, d
 }
 
 std::vector<Comparison> differences(const Evidence& evidence, const PointGroup& group) {
-  const std::size_t column = column_of(evidence.plan, evidence.request.keys.front());
+  const std::size_t column = evidence.plan.column(evidence.request.keys.front());
   const bool of_ends =
       evidence.request.test == FindingTest::rises || evidence.request.test == FindingTest::falls;
   const std::vector<Pair> pairs = pairs_of(evidence, group, column, of_ends);

@@ -17,10 +17,7 @@ namespace {
 std::vector<double> row_of(const LawRequest& request, const SweepPlan& plan,
                            const SweepPoint& point) {
   std::vector<double> row;
-  for (const std::string& term : request.terms) {
-    const auto key = std::ranges::find(plan.keys, term, &SweepKey::name);
-    row.push_back(point.numbers.at(static_cast<std::size_t>(key - plan.keys.begin())));
-  }
+  for (const std::string& term : request.terms) row.push_back(point.numbers.at(plan.column(term)));
   row.push_back(1.0);
   return row;
 }

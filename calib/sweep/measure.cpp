@@ -118,12 +118,11 @@ PointSummary summary_of(const std::vector<SweepRun>& runs, std::size_t point) {
 
 std::vector<PointGroup> groups_of(const std::vector<SweepPoint>& points, const SweepPlan& plan,
                                   const std::string& key) {
-  const auto found = std::ranges::find(plan.keys, key, &SweepKey::name);
-  const auto column = static_cast<std::size_t>(found - plan.keys.begin());
+  const std::size_t column = plan.column(key);
   std::vector<PointGroup> groups;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].level > 1) continue;
-    const std::string value = found == plan.keys.end() ? "" : points[i].values[column];
+    const std::string value = column == plan.keys.size() ? "" : points[i].values[column];
     auto group = std::ranges::find(groups, value, &PointGroup::value);
     if (group == groups.end()) group = groups.insert(group, {value, {}});
     group->points.push_back(i);

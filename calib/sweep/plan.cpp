@@ -134,6 +134,10 @@ std::vector<SweepPlan::Problem> SweepPlan::problems() const {
   return all;
 }
 
+std::size_t SweepPlan::column(const std::string& key) const {
+  return static_cast<std::size_t>(std::ranges::find(keys, key, &SweepKey::name) - keys.begin());
+}
+
 std::vector<std::vector<std::string>> points_of(const SweepPlan& plan) {
   if (plan.sampling == Sampling::list) return list(plan.keys);
   return plan.sampling == Sampling::grid ? grid(plan.keys) : sample(plan);

@@ -1,6 +1,7 @@
 // Where a sweep looks: the points of a list, a grid or a sample.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -38,6 +39,8 @@ struct SweepPlan {
   };
   /// All that is wrong; empty when it can be run.
   [[nodiscard]] std::vector<Problem> problems() const;
+  /// The place of a key; the number of keys for one that does not vary.
+  [[nodiscard]] std::size_t column(const std::string& key) const;
 };
 
 /// The values of every key, point by point, as TOML values. Bounds of a sample that are a factor

@@ -78,7 +78,7 @@ std::vector<std::string> idle_keys_of_sweep(TableReader& top, const calib::Sweep
 // A key that a question is about must be one of those that vary.
 void require_varied(TableReader& table, const calib::SweepPlan& plan, const std::string& key,
                     const char* name) {
-  if (!key.empty() && std::ranges::find(plan.keys, key, &calib::SweepKey::name) == plan.keys.end())
+  if (!key.empty() && plan.column(key) == plan.keys.size())
     table.complain(name, fmt::format("names {}, which does not vary", key),
                    "name a key of [sweep.keys]");
 }
@@ -87,10 +87,9 @@ void require_varied(TableReader& table, const calib::SweepPlan& plan, const std:
 void require_number(TableReader& table, const calib::SweepPlan& plan, const std::string& key,
                     const char* name) {
   require_varied(table, plan, key, name);
-  const auto found = std::ranges::find(plan.keys, key, &calib::SweepKey::name);
-  if (found != plan.keys.end() && std::ranges::any_of(found->values, [](const std::string& value) {
-        return std::isnan(calib::number_in(value));
-      }))
+  const auto is_word = [](const std::string& value) { return std::isnan(calib::number_in(value)); };
+  const std::size_t column = plan.column(key);
+  if (column < plan.keys.size() && std::ranges::any_of(plan.keys[column].values, is_word))
     table.complain(name, fmt::format("names {}, whose values are no numbers", key),
                    "name a key with numbers, or give one of words as per");
 }

@@ -87,9 +87,7 @@ bool go_one_way(const calib::SweepResult& result, const std::vector<std::size_t>
 }
 
 Line line_of(const Panel& panel, std::vector<std::size_t> points) {
-  const auto& keys = panel.sweep.plan.keys;
-  const auto column = static_cast<std::size_t>(
-      std::ranges::find(keys, panel.wanted.x, &calib::SweepKey::name) - keys.begin());
+  const std::size_t column = panel.sweep.plan.column(panel.wanted.x);
   const auto x_of = [&](std::size_t point) { return panel.result.points[point].numbers[column]; };
   std::ranges::stable_sort(points, {}, x_of);
   const double scale = calib::words_of(panel.wanted.response).scale;
