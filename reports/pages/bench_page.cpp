@@ -39,9 +39,9 @@ std::string state_of(const sim::BenchRow& row, double time_limit) {
 
 // A reference that errors cannot be measured against is bad; that nothing else comes near is not
 // good.
-std::string grade_of(const sim::WorkPrecision& study) {
-  if (!study.complete || !reference_is_trusted(study)) return "bad";
-  return cheapest_for_failure(study) ? "good" : "mixed";
+mstch::node grade_of(const sim::WorkPrecision& study) {
+  return grade(study.complete && reference_is_trusted(study),
+               cheapest_for_failure(study).has_value());
 }
 
 mstch::map work_row(const sim::BenchRow& row, bool reference, double time_limit) {
@@ -122,7 +122,7 @@ std::string work_precision_page(const sim::Scene& scene, const sim::WorkPrecisio
                               : "",
             what_reference_errs_by(study.reference_errors)))},
        {"has_rows", !study.rows.empty()},
-       {"grade", text(grade_of(study))},
+       {"grade", grade_of(study)},
        {"figure", text(work_precision_svg(study))},
        {"strain", text(quantity(study.bonded_strain / in::percent, "%", 3))},
        {"cheapest", cheapest_rows(study)},
@@ -138,7 +138,7 @@ std::string stability_page(const sim::StabilityBench& bench, const calib::Proven
                      {{"sentence", text(summary(bench))},
                       {"detail", text("h c/L is the time step over L/c, the time that a wave takes "
                                       "along a fibre.")},
-                      {"grade", text(bench.good() ? "good" : "bad")},
+                      {"grade", grade(bench.good())},
                       {"rows", list_of(bench.scenes, stability_row)}},
                      provenance);
 }

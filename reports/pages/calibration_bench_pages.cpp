@@ -79,9 +79,7 @@ std::string chains_page(const calib::ChainBenchmark& benchmark,
   };
   return render_page(
       "havers bench: chains of optimisers", "chains",
-      {{"grade", text(usual          ? "good"
-                      : near.empty() ? "bad"
-                                     : "mixed")},
+      {{"grade", grade(usual || !near.empty(), usual)},
        {"sentence",
         text(fmt::format("The chain “{}” needs the fewest simulations{} of those that succeed most "
                          "often with the least error.",
@@ -114,9 +112,7 @@ std::string coverage_page(const calib::Coverage& coverage, const calib::Provenan
   const std::string stopped = coverage.complete ? "" : "Stopped before all studies were fitted. ";
   return render_page(
       "havers bench: what the intervals hold", "coverage",
-      {{"grade", text(!coverage.holds()                      ? "bad"
-                      : coverage.complete && !widths.empty() ? "good"
-                                                             : "mixed")},
+      {{"grade", grade(coverage.holds(), coverage.complete && !widths.empty())},
        {"sentence", text(fmt::format("{}Of {} {}\u00a0% hold the truth; 95\u00a0% should.", stopped,
                                      count(informed, "interval"), rate_text(all)))},
        {"detail", text(what_shares_say(widths))},

@@ -140,7 +140,7 @@ mstch::map fit_content(const FitReport& fit, const FitReport& first) {
   return {{"name", text(fit.study.name)},
           {"differs", text(&fit == &first ? "–" : differs_in(fit, first))},
           {"outcome", text(result.trusted() ? "pass" : "fail")},
-          {"grade", text(result.trusted() ? "good" : "bad")},
+          {"grade", grade(result.trusted())},
           {"sentence", text(fit_sentence(result))},
           {"detail", text(search_sentence(fit))},
           {"cost", text(number(result.cost))},
@@ -161,9 +161,7 @@ mstch::map verdict_of_fits(const std::vector<FitReport>& fits) {
       ++reserved;
   const std::string reserve = reserved == 0 ? "" : fmt::format(", {} with reservations", reserved);
   return {
-      {"grade", text(!cannot.empty() ? "bad"
-                     : reserved > 0  ? "mixed"
-                                     : "good")},
+      {"grade", grade(cannot.empty(), reserved == 0)},
       {"sentence", text(how_many_can("be trusted", "fit", fits.size(), cannot) + reserve + ".")}};
 }
 

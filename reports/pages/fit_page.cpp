@@ -167,7 +167,7 @@ std::string fit_page(const FitReport& report) {
     specimens.emplace_back(specimen_content(report, i));
   return render_page(
       fmt::format("havers fit: {}", report.study.name), "fit",
-      {{"grade", text(result.trusted() ? "good" : "bad")},
+      {{"grade", grade(result.trusted())},
        {"sentence", text(fit_sentence(result))},
        {"detail", text(status_sentence(result))},
        {"doubts", doubts_of(result)},

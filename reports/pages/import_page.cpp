@@ -117,9 +117,7 @@ mstch::map verdict_of_tests(const std::vector<ImportReport>& reports) {
   const std::string reserve =
       warnings == 0 ? "" : fmt::format(", with {}", count(warnings, "warning"));
   return {
-      {"grade", text(!cannot.empty() ? "bad"
-                     : warnings > 0  ? "mixed"
-                                     : "good")},
+      {"grade", grade(cannot.empty(), warnings == 0)},
       {"sentence", text(how_many_can("be used", "test", reports.size(), cannot) + reserve + ".")}};
 }
 

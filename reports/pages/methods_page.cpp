@@ -36,9 +36,7 @@ std::string methods_page(const calib::MethodComparison& comparison,
   const bool complete = comparison.complete;
   return render_page(
       "havers bench: porosity of sections", "methods",
-      {{"grade", text(!comparison.good() ? "bad"
-                      : complete         ? "good"
-                                         : "mixed")},
+      {{"grade", grade(comparison.good(), complete)},
        {"sentence", text(fmt::format("{}On {} {} errs by {} points of porosity at most.",
                                      complete ? "" : "Stopped before all sections were measured. ",
                                      calib::count(comparison.trials.size(), "drawn section"),

@@ -19,6 +19,11 @@ inline mstch::node text(std::string value) {
   return mstch::node{std::move(value)};
 }
 
+/// A verdict's grade, which is its colour: bad unless it is sound, mixed unless it is wholly so.
+inline mstch::node grade(bool sound, bool wholly = true) {
+  return text(!sound ? "bad" : wholly ? "good" : "mixed");
+}
+
 /// What `row` makes of each item: the rows of a table, the entries of a list.
 template <class Items, class Row>
 mstch::array list_of(const Items& items, Row row) {

@@ -138,7 +138,7 @@ std::string porosity_page(const PorosityReport& report) {
     details.emplace_back(detail(report, i));
   }
   return render_page(fmt::format("havers porosity: {}", count(rows.size(), "section")), "porosity",
-                     {{"grade", text(in_doubt(report) == 0 ? "good" : "mixed")},
+                     {{"grade", grade(true, in_doubt(report) == 0)},
                       {"sentence", text(sentence_of(report))},
                       {"detail", text(detail_of(report))},
                       {"rows", rows},

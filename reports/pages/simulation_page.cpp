@@ -38,10 +38,8 @@ std::string sentence_of(const sim::Simulation& s) {
 }
 
 // A time step that leaves an error in the answer, or one that is not known, is not all good.
-std::string grade_of(const sim::Simulation& s) {
-  if (!s.trusted()) return "bad";
-  const bool exact = s.reservation().empty() && s.error_beyond_accuracy().largest() == 0.0;
-  return exact ? "good" : "mixed";
+mstch::node grade_of(const sim::Simulation& s) {
+  return grade(s.trusted(), s.reservation().empty() && s.error_beyond_accuracy().largest() == 0.0);
 }
 
 std::string step_error_of(const sim::Simulation& s) {
@@ -209,7 +207,7 @@ std::string simulation_page(const SimulationReport& report) {
   const sim::Simulation& simulation = report.simulation;
   return render_page("havers simulate" + (report.file.empty() ? "" : ": " + report.file),
                      "simulation",
-                     {{"grade", text(grade_of(simulation))},
+                     {{"grade", grade_of(simulation)},
                       {"sentence", text(sentence_of(simulation))},
                       {"detail", text(cost_of(report))},
                       {"facts", fact_list(key_numbers(report))},

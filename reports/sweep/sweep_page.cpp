@@ -22,12 +22,10 @@ mstch::node cell(std::string value) {
 }
 
 // Runs without an answer are worse than claims that do not hold.
-std::string grade_of(const std::vector<FindingRow>& rows, bool trusted) {
-  if (!trusted) return "bad";
-  const bool agree = std::ranges::all_of(rows, [](const FindingRow& row) {
-    return row.finding->outcome == calib::FindingOutcome::agrees;
-  });
-  return agree ? "good" : "mixed";
+mstch::node grade_of(const std::vector<FindingRow>& rows, bool trusted) {
+  return grade(trusted, std::ranges::all_of(rows, [](const FindingRow& row) {
+                 return row.finding->outcome == calib::FindingOutcome::agrees;
+               }));
 }
 
 std::string with_unit(const calib::MeasureWords& words) {
@@ -180,7 +178,7 @@ std::string sweep_page(const std::string& title, const std::vector<SweepReport>&
       totals.trusted ? "" : "Not to be trusted: too many runs failed or did not break. ";
   return render_page(
       title, "sweep",
-      {{"grade", text(grade_of(rows, totals.trusted))},
+      {{"grade", grade_of(rows, totals.trusted)},
        {"sentence",
         text(why_not_trusted + (rows.empty() ? count(totals.runs, "run") + " of the model."
                                              : findings_sentence(rows)))},
