@@ -115,14 +115,14 @@ void check_assembly(const AssemblyOptions& assembly, Checker& checker) {
 
   checker.positive("assembly.fibre_length_um", assembly.fibre_length * 1e6);
   checker.positive("assembly.fibre_height_um", assembly.fibre_height * 1e6);
-  if (is_positive(assembly.fibre_length) && is_positive(assembly.fibre_height))
+  if (is_positive(assembly.fibre_length) && is_positive(assembly.fibre_height)) {
     checker.require(assembly.fibre_length >= assembly.fibre_height, "assembly.fibre_length_um",
                     assembly.fibre_length * 1e6, "at least fibre_height_um",
                     "a fibre is longer than it is high");
-  if (is_positive(assembly.fibre_length) && is_positive(assembly.fibre_height))
     checker.require(assembly.fibre_length <= most_slender * assembly.fibre_height,
                     "assembly.fibre_length_um", assembly.fibre_length * 1e6,
                     fmt::format("at most {:g} times fibre_height_um", most_slender));
+  }
 
   // The grid of fibres is as large as the box around the turned specimen.
   const double c = std::abs(std::cos(assembly.orientation)),
@@ -196,8 +196,7 @@ void check_solver(const SolverOptions& solver, Checker& checker) {
 }
 
 // A step must not be longer than the test. To the strain σ₁/E, about where the specimen fails, they
-// must not be too many. A chosen step leaps over most of it, or is at
-// most the first.
+// must not be too many. A chosen step leaps over most of it, or is at most the first.
 void check_steps(const Scene& scene, Checker& checker) {
   const bool given = scene.solver.step.has_value();
   if ((!given && may_leap(scene)) || choose_regime(scene).regime == Regime::quasi_static) return;

@@ -77,10 +77,6 @@ void search(Trail& trail, const Active& active, bool polish, Answer& answer) {
   answer.stages.push_back(search_nlopt(trail, trail.best(), split, Stride::polish).log);
 }
 
-bool weights_agree(const Landmarks& before, const Landmarks& now) {
-  return ((now - before).abs() <= 0.05 * now + 1e-4).all();
-}
-
 // With the scatters' errors as they count at the best point.
 void reweigh(Trail& trail, const Landmarks& effect) {
   const Evaluation best = trail.best();
@@ -134,8 +130,8 @@ bool alternate_search_and_weights(Trail& trail, Answer& answer) {
     const auto error =
         uncertainty_of(trail.problem(), trail.weights(), trail.best(), answer.active, all);
     rough = error.distance >= close_enough && !polished;
-    if (!rough && weights_agree(before, effect) && !mend_left_out(trail, slopes.jacobian, answer))
-      return true;
+    const bool agree = ((effect - before).abs() <= 0.05 * effect + 1e-4).all();
+    if (!rough && agree && !mend_left_out(trail, slopes.jacobian, answer)) return true;
   }
   return false;
 }

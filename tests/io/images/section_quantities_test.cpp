@@ -14,6 +14,9 @@ namespace {
 using test::measure;
 using test::pixel;
 
+const std::vector<DensityReference> two_materials{{.grey = 51.0, .density = 0.0},
+                                                  {.grey = 204.0, .density = 1900.0}};
+
 TEST(SectionQuantities, NamesItsAreasSizesAndZones) {
   const auto drawn =
       test::draw({.outline = test::Outline::ring, .largest_radius = 12.0, .blur = 0.8});
@@ -84,11 +87,10 @@ TEST(SectionQuantities, HaveNoDensityWhereNoBoneIsSolid) {
   const test::DrawnSection drawn{
       .image = cv::Mat(120, 300, CV_8U, cv::Scalar(51)), .bone = {}, .pores = {}};
   drawn.image(cv::Rect(20, 58, 260, 4)).setTo(204);
-  const auto measured =
-      measure(drawn, "narrow.png",
-              {.pixel_size = pixel,
-               .mask = test::write(drawn.image > 100, "mask.png"),
-               .density = {{.grey = 51.0, .density = 0.0}, {.grey = 204.0, .density = 1900.0}}});
+  const auto measured = measure(drawn, "narrow.png",
+                                {.pixel_size = pixel,
+                                 .mask = test::write(drawn.image > 100, "mask.png"),
+                                 .density = two_materials});
   EXPECT_TRUE(std::isnan(measured.density)) << measured.density;
   ASSERT_FALSE(measured.warnings.empty());
   EXPECT_EQ(measured.warnings.back(),
@@ -97,9 +99,7 @@ TEST(SectionQuantities, HaveNoDensityWhereNoBoneIsSolid) {
 
 TEST(SectionQuantities, ReadDensityBesideCracks) {
   auto drawn = test::draw({.blur = 0.7});
-  const SectionOptions options{
-      .pixel_size = pixel,
-      .density = {{.grey = 51.0, .density = 0.0}, {.grey = 204.0, .density = 1900.0}}};
+  const SectionOptions options{.pixel_size = pixel, .density = two_materials};
   const double sound = measure(drawn, "sound.png", options).density;
   for (int y = 130; y < 480; y += 15) cv::line(drawn.image, {100, y}, {600, y}, 51, 2);
   EXPECT_GT(measure(drawn, "cracked.png", options).crack_count, 5);
@@ -110,9 +110,7 @@ TEST(SectionQuantities, ReadDensityBesideCracks) {
 // file's.
 TEST(SectionQuantities, HaveNoDensityByGreyLevelsOfAColour) {
   auto drawn = test::draw({.blur = 0.7});
-  const SectionOptions options{
-      .pixel_size = pixel,
-      .density = {{.grey = 51.0, .density = 0.0}, {.grey = 204.0, .density = 1900.0}}};
+  const SectionOptions options{.pixel_size = pixel, .density = two_materials};
   const double grey = measure(drawn, "grey.png", options).density;
   cv::cvtColor(drawn.image, drawn.image, cv::COLOR_GRAY2BGR);
   EXPECT_EQ(measure(drawn, "colours.png", options).density, grey);
