@@ -7,14 +7,6 @@
 
 namespace havers::cli {
 
-double Stopwatch::wall_seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count();
-}
-
-double Stopwatch::cpu_seconds() const {
-  return static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC;
-}
-
 Digests digests_of(const std::vector<std::filesystem::path>& inputs) {
   Digests digests;
   for (const auto& file : inputs) digests[file.string()] = io::sha256(file);

@@ -1,8 +1,6 @@
 // Where a result comes from and what it took.
 #pragma once
 
-#include <chrono>
-#include <ctime>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -10,19 +8,12 @@
 
 #include "calib/provenance.hpp"
 #include "cli/command.hpp"
+#include "sim/stopwatch.hpp"
 
 namespace havers::cli {
 
 /// Started with a command, read when its result is written.
-class Stopwatch {
- public:
-  [[nodiscard]] double wall_seconds() const;  ///< [s]
-  [[nodiscard]] double cpu_seconds() const;   ///< Of all threads. [s]
-
- private:
-  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-  std::clock_t cpu_ = std::clock();
-};
+using sim::Stopwatch;
 
 /// File names to SHA-256; to be taken as files are read, for users may change them during a run.
 using Digests = std::map<std::string, std::string>;

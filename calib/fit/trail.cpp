@@ -23,10 +23,6 @@ std::vector<Evaluation> Trail::evaluate(const std::vector<Point>& points) {
   return evaluations;
 }
 
-double Trail::wall_seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-}
-
 void Trail::restart(Weights weights, Evaluation from) {
   weights_ = std::move(weights);
   score(problem_, weights_, from);

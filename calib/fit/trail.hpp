@@ -1,12 +1,12 @@
 // Every point that a calibration evaluates, and the best of them.
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <vector>
 
 #include "calib/fit/calibration.hpp"
 #include "calib/fit/fit_problem.hpp"
+#include "sim/stopwatch.hpp"
 
 namespace havers::calib {
 
@@ -42,7 +42,8 @@ class Trail {
   [[nodiscard]] const Evaluation& best() const { return best_; }
   [[nodiscard]] int replicates() const { return replicates_; }
   [[nodiscard]] int points() const { return points_; }
-  [[nodiscard]] double wall_seconds() const;  ///< Since the search began. [s]
+  /// Since the search began. [s]
+  [[nodiscard]] double wall_seconds() const { return stopwatch_.wall_seconds(); }
   [[nodiscard]] bool cancelled() const { return cancelled_ || batch_.stopped(); }
   [[nodiscard]] bool budget_spent() const { return budget_spent_; }
   [[nodiscard]] bool stopped() const { return cancelled() || budget_spent_; }
@@ -58,7 +59,7 @@ class Trail {
   std::string stage_;
   int replicates_ = 1;
   int points_ = 0;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  sim::Stopwatch stopwatch_;
   bool cancelled_ = false, budget_spent_ = false, budget_lifted_ = false;
 };
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 
 #include "calib/fit/calibration.hpp"
+#include "sim/stopwatch.hpp"
 
 namespace havers::calib {
 namespace {
@@ -38,15 +38,13 @@ ChainRow fit_by(const Chain& chain, KnownStudy known, int number) {
     std::vector<std::pair<std::string, double>> best;
   };
   std::vector<Step> steps;
-  using Clock = std::chrono::steady_clock;
-  const auto begin = Clock::now();
-  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  const sim::Stopwatch stopwatch;
   const CalibrationResult result =
       calibrate(known.study, nullptr, [&](const CalibrationProgress& progress) {
-        steps.push_back({{progress.simulated, seconds(), 0.0}, progress.best});
+        steps.push_back({{progress.simulated, stopwatch.wall_seconds(), 0.0}, progress.best});
         return true;
       });
-  row.seconds = seconds();
+  row.seconds = stopwatch.wall_seconds();
   row.cost = result.cost;
   row.simulations = result.simulated;
   row.success = result.status == CalibrationStatus::converged;

@@ -1,11 +1,11 @@
 // Porosity as it is commonly measured, to compare with.
-#include <ctime>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "io/images/image_library.hpp"
 #include "io/images/pores.hpp"
+#include "sim/stopwatch.hpp"
 
 namespace havers::images {
 namespace {
@@ -42,9 +42,9 @@ double by_otsu_in_bone(const cv::Mat& grey) {
 
 calib::PorosityReading timed(const std::filesystem::path& image,
                              double (*measure)(const cv::Mat&)) {
-  const std::clock_t begin = std::clock();
+  const sim::Stopwatch stopwatch;
   const double porosity = measure(cv::imread(image.string(), cv::IMREAD_GRAYSCALE));
-  return {porosity, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC};
+  return {porosity, stopwatch.cpu_seconds()};
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 #include "io/images/section_benchmark.hpp"
 
 #include <algorithm>
-#include <ctime>
+
+#include "sim/stopwatch.hpp"
 
 namespace havers::io {
 namespace {
@@ -57,13 +58,12 @@ calib::PorosityTrial try_section(const SectionCase& section, const std::filesyst
   trial.truth = draw_section(image, drawing, {}).porosity;
   const auto common = measure_by_common_practice(image);
   std::copy(common.begin(), common.end(), trial.readings.begin());
-  const std::clock_t begin = std::clock();
+  const sim::Stopwatch stopwatch;
   const calib::SectionPorosity ours =
       measure_sections(image, {.pixel_size = drawing.pixel_size, .pictures = false})
           .front()
           .porosity;
-  trial.readings.back() = {ours.porosity,
-                           static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC};
+  trial.readings.back() = {ours.porosity, stopwatch.cpu_seconds()};
   trial.standard_error = ours.porosity_standard_error;
   return trial;
 }

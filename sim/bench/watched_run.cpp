@@ -1,15 +1,14 @@
 #include "sim/bench/watched_run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <set>
 
 #include "sim/joint/cohesive_cone.hpp"
 #include "sim/joint/thresholds.hpp"
 #include "sim/quasi_static/intact_structure.hpp"
+#include "sim/stopwatch.hpp"
 
 namespace havers::sim {
 namespace {
@@ -84,22 +83,19 @@ VectorXd bonded_forces_in_limit(const Scene& scene, double strain) {
 }  // namespace
 
 WatchedRun watch(const Scene& scene, const WatchOptions& options, const StopAsked& stop_asked) {
-  using Clock = std::chrono::steady_clock;
   WatchedRun run;
   Watcher watcher(options.bonded_strain, run);
-  const auto begin = Clock::now();
-  const std::clock_t cpu = std::clock();
-  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  const Stopwatch stopwatch;
   bool out_of_time = false;
   run.simulation = simulate(
       scene, [&](const Progress& progress) { watcher.record(progress); },
       [&] {
-        out_of_time = seconds() > options.time_limit;
+        out_of_time = stopwatch.wall_seconds() > options.time_limit;
         return out_of_time || stop_is_asked(stop_asked);
       });
   run.out_of_time = out_of_time;
-  run.wall = seconds();
-  run.cpu = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+  run.wall = stopwatch.wall_seconds();
+  run.cpu = stopwatch.cpu_seconds();
   if (run.simulation.regime == Regime::quasi_static)
     run.bonded_forces = bonded_forces_in_limit(scene, options.bonded_strain);
   return run;
