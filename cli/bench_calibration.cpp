@@ -92,9 +92,8 @@ int bench_calibration(const BenchArguments& arguments, const CommonOptions& comm
   const calib::ChainBenchmark benchmark =
       calib::benchmark_chains(costly, studies, common.threads, std::ref(counter));
   const calib::Provenance provenance = provenance_of(common, {}, watch);
-  const nlohmann::json result = io::chains_json(benchmark, provenance);
   const bool summed_up = !benchmark.summaries.empty();
-  leave({.result = result,
+  leave({.result = io::chains_json(benchmark, provenance),
          .csv_name = "chains.csv",
          .csv = io::chains_csv(benchmark),
          .page =
@@ -114,8 +113,7 @@ int bench_coverage(const BenchArguments& arguments, const CommonOptions& common)
   const calib::Coverage coverage =
       calib::measure_coverage(designs, studies, common.threads, std::ref(counter), interrupted);
   const calib::Provenance provenance = provenance_of(common, {}, watch);
-  const nlohmann::json result = io::coverage_json(coverage, provenance);
-  leave({.result = result,
+  leave({.result = io::coverage_json(coverage, provenance),
          .csv_name = "coverage.csv",
          .csv = io::coverage_csv(coverage),
          .page = reports::available() ? reports::coverage_page(coverage, provenance) : ""},

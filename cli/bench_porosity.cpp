@@ -50,8 +50,7 @@ int bench_porosity(const BenchArguments& arguments, const CommonOptions& common)
   const calib::MethodComparison comparison =
       try_all(arguments, common, output.stage("section.png"));
   const calib::Provenance provenance = provenance_of(common, {}, watch);
-  const nlohmann::json result = io::methods_json(comparison, provenance);
-  leave({.result = result,
+  leave({.result = io::methods_json(comparison, provenance),
          .csv_name = "porosity.csv",
          .csv = io::methods_csv(comparison),
          .page = reports::available() ? reports::methods_page(comparison, provenance) : ""},

@@ -83,9 +83,8 @@ int bench_scene(const BenchArguments& arguments, const CommonOptions& common) {
 
   const sim::WorkPrecision study = watched(file.scene, arguments, common);
   const calib::Provenance provenance = provenance_of(common, std::move(inputs), watch);
-  const nlohmann::json result = io::work_precision_json(file.scene, study, provenance);
   if (reports::available()) output.write("work_precision.svg", reports::work_precision_svg(study));
-  leave({.result = result,
+  leave({.result = io::work_precision_json(file.scene, study, provenance),
          .csv_name = "bench.csv",
          .csv = io::work_precision_csv(study),
          .page = reports::available() ? reports::work_precision_page(file.scene, study, provenance)

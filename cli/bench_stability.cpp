@@ -40,8 +40,7 @@ int bench_stability(const BenchArguments& arguments, const CommonOptions& common
   OutputFolder output(arguments.folder, common.force);
   const sim::StabilityBench bench = run_all(common);
   const calib::Provenance provenance = provenance_of(common, {}, watch);
-  const nlohmann::json result = io::stability_json(bench, provenance);
-  leave({.result = result,
+  leave({.result = io::stability_json(bench, provenance),
          .csv_name = "stability.csv",
          .csv = io::stability_csv(bench.scenes),
          .page = reports::available() ? reports::stability_page(bench, provenance) : ""},
