@@ -1,4 +1,6 @@
 // Pages of sections and of several fits.
+#include "reports/pages.hpp"
+
 #include <gtest/gtest.h>
 
 #include "calib/porosity/scatter_map.hpp"

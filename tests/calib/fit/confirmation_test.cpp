@@ -8,6 +8,7 @@
 
 #include "calib/synthetic/known_study.hpp"
 #include "tests/support/slow.hpp"
+#include "tests/support/studies.hpp"
 
 namespace havers::calib {
 namespace {
