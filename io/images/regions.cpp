@@ -204,17 +204,56 @@ Regions around(const cv::Mat& level, cv::Size size) {
   return regions;
 }
 
+// Share of a region that differs from it to one side by half the step between the levels, holes of
+// the small copy included; where noise does, it does to both sides.
+double share_of_pores(const cv::Mat& grey, const cv::Mat& level, double step) {
+  const cv::Mat inside = eroded(main_parts(level), 3);
+  const std::vector<Sample> samples =
+      sample(grey, enlarged(inside, reduction(grey.size()), grey.size()), 20000);
+  const std::vector<float> surface = values_at(fit_majority(samples, grey.size()), samples);
+  double net = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double difference = samples[i].value - surface[i];
+    if (std::abs(difference) > 0.5 * step) net += difference > 0.0 ? 1.0 : -1.0;
+  }
+  return samples.empty() ? 0.0 : std::abs(net) / static_cast<double>(samples.size());
+}
+
+// A caption is drawn in one grey level, resin is photographed.
+bool may_be_a_caption(const cv::Mat& grey, const cv::Mat& level) {
+  if (3 * cv::countNonZero(level) > static_cast<int>(level.total())) return false;
+  std::vector<float> values;
+  for (const Sample& s : sample(grey, enlarged(level, reduction(grey.size()), grey.size()), 5000))
+    values.push_back(s.value);
+  return quantile(values, 0.3) == quantile(values, 0.7);
+}
+
+// (I3) Of two regions the bone is the one that has less of the image's frame. Where both reach it,
+// as in a section cut by the image's edge, it is the one that has the pores; `either`: none has
+// plainly more.
+bool bright_is_bone(const cv::Mat& grey, const cv::Mat& bright, bool& either) {
+  const cv::Mat dark = ~bright;
+  const double by_bright = share_of_frame(bright), by_dark = share_of_frame(dark);
+  if (std::min(by_bright, by_dark) < 0.1) return by_bright < by_dark;
+  const cv::Mat cells = averaged(grey, reduction(grey.size()), cv::BORDER_REPLICATE);
+  const double step = cv::mean(cells, bright)[0] - cv::mean(cells, dark)[0];
+  const double in_bright = share_of_pores(grey, bright, step);
+  const double in_dark = share_of_pores(grey, dark, step);
+  either = std::max(in_bright, in_dark) < 3.0 * std::min(in_bright, in_dark) + 0.001 ||
+           may_be_a_caption(grey, bright) || may_be_a_caption(grey, dark);
+  return either ? by_bright < by_dark : in_bright > in_dark;
+}
+
 }  // namespace
 
 Regions divide(const cv::Mat& grey, io::Pores pores) {
   const cv::Mat bright = brighter_region(small_copy(grey));
   if (bright.empty()) return all_of(grey, cv::Mat(grey.size(), CV_8U, cv::Scalar(255)), pores);
 
-  // (I3) Of two regions the bone is the one that has less of the image's frame, unless its pores
-  // are said to be on the side where neither background nor a tail of its grey levels is.
   const cv::Mat dark = ~bright;
-  bool bright_bone = share_of_frame(bright) < share_of_frame(dark);
+  bool either = false, bright_bone = bright_is_bone(grey, bright, either);
   Regions regions = around(bright_bone ? bright : dark, grey.size());
+  // Unless pores are said to be where neither background nor a tail of the bone's grey levels is.
   const bool dark_pores = are_dark(pores, bright_bone);
   if (dark_pores != bright_bone) {
     const double skewness = tail(grey(regions.box), regions.bone);
@@ -224,6 +263,7 @@ Regions divide(const cv::Mat& grey, io::Pores pores) {
     }
   }
   regions.dark_pores = bright_bone;
+  regions.either_is_bone = either;
   return regions;
 }
 

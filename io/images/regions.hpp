@@ -14,6 +14,7 @@ struct Regions {
   bool outlined =
       false;  ///< Background surrounds the bone; otherwise bone fills the image or the user's mask.
   bool dark_pores = true;  ///< Darker than bone are the background and, until more is known, pores.
+  bool either_is_bone = false;  ///< Neither frame nor pores tell bone from background.
   cv::Rect box;        ///< What of the image the masks below cover, and all that follows from them.
   cv::Mat bone;        ///< 255 on what is surely bone or pores in it.
   cv::Mat search;      ///< 255 where the outline may run: bone, holes and a rim around.

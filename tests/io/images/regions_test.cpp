@@ -173,6 +173,35 @@ TEST(Bone, OfABarHasItsLargestPoreCounted) {
   EXPECT_THAT(measured.warnings, Contains(HasSubstr("marrow cavity")));
 }
 
+// A section cut by three sides of the image: bone has most of the frame, and the pores.
+TEST(Bone, OnMostOfTheFrameIsToldByItsPores) {
+  for (const bool negative : {false, true})
+    for (const double background : {0.2, 0.05, 0.5}) {
+      auto drawn = test::draw({.outline = test::Outline::filled,
+                               .porosity = 0.08,
+                               .largest_radius = 12.0,
+                               .noise = 0.04,
+                               .blur = 0.7});
+      cv::Mat resin = drawn.image.colRange(500, 700);
+      cv::theRNG().state = 1;
+      cv::randn(resin, 255.0 * background, 5.0);
+      const double truth = cv::mean(drawn.pores.colRange(0, 500))[0];
+      if (negative) drawn.image = 255 - drawn.image;
+      const auto measured = found_in(drawn.image);
+      EXPECT_NEAR(100.0 * measured.porosity, 100.0 * truth, 0.3) << background << negative;
+      EXPECT_FALSE(measured.doubtful) << background << negative;
+    }
+}
+
+TEST(Bone, OnMostOfTheFrameWithoutPoresIsInDoubt) {
+  auto drawn = test::draw({.outline = test::Outline::filled, .porosity = 0.0, .noise = 0.04});
+  drawn.image.colRange(500, 700).setTo(51);
+  const auto measured = found_in(drawn.image);
+  EXPECT_THAT(measured.warnings, Contains(HasSubstr("pores do not tell them apart")));
+  const auto told = found_in(drawn.image, {.pores = Pores::dark});
+  EXPECT_NEAR(area_in_pixels(told), 500.0 * 600.0, 2000.0);
+}
+
 TEST(Bone, WithoutABackgroundIsSaidToFillTheImage) {
   const auto drawn = test::draw({.outline = test::Outline::filled, .blur = 1.0});
   const auto found = found_in(drawn.image), told = found_in(drawn.image, {.fills_image = true});
