@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "io/images/bars.hpp"
 #include "io/images/masks.hpp"
 #include "io/images/two_levels.hpp"
 
@@ -38,12 +39,6 @@ bool is_a_region(const cv::Mat& level) {
     if (share_of_frame(part & level) > 0.1) return true;
   }
   return false;
-}
-
-bool is_a_machined_bar(const Contour& border) {
-  Contour hull;
-  cv::convexHull(border, hull);
-  return cv::contourArea(hull) > 0.95 * static_cast<double>(cv::minAreaRect(hull).size.area());
 }
 
 // Whether a level is little else than one part, as a small bone is in a large image. What is dark
@@ -282,7 +277,9 @@ cv::Mat outline(const cv::Mat& solid) {
   if (outlines.empty()) return {};
   cv::drawContours(bone, outlines, -1, 255, cv::FILLED);
   const double enclosed = cv::countNonZero(bone);
-  const bool machined = std::all_of(outlines.begin(), outlines.end(), is_a_machined_bar);
+  const bool machined = std::ranges::all_of(outlines, [](const Contour& border) {
+    return is_a_machined_bar(border) && has_straight_sides(border);
+  });
   std::erase_if(holes, [&](const Contour& hole) {
     return machined || enclosed_area(hole) <= 0.1 * enclosed;
   });

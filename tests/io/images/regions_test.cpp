@@ -202,6 +202,22 @@ TEST(Bone, OnMostOfTheFrameWithoutPoresIsInDoubt) {
   EXPECT_NEAR(area_in_pixels(told), 500.0 * 600.0, 2000.0);
 }
 
+// A natural surface is wavy: what lies between its crests is no pore.
+TEST(Bone, WithWavesIsNoMachinedBar) {
+  auto drawn = test::draw({.outline = test::Outline::filled, .porosity = 0.0});
+  for (int x = 0; x < 700; ++x) {
+    const int wave = static_cast<int>(std::lround(20.0 * std::sin(x / 20.0)));
+    drawn.image.col(x).rowRange(0, 80 + wave).setTo(51);
+    drawn.image.col(x).rowRange(520 + wave, 600).setTo(51);
+  }
+  cv::Mat pores = cv::Mat::zeros(drawn.image.size(), CV_8U);
+  for (int i = 0; i < 24; ++i)
+    cv::circle(pores, {80 + 100 * (i % 6), 170 + 80 * (i / 6)}, 15, 255, cv::FILLED);
+  drawn.image.setTo(51, pores);
+  const double truth = cv::countNonZero(pores) / (700.0 * 440.0);
+  EXPECT_NEAR(found_in(drawn.image).porosity, truth, 1e-3);
+}
+
 TEST(Bone, WithoutABackgroundIsSaidToFillTheImage) {
   const auto drawn = test::draw({.outline = test::Outline::filled, .blur = 1.0});
   const auto found = found_in(drawn.image), told = found_in(drawn.image, {.fills_image = true});
