@@ -41,7 +41,8 @@ void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
 bool mend_left_out(Trail& trail, const Eigen::MatrixXd& jacobian, Answer& answer) {
   if (trail.problem().study.calibrate.automatic) return false;
   for (LeftUnknown& one : answer.left) {
-    const auto walked = walk_along(trail, one.unknown, answer.active, jacobian);
+    auto walked = walk_along(trail, one.unknown, answer.active, jacobian);
+    for (Evaluation& point : walked) score(trail.problem(), trail.weights(), point);
     const auto lowest = std::ranges::min_element(walked, {}, &Evaluation::cost);
     if (lowest == walked.end() || lowest->cost > trail.best().cost - contradicts) continue;
     Active along = answer.active;

@@ -95,12 +95,24 @@ std::optional<double> steepening(const MeasuredTest& test) {
 
 }  // namespace
 
-Check check_bounds(const CalibrationResult& result) {
+// What was left out and kept where the search ran into a bound is no value either.
+Check check_bounds(const FitProblem& problem, const Answer& answer,
+                   const CalibrationResult& result) {
   std::vector<std::string> names;
   for (const auto& parameter : result.parameters)
     if (parameter.at_bound)
       names.push_back(fmt::format("{} = {:.4g} of [{:.4g}, {:.4g}]", parameter.name,
                                   parameter.value, parameter.bounds[0], parameter.bounds[1]));
+  std::vector<std::string> kept;
+  for (const LeftUnknown& one : answer.left)
+    if (const Unknown& unknown = problem.unknown(one.unknown);
+        one.kept_where_found && at_bound(unknown, answer.best.point[one.unknown]))
+      kept.push_back(unknown.label);
+  if (names.empty() && !kept.empty())
+    return {"inside bounds", Outcome::warn,
+            fmt::format("No fitted parameter lies at a bound, but {}, left out, was found at one: "
+                        "the others are right beside that value only, their intervals beside any.",
+                        fmt::join(kept, ", "))};
   if (names.empty())
     return {"inside bounds", Outcome::pass, "No fitted parameter lies at a bound."};
   return {"inside bounds", Outcome::fail,

@@ -7,7 +7,8 @@
 namespace havers::calib {
 
 /// No fitted parameter lies at a bound.
-Check check_bounds(const CalibrationResult& result);
+Check check_bounds(const FitProblem& problem, const Answer& answer,
+                   const CalibrationResult& result);
 
 /// The specimens inform every parameter asked for (F10), and no interval has most of its bounds.
 Check check_identifiable(const FitProblem& problem, const Answer& answer,

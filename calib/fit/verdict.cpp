@@ -135,7 +135,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   std::vector<Check> checks{check_brittle(problem, answer)};
   checks.push_back(check_convergence(answer, result.cost));
   checks.push_back(check_starts(problem, answer));
-  checks.push_back(check_bounds(result));
+  checks.push_back(check_bounds(problem, answer, result));
   checks.push_back(check_identifiable(problem, answer, result));
   checks.push_back(check_broke(problem, answer));
   checks.push_back(check_strain(problem, answer));

@@ -9,13 +9,13 @@
 namespace havers::calib {
 
 /// Points along an unknown that was left out, from bound to bound, the active ones refitted by
-/// their slopes (F22). The trail's best stays what it is. Points that failed are not among them.
-std::vector<Evaluation> walk_along(Trail& trail, Eigen::Index unknown, const Active& active,
-                                   const Eigen::MatrixXd& jacobian);
+/// their slopes, each scored by its own weights (F22). The trail's best stays what it is. Points
+/// that failed are not among them.
+Walk walk_along(Trail& trail, Eigen::Index unknown, const Active& active,
+                const Eigen::MatrixXd& jacobian);
 
 /// Intervals that hold wherever the specimens allow the unknowns left out to be (F22).
-/// @param elsewhere  from `walk_along`.
-void widen_intervals(const Evaluation& best, const std::vector<Evaluation>& elsewhere,
+void widen_intervals(const Evaluation& best, const std::vector<Walk>& elsewhere,
                      const Active& active, Uncertainty& uncertainty);
 
 }  // namespace havers::calib

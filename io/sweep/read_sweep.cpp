@@ -131,6 +131,8 @@ void read_questions(TableReader& top, calib::Sweep& sweep) {
       (in_order ? require_number : require_varied)(table, sweep.plan, key, "keys");
     require_varied(table, sweep.plan, finding.per, "per");
     require_as_many_keys_as_are_judged(table, finding);
+    if (judges_means(finding.test) && !table.has("margin"))
+      table.complain("margin", "is missing", "give the level, in the response's SI unit");
     if (!judges_means(finding.test) && !(finding.margin >= 0.0 && finding.margin < 1.0))
       table.complain("margin",
                      fmt::format("is {:g}, must be at least 0 and less than 1", finding.margin),

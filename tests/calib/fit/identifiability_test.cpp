@@ -78,6 +78,7 @@ TEST(Identifiability, LeavesWhatTheStudyHasWrongWhereTheFitFoundIt) {
             std::string::npos)
       << ratio.left_out_because;
   EXPECT_NEAR(test::parameter_of(result, "head_tail_MPa").value, 60.0, 0.6);
+  EXPECT_EQ(test::check_of(result, "inside bounds").outcome, Outcome::pass);
 }
 
 TEST(Identifiability, IsStoppedAtAnyPointAndKeepsTheBestOne) {

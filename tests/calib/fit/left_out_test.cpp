@@ -49,6 +49,23 @@ TEST(LeftOut, TakesNoFreedomWhereItMovesNothing) {
   EXPECT_GE(held, 16);
 }
 
+// Where simulations scatter more, tests that are alike by chance contradict a scatter less. The
+// truth is 60 MPa and 0.3.
+TEST(LeftOut, WidensTheIntervalToEachScatterThatTestsAllow) {
+  constexpr unsigned draws = 40;
+  unsigned held = 0;
+  for (unsigned draw = 1; draw <= draws; ++draw) {
+    Study study = test::synthetic_study(test::three_orientations, {}, draw);
+    study.calibrate.parameters = {"young_GPa", "head_tail_MPa", "scatter"};
+    study.calibrate.profiles = false;
+    study.model.joints.scatter = 0.05;
+    const auto threshold = test::parameter_of(test::fit(study), "head_tail_MPa");
+    const auto [low, high] = threshold.interval_95;
+    held += low <= 60.0 && 60.0 <= high ? 1 : 0;
+  }
+  EXPECT_GE(held, 36U);
+}
+
 // Of σ₁ and scatter strengths tell a product only.
 TEST(LeftOut, StaysWhereTheStudyHasItWhateverPointIsLookedAtFirst) {
   for (const double start : {8.0, 60.0, 600.0})

@@ -5,6 +5,7 @@
 
 #include "calib/fit/answer.hpp"
 #include "calib/fit/calibrate.hpp"
+#include "calib/fit/parameter_checks.hpp"
 #include "tests/support/slow.hpp"
 #include "tests/support/studies.hpp"
 
@@ -176,6 +177,23 @@ TEST(Verdict, SaysWhichParameterLiesAtABound) {
   const auto check = check_of(test::fit(study), "inside bounds");
   EXPECT_EQ(check.outcome, Outcome::fail);
   EXPECT_TRUE(says(check, "young_GPa = 12 of [5, 12]"));
+}
+
+TEST(Verdict, WarnsOfWhatIsLeftOutWhereTheFitRanIntoABound) {
+  const FitProblem problem = make_problem(test::synthetic_study(test::three_orientations));
+  const Unknown& last = problem.unknowns.back();
+  const auto index = static_cast<Eigen::Index>(problem.unknowns.size()) - 1;
+  Answer answer;
+  answer.best.point = start_point(problem.unknowns);
+  answer.left = {{index, "a reason"}};
+  answer.left[0].kept_where_found = true;
+  EXPECT_EQ(check_bounds(problem, answer, {}).outcome, Outcome::pass);
+  answer.best.point[index] = last.upper;
+  const Check check = check_bounds(problem, answer, {});
+  EXPECT_EQ(check.outcome, Outcome::warn);
+  EXPECT_TRUE(says(check, "but " + last.label + ", left out, was found at one")) << check.text;
+  answer.left[0].kept_where_found = false;  // the study's own value
+  EXPECT_EQ(check_bounds(problem, answer, {}).outcome, Outcome::pass);
 }
 
 TEST(Verdict, SeesAModulusThatDiffersBetweenOrientations) {

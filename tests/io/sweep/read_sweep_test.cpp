@@ -171,6 +171,13 @@ TEST_F(ReadSweep, NamesAMarginThatCannotBe) {
   EXPECT_NO_THROW(read(text + "\"above\"\n"));
 }
 
+// A level that nobody named would be 0.05 Pa.
+TEST_F(ReadSweep, AsksForTheLevelThatAMeanIsToBeAbove) {
+  EXPECT_THAT(complaints("[sweep.keys]\n\"joints.scatter\" = [0.2, 0.5]\n[[finding]]\n"
+                         "test = \"above\"\n"),
+              ElementsAre(HasSubstr("finding.margin: is missing (give the level")));
+}
+
 TEST_F(ReadSweep, RefusesASettingOfAKeyThatVaries) {
   for (const char* setting : {"joints.scatter = 0.3", "joints = {scatter = 0.3}"})
     EXPECT_THAT(complaints(test::small_sweep, {setting}),
