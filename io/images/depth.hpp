@@ -17,6 +17,7 @@ struct Levels {
   double sign = 1.0;                 ///< −1 where pores are brighter than bone.
   double offset = 1.0, slope = 0.0;  ///< The contrast is offset + slope B,
   double least = 0.0;                ///< but not less than this.
+  double usual = 1.0;                ///< Contrast in the median, where it was fitted.
   double noise = 0.0;                ///< SD of a pixel. [grey levels]
 
   [[nodiscard]] double contrast(double bone_level) const {

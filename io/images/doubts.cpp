@@ -95,17 +95,38 @@ void warn_of_sides_of_frame(const Regions& regions, io::Pores known, Warnings& w
       bright ? "bright" : "dark", bright ? "bright" : "dark", bright ? "bright" : "dark"));
 }
 
+bool is_grey(const PoreMap& map, const cv::Mat& colours) {
+  return colours.empty() ||
+         cv::countNonZero((colours < 16) & map.bone) > 0.9 * cv::countNonZero(map.bone);
+}
+
 // In bone that is grey, colours are somebody's lines and letters.
 void warn_of_drawings(const PoreMap& map, const cv::Mat& colours, Warnings& warnings) {
-  if (colours.empty()) return;
-  const double bone = cv::countNonZero(map.bone);
-  const int grey = cv::countNonZero((colours < 16) & map.bone);
+  if (colours.empty() || !is_grey(map, colours)) return;
   const int drawn = cv::countNonZero((colours > 64) & map.bone);
-  if (grey > 0.9 * bone && drawn >= smallest_pore)
+  if (drawn >= smallest_pore)
     warnings.push_back(
         fmt::format("{:.2g} % of the bone is coloured, and the rest is grey: if that is drawn into "
                     "the image, measure the image without it",
-                    100.0 * drawn / bone));
+                    100.0 * drawn / cv::countNonZero(map.bone)));
+}
+
+// Osteons a little darker than the bone about them pass for pores, pores filled in part for bone.
+// `like_background`: a background is seen that is to be compared with; stain has hues of its own.
+void warn_of_greys(const PoreMap& map, bool like_background, Warnings& warnings) {
+  constexpr double faint = 0.6;  // of the background's contrast
+  if (map.areas.empty()) return;
+  if (like_background && map.contrast < faint)
+    warnings.push_back(
+        fmt::format("pores differ from bone by {:.0f} % only of what the background does: if that "
+                    "is {}er bone, as of osteons, give the image in two values; if pores are as "
+                    "faint, give a mask",
+                    100.0 * map.contrast, map.dark ? "dark" : "bright"));
+  if (map.half_deep > 0.1 * map.area)
+    warnings.push_back(fmt::format(
+        "{:.2g} % of the bone is more than half way to the threshold and not near a pore: if that "
+        "is pores, filled in part, give the image in two values",
+        100.0 * map.half_deep / cv::countNonZero(map.bone)));
 }
 
 void warn_of_side(const PoreMap& map, bool like_background, io::Pores known, Warnings& warnings) {
@@ -170,14 +191,17 @@ void warn_of_scale(const io::SectionOptions& options, Warnings& warnings) {
 
 void add_doubts(const Findings& found, const io::SectionOptions& options, Warnings doubts,
                 calib::SectionPorosity& section) {
-  const auto& [whole, colours, map, regions] = found;
+  const auto& [whole, all_colours, map, regions] = found;
+  const cv::Mat colours = all_colours.empty() ? all_colours : all_colours(regions.box);
+  const bool like_background = map.dark == regions.dark_pores;
   Warnings warnings;
   if (!warn_of_strips(map, regions.box, whole.size(), doubts))
     warn_of_bone(map, regions.outlined, whole.size(), options, doubts);
   warn_of_sides_of_frame(regions, options.pores, doubts);
   warn_of_background(whole, map, regions.box, options, doubts);
-  warn_of_drawings(map, colours.empty() ? colours : colours(regions.box), doubts);
-  warn_of_side(map, !regions.outlined || map.dark == regions.dark_pores, options.pores, doubts);
+  warn_of_drawings(map, colours, doubts);
+  warn_of_greys(map, regions.outlined && like_background && is_grey(map, colours), doubts);
+  warn_of_side(map, !regions.outlined || like_background, options.pores, doubts);
   warn_of_size(map, section, doubts);
   warn_of_objects(map, doubts, warnings);
   warn_of_canals(section, warnings);

@@ -63,9 +63,11 @@ Levels bone_levels(const cv::Mat& grey, const Regions& regions) {
 void fit_contrast(const cv::Mat& grey, const cv::Mat& pores, Levels& levels) {
   const std::vector<Sample> samples = sample(grey, pores, 20000);
   const std::vector<float> bones = values_at(levels.bone, samples);
+  std::vector<float> depths;
   double n = 0.0, b = 0.0, d = 0.0, bb = 0.0, bd = 0.0, dd = 0.0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double bone = bones[i], depth = levels.sign * (bone - samples[i].value);
+    depths.push_back(static_cast<float>(depth));
     n += 1.0, b += bone, d += depth, bb += bone * bone, bd += bone * depth, dd += depth * depth;
   }
   if (n == 0.0) return;
@@ -77,6 +79,7 @@ void fit_contrast(const cv::Mat& grey, const cv::Mat& pores, Levels& levels) {
   const bool determined = std::abs(slope) > 3.0 * slope_error &&
                           std::abs(slope) * 3.0 * std::sqrt(spread) < std::abs(d);
   levels.slope = determined ? slope : 0.0;
+  levels.usual = quantile(depths, 0.5);
   levels.offset = d - levels.slope * b;
   levels.least = 1e-3 * d;  // or a depth might be infinite
 }

@@ -125,12 +125,12 @@ double threshold_without_blur(const Depth& depth, const cv::Mat& cores, PoreMap&
   const DepthCount about(depth, surroundings);
   const double blur = (about.above(0.3) - about.above(0.7)) / (1.0488 * map.perimeter);
   const double own_blur = std::sqrt(std::max(0.0, blur * blur - smoothing * smoothing));
-  const double full_depth = 1.0 / depth_left_in(cores, map.pores, own_blur);
-  map.area_by_grey = about.sum() / full_depth;
+  map.full_depth = 1.0 / depth_left_in(cores, map.pores, own_blur);
+  map.area_by_grey = about.sum() / map.full_depth;
   const double share = 1.0 - 2.0 * std::numbers::pi * noise * noise;
   const auto pores = static_cast<double>(map.areas.size());
   const double lowering = share * std::sqrt(std::numbers::pi / 2.0) * blur * pores / map.perimeter;
-  return std::max(0.3, 0.5 - lowering) * full_depth;
+  return std::max(0.3, 0.5 - lowering) * map.full_depth;
 }
 
 // Pores are the minority: the grey levels have a tail to their side of the bone's.
@@ -150,9 +150,40 @@ void cut(const cv::Mat& inner, const PoreOptions& options, PoreMap& map) {
   sort_objects(options.crack_slenderness, map);
 }
 
+// Contrast of pores over that of the background. Most of the cores tell: a few pores in darker bone
+// that passes for pores too would raise the mean. `before`: the levels against the background, when
+// such bone still drew that of bone down.
+double relative_contrast(const cv::Mat& grey, const cv::Mat& cores, const Levels& levels,
+                         const Levels& before) {
+  const std::vector<Sample> samples = sample(grey, cores, 5000);
+  const std::vector<float> bone = values_at(levels.bone, samples);
+  std::vector<float> ratios = values_at(before.bone, samples);
+  // A shade multiplies at the most; what is steeper comes of bone among the background.
+  const bool of_a_shade = std::abs(before.slope) <= 1.2;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double contrast = of_a_shade ? before.contrast(ratios[i]) : before.usual;
+    const double background = ratios[i] - before.sign * contrast;
+    const double whole = std::max(std::abs(bone[i] - background), 1e-300);
+    ratios[i] = static_cast<float>(std::abs(bone[i] - samples[i].value) / whole);
+  }
+  return quantile(ratios, 0.5);
+}
+
+// Bone that is plainly no bone, nor the blurred border of pores, but passes for bone: patches of
+// three by three pixels.
+double half_deep_area(const Depth& depth, const cv::Mat& inner, const PoreMap& map) {
+  const BoneDepth solid = bone_depth(depth, inner);
+  const double least = std::max(0.5 * map.threshold, solid.middle + 5.0 * solid.spread);
+  cv::Mat taken = deeper(depth, map.threshold, map.bone);
+  taken |= map.pores;
+  const cv::Mat patches = deeper(depth, least, inner) & ~dilated(taken, 11);
+  return cv::countNonZero(dilated(eroded(patches, 3), 3));
+}
+
 PoreMap pores_of_one_side(const cv::Mat& grey, const cv::Mat& bone, const PoreOptions& options,
                           Depth& depth) {
   PoreMap map{.bone = bone, .dark = depth.levels.sign > 0.0};
+  const Levels before = depth.levels;
   // Blur reaches further in than noise does: a sharp eye would take it for a second level.
   const cv::Mat inner = options.rim ? eroded(bone, 5) : bone;
   if (depth.grey.depth() == CV_32F) depth.grey.release();  // Four bytes a pixel are made anew.
@@ -178,6 +209,9 @@ PoreMap pores_of_one_side(const cv::Mat& grey, const cv::Mat& bone, const PoreOp
   }
   map.other_side =
       static_cast<double>(cv::countNonZero(shallower(depth, -0.5, inner))) / cv::countNonZero(bone);
+  map.half_deep = half_deep_area(depth, inner, map);
+  if (options.rim)
+    map.contrast = map.full_depth * relative_contrast(grey, cores, depth.levels, before);
   return map;
 }
 

@@ -23,6 +23,10 @@ struct PoreMap {
   int specks = 0;           ///< Objects below `smallest_pore`, left out.
   bool dark = true;         ///< Whether pores are darker than bone.
   double other_side = 0.0;  ///< Share of bone as far to the other side of its level as pores are.
+  double half_deep = 0.0;   ///< Bone away from pores, more than half as deep as the threshold.
+  double full_depth = 1.0;  ///< Depth of pores without the blur.
+  /// Of pores to bone, without the blur, over that of the background to bone; 1 without one.
+  double contrast = 1.0;
 };
 constexpr int smallest_pore = 4;  // [px]
 

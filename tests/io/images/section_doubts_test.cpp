@@ -145,6 +145,35 @@ TEST(SectionDoubt, WarnsWhereGreyLevelsAndThresholdDisagree) {
   EXPECT_TRUE(warns(measured, "differs by more than one point"));
 }
 
+// Osteons of darker bone, with a few pores and with none.
+TEST(SectionDoubt, IsOfPoresFarFainterThanTheBackground) {
+  for (const double porosity : {0.003, 0.0}) {
+    auto drawn = test::draw({.porosity = porosity, .noise = 0.03});
+    EXPECT_FALSE(warns(measure(drawn, "plain.png"), "of what the background does"));
+    cv::Mat osteons = cv::Mat::zeros(drawn.image.size(), CV_8U);
+    for (int i = 0; i < 24; ++i)
+      cv::circle(osteons, {130 + 85 * (i % 6), 150 + 95 * (i / 6)}, 30, 60, cv::FILLED);
+    osteons.setTo(0, drawn.image < 150);
+    drawn.image -= osteons;
+    const auto measured = measure(drawn, "osteons.png");
+    EXPECT_GT(measured.porosity, 0.2);
+    EXPECT_TRUE(warns(measured, "of what the background does: if that is darker bone"));
+    EXPECT_TRUE(measured.doubtful);
+  }
+}
+
+TEST(SectionDoubt, IsOfPoresFilledInPart) {
+  auto drawn = test::draw({.smallest_radius = 9.0, .largest_radius = 9.0, .noise = 0.03});
+  EXPECT_FALSE(measure(drawn, "empty.png").doubtful);
+  const cv::Mat left = drawn.image.colRange(0, drawn.image.cols / 2);
+  cv::Mat in_pores = drawn.pores.colRange(0, left.cols) > 0.5;
+  cv::add(left, 100, left, in_pores);
+  const auto measured = measure(drawn, "filled.png");
+  EXPECT_LT(measured.porosity, 0.75 * drawn.porosity);
+  EXPECT_TRUE(warns(measured, "more than half way to the threshold"));
+  EXPECT_TRUE(measured.doubtful);
+}
+
 // One pore is as large as a region, and all have less of the frame than what is between them.
 TEST(SectionDoubt, WarnsOfABoneInManyParts) {
   cv::Mat image(600, 800, CV_8U, cv::Scalar(180));
