@@ -25,8 +25,8 @@ struct Answer {
   Differences slopes;  ///< At the best point; failed where it could not be had.
   /// The same Jacobian and, beside it, that of what was asked for and left out (F9).
   Eigen::MatrixXd asked_slopes;
-  Uncertainty uncertainty;      ///< Empty when `slopes` failed.
-  std::vector<Walk> elsewhere;  ///< Along the unknowns asked for that were left out (F22).
+  Uncertainty uncertainty;            ///< Empty when `slopes` failed.
+  std::vector<Evaluation> elsewhere;  ///< Along the unknowns asked for that were left out (F22).
   std::vector<Profile> profiles;
 };
 

@@ -152,7 +152,8 @@ void assess_answer(Trail& trail, Answer& answer) {
                                       answer.asked_slopes);
   for (const Eigen::Index unknown : asked_and_left(trail.problem(), answer)) {
     trail.enter("unknowns left out");
-    answer.elsewhere.push_back(walk_along(trail, unknown, answer.active, answer.slopes.jacobian));
+    std::ranges::move(walk_along(trail, unknown, answer.active, answer.slopes.jacobian),
+                      std::back_inserter(answer.elsewhere));
   }
   if (!answer.elsewhere.empty())
     widen_intervals(answer.best, answer.elsewhere, answer.active, answer.uncertainty);

@@ -65,9 +65,6 @@ struct Evaluation {
   double cost = std::numeric_limits<double>::infinity();  ///< ½ Σ residual². [-]
 };
 
-/// Points along one unknown, from bound to bound.
-using Walk = std::vector<Evaluation>;
-
 /// Simulates every fitted specimen at every point, as one batch. Residuals are left to `score`.
 std::vector<Evaluation> predict(const FitProblem& problem, SimulationBatch& batch,
                                 const std::vector<Point>& points, int replicates);

@@ -20,7 +20,7 @@ std::vector<Point> from_bound_to_bound(const Unknown& unknown, Eigen::Index inde
 }
 
 // By the weights of each point itself: where simulations scatter more, the specimens tell less.
-void score_each(const Trail& trail, Walk& points) {
+void score_each(const Trail& trail, std::vector<Evaluation>& points) {
   const Weights& here = trail.weights();
   for (Evaluation& one : points)
     if (!one.failed)
@@ -45,18 +45,19 @@ Point refitted(const Trail& trail, const Evaluation& one, const Active& active,
 
 }  // namespace
 
-Walk walk_along(Trail& trail, Eigen::Index unknown, const Active& active,
-                const Eigen::MatrixXd& jacobian) {
+std::vector<Evaluation> walk_along(Trail& trail, Eigen::Index unknown, const Active& active,
+                                   const Eigen::MatrixXd& jacobian) {
   constexpr int refits = 2;
   const Evaluation best = trail.best();
-  Walk walked =
+  auto walked =
       trail.evaluate(from_bound_to_bound(trail.problem().unknown(unknown), unknown, best.point));
   score_each(trail, walked);
   for (int k = 0; k < refits; ++k) {
     std::vector<Point> points;
+    points.reserve(walked.size());
     for (const Evaluation& one : walked)
       points.push_back(one.failed ? one.point : refitted(trail, one, active, jacobian));
-    Walk moved = trail.evaluate(points);
+    auto moved = trail.evaluate(points);
     score_each(trail, moved);
     for (std::size_t i = 0; i < walked.size(); ++i)
       if (moved[i].cost < walked[i].cost) walked[i] = std::move(moved[i]);
@@ -66,34 +67,24 @@ Walk walk_along(Trail& trail, Eigen::Index unknown, const Active& active,
   return walked;
 }
 
-void widen_intervals(const Evaluation& best, const std::vector<Walk>& elsewhere,
+void widen_intervals(const Evaluation& best, const std::vector<Evaluation>& elsewhere,
                      const Active& active, Uncertainty& uncertainty) {
-  constexpr int between = 8;  // points from one station to the next
   double lowest = best.cost;
-  for (const Walk& walk : elsewhere)
-    for (const Evaluation& one : walk) lowest = std::min(lowest, one.cost);
+  for (const Evaluation& one : elsewhere) lowest = std::min(lowest, one.cost);
   for (std::size_t i = 0; i < active.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const double error = uncertainty.standard_error[k];
     const double level = std::pow(uncertainty.half_width[k] / error, 2);
-    const auto include = [&](double cost, double at) {
-      const double left = level - 2.0 * (cost - lowest);
+    const auto include = [&](const Evaluation& one) {
+      const double left = level - 2.0 * (one.cost - lowest);
       if (left <= 0.0) return;
-      const double shift = at - best.point[active[i]];
+      const double shift = one.point[active[i]] - best.point[active[i]];
       uncertainty.lower[k] = std::min(uncertainty.lower[k], shift - error * std::sqrt(left));
       uncertainty.upper[k] = std::max(uncertainty.upper[k], shift + error * std::sqrt(left));
     };
     uncertainty.lower[k] = uncertainty.upper[k] = 0.0;
-    include(best.cost, best.point[active[i]]);
-    for (const Walk& walk : elsewhere)
-      for (std::size_t j = 0; j < walk.size(); ++j) {
-        const Evaluation &from = walk[j], &to = walk[std::min(j + 1, walk.size() - 1)];
-        for (int step = 0; step < between; ++step) {
-          const double part = static_cast<double>(step) / between;
-          include(std::lerp(from.cost, to.cost, part),
-                  std::lerp(from.point[active[i]], to.point[active[i]], part));
-        }
-      }
+    include(best);
+    for (const Evaluation& one : elsewhere) include(one);
   }
 }
 
