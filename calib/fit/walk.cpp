@@ -19,28 +19,56 @@ std::vector<Point> from_bound_to_bound(const Unknown& unknown, Eigen::Index inde
   return points;
 }
 
-// By the weights of each point itself: where simulations scatter more, the specimens tell less.
-void score_each(const Trail& trail, std::vector<Evaluation>& points) {
-  const Weights& here = trail.weights();
-  for (Evaluation& one : points)
-    if (!one.failed)
-      score(trail.problem(), weigh(trail.problem(), one, here.scatter, here.specimen), one);
+Weights own_weights(const Trail& trail, const Evaluation& one) {
+  return weigh(trail.problem(), one, trail.weights().scatter, trail.weights().specimen);
+}
+
+// The slopes of the answer, weighed as at another point.
+Eigen::MatrixXd weighed(const Trail& trail, const Weights& own, Eigen::MatrixXd slopes) {
+  for (std::size_t f = 0; f < trail.problem().fitted.size(); ++f) {
+    const std::size_t s = trail.problem().fitted[f];
+    const Landmarks factor = trail.weights().sd[s] / own.sd[s];
+    slopes.middleRows<landmark_count>(first_row(f)).array().colwise() *= factor;
+  }
+  return slopes;
+}
+
+double log_determinant(const Eigen::MatrixXd& slopes) {
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(slopes)
+      .matrixQR()
+      .diagonal()
+      .array()
+      .abs()
+      .log()
+      .sum();
+}
+
+// −log of the restricted likelihood of each point by its own weights, beside that of the trail's:
+// where simulations scatter more the tests tell less, and are less likely to be alike (F22).
+void score_each(const Trail& trail, const Eigen::MatrixXd& jacobian,
+                std::vector<Evaluation>& points) {
+  const FitProblem& problem = trail.problem();
+  const double here = log_determinant(jacobian);
+  for (Evaluation& one : points) {
+    if (one.failed) continue;
+    const Weights own = own_weights(trail, one);
+    score(problem, own, one);
+    one.cost += log_determinant(weighed(trail, own, jacobian)) - here;
+    for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+      const std::size_t s = problem.fitted[f];
+      const auto told = tells(one.predictions[f], problem.targets[s]);
+      one.cost += told.select((own.sd[s] / trail.weights().sd[s]).log(), 0.0).sum();
+    }
+  }
 }
 
 // Where the slopes of the answer take the active unknowns, weighed as the residuals are.
 Point refitted(const Trail& trail, const Evaluation& one, const Active& active,
                const Eigen::MatrixXd& jacobian) {
-  const FitProblem& problem = trail.problem();
-  const Weights& here = trail.weights();
-  const Weights own = weigh(problem, one, here.scatter, here.specimen);
-  Eigen::MatrixXd slopes = jacobian;
-  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
-    const Landmarks factor = here.sd[problem.fitted[f]] / own.sd[problem.fitted[f]];
-    slopes.middleRows<landmark_count>(first_row(f)).array().colwise() *= factor;
-  }
+  const Eigen::MatrixXd slopes = weighed(trail, own_weights(trail, one), jacobian);
   Point point = one.point;
   point(active) -= slopes.colPivHouseholderQr().solve(one.residuals);
-  return inside_bounds(problem.unknowns, point);
+  return inside_bounds(trail.problem().unknowns, point);
 }
 
 }  // namespace
@@ -51,14 +79,14 @@ std::vector<Evaluation> walk_along(Trail& trail, Eigen::Index unknown, const Act
   const Evaluation best = trail.best();
   auto walked =
       trail.evaluate(from_bound_to_bound(trail.problem().unknown(unknown), unknown, best.point));
-  score_each(trail, walked);
+  score_each(trail, jacobian, walked);
   for (int k = 0; k < refits; ++k) {
     std::vector<Point> points;
     points.reserve(walked.size());
     for (const Evaluation& one : walked)
       points.push_back(one.failed ? one.point : refitted(trail, one, active, jacobian));
     auto moved = trail.evaluate(points);
-    score_each(trail, moved);
+    score_each(trail, jacobian, moved);
     for (std::size_t i = 0; i < walked.size(); ++i)
       if (moved[i].cost < walked[i].cost) walked[i] = std::move(moved[i]);
   }

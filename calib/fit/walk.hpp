@@ -9,7 +9,7 @@
 namespace havers::calib {
 
 /// Points along an unknown that was left out, from bound to bound, the active ones refitted by
-/// their slopes, each scored by its own weights (F22). The trail's best stays what it is. Points
+/// their slopes, each scored by its own likelihood (F22). The trail's best stays what it is. Points
 /// that failed are not among them.
 std::vector<Evaluation> walk_along(Trail& trail, Eigen::Index unknown, const Active& active,
                                    const Eigen::MatrixXd& jacobian);
