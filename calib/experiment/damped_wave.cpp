@@ -19,10 +19,9 @@ using Eigen::VectorXd;
 constexpr std::size_t fewest_wave_points = 24, most_wave_points = 512;
 constexpr double fewest_periods = 0.75, most_periods = 8.0, period_step = 0.25;
 constexpr double shortest_told = 0.8;  // periods; a bend is as good an account of less
-constexpr double least_fading = -0.5,
-                 most_fading = 12;        // fading that a wave has, e-folds along the points
-constexpr double least_f = 25.0;          // of the F test of a wave beside a bend
-constexpr double most_unexplained = 0.1;  // part of what the bend leaves
+constexpr double least_fading = -0.5, most_fading = 12.0;  // of a wave, e-folds along the points
+constexpr double least_f = 25.0;                           // of the F test of a wave beside a bend
+constexpr double most_unexplained = 0.1;                   // part of what the bend leaves
 constexpr double turn = 2.0 * std::numbers::pi;
 
 // What y = a + b x + exp(−g x) (c cos ωx + s sin ωx) leaves of the points; parameters a, b, c, s,
@@ -77,16 +76,12 @@ Mapped mapped(std::span<const double> values) {
   return {low, extent, points};
 }
 
-double squares_beside(const Eigen::MatrixXd& columns, const VectorXd& y) {
-  const VectorXd answer = columns.colPivHouseholderQr().solve(y);
-  return (columns * answer - y).squaredNorm();
-}
-
 // Of a bend without waves: a cubic has a toe and yielding.
 double squares_of_bend(const LineAndWave& points) {
   Eigen::MatrixXd columns(points.x.size(), 4);
   for (int power = 0; power < 4; ++power) columns.col(power) = points.x.array().pow(power);
-  return squares_beside(columns, points.y);
+  const VectorXd answer = columns.colPivHouseholderQr().solve(points.y);
+  return (columns * answer - points.y).squaredNorm();
 }
 
 LineAndWave::Parameters best_wave(const LineAndWave& points) {

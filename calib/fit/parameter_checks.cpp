@@ -110,9 +110,11 @@ Check check_bounds(const FitProblem& problem, const Answer& answer,
       kept.push_back(unknown.label);
   if (names.empty() && !kept.empty())
     return {"inside bounds", Outcome::warn,
-            fmt::format("No fitted parameter lies at a bound, but {}, left out, was found at one: "
-                        "the others are right beside that value only, their intervals beside any.",
-                        fmt::join(kept, ", "))};
+            fmt::format(
+                "No fitted parameter lies at a bound, but {}, left out, was found at one: "
+                "the values of the others hold beside that one only, their intervals beside each "
+                "that is likely.",
+                fmt::join(kept, ", "))};
   if (names.empty())
     return {"inside bounds", Outcome::pass, "No fitted parameter lies at a bound."};
   return {"inside bounds", Outcome::fail,
