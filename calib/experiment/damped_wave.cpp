@@ -14,7 +14,7 @@
 namespace havers::calib {
 namespace {
 
-using Eigen::VectorXd;
+using Eigen::MatrixXd, Eigen::VectorXd;
 
 constexpr std::size_t fewest_wave_points = 24, most_wave_points = 512;
 constexpr double fewest_periods = 0.75, most_periods = 8.0, period_step = 0.25;
@@ -28,27 +28,26 @@ constexpr double turn = 2.0 * std::numbers::pi;
 // ω, g.
 struct LineAndWave {
   using Scalar = double;
-  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = 6 };
-  using Parameters = Eigen::Matrix<double, NUM_PARAMETERS, 1>;
-  using Jacobian = Eigen::Matrix<double, NUM_RESIDUALS, NUM_PARAMETERS>;
+  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = Eigen::Dynamic };
   VectorXd x, y;
 
   [[nodiscard]] int NumResiduals() const { return static_cast<int>(x.size()); }
+  [[nodiscard]] static int NumParameters() { return 6; }
 
   bool operator()(const double* parameters, double* residuals, double* jacobian) const {
-    const Eigen::Map<const Parameters> p(parameters);
-    Jacobian columns(x.size(), NUM_PARAMETERS);
-    columns.leftCols<4>() = basis(p[4], p[5]);
+    const Eigen::Map<const VectorXd> p(parameters, NumParameters());
+    MatrixXd columns(x.size(), p.size());
+    columns.leftCols(4) = basis(p[4], p[5]);
     const auto cosine = columns.col(2).array(), sine = columns.col(3).array();
     columns.col(4) = x.array() * (p[3] * cosine - p[2] * sine);
     columns.col(5) = -x.array() * (p[2] * cosine + p[3] * sine);
-    Eigen::Map<VectorXd>(residuals, x.size()) = columns.leftCols<4>() * p.head<4>() - y;
-    if (jacobian != nullptr) Eigen::Map<Jacobian>(jacobian, x.size(), NUM_PARAMETERS) = columns;
+    Eigen::Map<VectorXd>(residuals, x.size()) = columns.leftCols(4) * p.head(4) - y;
+    if (jacobian != nullptr) Eigen::Map<MatrixXd>(jacobian, x.size(), p.size()) = columns;
     return true;
   }
 
-  [[nodiscard]] Eigen::MatrixX4d basis(double frequency, double fading) const {
-    Eigen::MatrixX4d columns(x.size(), 4);
+  [[nodiscard]] MatrixXd basis(double frequency, double fading) const {
+    MatrixXd columns(x.size(), 4);
     const Eigen::ArrayXd fade = (-fading * x.array()).exp();
     columns.col(0).setOnes();
     columns.col(1) = x;
@@ -78,19 +77,19 @@ Mapped mapped(std::span<const double> values) {
 
 // Of a bend without waves: a cubic has a toe and yielding.
 double squares_of_bend(const LineAndWave& points) {
-  Eigen::MatrixXd columns(points.x.size(), 4);
+  MatrixXd columns(points.x.size(), 4);
   for (int power = 0; power < 4; ++power) columns.col(power) = points.x.array().pow(power);
   const VectorXd answer = columns.colPivHouseholderQr().solve(points.y);
   return (columns * answer - points.y).squaredNorm();
 }
 
-LineAndWave::Parameters best_wave(const LineAndWave& points) {
-  LineAndWave::Parameters best;
+VectorXd best_wave(const LineAndWave& points) {
+  VectorXd best(LineAndWave::NumParameters());
   double least = std::numeric_limits<double>::infinity();
   for (double periods = fewest_periods; periods <= most_periods; periods += period_step)
     for (const double fading : {0.0, 1.0, 2.0, 4.0}) {
-      const Eigen::MatrixX4d columns = points.basis(turn * periods, fading);
-      const Eigen::Vector4d answer = columns.colPivHouseholderQr().solve(points.y);
+      const MatrixXd columns = points.basis(turn * periods, fading);
+      const VectorXd answer = columns.colPivHouseholderQr().solve(points.y);
       const double squares = (columns * answer - points.y).squaredNorm();
       if (squares >= least) continue;
       least = squares;
@@ -115,9 +114,9 @@ std::optional<CarriedWave> find_damped_wave(std::span<const double> x, std::span
   const double certain = 1.0 + 2.0 * least_f / count;
   if (of_bend < certain * of_noise) return {};
 
-  const LineAndWave::Parameters wave = best_wave(points);
+  const VectorXd wave = best_wave(points);
   std::vector<double> left(static_cast<std::size_t>(points.x.size()));
-  LineAndWave::Jacobian columns(points.x.size(), 6);
+  MatrixXd columns(points.x.size(), wave.size());
   points(wave.data(), left.data(), columns.data());
   const double squares = Eigen::Map<VectorXd>(left.data(), points.x.size()).squaredNorm();
   const bool is_wave =
@@ -126,13 +125,14 @@ std::optional<CarriedWave> find_damped_wave(std::span<const double> x, std::span
       squares - of_noise > most_unexplained * (of_bend - of_noise))
     return {};
 
-  const Eigen::Matrix<double, 6, 6> covariance = (columns.transpose() * columns).inverse();
+  const MatrixXd normal = columns.transpose() * columns;
+  const double variance = normal.ldlt().solve(VectorXd::Unit(normal.rows(), 1))[1];
   const double freedom = std::max(count / rows_per_independent(left) - 6.0, 3.0);
   CarriedWave found;
   found.line.fitted = true;
   found.line.slope = wave[1] * my.extent / mx.extent;
   found.line.slope_standard_error =
-      std::sqrt(covariance(1, 1) * squares / (freedom - 2.0)) * my.extent / mx.extent;
+      std::sqrt(variance * squares / (freedom - 2.0)) * my.extent / mx.extent;
   found.line.intercept = my.low + wave[0] * my.extent - found.line.slope * mx.low;
   found.periods = wave[4] / turn;
   found.amplitude = std::hypot(wave[2], wave[3]) * my.extent;

@@ -9,6 +9,7 @@
 #include "calib/experiment/quality.hpp"
 #include "tests/support/machine_files.hpp"
 #include "tests/support/reduction.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::calib {
 namespace {
@@ -141,6 +142,7 @@ TEST(Corrections, KnowsABreakThatTheGaugeSawFirst) {
 }
 
 TEST(Corrections, TakesNoNoiseForASlip) {
+  HAVERS_SLOW;
   for (unsigned seed = 1; seed <= 50; ++seed) {
     const RawTest raw =
         record({.force_noise = 0.5, .strain_noise = 5e-6, .strain_rate = 2e-5, .seed = seed});

@@ -215,6 +215,7 @@ TEST(Modulus, StatesItsErrorTrulyWhereRowsErrAlike) {
 // Errors of 0.4 % of the strength that are alike from row to row: a window of 415 rows was taken
 // for bent in a quarter of these tests, and its modulus was off by half as much again.
 TEST(Modulus, TakesRowsThatErrAlikeForNoBend) {
+  HAVERS_SLOW;
   const RawTest clean = record({.strain_rate = 3.3e-5});
   int bent = 0;
   for (unsigned seed = 1; seed <= 100; ++seed) {

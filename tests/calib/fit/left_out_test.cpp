@@ -8,6 +8,7 @@
 #include <random>
 
 #include "calib/fit/calibrate.hpp"
+#include "tests/support/slow.hpp"
 #include "tests/support/studies.hpp"
 
 namespace havers::calib {
@@ -54,6 +55,7 @@ TEST(LeftOut, TakesNoFreedomWhereItMovesNothing) {
 // Strengths that scatter as the joints do, by 0.2 d: that of four bars tells how far d may be from
 // 0.3, and so σ₁ from 60 MPa, beside any d that the study has.
 TEST(LeftOut, HoldsTheThresholdByEachScatterThatIsLikely) {
+  HAVERS_SLOW;
   constexpr int draws = 40;
   const auto scattered = [](std::uint64_t seed, double scatter) {
     std::mt19937_64 random(seed + 7);

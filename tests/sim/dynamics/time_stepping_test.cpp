@@ -122,6 +122,7 @@ TEST(SimulateDynamic, StartsFromRestWithTheStressOfAWave) {
 // A joint breaks near the right side while the wave is on its way: neither side bears much then, of
 // a wall that is whole but for that.
 TEST(SimulateDynamic, FromRestIsNotBrokenBeforeAWaveHasComeAcross) {
+  HAVERS_SLOW;
   Scene scene = test::small_scene(0.0, 10, 8);
   scene.solver.regime = Regime::dynamic;
   scene.solver.step = 1e-9;
@@ -139,6 +140,7 @@ TEST(SimulateDynamic, FromRestIsNotBrokenBeforeAWaveHasComeAcross) {
 
 // The stress climbs a stair, whose slope is that of uniform motion but for a part of a step.
 TEST(SimulateDynamic, FromRestHasAModulusToHalfOfWhatAWaveAdds) {
+  HAVERS_SLOW;
   Scene scene = test::small_scene(0.0, 4, 3);
   scene.solver.regime = Regime::dynamic;
   scene.solver.step = 1e-9;
