@@ -106,6 +106,21 @@ void measure(const std::filesystem::path& section, const io::SectionOptions& opt
   }
 }
 
+// What is measured counts; a number beside it was perhaps found by other means, or of other bone.
+void take_measured_porosity(Outcome& outcome) {
+  constexpr double apart = 1.5;
+  calib::Specimen& specimen = outcome.specimen;
+  if (specimen.sections.empty() || !specimen.porosity) return;
+  const double given = *specimen.porosity;
+  const double measured = calib::pool_sections(specimen.sections).porosity;
+  specimen.porosity.reset();
+  if (std::max(given, measured) > apart * std::min(given, measured))
+    outcome.warnings.push_back(fmt::format(
+        "specimen {}: its sections have a porosity of {:.2g}, which counts, and {:.2g} is given: "
+        "check both",
+        specimen.id, measured, given));
+}
+
 // Whether the study's own mistakes leave its sections what they are measured with.
 bool can_be_measured(const io::SpecimenFiles& files, const io::StudyFile& study) {
   const sim::AssemblyOptions& fibres = study.study.model.assembly;
@@ -133,7 +148,7 @@ Outcome load_specimen(const calib::Specimen& declared, const io::SpecimenFiles& 
   options.window_length = study.study.model.assembly.fibre_length;
   options.window_height = study.study.model.assembly.fibre_height;
   for (const auto& section : files.sections) measure(section, options, outcome);
-  if (!files.sections.empty()) outcome.specimen.porosity.reset();  // what is measured counts
+  take_measured_porosity(outcome);
   return outcome;
 }
 

@@ -151,6 +151,27 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer,
   return {"identifiable", doubted ? doubt : Outcome::pass, text + wide};
 }
 
+// Of no two specimens does noise give the same numbers.
+Check check_records(const FitProblem& problem) {
+  constexpr const char* name = "every test once";
+  std::vector<std::string> alike;
+  const std::vector<Specimen>& all = problem.study.specimens;
+  for (auto one = all.begin(); one != all.end(); ++one) {
+    const MeasuredTest& test = one->test;
+    const auto earlier = std::ranges::find_if(all.begin(), one, [&](const Specimen& other) {
+      return !test.strain.empty() && test.strain == other.test.strain &&
+             test.max_force == other.test.max_force;
+    });
+    if (earlier != one) alike.push_back(fmt::format("{} and {}", earlier->id, one->id));
+  }
+  if (alike.empty()) return {name, Outcome::pass, "No two specimens have the same record."};
+  return {name, Outcome::warn,
+          fmt::format("The records of {} are the same, number for number: the test counts twice, "
+                      "and intervals are too narrow. Give each specimen its own file, or leave one "
+                      "out.",
+                      fmt::join(alike, ", "))};
+}
+
 // (F25) A strength of the answer below what a test bore is contradicted by it.
 Check check_broke(const FitProblem& problem, const Answer& answer) {
   constexpr const char* name = "tests broke";

@@ -14,6 +14,9 @@ Check check_bounds(const FitProblem& problem, const Answer& answer,
 Check check_identifiable(const FitProblem& problem, const Answer& answer,
                          const CalibrationResult& result);
 
+/// No specimen has the record of another, as a copied file gives it.
+Check check_records(const FitProblem& problem);
+
 /// Some test broke; else strengths are bounds, and so are the thresholds (F25).
 Check check_broke(const FitProblem& problem, const Answer& answer);
 

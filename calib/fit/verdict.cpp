@@ -137,6 +137,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_starts(problem, answer));
   checks.push_back(check_bounds(problem, answer, result));
   checks.push_back(check_identifiable(problem, answer, result));
+  checks.push_back(check_records(problem));
   checks.push_back(check_broke(problem, answer));
   checks.push_back(check_strain(problem, answer));
   checks.push_back(check_toe(problem, answer));

@@ -175,6 +175,26 @@ void warn_of_size(const PoreMap& map, const calib::SectionPorosity& section, War
                     100.0 * section.porosity_by_grey, 100.0 * section.porosity));
 }
 
+// (I5) What the surface cuts is no larger than what it does not; chips and saw cuts are.
+void warn_of_chips(const PoreMap& map, Warnings& warnings) {
+  constexpr double larger = 1.5, much = 0.05;
+  const cv::Mat inside = eroded(map.bone, 5);
+  double cut = 0.0, largest_cut = 0.0, largest_whole = 0.0;
+  for (const Blob& pore : blobs_of(map.pores)) {
+    const bool whole = std::ranges::all_of(
+        pore.border, [&](const cv::Point& at) { return inside.at<std::uint8_t>(at) != 0; });
+    double& largest = whole ? largest_whole : largest_cut;
+    largest = std::max(largest, pore.area);
+    cut += whole ? 0.0 : pore.area;
+  }
+  if (largest_cut > larger * largest_whole && cut > much * map.area)
+    warnings.push_back(fmt::format(
+        "the largest notch in the bone's outline is {:.2g} % of the bone, larger than every pore "
+        "inside ({:.2g} %): if it is a chip or a cut, no pore, give a mask without it",
+        100.0 * largest_cut / cv::countNonZero(map.bone),
+        100.0 * largest_whole / cv::countNonZero(map.bone)));
+}
+
 }  // namespace
 
 void warn_of_scale(const io::SectionOptions& options, Warnings& warnings) {
@@ -203,6 +223,7 @@ void add_doubts(const Findings& found, const io::SectionOptions& options, Warnin
   warn_of_greys(map, regions.outlined && like_background && is_grey(map, colours), doubts);
   warn_of_side(map, !regions.outlined || like_background, options.pores, doubts);
   warn_of_size(map, section, doubts);
+  if (regions.outlined && !options.mask) warn_of_chips(map, doubts);
   warn_of_objects(map, doubts, warnings);
   warn_of_canals(section, warnings);
   if (!options.density.empty() && std::isnan(section.density))

@@ -103,14 +103,14 @@ struct HeaderSize {
   double value;
 };
 
-// The user may correct a size; ten times it is a slip of the unit. A bare length may be that of the
-// whole specimen, a hundred times the gauge length it is not. A strain that was recorded needs
-// none.
+// The user may correct a size. Width and thickness are in every stress: more than 15 % is said. Ten
+// times the gauge length is a slip of the unit, and a strain that was recorded needs none; a bare
+// length may be that of the whole specimen, a hundred times the gauge length it is not.
 std::string far_from(double given, const HeaderSize& fresh) {
-  const double most = fresh.fact == Fact::length ? 100.0 : 10.0;
+  const bool gauge = fresh.fact == Fact::length || fresh.fact == Fact::gauge_length;
+  const double most = fresh.fact == Fact::length ? 100.0 : gauge ? 10.0 : 1.15;
   const double ratio = std::max(given, fresh.value) / std::min(given, fresh.value);
   if (ratio < most) return {};
-  const bool gauge = fresh.fact == Fact::length || fresh.fact == Fact::gauge_length;
   return fmt::format("{:.6g} mm here, and {:.6g} mm is given{}: {}, check both", 1e3 * fresh.value,
                      1e3 * given, gauge ? " as gauge length" : "",
                      gauge ? "the given one counts where an elongation is to be a strain"

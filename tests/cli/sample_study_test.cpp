@@ -143,6 +143,7 @@ TEST(SampleStudy, SaysWhichScatterIsTakenWithoutAPixelSizeAndWhoHasTheSameSectio
   std::string study = test::contents(bars / "study.toml");
   for (const auto& [what, by] : {std::pair("pixel_size_um = 2.0\n", ""),
                                  {"\"A2_section.png\"", "\"A1_section.png\""},
+                                 {"porosity = 0.031", "porosity = 0.6"},
                                  {"sections = [\"B2_section.png\"]\n", ""}})
     study = test::replaced_once(study, what, by);
   test::write_text(folder / "bars/doubtful.toml", study);
@@ -154,7 +155,8 @@ TEST(SampleStudy, SaysWhichScatterIsTakenWithoutAPixelSizeAndWhoHasTheSameSectio
         "(model.joints.scatter) is taken; give its pixel_size_um",
         "nothing tells the scatter of B2, as sections do of others: 0.3 (model.joints.scatter) is "
         "taken",
-        "specimens A1 and A2 have the same section, bars/A1_section.png"})
+        "specimens A1 and A2 have the same section, bars/A1_section.png",
+        "specimen C1: its sections have a porosity of 0.0", "which counts, and 0.6 is given"})
     EXPECT_NE(checked.out.find(words), std::string::npos) << words << " in\n" << checked.out;
 }
 

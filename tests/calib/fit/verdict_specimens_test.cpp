@@ -268,5 +268,20 @@ TEST(Verdict, NamesEverySpecimenThatAloneDeterminesAParameter) {
   EXPECT_TRUE(says(check, "Without any one of A10, A1 the parameters")) << check.text;
 }
 
+// A file copied under another name, given to a second specimen.
+TEST(Verdict, WarnsOfSpecimensWithTheSameRecord) {
+  Study study = test::synthetic_study(test::three_orientations);
+  for (std::size_t s = 0; s < study.specimens.size(); ++s) {
+    study.specimens[s].test.strain = {0.0, 1e-3, 2e-3};
+    study.specimens[s].test.max_force = 100.0 + static_cast<double>(s);
+  }
+  const auto check = [&] { return check_of(test::fit(study), "every test once"); };
+  EXPECT_EQ(check().outcome, Outcome::pass);
+  study.specimens[3].test = study.specimens[1].test;
+  study.specimens[3].use = Use::validate;
+  EXPECT_EQ(check().outcome, Outcome::warn);
+  EXPECT_TRUE(says(check(), "The records of S2 and S4 are the same, number for number"));
+}
+
 }  // namespace
 }  // namespace havers::calib

@@ -96,6 +96,23 @@ TEST(SectionDoubt, WarnsOfAPoreThatMayBeMarrow) {
   EXPECT_TRUE(warns(measured, "marrow cavity"));
 }
 
+// In the straight side of a bar they are notches, as pores are that the saw went through.
+TEST(SectionDoubt, WarnsOfChipsAndSawCuts) {
+  const auto bar = [](unsigned seed) {
+    return test::draw(
+        {.porosity = 0.08, .largest_radius = 12.0, .noise = 0.04, .blur = 0.8, .seed = seed});
+  };
+  for (unsigned seed = 1; seed <= 10; ++seed)
+    EXPECT_FALSE(warns(measure(bar(seed), "whole.png"), "the largest notch")) << seed;
+  for (const cv::Rect notch : {cv::Rect(300, 90, 60, 30), cv::Rect(300, 90, 12, 90)}) {
+    auto drawn = bar(1);
+    drawn.image(notch).setTo(51);
+    const auto measured = measure(drawn, "chipped.png");
+    EXPECT_TRUE(warns(measured, "the largest notch in the bone's outline")) << notch;
+    EXPECT_TRUE(measured.doubtful);
+  }
+}
+
 // A microscope's data bar, white as the bone is.
 TEST(SectionDoubt, WarnsOfAStripAlongTheEdge) {
   auto drawn = test::draw({.blur = 0.8});
