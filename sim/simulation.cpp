@@ -143,10 +143,11 @@ std::string Simulation::reservation() const {
                     100.0 * ringing, 1e-6 * strength_without_ringing()));
   // The slope of a stair that a wave climbs by crossing n times errs by up to this over n.
   constexpr double of_a_stair = 0.6;
-  if (crossings < 2.0)
-    reservations.emplace_back(
-        "the modulus: it is that of a shock, as the wave of the start crosses the specimen less "
-        "than twice while it is measured");
+  if (has_modulus_of_a_shock())
+    reservations.push_back(fmt::format(
+        "the modulus{} of a shock, as the wave of the start crosses the specimen less than twice "
+        "while it is measured",
+        std::isnan(strength_over_a_wave) ? " and the strength: they are those" : ": it is that"));
   else if (of_a_stair / crossings >= worth_saying)
     reservations.push_back(
         fmt::format("the modulus: the wave of the start, which crosses the specimen {:.2g} times "

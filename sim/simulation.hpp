@@ -87,7 +87,7 @@ struct Simulation {
   double strength = 0.0;  ///< Largest stress at the right side. [Pa]
   /// Largest mean of the stress over the period 2W/c of the longest wave, in which its two ends
   /// count least (a triangle), as breaks set waves free that no machine sees; NaN in the limit, and
-  /// where the run was shorter. [Pa]
+  /// where the last joint broke earlier. [Pa]
   double strength_over_a_wave = std::numeric_limits<double>::quiet_NaN();
   /// By how much the strength is more than that mean and what the specimen's modulus adds to it in
   /// half that period: waves that ring; 0 where it is not, and where that is NaN. [-]
@@ -95,8 +95,8 @@ struct Simulation {
   double failure_strain = 0.0;  ///< Strain of the strength. [-]
   /// Slope from 0.1 to 0.5 of the first break's strain, or of the last row's without one. [Pa]
   double modulus = 0.0;
-  /// How often the wave of a start from rest crosses the specimen in that stretch, on a stair of
-  /// stress; NaN where nothing starts so. [-]
+  /// How often waves of the start cross the specimen in that stretch: from rest, on a stair of
+  /// stress, or in uniform motion where joints are missing or layers differ; NaN without them. [-]
   double crossings = std::numeric_limits<double>::quiet_NaN();
   /// NaN when nothing broke. [-]
   double first_break_strain = std::numeric_limits<double>::quiet_NaN();
@@ -140,8 +140,11 @@ struct Simulation {
   /// known, stands behind a semicolon.
   [[nodiscard]] std::string why_not_trusted() const;
   /// The strength without waves that ring, as a testing machine would see it; the strength itself
-  /// in the limit, and where the run was shorter than that period. [Pa]
+  /// in the limit, and where the last joint broke before that period had passed. [Pa]
   [[nodiscard]] double strength_without_ringing() const;
+  /// Whether waves of the start leave the modulus little more than a shock's: they cross the
+  /// specimen less than twice while it is measured.
+  [[nodiscard]] bool has_modulus_of_a_shock() const { return crossings < 2.0; }
   /// What a trusted run is to be trusted but for: a time step that was given, whose error nobody
   /// knows; waves in the strength. Nouns with what is to be said of them, semicolons between; empty
   /// where there is nothing.

@@ -12,7 +12,7 @@ struct Response {
   bool failed = true;  ///< No usable answer; `why` says why.
   bool broke = false;  ///< false: the strain limit came first, the strength is a lower bound.
   std::string why;
-  double modulus = 0.0;         ///< [Pa]
+  double modulus = 0.0;         ///< 0 where it is not known (a shock's). [Pa]
   double strength = 0.0;        ///< In time without waves that ring, as a machine sees it. [Pa]
   double failure_strain = 0.0;  ///< [-]
   std::vector<double> strain;   ///< Curve. [-]

@@ -1,5 +1,6 @@
 // The simulator of havers::sim, as calibrations use it.
 #include <numeric>
+#include <utility>
 
 #include "calib/fit/calibrate.hpp"
 #include "calib/fit/search.hpp"
@@ -25,7 +26,7 @@ std::optional<Response> response_of(const sim::Simulation& run) {
   response.why = severed ? sim::explain(run.status) +
                                "; with fewer of them or more fibres a chain is left that bears"
                          : run.why_not_trusted();
-  response.modulus = run.modulus;
+  response.modulus = run.has_modulus_of_a_shock() ? 0.0 : run.modulus;
   response.strength = run.strength_without_ringing();
   response.failure_strain = run.failure_strain;
   const std::size_t stride = run.curve.size() / rows_kept + 1;
@@ -60,7 +61,18 @@ std::size_t costly_unknowns(const Study& study) {
 
 CalibrationResult calibrate(const Study& study, EvaluationStore* store,
                             const CalibrationObserver& observer, const sim::StopAsked& stop_asked) {
-  return calibrate_with(fibre_model(stop_asked), study, store, observer);
+  Simulator model = fibre_model(stop_asked);
+  model.run = [run = std::move(model.run)](const sim::Scene& scene) {
+    std::optional<Response> response = run(scene);
+    if (response && !response->failed && response->modulus == 0.0) {
+      response->failed = true;
+      response->why =
+          "the modulus is that of a shock: waves of the start cross the specimen less than twice "
+          "while it is measured";
+    }
+    return response;
+  };
+  return calibrate_with(model, study, store, observer);
 }
 
 }  // namespace havers::calib

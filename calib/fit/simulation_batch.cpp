@@ -20,8 +20,9 @@ std::optional<Response> run_checked(const Simulator& simulator, const sim::Scene
   if (!answer) return answer;
   Response& response = *answer;
   const auto usable = [](double x) { return x > 0.0 && x < 1e30; };
+  const bool modulus = response.modulus == 0.0 || usable(response.modulus);
   if (!response.failed &&
-      !(usable(response.modulus) && usable(response.strength) && usable(response.failure_strain))) {
+      !(modulus && usable(response.strength) && usable(response.failure_strain))) {
     response.failed = true;
     response.why = "modulus, strength or failure strain is not a positive number";
   }

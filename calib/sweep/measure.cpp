@@ -42,8 +42,10 @@ std::array<double, measure_count> measures_of(const Response& response, const Pa
   const double failure = response.failure_strain;
   set(Measure::strength, response.strength);
   set(Measure::failure_strain, failure);
-  set(Measure::modulus, response.modulus);
-  set(Measure::linear_part, linear_until(response) / failure);
+  if (response.modulus > 0.0) {
+    set(Measure::modulus, response.modulus);
+    set(Measure::linear_part, linear_until(response) / failure);
+  }
   if (response.broke) set(Measure::fall_part, (response.strain.back() - failure) / failure);
   if (pattern == nullptr) return measures;
   set(Measure::head_tail_broken, pattern->head_tail);

@@ -48,11 +48,13 @@ std::string step_error_of(const sim::Simulation& s) {
     return " The error of the time step is not known.";
   return fmt::format(
       " The last halvings of the time step, two at most, changed the failure strain by up to {}, "
-      "the strength by up to {} and its mean over the longest wave by up to {}. Implicit Euler "
-      "took {} of all energy.",
+      "the strength by up to {}{}. Implicit Euler took {} of all energy.",
       quantity(s.step_error->failure_strain / in::percent, "%", 2),
       quantity(s.step_error->strength / in::percent, "%", 2),
-      quantity(s.step_error->over_a_wave / in::percent, "%", 2),
+      std::isnan(s.step_error->over_a_wave)
+          ? ""
+          : " and its mean over the longest wave by up to " +
+                quantity(s.step_error->over_a_wave / in::percent, "%", 2),
       quantity(s.numerical_loss / in::percent, "%", 2));
 }
 

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "sim/dynamics/dynamic_run.hpp"
@@ -59,6 +61,37 @@ SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepp
   return SimulationStatus::strain_limit;
 }
 
+// Uniform motion is one of equilibrium where the stress is uniform, and a specimen that leapt had
+// it; missing joints and layers unlike each other set waves free.
+bool starts_with_waves(const Scene& scene, const Simulation& simulation) {
+  if (scene.loading.start == Start::rest) return true;
+  return simulation.leapt_strain == 0.0 &&
+         (simulation.missing_joints() > 0 || scene.material.layer_contrast != 1.0);
+}
+
+// After the last break what is left only swings; before a period has passed its mean is that of
+// something broken.
+double borne_until(const Simulation& simulation) {
+  double last = std::numeric_limits<double>::quiet_NaN();
+  for (const JointOutcome& joint : simulation.joints)
+    if (joint.broke()) last = std::fmax(last, joint.broken_at_strain);
+  return std::isnan(last) ? simulation.curve.back().strain : last;
+}
+
+// What waves are in the strength and the modulus.
+void tell_waves(const Scene& scene, Simulation& simulation) {
+  const double of_a_crossing = scene.loading.strain_rate * time_across(scene);
+  double modulus = simulation.modulus;
+  if (starts_with_waves(scene, simulation)) {
+    simulation.crossings = modulus_stretch * strain_of_modulus(simulation) / of_a_crossing;
+    modulus = std::clamp(modulus, 0.0, simulation.strength / simulation.failure_strain);
+  }
+  if (borne_until(simulation) >= 2.0 * of_a_crossing)
+    simulation.strength_over_a_wave = largest_mean_stress(simulation.curve, of_a_crossing);
+  const double without_ringing = simulation.strength_over_a_wave + modulus * of_a_crossing;
+  simulation.ringing = std::fmax(0.0, simulation.strength / without_ringing - 1.0);
+}
+
 }  // namespace
 
 Simulation simulate_dynamic(const Scene& scene, const Observer& observer,
@@ -86,13 +119,7 @@ Simulation run_in_steps(const Scene& scene, const Stepping& stepping, const Obse
   simulation.dropped = assembly.dropped;
   simulation.left_out = left_out_in_time(scene, simulation);
   summarise(simulation);
-  const double of_a_crossing = scene.loading.strain_rate * time_across(scene);
-  simulation.strength_over_a_wave = largest_mean_stress(simulation.curve, of_a_crossing);
-  const double without_ringing =
-      simulation.strength_over_a_wave + simulation.modulus * of_a_crossing;
-  simulation.ringing = std::fmax(0.0, simulation.strength / without_ringing - 1.0);
-  if (scene.loading.start == Start::rest)
-    simulation.crossings = modulus_stretch * strain_of_modulus(simulation) / of_a_crossing;
+  tell_waves(scene, simulation);
   return simulation;
 }
 

@@ -2,12 +2,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
+#include "calib/fit/calibrate.hpp"
 #include "calib/fit/normal_form.hpp"
 #include "calib/fit/simulation_batch.hpp"
 #include "calib/study/parameter.hpp"
+#include "calib/sweep/measure.hpp"
 #include "tests/support/slow.hpp"
+#include "tests/support/studies.hpp"
 
 namespace havers::calib {
 namespace {
@@ -56,6 +60,26 @@ TEST(FibreModel, HasNoAnswerWhereNoJointIsLeft) {
   const auto response = fibre_model().run(scene).value();
   EXPECT_TRUE(response.failed);
   EXPECT_THAT(response.why, testing::HasSubstr("nothing that bears a load"));
+}
+
+// A sweep has its strength, and no modulus; a fit cannot use it.
+TEST(FibreModel, HasNoModulusInAShock) {
+  Study study = test::synthetic_study({0.0});
+  study.model = small_scene(0.0);
+  study.model.loading.start = sim::Start::rest;
+  study.model.loading.strain_rate = 1e4;
+  study.model.solver.step = 1e-9;
+  for (Specimen& specimen : study.specimens) specimen.test.strain_rate = 1e4;
+  study.calibrate.parameters = {"young_GPa"};
+  const auto response = fibre_model().run(study.model).value();
+  EXPECT_FALSE(response.failed) << response.why;
+  EXPECT_EQ(response.modulus, 0.0);
+  const auto measures = measures_of(response, nullptr);
+  EXPECT_TRUE(std::isnan(measures[static_cast<std::size_t>(Measure::modulus)]));
+  EXPECT_GT(measures[static_cast<std::size_t>(Measure::strength)], 0.0);
+  const CalibrationResult result = calibrate(study, nullptr);
+  EXPECT_EQ(result.status, CalibrationStatus::all_failed);
+  EXPECT_THAT(result.most_failed_because, testing::HasSubstr("the modulus is that of a shock"));
 }
 
 TEST(FibreModel, StopsInsideARunInStepsAndInTheLimit) {

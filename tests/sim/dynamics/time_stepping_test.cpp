@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/outcome.hpp"
 #include "tests/support/scenes.hpp"
@@ -156,6 +157,26 @@ TEST(SimulateDynamic, FromRestHasAModulusToHalfOfWhatAWaveAdds) {
     EXPECT_NEAR(run.crossings, crossings, 0.01 * crossings);
     EXPECT_NEAR(run.modulus / modulus, 1.0, 0.5 / crossings) << crossings;
   }
+}
+
+// Where joints are missing uniform motion is none of equilibrium: before its waves have crossed the
+// specimen, and after the last break, there is neither a modulus nor a mean strength.
+TEST(SimulateDynamic, InUniformMotionHasTheModulusOfAShockWhereJointsAreMissing) {
+  Scene scene = test::small_scene(45.0, 6, 4);
+  scene.joints.scatter = 0.4;
+  scene.joints.missing = 0.08;
+  scene.joints.seed = 3;
+  scene.loading.strain_rate = 1e4;
+  scene.solver.regime = Regime::dynamic;
+  scene.solver.step = 1e-9;
+  const Simulation run = simulate(scene);
+  EXPECT_TRUE(run.has_modulus_of_a_shock());
+  EXPECT_TRUE(std::isnan(run.strength_over_a_wave));
+  EXPECT_EQ(run.strength_without_ringing(), run.strength);
+  scene.joints.missing = 0.0;
+  EXPECT_FALSE(simulate(scene).has_modulus_of_a_shock());
+  scene.material.layer_contrast = 0.5;
+  EXPECT_TRUE(simulate(scene).has_modulus_of_a_shock());
 }
 
 // The path of joints that break together goes up beyond λ = 1000 before it comes back.
