@@ -77,6 +77,25 @@ std::vector<std::string> idle_keys_of_sweep(TableReader& top, const calib::Sweep
   return warnings;
 }
 
+// Keys that the limit does not know, where every point asks for it.
+std::vector<std::string> idle_keys_of_the_limit(const calib::Sweep& sweep) {
+  constexpr std::array of_time{
+      "material.density_kg_m3", "material.viscosity_s", "loading.strain_rate_per_s",
+      "loading.start",          "solver.step_s",        "solver.step_accuracy",
+      "solver.contact"};
+  std::vector<std::string> warnings;
+  for (const calib::SweepKey& key : sweep.plan.keys)
+    if (std::ranges::find(of_time, key.name) != of_time.end() &&
+        std::ranges::all_of(sweep.points, [](const calib::SweepPoint& point) {
+          return point.scene.solver.regime == sim::Regime::quasi_static;
+        }))
+      warnings.push_back(fmt::format(
+          "sweep.keys.\"{}\" changes nothing: solver.regime is quasi-static, and the limit has no "
+          "time",
+          key.name));
+  return warnings;
+}
+
 // A key that a question is about must be one of those that vary.
 void require_varied(TableReader& table, const calib::SweepPlan& plan, const std::string& key,
                     const char* name) {
@@ -255,6 +274,7 @@ SweepFile read_sweep(const std::filesystem::path& file, const Overrides& overrid
     }
   }
   if (!problems.empty()) throw InputError(std::move(problems));
+  std::ranges::move(idle_keys_of_the_limit(sweep), std::back_inserter(read.warnings));
   return read;
 }
 

@@ -38,6 +38,16 @@ TEST_F(ReadSweep, SaysWhichKeysChangeNothing) {
   EXPECT_THAT(read(sample).warnings, testing::IsEmpty());
 }
 
+TEST_F(ReadSweep, SaysWhichVariedKeysTheLimitDoesNotKnow) {
+  const std::string text = "[sweep.keys]\n\"solver.step_s\" = [1e-8, 2e-8]\n";
+  EXPECT_THAT(read(text).warnings, testing::IsEmpty());
+  EXPECT_THAT(
+      read(text, {"solver.regime=quasi-static"}).warnings,
+      ElementsAre(HasSubstr("sweep.keys.\"solver.step_s\" changes nothing: solver.regime")));
+  EXPECT_THAT(read(text + "\"solver.regime\" = [\"quasi-static\", \"dynamic\"]\n").warnings,
+              testing::IsEmpty());
+}
+
 // TOML keeps no order: the keys are in that of the alphabet.
 TEST_F(ReadSweep, MakesASceneOfEveryPoint) {
   const calib::Sweep sweep = read(test::small_sweep).sweep;
