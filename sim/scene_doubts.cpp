@@ -3,6 +3,7 @@
 
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "sim/scene.hpp"
@@ -40,6 +41,15 @@ std::vector<std::string> Scene::doubts() const {
         "material.viscosity_s is {:.4g}: at {:g} /s it stresses the fibres by {:.2g} MPa at once, "
         "more than joints.head_tail_MPa; are it and the rate in seconds?",
         material.viscosity, loading.strain_rate, viscous / 1e6));
+  if (solver.regime == Regime::quasi_static)
+    for (const auto& [given, key] :
+         {std::pair(material.viscosity > 0.0, "material.viscosity_s"),
+          {loading.start == Start::rest, "loading.start"},
+          {solver.step.has_value(), "solver.step_s"},
+          {solver.contact == ContactMethod::gauss_seidel, "solver.contact"}})
+      if (given)
+        all.push_back(fmt::format(
+            "{} changes nothing: solver.regime is quasi-static, and the limit has no time", key));
   return all;
 }
 

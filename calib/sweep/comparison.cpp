@@ -33,32 +33,53 @@ struct Pair {
   bool step = false;
 };
 
-// Of points in order every pair, or that of the ends and those of neighbours.
-void add_pairs(const std::vector<std::size_t>& points, bool of_ends, std::vector<Pair>& pairs) {
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t j = i + 1; j < points.size(); ++j) {
-      const bool ends = i == 0 && j + 1 == points.size();
-      if (!of_ends || ends || j == i + 1) pairs.push_back({points[i], points[j], of_ends && !ends});
+using Level = std::vector<std::size_t>;  // the points at one value of a key
+
+// From the smallest value on; words in the order of the file.
+std::vector<Level> levels_of(const std::vector<SweepPoint>& points,
+                             const std::vector<std::size_t>& some, std::size_t column) {
+  std::vector<Level> levels;
+  for (const std::size_t point : some) {
+    const auto is_at = [&](const Level& level) {
+      const SweepPoint &a = points[level.front()], &b = points[point];
+      return a.values[column] == b.values[column] || a.numbers[column] == b.numbers[column];
+    };
+    const auto level = std::ranges::find_if(levels, is_at);
+    (level == levels.end() ? levels.emplace_back() : *level).push_back(point);
+  }
+  std::ranges::stable_sort(levels, {}, [&](const Level& level) {
+    const double number = points[level.front()].numbers[column];
+    return std::isnan(number) ? 0.0 : number;
+  });
+  return levels;
+}
+
+// Every pair of unlike values, or those of the ends and of neighbours.
+void add_pairs(const std::vector<Level>& levels, bool of_ends, std::vector<Pair>& pairs) {
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    for (std::size_t j = i + 1; j < levels.size(); ++j) {
+      const bool ends = i == 0 && j + 1 == levels.size();
+      if (of_ends && !ends && j != i + 1) continue;
+      for (const std::size_t first : levels[i])
+        for (const std::size_t second : levels[j])
+          pairs.push_back({first, second, of_ends && !ends});
     }
 }
 
-// Points that differ in the key alone.
-std::vector<Pair> pairs_of(const Evidence& evidence, const PointGroup& group, std::size_t column,
-                           bool of_ends) {
+// Points that differ in the key alone; in a list whose keys go together, where no value of the key
+// comes twice, in any.
+std::vector<Pair> pairs_of(const FindingRequest& request, const SweepPlan& plan,
+                           const std::vector<SweepPoint>& points, const PointGroup& group) {
+  const std::size_t column = plan.column(request.keys.front());
+  const bool together = plan.sampling == Sampling::list &&
+                        levels_of(points, group.points, column).size() == group.points.size();
   std::map<std::string, std::vector<std::size_t>> alike;
-  for (const std::size_t point : group.points) {
-    const bool zipped = evidence.plan.sampling == Sampling::list;
-    const auto others = keys_of(evidence.plan, evidence.points[point], column);
-    alike[zipped ? "" : to_string(others)].push_back(point);
-  }
+  for (const std::size_t point : group.points)
+    alike[together ? "" : to_string(keys_of(plan, points[point], column))].push_back(point);
+  const bool of_ends = request.test == FindingTest::rises || request.test == FindingTest::falls;
   std::vector<Pair> pairs;
-  for (auto& [others, points] : alike) {
-    std::ranges::stable_sort(points, {}, [&](std::size_t p) {
-      const double number = evidence.points[p].numbers[column];
-      return std::isnan(number) ? 0.0 : number;
-    });
-    add_pairs(points, of_ends, pairs);
-  }
+  for (const auto& [others, some] : alike)
+    add_pairs(levels_of(points, some, column), of_ends, pairs);
   return pairs;
 }
 
@@ -69,8 +90,9 @@ Comparison difference(const Evidence& evidence, Pair pair, std::size_t column, d
   const SweepPoint& second = evidence.points[pair.second];
   std::vector<ComparedKey> compared{
       {evidence.plan.keys[column].name, second.values[column], first.values[column]}};
-  if (evidence.plan.sampling != Sampling::list)
-    std::ranges::move(keys_of(evidence.plan, second, column), std::back_inserter(compared));
+  std::ranges::copy_if(
+      keys_of(evidence.plan, second, column), std::back_inserter(compared),
+      [&](const auto& key) { return first.values[evidence.plan.column(key.name)] == key.value; });
   const double va = std::pow(a.standard_error() / a.mean, 2);
   const double vb = std::pow(b.standard_error() / b.mean, 2);
   const double freedom = va + vb > 0.0
@@ -88,9 +110,7 @@ Comparison difference(const Evidence& evidence, Pair pair, std::size_t column, d
 
 std::vector<Comparison> differences(const Evidence& evidence, const PointGroup& group) {
   const std::size_t column = evidence.plan.column(evidence.request.keys.front());
-  const bool of_ends =
-      evidence.request.test == FindingTest::rises || evidence.request.test == FindingTest::falls;
-  const std::vector<Pair> pairs = pairs_of(evidence, group, column, of_ends);
+  const std::vector<Pair> pairs = pairs_of(evidence.request, evidence.plan, evidence.points, group);
   std::vector<Comparison> all;
   all.reserve(pairs.size());
   for (const Pair pair : pairs)
@@ -149,6 +169,24 @@ std::vector<Comparison> deviations(const Evidence& evidence, const PointGroup& g
 }
 
 }  // namespace
+
+bool compares_nothing(const FindingRequest& request, const SweepPlan& plan,
+                      const std::vector<SweepPoint>& points, const PointGroup& group) {
+  switch (request.test) {
+    case FindingTest::same:
+    case FindingTest::matters:
+    case FindingTest::rises:
+    case FindingTest::falls:
+      return pairs_of(request, plan, points, group).empty();
+    case FindingTest::linear:
+      return !terms_vary({request.response, request.keys, request.per}, plan, points, group);
+    case FindingTest::steady:
+    case FindingTest::above:
+    case FindingTest::below:
+      return group.points.empty();
+  }
+  return true;
+}
 
 std::vector<Comparison> comparisons_of(const Evidence& evidence, const PointGroup& group) {
   switch (evidence.request.test) {

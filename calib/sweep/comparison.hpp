@@ -23,4 +23,8 @@ struct Evidence {
 /// (Bonferroni).
 std::vector<Comparison> comparisons_of(const Evidence& evidence, const PointGroup& group);
 
+/// Whether a claim finds nothing to compare among a group of points, whatever the runs say.
+bool compares_nothing(const FindingRequest& request, const SweepPlan& plan,
+                      const std::vector<SweepPoint>& points, const PointGroup& group);
+
 }  // namespace havers::calib

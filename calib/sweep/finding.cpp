@@ -211,6 +211,14 @@ int extra_digits(const Finding& finding, double scale) {
   return hidden ? 1 : 0;
 }
 
+std::optional<PointGroup> group_without_comparison(const FindingRequest& request,
+                                                   const SweepPlan& plan,
+                                                   const std::vector<SweepPoint>& points) {
+  for (const PointGroup& group : groups_of(points, plan, request.per))
+    if (compares_nothing(request, plan, points, group)) return group;
+  return {};
+}
+
 std::vector<Finding> judge(const FindingRequest& request, const SweepPlan& plan,
                            const std::vector<SweepPoint>& points,
                            const std::vector<SweepRun>& runs) {

@@ -1,6 +1,7 @@
 // A claim about the model, judged by the runs of a sweep alone (W3 to W5).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,12 @@ struct Finding {
 /// 1 where two digits of the interval's width, in units of `scale`, would hide that an end of it
 /// lies beyond what was asked; else 0.
 int extra_digits(const Finding& finding, double scale);
+
+/// The first group of points, by `per`, in which a claim finds nothing to compare whatever the runs
+/// say.
+std::optional<PointGroup> group_without_comparison(const FindingRequest& request,
+                                                   const SweepPlan& plan,
+                                                   const std::vector<SweepPoint>& points);
 
 /// The claim, once for each value of `per`.
 std::vector<Finding> judge(const FindingRequest& request, const SweepPlan& plan,

@@ -3,6 +3,7 @@
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_multifit.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -110,6 +111,19 @@ std::string explain(LawStatus status) {
 double Law::value(const SweepPoint& point, const SweepPlan& plan) const {
   const std::vector<double> row = row_of(request, plan, point);
   return std::inner_product(row.begin(), row.end(), coefficients.begin(), 0.0);
+}
+
+bool terms_vary(const LawRequest& request, const SweepPlan& plan,
+                const std::vector<SweepPoint>& points, const PointGroup& group) {
+  Eigen::MatrixXd x(group.points.size(), request.terms.size() + 1);
+  for (std::size_t i = 0; i < group.points.size(); ++i) {
+    const std::vector<double> row = row_of(request, plan, points[group.points[i]]);
+    x.row(static_cast<Eigen::Index>(i)) =
+        Eigen::Map<const Eigen::RowVectorXd>(row.data(), x.cols());
+  }
+  x.colwise().normalize();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(x);
+  return qr.setThreshold(1e-10).rank() == x.cols();
 }
 
 std::vector<Law> fit_laws(const LawRequest& request, const SweepPlan& plan,

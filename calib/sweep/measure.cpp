@@ -13,11 +13,19 @@ namespace {
 
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
+// The strain whose stress the viscous one adds from the start on. [-]
+double viscous_strain_of(const sim::Scene& scene) {
+  const bool from_the_start = scene.loading.start == sim::Start::uniform &&
+                              sim::choose_regime(scene).regime == sim::Regime::dynamic;
+  return from_the_start ? scene.material.viscosity * scene.loading.strain_rate : 0.0;
+}
+
 // Up to which strain the curve keeps within 1 % of the modulus's line.
-double linear_until(const Response& response) {
+double linear_until(const Response& response, double viscous_strain) {
   double until = 0.0;
   for (std::size_t i = 0; i < response.strain.size(); ++i) {
-    const double line = response.modulus * response.strain[i];
+    if (response.strain[i] == 0.0) continue;  // the first row bears nothing yet
+    const double line = response.modulus * (response.strain[i] + viscous_strain);
     if (std::abs(response.stress[i] - line) > 0.01 * response.strength) return until;
     until = std::min(response.strain[i], response.failure_strain);
   }
@@ -32,7 +40,8 @@ double inertia_of(const sim::Scene& scene) {
              : sim::choose_regime(scene).inertia_number;
 }
 
-std::array<double, measure_count> measures_of(const Response& response, const Pattern* pattern) {
+std::array<double, measure_count> measures_of(const Response& response, const sim::Scene& scene,
+                                              const Pattern* pattern) {
   std::array<double, measure_count> measures{};
   measures.fill(not_measured);
   if (response.failed || response.strain.empty()) return measures;
@@ -44,7 +53,7 @@ std::array<double, measure_count> measures_of(const Response& response, const Pa
   set(Measure::failure_strain, failure);
   if (response.modulus > 0.0) {
     set(Measure::modulus, response.modulus);
-    set(Measure::linear_part, linear_until(response) / failure);
+    set(Measure::linear_part, linear_until(response, viscous_strain_of(scene)) / failure);
   }
   if (response.broke) set(Measure::fall_part, (response.strain.back() - failure) / failure);
   if (pattern == nullptr) return measures;

@@ -17,8 +17,8 @@ enum class Measure {
   strength,          ///< [Pa]
   failure_strain,    ///< [-]
   modulus,           ///< [Pa]
-  linear_part,       ///< Strain at which the stress lacks 1 % of the strength of Eε, over failure
-                     ///< strain. [-]
+  linear_part,       ///< Strain at which the stress lacks 1 % of the strength of Eε, and of the
+                     ///< viscous Eτε̇ beside it, over failure strain. [-]
   fall_part,         ///< Strain from the strength to the end of the run, over failure strain. [-]
   head_tail_broken,  ///< Broken head-tail joints.
   flank_broken,      ///< Broken flank joints.
@@ -60,8 +60,9 @@ struct SweepRun {
   [[nodiscard]] bool unbroken() const { return !failed && !broke; }
 };
 
-/// The measures of a response; those of the pattern where there is one.
-std::array<double, measure_count> measures_of(const Response& response, const Pattern* pattern);
+/// The measures of a scene's response; those of the pattern where there is one.
+std::array<double, measure_count> measures_of(const Response& response, const sim::Scene& scene,
+                                              const Pattern* pattern);
 
 struct Statistics {
   long n = 0;

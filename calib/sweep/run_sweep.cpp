@@ -80,7 +80,7 @@ class Runner {
       if (result.cancelled) break;
       const std::vector<std::string> keys = batch_.keys(some);
       for (std::size_t i = 0; i < some.size(); ++i)
-        keep(responses[i], keys[i], result.runs[offset + at + i]);
+        keep(responses[i], some[i], keys[i], result.runs[offset + at + i]);
       result.cancelled = observer_ && !observer_(offset + end, all_);
     }
     result.simulated = batch_.simulated();
@@ -89,11 +89,12 @@ class Runner {
   }
 
  private:
-  void keep(const Response& response, const std::string& key, SweepRun& run) {
+  void keep(const Response& response, const sim::Scene& scene, const std::string& key,
+            SweepRun& run) {
     run.failed = response.failed;
     run.broke = response.broke;
     run.why = response.why;
-    run.measures = measures_of(response, sweep_.patterns ? model_.find(key) : nullptr);
+    run.measures = measures_of(response, scene, sweep_.patterns ? model_.find(key) : nullptr);
     if (run.failed || run.point < next_curve_) return;
     next_curve_ = run.point + 1;
     run.strain = response.strain;

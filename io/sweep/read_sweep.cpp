@@ -1,9 +1,11 @@
 #include "io/sweep/read_sweep.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "io/config/file_kind.hpp"
 #include "io/config/parse_toml.hpp"
@@ -72,6 +74,25 @@ std::vector<std::string> idle_keys_of_sweep(TableReader& top, const calib::Sweep
     warnings.emplace_back("sweep.seeds is 1: no finding can be decided; give 2 or more");
   if (!is_sample(plan.sampling) && top.table("sweep").has("points"))
     warnings.emplace_back("sweep.points changes nothing: a list or a grid has those of its keys");
+  return warnings;
+}
+
+// Keys that the limit does not know, where every point asks for it.
+std::vector<std::string> idle_keys_of_the_limit(const calib::Sweep& sweep) {
+  constexpr std::array of_time{
+      "material.density_kg_m3", "material.viscosity_s", "loading.strain_rate_per_s",
+      "loading.start",          "solver.step_s",        "solver.step_accuracy",
+      "solver.contact"};
+  std::vector<std::string> warnings;
+  for (const calib::SweepKey& key : sweep.plan.keys)
+    if (std::ranges::find(of_time, key.name) != of_time.end() &&
+        std::ranges::all_of(sweep.points, [](const calib::SweepPoint& point) {
+          return point.scene.solver.regime == sim::Regime::quasi_static;
+        }))
+      warnings.push_back(fmt::format(
+          "sweep.keys.\"{}\" changes nothing: solver.regime is quasi-static, and the limit has no "
+          "time",
+          key.name));
   return warnings;
 }
 
@@ -153,6 +174,44 @@ std::string without_quotes(const std::string& value) {
   return parse_toml({}, {"value=" + value})["value"].value_or(value);
 }
 
+calib::SweepPoint without_scene(const std::vector<std::string>& values) {
+  calib::SweepPoint point;
+  for (const std::string& value : values) {
+    point.numbers.push_back(calib::number_in(value));
+    point.values.push_back(without_quotes(value));
+  }
+  return point;
+}
+
+// What would be undecided however the runs end. Whether a finding's keys vary is asked elsewhere.
+std::vector<Problem> findings_without_comparison(const std::filesystem::path& file,
+                                                 const calib::Sweep& sweep) {
+  const calib::SweepPlan& plan = sweep.plan;
+  const auto varies = [&](const std::string& key) { return plan.column(key) < plan.keys.size(); };
+  std::vector<calib::SweepPoint> points;
+  for (const auto& values : points_of(plan)) points.push_back(without_scene(values));
+  std::vector<Problem> problems;
+  for (const calib::FindingRequest& finding : sweep.findings) {
+    const bool of_keys = finding.test <= calib::FindingTest::linear;
+    if (!of_keys || finding.keys.empty() || !std::ranges::all_of(finding.keys, varies)) continue;
+    const auto group = group_without_comparison(finding, plan, points);
+    if (!group) continue;
+    const bool linear = finding.test == calib::FindingTest::linear;
+    const bool by_itself = std::ranges::find(finding.keys, finding.per) != finding.keys.end();
+    problems.push_back(
+        {fmt::format("{}: finding.keys", file.string()),
+         fmt::format(
+             "names {}, but {}{}", fmt::join(finding.keys, " and "),
+             finding.per.empty() ? "" : fmt::format("at {} = {} ", finding.per, group->value),
+             linear ? "the points are too few or too alike for a line"
+                    : "no two points differ in it alone"),
+         by_itself                  ? "name another key as per"
+         : is_sample(plan.sampling) ? "use sample = \"grid\" or \"list\""
+                                    : "give it more values at which the other keys are alike"});
+  }
+  return problems;
+}
+
 // The scene with a point's values on top, as if they were given by --set.
 calib::SweepPoint read_point(SweepFile& read, Overrides overrides,
                              const std::vector<std::string>& values) {
@@ -165,15 +224,11 @@ calib::SweepPoint read_point(SweepFile& read, Overrides overrides,
   read_plan(top, again);
   check_thresholds(top, again);
   read_questions(top, again);
-  calib::SweepPoint point;
+  calib::SweepPoint point = without_scene(values);
   read_scene_tables(top, point.scene);
   config.finish();
   for (const std::filesystem::path& input : config.inputs())
     if (std::ranges::find(read.inputs, input) == read.inputs.end()) read.inputs.push_back(input);
-  for (const std::string& value : values) {
-    point.numbers.push_back(calib::number_in(value));
-    point.values.push_back(without_quotes(value));
-  }
   point.inertia_number = calib::inertia_of(point.scene);
   return point;
 }
@@ -209,6 +264,7 @@ SweepFile read_sweep(const std::filesystem::path& file, const Overrides& overrid
   if (sweep.name.empty()) sweep.name = file.stem().string();
 
   std::vector<Problem> problems = settings_of_varied_keys(overrides, sweep.plan);
+  std::ranges::move(findings_without_comparison(file, sweep), std::back_inserter(problems));
   for (const std::vector<std::string>& values : points_of(sweep.plan)) {
     try {
       sweep.points.push_back(read_point(read, overrides, values));
@@ -218,6 +274,7 @@ SweepFile read_sweep(const std::filesystem::path& file, const Overrides& overrid
     }
   }
   if (!problems.empty()) throw InputError(std::move(problems));
+  std::ranges::move(idle_keys_of_the_limit(sweep), std::back_inserter(read.warnings));
   return read;
 }
 

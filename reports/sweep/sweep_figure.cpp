@@ -125,6 +125,13 @@ std::string log_axis(char axis, const Extent& range) {
                      0.7 * range.low, 1.4 * range.high);
 }
 
+// gnuplot's own tics would write all zeros of such numbers.
+std::string tics_of_small(char axis, const Extent& range) {
+  if (range.high >= 1e-3 || !(range.high > range.low) || range.low < 0.0) return {};
+  return fmt::format("set format {0} '%h'\nset {0}tics {1}\n", axis,
+                     round_down((range.high - range.low) / 4.0));
+}
+
 std::string axes(const std::vector<Line>& lines) {
   Extent x, y;
   for (const Line& line : lines) {
@@ -135,11 +142,12 @@ std::string axes(const std::vector<Line>& lines) {
   }
   const double margin = x.high > x.low ? 0.04 * (x.high - x.low) : 1.0;
   return (x.many_decades() ? log_axis('x', x)
-                           : fmt::format("set xrange [{}:{}]\n", x.low - margin, x.high + margin)) +
-         (y.many_decades() ? log_axis('y', y)
-                           : fmt::format("set yrange [{}*:*]\nset offsets 0, 0, graph 0.06, graph "
-                                         "0.06\n",
-                                         y.low >= 0.0 ? "0<" : ""));
+                           : fmt::format("{}set xrange [{}:{}]\n", tics_of_small('x', x),
+                                         x.low - margin, x.high + margin)) +
+         (y.many_decades()
+              ? log_axis('y', y)
+              : fmt::format("{}set yrange [{}*:*]\nset offsets 0, 0, graph 0.06, graph 0.06\n",
+                            tics_of_small('y', y), y.low >= 0.0 ? "0<" : ""));
 }
 
 // Means with the band of their 95 % intervals, which a single run has not, a line for each series.
@@ -218,9 +226,10 @@ std::vector<SweepPanel> sweep_figures(const calib::Sweep& sweep, const calib::Sw
                                .width = static_cast<int>(width_of(wanted)),
                                .height = wanted.per.empty() ? 360 : 340}};
     made.figure.commands = wanted.x.empty() ? curve_commands(panel) : mean_commands(panel);
-    if (!wanted.per.empty() && !made.figure.commands.empty())
+    if (!made.figure.commands.empty())  // as much room as the labels of the tics ask for
       made.figure.commands =
-          "set lmargin at screen 0.235\nset xtics font ',10'\n" + made.figure.commands;
+          fmt::format("unset lmargin\n{}{}", wanted.per.empty() ? "" : "set xtics font ',10'\n",
+                      made.figure.commands);
     panels.push_back(std::move(made));
   }
   return panels;

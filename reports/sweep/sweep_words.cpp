@@ -30,11 +30,14 @@ KeyWords words_of(const std::string& key) {
       {"joints.head_tail_MPa", {"threshold σ₁", "MPa"}},
       {"joints.flank_MPa", {"threshold σ₂", "MPa"}},
       {"joints.resultant_MPa", {"resultant", "MPa"}},
+      {"joints.head_tail_shear_MPa", {"head tail shear", "MPa"}},
+      {"joints.flank_tension_MPa", {"flank tension", "MPa"}},
       {"joints.ratio", {"ratio r", ""}},
       {"joints.scatter", {"scatter d", ""}},
       {"joints.friction", {"friction μ", ""}},
       {"joints.missing", {"share of missing joints", ""}},
-      {"loading.strain_rate_per_s", {"strain rate", "1/s"}}};
+      {"loading.strain_rate_per_s", {"strain rate", "1/s"}},
+      {"solver.step_s", {"step", "s"}}};
   const auto found = known.find(key);
   if (found != known.end()) return found->second;
   std::string name = key.substr(key.rfind('.') + 1);

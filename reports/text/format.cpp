@@ -169,8 +169,11 @@ std::string plain(std::string_view text) {
   std::string result;
   for (const char c : text) {
     const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-    const bool special = c == '"' || c == '\'' || c == '`' || c == '\\';
-    result += control ? ' ' : special ? '_' : c;
+    const bool special = c == '"' || c == '`' || c == '\\';
+    if (c == '\'')
+      result += "’";
+    else
+      result += control ? ' ' : special ? '_' : c;
   }
   return result;
 }

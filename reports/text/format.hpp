@@ -66,7 +66,8 @@ std::string prefixed(double value, std::string_view unit, int digits = 3);
 /// 1, 2 or 5 times a power of ten, not above `limit` > 0.
 double round_down(double limit);
 
-/// Characters that could end a quoted string or a line of a gnuplot script, replaced.
+/// Characters that could end a quoted string or a line of a gnuplot script, replaced; an apostrophe
+/// by a curled one.
 std::string plain(std::string_view text);
 
 }  // namespace havers::reports

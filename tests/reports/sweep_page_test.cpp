@@ -161,6 +161,8 @@ TEST(SweepWords, PutTheUnitBehindTheValue) {
 TEST(SweepWords, NameKeysWithTheirUnitsAndWithoutUnderlines) {
   EXPECT_EQ(name_of_key("assembly.orientation_deg"), "angle θ (°)");
   EXPECT_EQ(name_of_key("material.layer_contrast"), "layer contrast");
+  EXPECT_EQ(name_of_key("joints.head_tail_shear_MPa"), "head tail shear (MPa)");
+  EXPECT_EQ(name_of_key("solver.step_s"), "step (s)");
 }
 
 TEST(SweepPage, HasTheUnitBehindBothValuesThatAreCompared) {
@@ -190,6 +192,15 @@ TEST(SweepFigures, HaveAPanelForEveryValueOfPer) {
   ASSERT_EQ(panels.size(), 2U);
   EXPECT_EQ(panels[1].at, "ratio r\u00a0=\u00a03");
   EXPECT_THAT(panels[0].figure.commands, HasSubstr("Strength (MPa)"));
+}
+
+TEST(SweepFigures, WriteSmallNumbersAsPowersOfTen) {
+  Case known;
+  const calib::SweepFigure wanted{.caption = "c", .x = "joints.scatter"};
+  EXPECT_THAT(known.commands(wanted), Not(HasSubstr("'%h'")));
+  for (calib::SweepPoint& point : known.result.points) point.numbers[1] *= 1e-7;
+  EXPECT_THAT(known.commands(wanted),
+              AllOf(HasSubstr("set format x '%h'\nset xtics 1e-08\n"), HasSubstr("unset lmargin")));
 }
 
 TEST(SweepFigures, TellCurvesApartWithoutColour) {

@@ -144,7 +144,7 @@ TEST(RoundDown, FindsOneTwoOrFiveTimesAPowerOfTen) {
 }
 
 TEST(Plain, LeavesNothingThatEndsAStringOrALine) {
-  EXPECT_EQ(plain("a'b\"c`d\\e\nEOD"), "a_b_c_d_e EOD");
+  EXPECT_EQ(plain("a'b\"c`d\\e\nEOD"), "a’b_c_d_e EOD");
   EXPECT_EQ(plain("Fémur A"), "Fémur A");
 }
 

@@ -178,8 +178,25 @@ TEST(Scene, DoubtsAViscosityThatBreaksItAtOnce) {
   EXPECT_THAT(scene.doubts(),
               testing::ElementsAre(testing::StartsWith(
                   "material.viscosity_s is 1: at 1000 /s it stresses the fibres by 1.3e+07 MPa")));
-  scene.solver.regime = Regime::quasi_static;  // which has no rates
+}
+
+TEST(Scene, DoubtsWhatTheLimitDoesNotKnow) {
+  Scene scene;
+  scene.material.viscosity = 1.0;
+  scene.loading.strain_rate = 1e-9;
+  scene.loading.start = Start::rest;
+  scene.solver.step = 1e-8;
+  scene.solver.contact = ContactMethod::gauss_seidel;
   EXPECT_TRUE(scene.doubts().empty());
+  scene.solver.regime = Regime::quasi_static;
+  EXPECT_THAT(scene.doubts(),
+              testing::ElementsAre(testing::StartsWith("material.viscosity_s changes nothing"),
+                                   testing::StartsWith("loading.start changes nothing"),
+                                   testing::StartsWith("solver.step_s changes nothing"),
+                                   testing::StartsWith("solver.contact changes nothing")));
+  Scene plain;
+  plain.solver.regime = Regime::quasi_static;
+  EXPECT_TRUE(plain.doubts().empty());
 }
 
 // A box around a long row that is turned holds the square of its fibres.

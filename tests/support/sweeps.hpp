@@ -16,7 +16,9 @@ struct KnownSweep {
   std::vector<calib::SweepRun> runs;
 
   KnownSweep(std::vector<calib::SweepKey> keys, int seeds,
-             const std::function<double(const calib::SweepPoint&, int)>& value) {
+             const std::function<double(const calib::SweepPoint&, int)>& value,
+             calib::Sampling sampling = calib::Sampling::grid) {
+    plan.sampling = sampling;
     plan.keys = std::move(keys);
     plan.seeds = seeds;
     for (const auto& values : calib::points_of(plan)) {

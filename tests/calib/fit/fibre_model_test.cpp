@@ -74,7 +74,7 @@ TEST(FibreModel, HasNoModulusInAShock) {
   const auto response = fibre_model().run(study.model).value();
   EXPECT_FALSE(response.failed) << response.why;
   EXPECT_EQ(response.modulus, 0.0);
-  const auto measures = measures_of(response, nullptr);
+  const auto measures = measures_of(response, study.model, nullptr);
   EXPECT_TRUE(std::isnan(measures[static_cast<std::size_t>(Measure::modulus)]));
   EXPECT_GT(measures[static_cast<std::size_t>(Measure::strength)], 0.0);
   const CalibrationResult result = calibrate(study, nullptr);

@@ -114,6 +114,23 @@ TEST(RunSweep, SeesNoPatternOfARunWithoutJoints) {
   EXPECT_FALSE(std::isnan(result.runs.front()[Measure::crack_span]));
 }
 
+// Viscous fibres in uniform motion carry a constant stress more from the start on.
+TEST(RunSweep, TakesTheViscousStressFromTheLinearPart) {
+  Sweep sweep = small_sweep();
+  sweep.plan.seeds = 1;
+  for (SweepPoint& point : sweep.points) {
+    point.scene.joints.scatter = 0.2;
+    point.scene.assembly.orientation = 0.25 * std::numbers::pi;
+    point.scene.solver.regime = sim::Regime::dynamic;
+  }
+  sweep.points.back().scene.material.viscosity = 1e-7;
+  const SweepResult result = run_sweep(sweep, nullptr, 1, {});
+  for (const SweepRun& run : result.runs) {
+    EXPECT_FALSE(run.failed) << run.why;
+    EXPECT_GT(run[Measure::linear_part], 0.9);
+  }
+}
+
 TEST(RunSweep, TakesNoStrengthFromRunsThatDidNotBreak) {
   Sweep sweep = small_sweep();
   sweep.levels = 2;

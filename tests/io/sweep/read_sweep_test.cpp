@@ -38,6 +38,16 @@ TEST_F(ReadSweep, SaysWhichKeysChangeNothing) {
   EXPECT_THAT(read(sample).warnings, testing::IsEmpty());
 }
 
+TEST_F(ReadSweep, SaysWhichVariedKeysTheLimitDoesNotKnow) {
+  const std::string text = "[sweep.keys]\n\"solver.step_s\" = [1e-8, 2e-8]\n";
+  EXPECT_THAT(read(text).warnings, testing::IsEmpty());
+  EXPECT_THAT(
+      read(text, {"solver.regime=quasi-static"}).warnings,
+      ElementsAre(HasSubstr("sweep.keys.\"solver.step_s\" changes nothing: solver.regime")));
+  EXPECT_THAT(read(text + "\"solver.regime\" = [\"quasi-static\", \"dynamic\"]\n").warnings,
+              testing::IsEmpty());
+}
+
 // TOML keeps no order: the keys are in that of the alphabet.
 TEST_F(ReadSweep, MakesASceneOfEveryPoint) {
   const calib::Sweep sweep = read(test::small_sweep).sweep;
@@ -146,6 +156,35 @@ TEST_F(ReadSweep, AsksForOneKeyWhereAQuestionIsAboutOne) {
   EXPECT_THAT(complaints(text + "\"linear\""), testing::IsEmpty());
 }
 
+TEST_F(ReadSweep, RefusesAFindingThatComparesNothing) {
+  const std::string finding = "[[finding]]\ntest = \"falls\"\nkeys = [\"joints.scatter\"]\n";
+  const std::string one = "[sweep]\n[sweep.keys]\n\"joints.scatter\" = [0.2, 0.4]\n";
+  const std::string two = one + "\"joints.friction\" = [0.1, 0.2]\n" + finding;
+  EXPECT_THAT(complaints(two, {"sweep.sample=sobol"}),
+              ElementsAre("s.toml: finding.keys: names joints.scatter, but no two points differ in "
+                          "it alone (use sample = \"grid\" or \"list\")"));
+  EXPECT_THAT(complaints(two, {"sweep.sample=list"}), testing::IsEmpty());
+  EXPECT_THAT(
+      complaints(two + "per = \"joints.friction\"\n", {"sweep.sample=list"}),
+      ElementsAre("s.toml: finding.keys: names joints.scatter, but at joints.friction = 0.1 "
+                  "no two points differ in it alone (give it more values at which the "
+                  "other keys are alike)"));
+  EXPECT_THAT(complaints(two + "per = \"joints.scatter\"\n"),
+              ElementsAre(HasSubstr("(name another key as per)")));
+  EXPECT_THAT(complaints(one + finding, {"sweep.keys.\"joints.scatter\"=[0.3]"}),
+              ElementsAre(HasSubstr("no two points differ in it alone")));
+  EXPECT_THAT(complaints(one + "[[finding]]\ntest = \"linear\"\nkeys = [\"joints.scatter\"]\n",
+                         {"sweep.keys.\"joints.scatter\"=[0.3]"}),
+              ElementsAre(HasSubstr("the points are too few or too alike for a line")));
+}
+
+// However wrong the scene is: all is said at once.
+TEST_F(ReadSweep, RefusesAFindingThatComparesNothingBesideAnotherMistake) {
+  EXPECT_THAT(complaints(test::small_sweep, {"sweep.keys.\"joints.scatter\"=[3.0]"}),
+              testing::UnorderedElementsAre(HasSubstr("sweep.keys.\"joints.scatter\": is 3"),
+                                            HasSubstr("no two points differ in it alone")));
+}
+
 TEST_F(ReadSweep, DrawsNothingBesideGivenThresholds) {
   folder.write("t.csv", "joint,f_N,f_T\n0,1,1\n1,1,1\n2,1,1\n");
   const std::string text =
@@ -183,8 +222,9 @@ TEST_F(ReadSweep, RefusesASettingOfAKeyThatVaries) {
     EXPECT_THAT(complaints(test::small_sweep, {setting}),
                 ElementsAre("--set joints.scatter: sets nothing: the sweep varies it (--set "
                             "'sweep.keys.\"joints.scatter\"=[...]' gives its values)"));
-  EXPECT_EQ(read(test::small_sweep, {"sweep.keys.\"joints.scatter\"=[0.3]"}).sweep.points.size(),
-            2U);
+  EXPECT_EQ(
+      read(test::small_sweep, {"sweep.keys.\"joints.scatter\"=[0.3,0.4,0.5]"}).sweep.points.size(),
+      6U);
 }
 
 TEST_F(ReadSweep, RefusesAFileWithoutKeys) {
