@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
+#include <utility>
 
 #include "io/config/scene_keys.hpp"
 #include "io/results/result_files.hpp"
+#include "sim/assembly/assembly.hpp"
 
 namespace havers::io {
 namespace {
@@ -81,13 +84,36 @@ void read_strengths(TableReader& table, const sim::AssemblyOptions& assembly,
                    "resultant = head_tail + (1 + 1/layers)/2 fibre_length/fibre_height flank");
 }
 
-void read_thresholds_file(TableReader& table, std::vector<sim::Threshold>& thresholds) {
+// @return the lengths that the file gives the joints
+std::vector<double> read_thresholds_file(TableReader& table,
+                                         std::vector<sim::Threshold>& thresholds) {
   std::filesystem::path file;
-  if (!table.key("thresholds_file", file) || !table.require_file("thresholds_file", file)) return;
+  if (!table.key("thresholds_file", file) || !table.require_file("thresholds_file", file))
+    return {};
   try {
-    thresholds = read_thresholds(file);
+    GivenThresholds given = read_thresholds(file);
+    thresholds = std::move(given.thresholds);
+    return std::move(given.lengths);
   } catch (const InputError& error) {
     table.complain(error.problems());
+    return {};
+  }
+}
+
+// A file of another wall may have as many joints.
+void require_joints(TableReader& table, const std::vector<double>& lengths,
+                    const sim::Scene& scene) {
+  constexpr double rounding = 1e-6;
+  const sim::Assembly assembly = sim::build_assembly(scene.assembly, scene.loading.lateral);
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const double length = assembly.joints[i].length;
+    if (!(std::abs(lengths[i] - length) > rounding * length)) continue;
+    table.complain("thresholds_file",
+                   fmt::format("has joint {} {:.6g} µm long, the assembly {:.6g} µm: it is of "
+                               "another wall",
+                               i, 1e6 * lengths[i], 1e6 * length),
+                   "write a matching file with havers simulate: joints.csv");
+    return;
   }
 }
 
@@ -101,14 +127,16 @@ void read_scene_tables(TableReader& tables, sim::Scene& scene) {
   TableReader joints = tables.table("joints");
   keys(joints, scene.joints);
   read_strengths(joints, scene.assembly, scene.joints);
-  read_thresholds_file(joints, scene.joints.thresholds);
+  const std::vector<double> lengths = read_thresholds_file(joints, scene.joints.thresholds);
   TableReader loading = tables.table("loading");
   keys(loading, scene.loading);
   TableReader solver = tables.table("solver");
   keys(solver, scene.solver);
 
-  for (const sim::Scene::Problem& problem : scene.problems())
+  const std::vector<sim::Scene::Problem> problems = scene.problems();
+  for (const sim::Scene::Problem& problem : problems)
     tables.complain(problem.key, problem.what, problem.hint);
+  if (problems.empty() && !lengths.empty()) require_joints(joints, lengths, scene);
 }
 
 }  // namespace havers::io

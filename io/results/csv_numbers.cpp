@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "io/input_error.hpp"
@@ -21,8 +22,10 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // as Excel's "CSV
 // Takes rows one by one: the header first, then numbers.
 class Columns {
  public:
-  Columns(std::string file, const std::vector<std::string>& names)
-      : file_(std::move(file)), names_(names) {}
+  Columns(std::string file, const std::vector<std::string>& names, std::size_t optional)
+      : file_(std::move(file)),
+        names_(names),
+        needed_(std::ssize(names) - static_cast<std::ptrdiff_t>(optional)) {}
 
   bool take(const Row& row) {
     if (positions_.empty()) return find_columns(row);
@@ -45,7 +48,8 @@ class Columns {
 
  private:
   [[nodiscard]] std::string expected() const {
-    return fmt::format("the columns needed are {}", fmt::join(names_, ","));
+    return fmt::format("the columns needed are {}",
+                       fmt::join(names_.begin(), std::next(names_.begin(), needed_), ","));
   }
 
   bool find_columns(const Row& header) {
@@ -58,7 +62,7 @@ class Columns {
     }
     for (const std::string& name : names_) {
       const auto found = std::ranges::find(header.cells, name);
-      if (found == header.cells.end())
+      if (found == header.cells.end() && std::ssize(positions_) < needed_)
         problems_.push_back(
             {at_line(file_, header.line), fmt::format("has no column {}", name), expected()});
       positions_.push_back(static_cast<std::size_t>(found - header.cells.begin()));
@@ -82,6 +86,7 @@ class Columns {
 
   std::string file_;
   const std::vector<std::string>& names_;
+  std::ptrdiff_t needed_;               // of the names; the others may be missing
   std::vector<std::size_t> positions_;  // of each name in the header
   std::size_t cells_ = 0;               // of the header
   std::vector<CsvNumbers> rows_;
@@ -104,8 +109,9 @@ std::string csv_text(const std::vector<std::string>& header,
 }
 
 std::vector<CsvNumbers> read_csv_numbers(const std::filesystem::path& file,
-                                         const std::vector<std::string>& names) {
-  Columns columns(file.string(), names);
+                                         const std::vector<std::string>& names,
+                                         std::size_t optional) {
+  Columns columns(file.string(), names, optional);
   CsvRows rows(',', [&](const Row& row) { return columns.take(row); });
   const std::string text = read_text(file, "a CSV file with a header row is expected there");
   rows.feed(std::string_view(text).substr(text.starts_with(byte_order_mark) ? byte_order_mark.size()

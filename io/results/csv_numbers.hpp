@@ -21,8 +21,10 @@ struct CsvNumbers {
 };
 
 /// Reads columns by the names in the header row; other columns may hold anything.
+/// @param optional  that many of the names, the last ones: NaN where there is no such column
 /// @throws InputError naming missing columns and the lines of cells that are not numbers.
 std::vector<CsvNumbers> read_csv_numbers(const std::filesystem::path& file,
-                                         const std::vector<std::string>& names);
+                                         const std::vector<std::string>& names,
+                                         std::size_t optional = 0);
 
 }  // namespace havers::io

@@ -9,12 +9,14 @@
 namespace havers::io {
 
 // Rows may come in any order; the joints must be 0 to n - 1, each once.
-std::vector<sim::Threshold> read_thresholds(const std::filesystem::path& file) {
-  const std::vector<std::string> names{"joint", "f_N", "f_T"};
-  const std::vector<CsvNumbers> rows = read_csv_numbers(file, names);
+GivenThresholds read_thresholds(const std::filesystem::path& file) {
+  const std::vector<std::string> names{"joint", "f_N", "f_T", "length_m"};
+  const std::vector<CsvNumbers> rows = read_csv_numbers(file, names, 1);
   if (rows.empty())
     throw InputError(file.string(), "holds no joint", "give a row for each, as in joints.csv");
-  std::vector<sim::Threshold> thresholds(rows.size());
+  GivenThresholds given;
+  given.thresholds.resize(rows.size());
+  given.lengths.resize(rows.size());
   std::vector<std::size_t> line_of(rows.size(), 0);
   std::vector<Problem> problems;
   const auto complain = [&](std::size_t line, std::string what) {
@@ -22,7 +24,7 @@ std::vector<sim::Threshold> read_thresholds(const std::filesystem::path& file) {
   };
   for (const CsvNumbers& row : rows) {
     const double joint = row.values[0];
-    for (std::size_t i = 0; i < names.size(); ++i)
+    for (std::size_t i = 0; i < 3; ++i)
       if (std::isnan(row.values[i]))
         complain(row.line, fmt::format("column {} is empty, must be a number", names[i]));
     if (std::isnan(joint)) continue;
@@ -36,10 +38,11 @@ std::vector<sim::Threshold> read_thresholds(const std::filesystem::path& file) {
     if (line_of[index] != 0)
       complain(row.line, fmt::format("names joint {} again, after line {}", index, line_of[index]));
     line_of[index] = row.line;
-    thresholds[index] = {.normal = row.values[1], .tangent = row.values[2]};
+    given.thresholds[index] = {.normal = row.values[1], .tangent = row.values[2]};
+    given.lengths[index] = row.values[3];
   }
   if (!problems.empty()) throw InputError(std::move(problems));
-  return thresholds;
+  return given;
 }
 
 }  // namespace havers::io

@@ -45,8 +45,13 @@ void write_curve(const std::filesystem::path& file, const sim::Simulation& simul
 void write_joints(const std::filesystem::path& file, const sim::Assembly& assembly,
                   const sim::Simulation& simulation);
 
-/// f_N and f_T per joint from columns joint,f_N,f_T of a CSV file. @throws InputError.
-std::vector<sim::Threshold> read_thresholds(const std::filesystem::path& file);
+/// What a file says of each joint.
+struct GivenThresholds {
+  std::vector<sim::Threshold> thresholds;
+  std::vector<double> lengths;  ///< Of the joints; NaN where it has none. [m]
+};
+/// From columns joint,f_N,f_T of a CSV file, and length_m, which joints.csv has. @throws InputError.
+GivenThresholds read_thresholds(const std::filesystem::path& file);
 
 /// The curves of a fit, and their files in its folder: strain, measured, simulated median and band,
 /// residual on a common grid; and the whole measured curve as it was used.

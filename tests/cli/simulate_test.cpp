@@ -110,6 +110,12 @@ TEST(Simulate, KeepsTheDigestOfItsThresholds) {
   ASSERT_EQ(answer.exit_code, 0) << answer.err;
   const auto inputs = nlohmann::json::parse(answer.out)["provenance"]["inputs"];
   EXPECT_EQ(inputs.size(), 2U) << inputs.dump();
+
+  const auto other = run_havers(folder,
+                                "simulate scene.toml -o other --set assembly.fibre_length_um=77 "
+                                "--set joints.thresholds_file=out/joints.csv");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("µm: it is of another wall (write a matching file"));
 }
 
 TEST(Simulate, SetAndSeedReplaceTheScenesValues) {

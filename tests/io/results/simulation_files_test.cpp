@@ -169,7 +169,8 @@ TEST(Thresholds, MustNameEveryJointOnce) {
   EXPECT_THAT(refused("joint;f_N;f_T\n0;1,5;2\n"),
               testing::EndsWith("t.csv:1: has one column, \"joint;f_N;f_T\" (separate cells by "
                                 "commas, and write decimals with a point)"));
-  EXPECT_EQ(read_thresholds(folder.write("t.csv", "\xEF\xBB\xBFjoint,f_N,f_T\n0,1,2\n")).size(),
+  EXPECT_EQ(read_thresholds(folder.write("t.csv", "\xEF\xBB\xBFjoint,f_N,f_T\n0,1,2\n"))
+                .thresholds.size(),
             1U);
   EXPECT_THAT(refused(""), HasSubstr("t.csv: is empty (the columns needed are joint,f_N,f_T)"));
   EXPECT_THAT(test::refusal_of([&] { read_thresholds(folder.path() / "none.csv"); }),
