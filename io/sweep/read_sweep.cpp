@@ -206,7 +206,7 @@ std::vector<Problem> findings_without_comparison(const std::filesystem::path& fi
              linear ? "the points are too few or too alike for a line"
                     : "no two points differ in it alone"),
          by_itself                  ? "name another key as per"
-         : is_sample(plan.sampling) ? "use sample = \"grid\" or \"list\""
+         : is_sample(plan.sampling) ? R"(use sample = "grid" or "list")"
                                     : "give it more values at which the other keys are alike"});
   }
   return problems;
