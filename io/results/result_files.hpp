@@ -50,7 +50,8 @@ struct GivenThresholds {
   std::vector<sim::Threshold> thresholds;
   std::vector<double> lengths;  ///< Of the joints; NaN where it has none. [m]
 };
-/// From columns joint,f_N,f_T of a CSV file, and length_m, which joints.csv has. @throws InputError.
+/// From columns joint,f_N,f_T of a CSV file, and length_m, which joints.csv has.
+/// @throws InputError.
 GivenThresholds read_thresholds(const std::filesystem::path& file);
 
 /// The curves of a fit, and their files in its folder: strain, measured, simulated median and band,
