@@ -84,6 +84,8 @@ void tell_waves(const Scene& scene, Simulation& simulation) {
   double modulus = simulation.modulus;
   if (starts_with_waves(scene, simulation)) {
     simulation.crossings = modulus_stretch * strain_of_modulus(simulation) / of_a_crossing;
+    if (simulation.missing_joints() > 0)  // waves are as slow as the specimen is soft
+      simulation.crossings *= std::sqrt(std::clamp(modulus / scene.material.young, 0.0, 1.0));
     modulus = std::clamp(modulus, 0.0, simulation.strength / simulation.failure_strain);
   }
   if (borne_until(simulation) >= 2.0 * of_a_crossing)
