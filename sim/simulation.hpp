@@ -96,7 +96,8 @@ struct Simulation {
   /// Slope from 0.1 to 0.5 of the first break's strain, or of the last row's without one. [Pa]
   double modulus = 0.0;
   /// How often waves of the start cross the specimen in that stretch: from rest, on a stair of
-  /// stress, or in uniform motion where joints are missing or layers differ; NaN without them. [-]
+  /// stress, or in uniform motion where joints are missing or oblique layers differ; NaN without
+  /// them. [-]
   double crossings = std::numeric_limits<double>::quiet_NaN();
   /// NaN when nothing broke. [-]
   double first_break_strain = std::numeric_limits<double>::quiet_NaN();

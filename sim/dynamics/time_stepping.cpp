@@ -61,12 +61,12 @@ SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepp
   return SimulationStatus::strain_limit;
 }
 
-// Uniform motion is one of equilibrium where the stress is uniform, and a specimen that leapt had
-// it; missing joints and layers unlike each other set waves free.
+// Uniform motion is one of equilibrium where the stress does not change along the load, and a
+// specimen that leapt had it; missing joints and unlike layers across the load set waves free.
 bool starts_with_waves(const Scene& scene, const Simulation& simulation) {
   if (scene.loading.start == Start::rest) return true;
-  return simulation.leapt_strain == 0.0 &&
-         (simulation.missing_joints() > 0 || scene.material.layer_contrast != 1.0);
+  const bool unlike = scene.material.layer_contrast != 1.0 && scene.assembly.orientation != 0.0;
+  return simulation.leapt_strain == 0.0 && (simulation.missing_joints() > 0 || unlike);
 }
 
 // After the last break what is left only swings; before a period has passed its mean is that of

@@ -177,6 +177,8 @@ TEST(SimulateDynamic, InUniformMotionHasTheModulusOfAShockWhereJointsAreMissing)
   EXPECT_FALSE(simulate(scene).has_modulus_of_a_shock());
   scene.material.layer_contrast = 0.5;
   EXPECT_TRUE(simulate(scene).has_modulus_of_a_shock());
+  scene.assembly.orientation = 0.0;  // side by side
+  EXPECT_FALSE(simulate(scene).has_modulus_of_a_shock());
 }
 
 // The path of joints that break together goes up beyond λ = 1000 before it comes back.
