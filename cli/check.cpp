@@ -53,13 +53,10 @@ Findings look_at(const std::filesystem::path& file, const io::Overrides& overrid
 }
 
 void print_json(const std::filesystem::path& file, const Findings& findings) {
-  nlohmann::json problems = nlohmann::json::array();
-  for (const io::Problem& problem : findings.problems)
-    problems.push_back({{"where", problem.where}, {"what", problem.what}, {"hint", problem.hint}});
   const nlohmann::json all{
       {"file", file.string()},
       {"kind", findings.kind ? nlohmann::json(io::name_of(*findings.kind)) : nlohmann::json()},
-      {"problems", problems},
+      {"problems", json_of(findings.problems)},
       {"warnings", findings.warnings}};
   fmt::print("{}", io::json_text(all));
 }

@@ -106,6 +106,13 @@ void answer(const CommonOptions& common, OutputFolder* output, const nlohmann::j
   if (output != nullptr) fmt::print("{}\n", (output->folder() / file).string());
 }
 
+nlohmann::json json_of(const std::vector<io::Problem>& problems) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const io::Problem& problem : problems)
+    all.push_back({{"where", problem.where}, {"what", problem.what}, {"hint", problem.hint}});
+  return all;
+}
+
 ExitCode without_result(const CommonOptions& common, const std::string& status,
                         const std::string& why) {
   fmt::print(stderr, "{}\n", why);

@@ -9,8 +9,10 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "io/config/read_scene.hpp"
+#include "io/input_error.hpp"
 
 namespace CLI {
 class App;
@@ -42,7 +44,11 @@ struct CommonOptions {
 struct Command {
   CLI::App* parser = nullptr;
   std::function<int()> run;
+  bool shows_problems = false;  ///< Its own JSON says what is wrong with an input.
 };
+
+/// What is wrong with an input, for --json.
+nlohmann::json json_of(const std::vector<io::Problem>& problems);
 
 Command fit_command(CLI::App& app, CommonOptions& common);
 Command simulate_command(CLI::App& app, CommonOptions& common);

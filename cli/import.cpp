@@ -273,7 +273,7 @@ Command import_command(CLI::App& app, CommonOptions& common) {
       ->check(above_zero());
   parser->add_option("--gauge-length-mm", arguments->gauge_length_mm, "instead of the file's")
       ->check(above_zero());
-  return {parser, [arguments, &common] { return run_import(*arguments, common); }};
+  return {parser, [arguments, &common] { return run_import(*arguments, common); }, true};
 }
 
 }  // namespace havers::cli

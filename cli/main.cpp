@@ -6,11 +6,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -21,6 +23,7 @@
 #include "cli/version.hpp"
 #include "io/config/nearest.hpp"
 #include "io/input_error.hpp"
+#include "io/results/result_files.hpp"
 #include "sim/memory.hpp"
 
 namespace havers::cli {
@@ -93,6 +96,10 @@ int run(const Command& command, const CommonOptions& common) {
   } catch (const io::InputError& error) {
     for (const io::Problem& problem : error.problems())
       fmt::print(stderr, "havers: {}\n", io::to_string(problem));
+    if (common.json && !command.shows_problems)
+      fmt::print("{}", io::json_text({{"status", "refused"},
+                                      {"trusted", false},
+                                      {"problems", json_of(error.problems())}}));
   } catch (const std::filesystem::filesystem_error& error) {
     fmt::print(stderr, "havers: {}: {}\n", error.path1().string(), error.code().message());
   } catch (const std::bad_alloc&) {
@@ -151,7 +158,9 @@ int when_printed(int exit_code) {
 
 int main(int argc, char** argv) {
   havers::sim::keep_freed_memory();
-  gsl_set_error_handler_off();  // an inverse that is not found is NaN and said, no abort
+  std::signal(SIGCHLD, SIG_DFL);  // a parent that ignores it would hide how gnuplot ended
+  std::signal(SIGXFSZ, SIG_IGN);  // a file too large is then said, as a full disk is
+  gsl_set_error_handler_off();    // an inverse that is not found is NaN and said, no abort
   try {
     return havers::cli::when_printed(havers::cli::program(argc, argv));
   } catch (...) {  // not even the command line could be read: out of memory

@@ -34,12 +34,16 @@ std::set<std::string> names_of_runs(const fs::path& folder) {
   return names;
 }
 
-fs::path without_trailing_slash(const fs::path& path) {
-  const fs::path full = fs::absolute(path).lexically_normal();
+// As the kernel takes it: `..` behind a link is above what that leads to.
+fs::path resolved(const fs::path& path) {
+  const fs::path full = fs::weakly_canonical(fs::absolute(path));
   return full.has_filename() ? full : full.parent_path();
 }
 
-void write_names(const fs::path& folder, const std::set<std::string>& names) {
+// A name with a line break would be read as two, and be another file's.
+void write_names(const fs::path& folder, std::set<std::string> names) {
+  std::erase_if(names,
+                [](const std::string& name) { return name.find('\n') != std::string::npos; });
   io::write_file(folder / own_names, fmt::format("{}\n", fmt::join(names, "\n")));
 }
 
@@ -118,14 +122,15 @@ void take_note(const fs::path& folder, const std::string& name) {
   if (names.insert(name).second) write_names(folder, names);
 }
 
-std::string name_of_its_own(const std::string& name, std::set<std::string>& used) {
+std::string name_of_its_own(std::string name, std::set<std::string>& used) {
+  std::ranges::replace(name, '\n', ' ');
   std::string own = name;
   for (int number = 2; !used.insert(own).second; ++number) own = fmt::format("{}_{}", name, number);
   return own;
 }
 
 OutputFolder::OutputFolder(const fs::path& folder, bool force)
-    : folder_(without_trailing_slash(folder)),
+    : folder_(resolved(folder)),
       staging_(fs::exists(folder_) ? folder_ / staging_name : staging_beside(folder_)),
       made_(missing_above(staging_)) {
   refuse_to_overwrite(folder_, force);

@@ -11,8 +11,9 @@ namespace havers::cli {
 /// That havers has put a file of that name into the folder: a later run may replace it.
 void take_note(const std::filesystem::path& folder, const std::string& name);
 
-/// `name`, or with the first number from 2 on that is not in `used` yet; it is then.
-std::string name_of_its_own(const std::string& name, std::set<std::string>& used);
+/// `name` without line breaks, or with the first number from 2 on that is not in `used` yet; it is
+/// then.
+std::string name_of_its_own(std::string name, std::set<std::string>& used);
 
 /// Files are written into a staging folder beside the target, or in it where it is there already
 /// and may be a disk of its own, and moved by `publish`; whatever was not published is removed

@@ -256,7 +256,7 @@ Command porosity_command(CLI::App& app, CommonOptions& common) {
   parser->add_option("--fibre-height-um", arguments->fibre_height_um, "of that window")
       ->check(above_zero())
       ->capture_default_str();
-  return {parser, [arguments, &common] { return run_porosity(*arguments, common); }};
+  return {parser, [arguments, &common] { return run_porosity(*arguments, common); }, true};
 }
 
 }  // namespace havers::cli

@@ -9,7 +9,8 @@ namespace havers::cli {
 
 Digests digests_of(const std::vector<std::filesystem::path>& inputs) {
   Digests digests;
-  for (const auto& file : inputs) digests[file.string()] = io::sha256(file);
+  for (const auto& file : inputs)  // what came through a pipe is gone
+    digests[file.string()] = std::filesystem::is_regular_file(file) ? io::sha256(file) : "not kept";
   return digests;
 }
 

@@ -52,6 +52,9 @@ std::vector<Done> read_all(const SweepArguments& arguments, const CommonOptions&
     if (!stems.insert(file.stem().string()).second)
       problems.push_back({file.string(), "has the file name of another sweep or of a result",
                           "rename one: its results are in a folder of that name"});
+    if (file.stem().string().find('\n') != std::string::npos)
+      problems.push_back({file.string(), "has a line break in its name",
+                          "rename it: its results are in a folder of that name"});
     try {
       io::SweepFile read = io::read_sweep(file, common.set, common.seed);
       for (const std::string& warning : read.warnings)
@@ -101,6 +104,7 @@ nlohmann::json json_of_all(const std::vector<Done>& all, const calib::Provenance
           {"simulated", totals.simulated},
           {"failed_simulations", totals.failed},
           {"unbroken_simulations", totals.unbroken},
+          {"simulations_with_reservation", totals.reserved},
           {"wall_s", provenance.wall_seconds},
           {"sweeps", sweeps},
           {"provenance", io::provenance_object(provenance)}};
@@ -154,10 +158,13 @@ std::string place_of(const calib::Finding& finding) {
 }
 
 void print_summary(const std::vector<Done>& all, double wall_seconds) {
-  const auto [trusted, runs, failed, unbroken, simulated] = totals_of(all);
+  const auto [trusted, runs, failed, unbroken, reserved, simulated] = totals_of(all);
   fmt::print("{}: {}, {} failed, {} did not break; {} of them simulated now, in {:.3g} s\n",
              trusted ? "to be trusted" : "NOT to be trusted: too many runs failed or did not break",
              calib::count(runs, "run"), failed, unbroken, simulated, wall_seconds);
+  for (const Done& one : all)
+    if (const std::string& why = one.result.most_reserved_because; !why.empty())
+      fmt::print("but for in {}: {}\n", one.stem, why);
   for (const Done& one : all)
     for (const calib::Finding& finding : one.result.findings)
       fmt::print("{:<6}{:<12}{}{}; {}  {}\n", finding.id, calib::to_string(finding.outcome),

@@ -126,7 +126,7 @@ double Simulation::strength_without_ringing() const {
   return strength / (1.0 + ringing);
 }
 
-std::string Simulation::reservation() const {
+std::string Simulation::reservation(bool without_ringing) const {
   constexpr double worth_saying = 0.01;
   std::vector<std::string> reservations;
   if (!step_error)
@@ -135,7 +135,7 @@ std::string Simulation::reservation() const {
   if (!step_error && numerical_loss >= worth_saying)
     reservations.push_back(
         fmt::format("steps took {:.0f} % of all energy", 100.0 * numerical_loss));
-  if (ringing >= worth_saying)
+  if (!without_ringing && ringing >= worth_saying)
     reservations.push_back(
         fmt::format("the strength: waves that ring, which steps and meshes change, raise it by "
                     "{:.2g} %, from {:.4g} MPa, its mean over the period of the longest and what "

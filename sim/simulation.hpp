@@ -147,9 +147,10 @@ struct Simulation {
   /// specimen less than twice while it is measured.
   [[nodiscard]] bool has_modulus_of_a_shock() const { return crossings < 2.0; }
   /// What a trusted run is to be trusted but for: a time step that was given, whose error nobody
-  /// knows; waves in the strength. Nouns with what is to be said of them, semicolons between; empty
-  /// where there is nothing.
-  [[nodiscard]] std::string reservation() const;
+  /// knows; waves in the strength, where that is not taken `strength_without_ringing`, or in the
+  /// modulus. Nouns with what is to be said of them, semicolons between; empty where there is
+  /// nothing.
+  [[nodiscard]] std::string reservation(bool without_ringing = false) const;
   /// The step error, where that is more than was asked for; else 0.
   [[nodiscard]] StepError error_beyond_accuracy() const;
 };

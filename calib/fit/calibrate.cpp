@@ -22,12 +22,12 @@ constexpr int most_rounds = 8;
 constexpr double close_enough = 0.02;
 
 // (F6) Of every specimen of the study.
-std::vector<Landmarks> scatter_errors(Trail& trail, const Evaluation& at) {
+std::vector<Landmarks> porosity_errors(Trail& trail, const Evaluation& at) {
   const FitProblem& problem = trail.problem();
   std::vector<Landmarks> errors(problem.models.size(), Landmarks(Landmarks::Zero()));
   for (std::size_t f = 0; f < problem.fitted.size(); ++f)
     errors[problem.fitted[f]] =
-        scatter_error(problem, trail.batch(), at.point, problem.fitted[f], at.predictions[f]);
+        porosity_error(problem, trail.batch(), at.point, problem.fitted[f], at.predictions[f]);
   return errors;
 }
 
@@ -40,7 +40,7 @@ bool find_a_start(Trail& trail, int replicates) {
               {start_point(problem.unknowns), middle_point(problem.unknowns)}, trail.replicates());
   for (const auto& evaluation : both) {
     if (evaluation.failed) continue;
-    trail.restart(weigh(problem, evaluation, scatter_errors(trail, evaluation), Landmarks::Zero()),
+    trail.restart(weigh(problem, evaluation, porosity_errors(trail, evaluation), Landmarks::Zero()),
                   evaluation);
     return true;
   }
@@ -80,7 +80,7 @@ void search(Trail& trail, const Active& active, bool polish, Answer& answer) {
 // With the scatters' errors as they count at the best point.
 void reweigh(Trail& trail, const Landmarks& effect) {
   const Evaluation best = trail.best();
-  trail.restart(weigh(trail.problem(), best, scatter_errors(trail, best), effect), best);
+  trail.restart(weigh(trail.problem(), best, porosity_errors(trail, best), effect), best);
 }
 
 // By the slopes at the best point; none where these fail.
@@ -228,6 +228,8 @@ CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
   result.simulated = batch.simulated();
   result.failed_simulations = batch.failed();
   result.most_failed_because = batch.most_failed_because();
+  result.reserved_simulations = batch.reserved();
+  result.most_reserved_because = batch.most_reserved_because();
   result.distinct_simulations = batch.distinct();
   result.verdict = verdict_of(problem, answer, result);
   return result;

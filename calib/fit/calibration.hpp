@@ -110,6 +110,11 @@ struct SpecimenResult {
   std::vector<Influence> influence{};  ///< Of this specimen on each fitted parameter.
   CurveBand band{};
   int failed_simulations = 0;
+
+  /// Of the replicates: how many have an answer, and how many of these did not break.
+  [[nodiscard]] long usable() const;
+  [[nodiscard]] long unbroken() const;
+  [[nodiscard]] bool mostly_unbroken() const { return 2 * unbroken() > usable(); }
 };
 
 enum class Outcome { pass, warn, fail };
@@ -200,8 +205,10 @@ struct CalibrationResult {
   long evaluations = 0;  ///< Simulations asked for.
   long simulated = 0;    ///< Of these, run and not found in the store.
   long failed_simulations = 0;
-  std::string most_failed_because{};  ///< Empty where none failed.
-  long distinct_simulations = 0;      ///< Different ones among those asked for.
+  std::string most_failed_because{};    ///< Empty where none failed.
+  long reserved_simulations = 0;        ///< To be trusted but for what they say.
+  std::string most_reserved_because{};  ///< Empty where there is none.
+  long distinct_simulations = 0;        ///< Different ones among those asked for.
 
   /// Status good and no check failed.
   [[nodiscard]] bool trusted() const;

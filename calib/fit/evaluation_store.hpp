@@ -9,11 +9,11 @@ namespace havers::calib {
 
 /// What a calibration keeps of a simulation.
 struct Response {
-  bool failed = true;  ///< No usable answer; `why` says why.
-  bool broke = false;  ///< false: the strain limit came first, the strength is a lower bound.
-  std::string why;
-  double modulus = 0.0;         ///< 0 where it is not known (a shock's). [Pa]
-  double strength = 0.0;        ///< In time without waves that ring, as a machine sees it. [Pa]
+  bool failed = true;     ///< No usable answer.
+  bool broke = false;     ///< false: the strain limit came first, the strength is a lower bound.
+  std::string why;        ///< It failed; else what it is to be trusted but for, if anything.
+  double modulus = 0.0;   ///< 0 where it is not known (a shock's). [Pa]
+  double strength = 0.0;  ///< In time without waves that ring, as a machine sees it. [Pa]
   double failure_strain = 0.0;  ///< [-]
   std::vector<double> strain;   ///< Curve. [-]
   std::vector<double> stress;   ///< Curve. [Pa]

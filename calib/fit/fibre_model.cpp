@@ -25,7 +25,8 @@ std::optional<Response> response_of(const sim::Simulation& run) {
   response.broke = run.status == sim::SimulationStatus::broken;
   response.why = severed ? sim::explain(run.status) +
                                "; with fewer of them or more fibres a chain is left that bears"
-                         : run.why_not_trusted();
+                 : response.failed ? run.why_not_trusted()
+                                   : run.reservation(true);
   response.modulus = run.has_modulus_of_a_shock() ? 0.0 : run.modulus;
   response.strength = run.strength_without_ringing();
   response.failure_strain = run.failure_strain;

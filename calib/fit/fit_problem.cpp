@@ -183,19 +183,26 @@ std::set<double> one_sided_orientations(const FitProblem& problem, const Evaluat
   return orientations;
 }
 
-Landmarks scatter_error(const FitProblem& problem, SimulationBatch& batch, const Point& point,
-                        std::size_t specimen, const Prediction& here) {
-  const double error = model_at(problem, point, specimen).scatter_standard_error;
-  if (!(error > 0.0) || searched(problem, "scatter") || !problem.targets[specimen].usable)
-    return Landmarks::Zero();
-  sim::Scene scene = scene_at(problem, point, specimen);
-  const double step = scene.joints.scatter < 1.0 ? scatter_step : -scatter_step;
-  scene.joints.scatter += step;
-  const auto moved =
-      summarise(batch.run(replicates_of(problem.study.specimens[specimen], seed_at(problem, point),
-                                        scene, static_cast<int>(here.replicates.size()))));
-  if (moved.failed_point()) return Landmarks::Zero();
-  return error * ((moved.mean - here.mean) / step).abs();
+Landmarks porosity_error(const FitProblem& problem, SimulationBatch& batch, const Point& point,
+                         std::size_t specimen, const Prediction& here) {
+  Landmarks variance = Landmarks::Zero();
+  if (!problem.targets[specimen].usable) return variance;
+  const SpecimenModel model = model_at(problem, point, specimen);
+  const auto add = [&](double error, double sim::JointOptions::*number, double step) {
+    sim::Scene scene = scene_at(problem, point, specimen);
+    scene.joints.*number += step;
+    const auto moved = summarise(
+        batch.run(replicates_of(problem.study.specimens[specimen], seed_at(problem, point), scene,
+                                static_cast<int>(here.replicates.size()))));
+    if (!moved.failed_point()) variance += (error * (moved.mean - here.mean) / step).square();
+  };
+  variance[modulus] = std::pow(model.modulus_standard_error, 2);
+  if (model.scatter_standard_error > 0.0 && !searched(problem, "scatter"))
+    add(model.scatter_standard_error, &sim::JointOptions::scatter,
+        scene_at(problem, point, specimen).joints.scatter < 1.0 ? scatter_step : -scatter_step);
+  if (const double error = model.missing_standard_error; error > 0.0)
+    add(error, &sim::JointOptions::missing, model.scene.joints.missing < 0.5 ? error : -error);
+  return variance.sqrt();
 }
 
 Landmarks variance_if_alike(const Weights& weights, std::size_t specimen) {
@@ -215,9 +222,9 @@ Weights weigh(const FitProblem& problem, const Evaluation& at, std::vector<Landm
       .replicates = zero, .scatter = std::move(scatter), .specimen = specimen, .sd = zero};
   std::vector<Replicated> replicated;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f)
-    replicated.push_back({.orientation = problem.study.specimens[problem.fitted[f]].orientation,
-                          .scatter = scene_at(problem, at.point, problem.fitted[f]).joints.scatter,
-                          .prediction = &at.predictions[f]});
+    replicated.push_back(replicated_of(problem.study.specimens[problem.fitted[f]].orientation,
+                                       scene_at(problem, at.point, problem.fitted[f]).joints,
+                                       at.predictions[f]));
   const auto spread = replicate_spread(replicated);
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];

@@ -98,14 +98,15 @@ Landmarks residuals_told(const FitProblem& problem, const Evaluation& at);
 /// ones, which no check may take for all. [rad]
 std::set<double> one_sided_orientations(const FitProblem& problem, const Evaluation& at);
 
-/// How much the standard error of its scatter moves a specimen (F6), by simulation at another
-/// scatter; zero where the scatter is searched or known exactly.
+/// How much the standard errors of what its porosity makes (its scatter, where that is not
+/// searched, or its missing joints, and the factor on its modulus) move a specimen (F6), by
+/// simulation at other ones; zero where they are known exactly.
 /// @param here  what is simulated at the point
-Landmarks scatter_error(const FitProblem& problem, SimulationBatch& batch, const Point& point,
-                        std::size_t specimen, const Prediction& here);
+Landmarks porosity_error(const FitProblem& problem, SimulationBatch& batch, const Point& point,
+                         std::size_t specimen, const Prediction& here);
 
 /// The weights (F6), with the replicates' spread at a point.
-/// @param scatter   of each specimen of the study, from `scatter_error`.
+/// @param scatter   of each specimen of the study, from `porosity_error`.
 /// @param specimen  sd between specimens, from `specimen_effect`.
 Weights weigh(const FitProblem& problem, const Evaluation& at, std::vector<Landmarks> scatter,
               const Landmarks& specimen);

@@ -77,7 +77,7 @@ std::optional<double> chance(const FitProblem& problem, const Answer& answer, Ei
   Eigen::VectorXd residuals = answer.best.residuals;
   Eigen::MatrixXd jacobian(residuals.size(), 0);
   if (!answer.slopes.failed)
-    jacobian = free_columns(problem, answer.best.point, answer.active, answer.slopes.jacobian);
+    jacobian = free_columns(problem, answer.best.point, answer.active, answer.asked_slopes);
   for (const auto& [orientation, group] : groups)
     for (std::size_t i = 0; i < group.rows.size(); ++i) {
       const double before = group.variance[i] + std::pow(answer.weights.specimen[q], 2);
@@ -131,36 +131,6 @@ std::string strength_off(const FitProblem& problem, const Answer& answer, double
       chance_text(p));
 }
 
-// Standard deviations that a specimen kept for validation may be off. [-]
-constexpr double largest_off = 3.0;
-
-// Strengths of replicates, and with them failure strains, may have a long tail, and one of them be
-// as far from their mean.
-bool is_among_replicates(const SpecimenResult& specimen, double ReplicateResult::*number,
-                         double measured) {
-  const auto some = [&](auto compare) {
-    return std::ranges::any_of(specimen.replicates, [&](const ReplicateResult& one) {
-      return !one.failed && compare(one.*number, measured);
-    });
-  };
-  return some(std::less_equal{}) && some(std::greater_equal{});
-}
-
-// (F24) What is left out may explain it, and excuses nothing: the model that is handed over has the
-// value with which it does not predict.
-std::string prediction_off(const std::vector<std::string>& off,
-                           const std::vector<std::string>& left_out) {
-  const auto why = left_out.empty()
-                       ? std::string("The parameters do not carry over to them.")
-                       : fmt::format(
-                             "The model as it is fitted does not predict them, probably "
-                             "because what is left out ({}) has another value than it is "
-                             "given; fitted too (use = \"fit\"), they may tell it.",
-                             fmt::join(left_out, ", "));
-  return fmt::format("Held-out specimens are off by more than three standard deviations: {}. {}",
-                     fmt::join(off, ", "), why);
-}
-
 }  // namespace
 
 bool is_fitted(const FitProblem& problem, const Answer& answer, std::string_view parameter) {
@@ -184,18 +154,20 @@ std::string chance_text(double p) {
 }
 
 Check check_brittle(const FitProblem& problem, const Answer& answer) {
-  if (answer.best.predictions.empty()) return nothing_compared("brittle");
+  if (answer.best.failed || answer.best.predictions.empty()) return nothing_compared("brittle");
   double measured = 0.0, simulated = 0.0, variance = 0.0;
   double n = 0.0;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
-    const auto& target = problem.targets[problem.fitted[f]];
-    if (target.censored) continue;
+    const std::size_t s = problem.fitted[f];
+    const Target& target = problem.targets[s];
+    if (target.censored || answer.best.predictions[f].censored) continue;
     ++n;
     measured += target.value[linearity];
     simulated += answer.best.predictions[f].mean[linearity];
-    variance += std::pow(target.noise[linearity], 2);
+    variance += answer.weights.sd.empty() ? std::pow(target.noise[linearity], 2)
+                                          : variance_if_alike(answer.weights, s)[linearity];
   }
-  if (n == 0.0) return not_checked("brittle", "no test broke.");
+  if (n == 0.0) return not_checked("brittle", "no test broke, or no simulation.");
   const double gap = (measured - simulated) / n, error = std::sqrt(variance) / n;
   const double part = std::exp(gap);
   const std::string numbers = fmt::format(
@@ -244,50 +216,6 @@ Check check_orientations(const FitProblem& problem, const Answer& answer) {
   return {name, Outcome::pass,
           fmt::format("Residuals do not differ between orientations (modulus: {}, strength: {}).",
                       words(stiffness), words(breaking))};
-}
-
-Check check_validation(const CalibrationResult& result, const std::vector<std::string>& left_out) {
-  constexpr const char* name = "held-out specimens";
-  int held_out = 0;
-  std::vector<std::string> off, unknown;
-  for (const auto& specimen : result.specimens) {
-    if (specimen.use != Use::validate) continue;
-    ++held_out;
-    double worst = std::nan("");
-    std::array<double, 3> residual = specimen.residual;
-    const auto excuse = [&](double& one, double ReplicateResult::*number, double measured) {
-      if (is_among_replicates(specimen, number, measured))
-        one = std::clamp(one, -largest_off, largest_off);
-    };
-    excuse(residual[1], &ReplicateResult::strength, specimen.measured.strength);
-    excuse(residual[2], &ReplicateResult::failure_strain, specimen.measured.failure_strain);
-    for (const double one : residual) worst = std::fmax(worst, std::abs(one));
-    if (std::isnan(worst)) unknown.push_back(specimen.id);
-    if (worst > largest_off) off.push_back(fmt::format("{} ({:.1f})", specimen.id, worst));
-  }
-  if (held_out == 0) return not_checked(name, "none was kept for validation (use = \"validate\").");
-  if (off.empty() && unknown.empty())
-    return {name, Outcome::pass,
-            fmt::format("{} {} within three standard deviations of the prediction.",
-                        count(held_out, "held-out specimen"), held_out == 1 ? "lies" : "lie")};
-  std::vector<std::string> sentences;
-  if (!off.empty()) sentences.push_back(prediction_off(off, left_out));
-  if (!unknown.empty())
-    sentences.push_back(
-        fmt::format("Nothing can be compared of held-out specimens whose simulations failed or "
-                    "whose tests tell too little: {}.",
-                    fmt::join(unknown, ", ")));
-  return {name, Outcome::fail, fmt::format("{}", fmt::join(sentences, " "))};
-}
-
-Check check_censored(const FitProblem& problem, const Answer& answer) {
-  const auto censored = std::ranges::count_if(answer.best.predictions, &Prediction::censored);
-  if (censored == 0)
-    return {"simulations break", Outcome::pass, "Every specimen's simulations break."};
-  return {"simulations break", Outcome::fail,
-          fmt::format("{} of {} {} not break in the simulations: raise model.loading.max_strain.",
-                      censored, count(problem.fitted.size(), "specimen"),
-                      censored == 1 ? "does" : "do")};
 }
 
 }  // namespace havers::calib

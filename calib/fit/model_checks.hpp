@@ -38,6 +38,6 @@ Check check_specimen_spread(const FitProblem& problem, const Answer& answer);
 Check check_validation(const CalibrationResult& result, const std::vector<std::string>& left_out);
 
 /// The simulations break, so that there is a strength to compare.
-Check check_censored(const FitProblem& problem, const Answer& answer);
+Check check_censored(const CalibrationResult& result);
 
 }  // namespace havers::calib

@@ -1,6 +1,7 @@
 #include "calib/fit/parameter_checks.hpp"
 
 #include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -91,6 +92,37 @@ std::optional<double> steepening(const MeasuredTest& test) {
   }
   if (stress.size() < rows_that_tell || !(test.modulus > 0.0)) return std::nullopt;
   return fit_plain_line(strain, stress).slope / test.modulus - 1.0;
+}
+
+/// That of the tests that share a modulus.
+struct Toes {
+  std::string parameter;
+  int tests = 0;
+  double mean = 0.0, error = 0.0;  // [-]
+  double known_to = 0.0;           // half width of the modulus's interval [-]
+
+  // Three standard errors; more where few tests tell these.
+  [[nodiscard]] bool plain() const {
+    const double certain = std::max(3.0, gsl_cdf_tdist_Qinv(significance, tests - 1.0));
+    return mean >= certain * error && mean >= known_to;
+  }
+};
+
+Toes toes_of(const FitProblem& problem, const Unknown& modulus_of, double known_to) {
+  Toes toes{.parameter = modulus_of.label, .known_to = known_to};
+  double sum = 0.0, squares = 0.0;
+  for (const std::size_t s : problem.fitted) {
+    if (std::ranges::find(modulus_of.specimens, s) == modulus_of.specimens.end()) continue;
+    const auto part = steepening(problem.study.specimens[s].test);
+    if (!part) continue;
+    ++toes.tests;
+    sum += *part;
+    squares += *part * *part;
+  }
+  const auto n = static_cast<double>(toes.tests);
+  toes.mean = sum / n;
+  toes.error = std::sqrt((squares / n - toes.mean * toes.mean) / (n - 1.0));
+  return toes;
 }
 
 }  // namespace
@@ -201,32 +233,27 @@ Check check_broke(const FitProblem& problem, const Answer& answer) {
 // (F28) What no single test shows may be plain in all: each window is straight within its noise.
 Check check_toe(const FitProblem& problem, const Answer& answer) {
   constexpr const char* name = "modulus clear of toes";
-  constexpr double certain = 3.0;  // standard errors
-  const auto found = std::ranges::find_if(
-      answer.active, [&](Eigen::Index k) { return problem.unknown(k).info->name == "young_GPa"; });
-  if (found == answer.active.end() || answer.uncertainty.half_width.size() == 0)
-    return not_checked(name, "young_GPa has no interval.");
-  double n = 0.0, sum = 0.0, squares = 0.0;
-  for (const std::size_t s : problem.fitted)
-    if (const auto part = steepening(problem.study.specimens[s].test)) {
-      ++n;
-      sum += *part;
-      squares += *part * *part;
-    }
-  if (n < 3.0) return not_checked(name, "it takes three tests with rows enough.");
-  const double mean = sum / n, error = std::sqrt((squares / n - mean * mean) / (n - 1.0));
-  const double known_to = answer.uncertainty.half_width[found - answer.active.begin()];
-  if (mean < certain * error || mean < known_to)
+  std::vector<Toes> groups;
+  for (Eigen::Index i = 0; i < answer.uncertainty.half_width.size(); ++i)
+    if (const Unknown& unknown = problem.unknown(answer.active[static_cast<std::size_t>(i)]);
+        unknown.info->name == "young_GPa")
+      groups.push_back(toes_of(problem, unknown, answer.uncertainty.half_width[i]));
+  if (groups.empty()) return not_checked(name, "young_GPa has no interval.");
+  std::erase_if(groups, [](const Toes& one) { return one.tests < 3; });
+  if (groups.empty()) return not_checked(name, "it takes three tests with rows enough.");
+  const auto plain = std::ranges::find_if(groups, &Toes::plain);
+  if (plain == groups.end())
     return {name, Outcome::pass,
             "Above the windows of the moduli curves are no steeper than the interval of young_GPa "
             "allows."};
   return {
       name, Outcome::warn,
       fmt::format("Above the windows of the moduli curves are steeper by {} ± {} on average, as "
-                  "after toes that no single test shows: young_GPa is too low by about as much, "
+                  "after toes that no single test shows: {} is too low by about as much, "
                   "and its interval, ± {}, does not contain that. Raise reduction.window_low "
                   "and window_high.",
-                  percent_text(mean), percent_text(error), percent_text(known_to))};
+                  percent_text(plain->mean), percent_text(plain->error), plain->parameter,
+                  percent_text(plain->known_to))};
 }
 
 Check check_strain(const FitProblem& problem, const Answer& answer) {

@@ -17,6 +17,13 @@ bool counts(const Replicated& specimen) {
 
 }  // namespace
 
+Replicated replicated_of(double orientation, const sim::JointOptions& joints,
+                         const Prediction& prediction) {
+  return {.orientation = orientation,
+          .scatter = joints.missing > 0.0 ? 0.0 : joints.scatter,
+          .prediction = &prediction};
+}
+
 std::vector<Landmarks> replicate_spread(const std::vector<Replicated>& specimens) {
   std::map<double, Pool> pools;
   for (const Replicated& specimen : specimens) {

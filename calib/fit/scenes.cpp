@@ -30,17 +30,21 @@ SpecimenModel model_of(const Study& study, std::size_t s, const PorosityOptions&
   const SpecimenPorosity porosity = porosity_of(specimen);
   model.porosity = porosity.porosity;
   if (!std::isfinite(porosity.porosity)) return model;
+  const auto known = [](double error) { return std::isfinite(error) ? error : 0.0; };
   model.modulus_factor = modulus_factor(porosity, laws);
+  if (laws.to_modulus == ToModulus::power)  // (K4)
+    model.modulus_standard_error =
+        known(laws.modulus_exponent * porosity.porosity_standard_error / (1.0 - porosity.porosity));
   const double scatter = scatter_of(porosity, laws);
-  model.scatter_told = std::isfinite(scatter);
-  if (!model.scatter_told) return model;  // the study's model has one
+  if (!std::isfinite(scatter)) return model;  // the study's model has one
   if (laws.to_scatter == ToScatter::window && removes_joints(porosity)) {
-    model.scene.joints.missing = missing_joints(porosity);
-  } else {
-    model.scene.joints.scatter = scatter;
-    const double error = scatter_standard_error(porosity, laws);
-    model.scatter_standard_error = std::isfinite(error) ? error : 0.0;
+    model.scene.joints.missing = porosity.porosity;
+    model.missing_standard_error = known(porosity.porosity_standard_error);
+    return model;
   }
+  model.scatter_told = true;
+  model.scene.joints.scatter = scatter;
+  model.scatter_standard_error = known(scatter_standard_error(porosity, laws));
   return model;
 }
 

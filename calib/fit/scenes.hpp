@@ -16,6 +16,8 @@ struct SpecimenModel {
   bool scatter_told = false;    ///< By its porosity; otherwise it is that of the study's model.
   double modulus_factor = 1.0;  ///< On young_GPa, by porosity (K4). [-]
   double scatter_standard_error = 0.0;  ///< Of the scatter that the sections give (K3). [-]
+  double missing_standard_error = 0.0;  ///< Of the part of joints that is missing (K5). [-]
+  double modulus_standard_error = 0.0;  ///< Of `modulus_factor`, relative. [-]
 };
 
 /// Porosity, scatter or missing joints (K5), rate and orientation of specimen `s` set in the

@@ -100,10 +100,15 @@ std::vector<Response> SimulationBatch::run(const std::vector<sim::Scene>& scenes
   return answers;
 }
 
-std::string SimulationBatch::most_failed_because() const {
+long SimulationBatch::reserved() const {
+  return std::ranges::count_if(
+      memory_, [](const auto& kept) { return !kept.second.failed && !kept.second.why.empty(); });
+}
+
+std::string SimulationBatch::most_frequent_why(bool failed) const {
   std::map<std::string, long> reasons;
   for (const auto& [key, response] : memory_)
-    if (response.failed) ++reasons[response.why];
+    if (response.failed == failed && !response.why.empty()) ++reasons[response.why];
   const auto most =
       std::ranges::max_element(reasons, {}, [](const auto& one) { return one.second; });
   return most == reasons.end() ? "" : most->first;

@@ -45,7 +45,10 @@ class SimulationBatch {
   [[nodiscard]] long simulated() const { return simulated_; }
   [[nodiscard]] long failed() const { return failed_; }  ///< Of the distinct ones.
   /// Why most of them failed; empty where none did.
-  [[nodiscard]] std::string most_failed_because() const;
+  [[nodiscard]] std::string most_failed_because() const { return most_frequent_why(true); }
+  [[nodiscard]] long reserved() const;  ///< Of the distinct ones: to be trusted but for something.
+  /// What most of these are to be trusted but for; empty where there is nothing.
+  [[nodiscard]] std::string most_reserved_because() const { return most_frequent_why(false); }
   [[nodiscard]] long distinct() const { return static_cast<long>(memory_.size()); }
   /// Whether scenes that differ in E and σ₁ alone were one simulation (F3).
   [[nodiscard]] bool scaled() const { return scaled_; }
@@ -54,6 +57,7 @@ class SimulationBatch {
  private:
   struct Work;
   void settle(std::vector<Work>& work);
+  [[nodiscard]] std::string most_frequent_why(bool failed) const;
 
   Simulator simulator_;
   EvaluationStore* store_;

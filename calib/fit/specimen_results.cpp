@@ -123,9 +123,9 @@ std::vector<Landmarks> spread_of(const FitProblem& problem, const std::vector<Si
   for (std::size_t s = 0; s < all.size(); ++s) {
     // A specimen that is not fitted changes nothing of the others: its spread is its own.
     const bool fitted = std::ranges::find(problem.fitted, s) != problem.fitted.end();
-    replicated.push_back({.orientation = problem.study.specimens[s].orientation,
-                          .scatter = fitted ? all[s].scenes.front().joints.scatter : 0.0,
-                          .prediction = &all[s].prediction});
+    Replicated& one = replicated.emplace_back(replicated_of(
+        problem.study.specimens[s].orientation, all[s].scenes.front().joints, all[s].prediction));
+    if (!fitted) one.scatter = 0.0;
   }
   return replicate_spread(replicated);
 }
@@ -166,7 +166,7 @@ Landmarks error_of_scatter(const FitProblem& problem, SimulationBatch& batch, co
   if (answer.weights.scatter.empty()) return Landmarks::Zero();
   return problem.study.specimens[s].use == Use::fit
              ? answer.weights.scatter[s]
-             : scatter_error(problem, batch, answer.best.point, s, here);
+             : porosity_error(problem, batch, answer.best.point, s, here);
 }
 
 void set_shares(std::vector<SpecimenResult>& specimens) {

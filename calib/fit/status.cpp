@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -13,10 +14,19 @@ std::string explain(CalibrationStatus status) {
   constexpr std::array sentences{
       "the searches stopped at a minimum",
       "the budget of simulations ended before the searches did; the best point so far is given",
-      "at no point did all replicates asked for give every specimen a usable answer",
+      "where the searches ended, the replicates asked for give some specimen no usable answer",
       "the specimens inform none of the parameters",
       "stopped by the user; the next run in the same folder goes on from here"};
   return sentences.at(static_cast<std::size_t>(status));
+}
+
+long SpecimenResult::usable() const {
+  return std::ranges::count_if(replicates, [](const auto& one) { return !one.failed; });
+}
+
+long SpecimenResult::unbroken() const {
+  return std::ranges::count_if(replicates,
+                               [](const auto& one) { return !one.failed && !one.broke; });
 }
 
 std::string to_string(Outcome outcome) {

@@ -65,16 +65,21 @@ Check check_starts(const FitProblem& problem, const Answer& answer) {
   const auto& best = ends.front();
   const auto is_low = [&](const Evaluation& end) { return end.cost <= best.cost + 0.5; };
   // What was searched along then, and is left out by now, moves the others.
-  const auto is_elsewhere = [&](const Evaluation& end) {
+  const auto& half = answer.uncertainty.half_width;
+  const auto is_compared = [&](const Evaluation& end) {
     const auto moved = [&](const LeftUnknown& one) {
       return end.point[one.unknown] != best.point[one.unknown];
     };
-    const auto& half = answer.uncertainty.half_width;
-    if (!is_low(end) || half.size() == 0 || std::ranges::any_of(answer.left, moved)) return false;
+    return half.size() > 0 && std::ranges::none_of(answer.left, moved);
+  };
+  const auto is_elsewhere = [&](const Evaluation& end) {
+    if (!is_low(end) || !is_compared(end)) return false;
     const Eigen::ArrayXd apart = (end.point - best.point)(answer.active).array().abs();
     return (apart > 2.0 * half.array() + 0.02).any();
   };
   const auto same_cost = std::ranges::count_if(ends, is_low);
+  const bool compared =
+      std::ranges::all_of(ends, [&](const auto& end) { return !is_low(end) || is_compared(end); });
   const auto elsewhere = std::ranges::count_if(ends, is_elsewhere);
   if (elsewhere > 0)
     return {"starts agree", Outcome::fail,
@@ -87,7 +92,8 @@ Check check_starts(const FitProblem& problem, const Answer& answer) {
                 "Only one of {} starts reached the lowest cost; the next stopped {:.2g} above it.",
                 ends.size(), ends[1].cost - best.cost)};
   return {"starts agree", Outcome::pass,
-          fmt::format("{} of {} starts came to the same point.", same_cost, ends.size())};
+          fmt::format("{} of {} starts came to the same {}.", same_cost, ends.size(),
+                      compared ? "point" : "cost")};
 }
 
 // Where there is no answer, nothing of it passes.
@@ -109,19 +115,46 @@ std::vector<std::string> missed(const FitProblem& problem, const Answer& answer)
   return labels;
 }
 
-Check check_failures(const CalibrationResult& result) {
-  const long failed = result.failed_simulations, distinct = result.distinct_simulations;
-  const std::string text = fmt::format("{} of {} different simulations failed", failed, distinct);
-  if (failed == 0) return {"simulations", Outcome::pass, text + "."};
-  const double share = static_cast<double>(failed) / static_cast<double>(distinct);
-  if (share <= 0.05)
-    return {"simulations", Outcome::pass,
-            text + "; the replicates that answered stand in for them."};
-  return {
-      "simulations", share <= 0.2 ? Outcome::warn : Outcome::fail,
-      fmt::format("{}, most often so: {}. None would within calibrate.bounds that keep to where "
-                  "the model can be simulated.",
-                  text, result.most_failed_because)};
+// Those of which more than a quarter of the replicates at the answer failed: the others are no fair
+// sample of their strengths.
+std::vector<std::string> often_failed(const CalibrationResult& result) {
+  std::vector<std::string> ids;
+  for (const SpecimenResult& specimen : result.specimens)
+    if (4 * specimen.failed_simulations > static_cast<int>(specimen.replicates.size()))
+      ids.push_back(specimen.id);
+  return ids;
+}
+
+Check check_simulations(const CalibrationResult& result) {
+  constexpr const char* name = "simulations";
+  const auto share = [&](long some) {
+    return some == 0 ? 0.0
+                     : static_cast<double>(some) / static_cast<double>(result.distinct_simulations);
+  };
+  const double failed = share(result.failed_simulations);
+  const std::vector<std::string> often = often_failed(result);
+  const std::string text = fmt::format("{} of {} different simulations failed",
+                                       result.failed_simulations, result.distinct_simulations);
+  if (failed > 0.05 || !often.empty()) {
+    const std::string& why = result.most_failed_because;
+    const bool helps = why.find(';') != std::string::npos;  // what does stands behind it
+    return {name, failed <= 0.2 ? Outcome::warn : Outcome::fail,
+            fmt::format(
+                "{}{}, most often so: {}.{}", text,
+                often.empty() || failed > 0.2
+                    ? ""
+                    : fmt::format(", more than a quarter of those of {}", fmt::join(often, ", ")),
+                why,
+                helps ? ""
+                      : " None would within calibrate.bounds that keep to where the model "
+                        "can be simulated.")};
+  }
+  if (share(result.reserved_simulations) > 0.05)
+    return {name, Outcome::warn,
+            fmt::format("{}; {} are to be trusted but for a reservation, such as {}.", text,
+                        result.reserved_simulations, result.most_reserved_because)};
+  return {name, Outcome::pass,
+          text + (failed > 0.0 ? "; the replicates that answered stand in for them." : ".")};
 }
 
 }  // namespace
@@ -153,14 +186,14 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_randomness(result));
   checks.push_back(check_confirmation(problem, result));
   checks.push_back(check_validation(result, missed(problem, answer)));
-  checks.push_back(check_censored(problem, answer));
+  checks.push_back(check_censored(result));
   if (answer.best.failed)
     leave_unchecked(checks, "there is no answer.");
   else if (answer.status == CalibrationStatus::budget_spent)
     leave_all_unchecked(checks, "the budget ended before the searches did.");
   else if (answer.active.empty())
     leave_unchecked(checks, "no parameter is fitted.");
-  checks.push_back(check_failures(result));
+  checks.push_back(check_simulations(result));
   return checks;
 }
 

@@ -179,7 +179,7 @@ bool compares_nothing(const FindingRequest& request, const SweepPlan& plan,
     case FindingTest::falls:
       return pairs_of(request, plan, points, group).empty();
     case FindingTest::linear:
-      return !terms_vary({request.response, request.keys, request.per}, plan, points, group);
+      return !tries_law({request.response, request.keys, request.per}, plan, points, group);
     case FindingTest::steady:
     case FindingTest::above:
     case FindingTest::below:

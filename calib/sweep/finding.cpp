@@ -133,6 +133,27 @@ void show(const Comparison& comparison, const FindingRequest& request, Finding& 
   finding.high = std::min(finding.high, 1.0);
 }
 
+// The runs that say nothing of the response, and why; those that did not break are told apart.
+std::string without_value(const Evidence& evidence, const PointGroup& group) {
+  const Measure response = evidence.request.response;
+  long failed = 0, of_a_shock = 0;
+  for (const SweepRun& run : evidence.runs) {
+    if (std::ranges::find(group.points, run.point) == group.points.end()) continue;
+    const bool open = run.unbroken() && needs_break(response);
+    failed += run.failed ? 1 : 0;
+    of_a_shock += !run.failed && !open && std::isnan(run[response]) ? 1 : 0;
+  }
+  std::string text;
+  const auto say = [&text](long runs, const char* what) {
+    if (runs > 0)
+      text += fmt::format("; {} {} and {} not count", count(runs, "run"), what,
+                          runs == 1 ? "does" : "do");
+  };
+  say(failed, "failed");
+  say(of_a_shock, "had the modulus of a shock");
+  return text;
+}
+
 Finding judge_group(const Evidence& evidence, const PointGroup& group) {
   const FindingRequest& request = evidence.request;
   Finding finding;
@@ -151,12 +172,7 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
     finding.inertia_low = std::fmin(finding.inertia_low, inertia);
     finding.inertia_high = std::fmax(finding.inertia_high, inertia);
   }
-  const long failed = std::ranges::count_if(evidence.runs, [&](const SweepRun& run) {
-    return run.failed && std::ranges::find(group.points, run.point) != group.points.end();
-  });
-  if (failed > 0)
-    finding.ground += fmt::format("; {} failed and {} not count", count(failed, "run"),
-                                  failed == 1 ? "does" : "do");
+  finding.ground += without_value(evidence, group);
   const long unbroken = unbroken_of(evidence.runs, group.points, request.response);
   if (unbroken > 0)
     finding.ground +=

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <memory>
 #include <numeric>
+#include <set>
 
 namespace havers::calib {
 namespace {
@@ -113,14 +114,15 @@ double Law::value(const SweepPoint& point, const SweepPlan& plan) const {
   return std::inner_product(row.begin(), row.end(), coefficients.begin(), 0.0);
 }
 
-bool terms_vary(const LawRequest& request, const SweepPlan& plan,
-                const std::vector<SweepPoint>& points, const PointGroup& group) {
-  Eigen::MatrixXd x(group.points.size(), request.terms.size() + 1);
-  for (std::size_t i = 0; i < group.points.size(); ++i) {
-    const std::vector<double> row = row_of(request, plan, points[group.points[i]]);
-    x.row(static_cast<Eigen::Index>(i)) =
-        Eigen::Map<const Eigen::RowVectorXd>(row.data(), x.cols());
-  }
+bool tries_law(const LawRequest& request, const SweepPlan& plan,
+               const std::vector<SweepPoint>& points, const PointGroup& group) {
+  std::set<std::vector<double>> rows;
+  for (const std::size_t point : group.points) rows.insert(row_of(request, plan, points[point]));
+  const std::size_t coefficients = request.terms.size() + 1;
+  if (rows.size() <= coefficients) return false;
+  Eigen::MatrixXd x(rows.size(), coefficients);
+  for (Eigen::Index i = 0; const std::vector<double>& row : rows)
+    x.row(i++) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), x.cols());
   x.colwise().normalize();
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(x);
   return qr.setThreshold(1e-10).rank() == x.cols();

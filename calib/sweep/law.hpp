@@ -40,9 +40,10 @@ struct Law {
 
 std::string explain(LawStatus status);
 
-/// Whether a group of points tells the terms of a law and its constant apart.
-bool terms_vary(const LawRequest& request, const SweepPlan& plan,
-                const std::vector<SweepPoint>& points, const PointGroup& group);
+/// Whether a group of points tells the terms of a law and its constant apart, and has a point more
+/// than these to try the law by.
+bool tries_law(const LawRequest& request, const SweepPlan& plan,
+               const std::vector<SweepPoint>& points, const PointGroup& group);
 
 /// The laws asked for, fitted to the runs that did not fail; to none where one did not break.
 std::vector<Law> fit_laws(const LawRequest& request, const SweepPlan& plan,

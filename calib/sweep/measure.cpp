@@ -121,6 +121,7 @@ PointSummary summary_of(const std::vector<SweepRun>& runs, std::size_t point) {
     ++summary.runs;
     summary.failed += run.failed ? 1 : 0;
     summary.unbroken += run.unbroken() ? 1 : 0;
+    summary.reserved += run.reserved() ? 1 : 0;
   }
   std::ranges::transform(all_measures, summary.measures.begin(),
                          [&](Measure m) { return statistics_of(values_of(runs, point, m)); });

@@ -48,7 +48,7 @@ struct SweepRun {
   std::size_t point = 0;
   std::uint64_t seed = 0;
   bool failed = true, broke = false;
-  std::string why;                               ///< It failed.
+  std::string why;  ///< It failed; else what it is to be trusted but for, if anything.
   std::array<double, measure_count> measures{};  ///< NaN where not known; SI units.
   /// Curve, of a point's first run that has not failed. [-], [Pa]
   std::vector<double> strain, stress;
@@ -58,6 +58,7 @@ struct SweepRun {
   }
   /// The strain limit came first: strength and failure strain are lower bounds.
   [[nodiscard]] bool unbroken() const { return !failed && !broke; }
+  [[nodiscard]] bool reserved() const { return !failed && !why.empty(); }
 };
 
 /// The measures of a scene's response; those of the pattern where there is one.
@@ -78,6 +79,7 @@ Statistics statistics_of(const std::vector<double>& values);
 
 struct PointSummary {
   long runs = 0, failed = 0, unbroken = 0;  ///< Unbroken: the strain limit came first.
+  long reserved = 0;                        ///< To be trusted but for what the run says.
   std::array<Statistics, measure_count> measures{};
 
   [[nodiscard]] const Statistics& operator[](Measure m) const {

@@ -86,6 +86,7 @@ class Runner {
     result.simulated = batch_.simulated();
     result.failed = batch_.failed();
     result.most_failed_because = batch_.most_failed_because();
+    result.most_reserved_because = batch_.most_reserved_because();
   }
 
  private:
@@ -141,6 +142,7 @@ void SweepTotals::add(const SweepResult& result) {
   for (const PointSummary& summary : result.summaries) {
     failed += summary.failed;
     unbroken += summary.unbroken;
+    reserved += summary.reserved;
   }
 }
 

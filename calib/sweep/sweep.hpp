@@ -45,7 +45,8 @@ struct SweepResult {
   std::vector<Law> laws;
   std::vector<Finding> findings;
   long simulated = 0, failed = 0;
-  std::string most_failed_because;  ///< Empty where none failed.
+  std::string most_failed_because;    ///< Empty where none failed.
+  std::string most_reserved_because;  ///< Empty where every run is trusted without more.
   bool cancelled = false;
 
   /// At most a twentieth of the runs failed or did not break; their points say which.
@@ -57,7 +58,7 @@ struct SweepResult {
 /// Of several sweeps together.
 struct SweepTotals {
   bool trusted = true;
-  long runs = 0, failed = 0, unbroken = 0;
+  long runs = 0, failed = 0, unbroken = 0, reserved = 0;
   long simulated = 0;  ///< Not in the store: what the time was spent on.
 
   void add(const SweepResult& result);

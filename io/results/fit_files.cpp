@@ -57,6 +57,19 @@ FitFolder fit_of(const nlohmann::json& json) {
   return fit;
 }
 
+[[noreturn]] void refuse_result(const std::filesystem::path& file) {
+  throw InputError(file.string(), "lacks what the result of a fit has, or has it otherwise",
+                   "run the fit again with this version of havers");
+}
+
+// Whether lists that belong together are as long as each other, and parameters have names.
+bool is_whole(const calib::CalibrationResult& result) {
+  const std::size_t fitted = result.fitted.size();
+  const auto has_a_name = [](const auto& parameter) { return !parameter.name.empty(); };
+  return std::ranges::all_of(result.parameters, has_a_name) &&
+         (result.correlation.empty() || result.correlation.size() == fitted);
+}
+
 void read_curves(const std::filesystem::path& folder, calib::SpecimenResult& specimen) {
   specimen.band = read_band(folder / band_file(specimen.id));
   std::vector<std::vector<double>> measured =
@@ -104,9 +117,9 @@ FitFolder read_fit_folder(const std::filesystem::path& folder_or_result) {
   try {
     fit = fit_of(read_json(file));
   } catch (const nlohmann::json::exception&) {
-    throw InputError(file.string(), "lacks what the result of a fit has, or has it otherwise",
-                     "run the fit again with this version of havers");
+    refuse_result(file);
   }
+  if (!is_whole(fit.result)) refuse_result(file);
   if (!fit.result.specimens.empty() && !std::filesystem::exists(folder / "curves"))
     throw InputError(file.string(), "has no curves beside it",
                      "leave it in the fit's folder, or copy curves with it");

@@ -46,8 +46,12 @@ int Database::ask(const std::string& sql) {
 }
 
 void Database::fail() const {
-  throw InputError(file_, std::string("cannot be used as a store of simulations: ") +
-                              sqlite3_errmsg(handle_.get()));
+  const int code = sqlite3_errcode(handle_.get());
+  const bool damaged = code == SQLITE_CORRUPT || code == SQLITE_NOTADB;
+  throw InputError(
+      file_,
+      std::string("cannot be used as a store of simulations: ") + sqlite3_errmsg(handle_.get()),
+      damaged ? "remove it to simulate anew, or name another folder" : "");
 }
 
 void Query::Finish::operator()(sqlite3_stmt* statement) const {

@@ -77,6 +77,18 @@ std::vector<std::string> idle_keys_of_sweep(TableReader& top, const calib::Sweep
   return warnings;
 }
 
+// What the scenes of all points are in doubt of, whatever varies.
+std::vector<std::string> doubts_of_all_points(const calib::Sweep& sweep) {
+  std::vector<std::string> doubts = sweep.points.front().scene.doubts();
+  for (const calib::SweepPoint& point : sweep.points)
+    std::erase_if(doubts, [others = point.scene.doubts()](const std::string& doubt) {
+      return std::ranges::find(others, doubt) == others.end();
+    });
+  for (const calib::SweepKey& key : sweep.plan.keys)
+    std::erase_if(doubts, [&](const std::string& doubt) { return doubt.starts_with(key.name); });
+  return doubts;
+}
+
 // Keys that the limit does not know, where every point asks for it.
 std::vector<std::string> idle_keys_of_the_limit(const calib::Sweep& sweep) {
   constexpr std::array of_time{
@@ -203,7 +215,7 @@ std::vector<Problem> findings_without_comparison(const std::filesystem::path& fi
          fmt::format(
              "names {}, but {}{}", fmt::join(finding.keys, " and "),
              finding.per.empty() ? "" : fmt::format("at {} = {} ", finding.per, group->value),
-             linear ? "the points are too few or too alike for a line"
+             linear ? "the points are too few or too alike to try a line by"
                     : "no two points differ in it alone"),
          by_itself                  ? "name another key as per"
          : is_sample(plan.sampling) ? R"(use sample = "grid" or "list")"
@@ -275,6 +287,7 @@ SweepFile read_sweep(const std::filesystem::path& file, const Overrides& overrid
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   std::ranges::move(idle_keys_of_the_limit(sweep), std::back_inserter(read.warnings));
+  std::ranges::move(doubts_of_all_points(sweep), std::back_inserter(read.warnings));
   return read;
 }
 

@@ -46,6 +46,7 @@ std::string runs_csv(const calib::Sweep& sweep, const calib::SweepResult& result
     row.key("seed", run.seed);
     row.key("outcome", std::string(run.failed ? "failed" : run.broke ? "broken" : "unbroken"));
     for (const Measure m : known) row.key(name_of(m).c_str(), run[m]);
+    row.key("why", run.why);
     table.add(row);
   }
   return table.text;
@@ -131,6 +132,7 @@ nlohmann::json sweep_json(const calib::Sweep& sweep, const calib::SweepResult& r
                       {"runs", summary.runs},
                       {"failed", summary.failed},
                       {"unbroken", summary.unbroken},
+                      {"with_reservation", summary.reserved},
                       {"measures", measures},
                       {"strength_law", strength.runs > 0 ? json_of(strength) : nlohmann::json()}});
   }
@@ -143,6 +145,7 @@ nlohmann::json sweep_json(const calib::Sweep& sweep, const calib::SweepResult& r
           {"simulated", result.simulated},
           {"failed_simulations", result.failed},
           {"most_failed_because", result.most_failed_because},
+          {"most_reserved_because", result.most_reserved_because},
           {"scene", scene_json(sweep.points.front().scene)}};
 }
 

@@ -61,11 +61,13 @@ void drop_titles_of_gnuplot(std::string& svg) {
       svg.erase(at, svg.find(end, at + begin.size()) + end.size() - at);
 }
 
-// gnuplot's answer without its prologue, with a title for those who cannot see it.
+// gnuplot's answer without its prologue, with a title for those who cannot see it; empty where it
+// is no such answer.
 std::string inline_svg(std::string svg, const Figure& figure) {
-  svg.erase(0, svg.find("<svg"));
+  svg.erase(0, std::min(svg.find("<svg"), svg.size()));
   drop_titles_of_gnuplot(svg);
-  const std::size_t title = svg.find("<title>"), description = svg.find("</desc>");
+  const std::size_t title = svg.find("<title>"), description = svg.find("</desc>", title);
+  if (description == std::string::npos || svg.find("</svg>") == std::string::npos) return {};
   svg.replace(title, description + 7 - title, "<title>" + escaped(figure.description) + "</title>");
   svg.insert(4, R"( role="img" width="100%")");
   make_ids_unique(svg, figure.id);
@@ -99,9 +101,11 @@ std::string draw(const Figure& figure) {
     return sentence_svg(
         "Figure not drawn: gnuplot did not start (apt-get install gnuplot-nox), or TMPDIR names no "
         "folder that can be written.");
-  if (gnuplot.status != 0 || gnuplot.output.find("</svg>") == std::string::npos)
-    return sentence_svg("Figure not drawn; gnuplot says: " + last_line(gnuplot.errors));
-  return inline_svg(gnuplot.output, figure);
+  const std::string svg = gnuplot.status == 0 ? inline_svg(gnuplot.output, figure) : "";
+  if (!svg.empty()) return svg;
+  const std::string said = last_line(gnuplot.errors);
+  return sentence_svg(said.empty() ? "Figure not drawn: gnuplot was ended, or gave no figure."
+                                   : "Figure not drawn; gnuplot says: " + said);
 }
 
 std::string data_block(std::string_view name,

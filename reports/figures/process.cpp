@@ -5,10 +5,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 namespace havers::reports {
 namespace {
@@ -40,6 +43,39 @@ class TemporaryFolder {
   fs::path path_;
 };
 
+// A process group of its own: Ctrl-C in a terminal is meant for havers, not for what draws.
+class OwnGroup {
+ public:
+  OwnGroup() {
+    posix_spawnattr_init(&attributes_);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setpgroup(&attributes_, 0);
+  }
+  ~OwnGroup() { posix_spawnattr_destroy(&attributes_); }
+  OwnGroup(const OwnGroup&) = delete;
+  OwnGroup& operator=(const OwnGroup&) = delete;
+  OwnGroup(OwnGroup&&) = delete;
+  OwnGroup& operator=(OwnGroup&&) = delete;
+
+  [[nodiscard]] const posix_spawnattr_t* attributes() const { return &attributes_; }
+
+ private:
+  posix_spawnattr_t attributes_{};
+};
+
+// The exit status of a process, which is ended where it takes too long; -1 where it has none.
+int status_of(pid_t pid) {
+  using namespace std::chrono_literals;
+  constexpr auto patience = 120s;
+  const auto begin = std::chrono::steady_clock::now();
+  for (int status = 0;;) {
+    const pid_t ended = waitpid(pid, &status, WNOHANG);
+    if (ended != 0) return ended == pid && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    if (std::chrono::steady_clock::now() - begin > patience) kill(-pid, SIGKILL);
+    std::this_thread::sleep_for(1ms);
+  }
+}
+
 std::string read_all(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
@@ -52,7 +88,10 @@ ProcessResult run_process(std::vector<std::string> command, const std::string& i
   const TemporaryFolder folder;
   if (!folder.exists()) return result;
   const std::string in = folder.file("in"), out = folder.file("out"), err = folder.file("err");
-  std::ofstream(in, std::ios::binary) << input;
+  std::ofstream written(in, std::ios::binary);
+  written << input;
+  written.close();
+  if (!written) return result;  // as on a disk that is full
 
   posix_spawn_file_actions_t actions{};
   posix_spawn_file_actions_init(&actions);
@@ -66,13 +105,13 @@ ProcessResult run_process(std::vector<std::string> command, const std::string& i
   for (std::string& argument : command) arguments.push_back(argument.data());
   arguments.push_back(nullptr);
   pid_t pid = 0;
-  result.started =
-      posix_spawnp(&pid, arguments.front(), &actions, nullptr, arguments.data(), environ) == 0;
+  const OwnGroup group;
+  result.started = posix_spawnp(&pid, arguments.front(), &actions, group.attributes(),
+                                arguments.data(), environ) == 0;
   posix_spawn_file_actions_destroy(&actions);
   if (!result.started) return result;
 
-  int status = 0;
-  if (waitpid(pid, &status, 0) == pid && WIFEXITED(status)) result.status = WEXITSTATUS(status);
+  result.status = status_of(pid);
   result.output = read_all(out);
   result.errors = read_all(err);
   return result;

@@ -13,7 +13,7 @@ struct ProcessResult {
 };
 
 /// Runs a command (program and arguments), found through PATH and without a shell, with `input` on
-/// its standard input.
+/// its standard input, in a process group of its own. It is killed after two minutes.
 ProcessResult run_process(std::vector<std::string> command, const std::string& input);
 
 }  // namespace havers::reports

@@ -73,6 +73,10 @@ mstch::map law_row(const calib::Law& law) {
           {"runs", text(std::to_string(law.runs))}};
 }
 
+bool has_reservations(const SweepReport& report) {
+  return !report.result.most_reserved_because.empty();
+}
+
 mstch::array point_heads(const SweepReport& report) {
   mstch::array heads;
   const auto head = [&heads](const std::string& name) {
@@ -84,6 +88,7 @@ mstch::array point_heads(const SweepReport& report) {
   head("n");
   head("Failed");
   head("Did not break");
+  if (has_reservations(report)) head("With a reservation");
   for (const calib::Measure m : report.result.known()) head(with_unit(words_of(m)));
   head("CV of the strength (%)");
   head("Weibull modulus");
@@ -102,6 +107,7 @@ mstch::node point_row(const SweepReport& report, std::size_t i) {
   cells.push_back(cell(std::to_string(summary.runs - summary.failed)));
   cells.push_back(cell(std::to_string(summary.failed)));
   cells.push_back(cell(std::to_string(summary.unbroken)));
+  if (has_reservations(report)) cells.push_back(cell(std::to_string(summary.reserved)));
   for (const calib::Measure m : report.result.known())
     cells.push_back(cell(plus_minus(summary[m].mean / words_of(m).scale,
                                     summary[m].standard_error() / words_of(m).scale)));
@@ -140,12 +146,16 @@ mstch::array figures_of(const SweepReport& report) {
 
 std::string about(const SweepReport& report) {
   const std::string& why = report.result.most_failed_because;
+  const std::string& but_for = report.result.most_reserved_because;
   const bool open = std::ranges::any_of(
       report.result.summaries, [](const calib::PointSummary& s) { return s.unbroken > 0; });
   return fmt::format(
-      "{}{}, {} each.{}{}", ended(report.sweep.text), count(report.result.points.size(), "point"),
+      "{}{}, {} each.{}{}{}", ended(report.sweep.text), count(report.result.points.size(), "point"),
       count(report.sweep.plan.seeds, "run"),
       why.empty() ? "" : fmt::format(" Runs that failed, most often so: {}.", typeset(why)),
+      but_for.empty()
+          ? ""
+          : fmt::format(" Runs to be trusted with a reservation, such as {}.", typeset(but_for)),
       open ? " Of points with runs that did not break the modulus alone is drawn." : "");
 }
 
@@ -183,11 +193,11 @@ std::string sweep_page(const std::string& title, const std::vector<SweepReport>&
         text(why_not_trusted + (rows.empty() ? count(totals.runs, "run") + " of the model."
                                              : findings_sentence(rows)))},
        {"detail",
-        text(fmt::format(
-            "{}, {} failed, {} did not break; {} of them simulated now, in {} wall time. Seeds are "
-            "not shared between points.",
-            count(totals.runs, "run"), totals.failed, totals.unbroken, totals.simulated,
-            duration(provenance.wall_seconds)))},
+        text(fmt::format("{}, {} failed, {} did not break, {} with a reservation; {} of them "
+                         "simulated now, in {} "
+                         "wall time. Seeds are not shared between points.",
+                         count(totals.runs, "run"), totals.failed, totals.unbroken, totals.reserved,
+                         totals.simulated, duration(provenance.wall_seconds)))},
        {"has_findings", !rows.empty()},
        {"findings", finding_rows(rows)},
        {"sweeps", parts}},

@@ -181,5 +181,28 @@ TEST(OutputFolder, CannotBeAFile) {
               HasSubstr("link: is a link that leads nowhere (give another folder"));
 }
 
+// Above what a link leads to, as the kernel has it, and not where the link is.
+TEST(OutputFolder, IsFoundBehindALinkAsTheKernelFindsIt) {
+  const fs::path folder = test::folder_with_scene();
+  fs::create_directories(folder / "there/below");
+  fs::create_directory_symlink("there/below", folder / "link");
+  ASSERT_EQ(run_havers(folder, "simulate scene.toml -o link/../out").exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "there/out/result.json"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+// Its list of names has a line each.
+TEST(OutputFolder, KeepsAFileThatIsPartOfANameWithALineBreak) {
+  const fs::path folder = test::folder_with_tests();
+  fs::copy_file(folder / "made/B0.csv", folder / "thesis\nB0.csv");
+  ASSERT_EQ(run_havers(folder, "import 'thesis\nB0.csv' -o out").exit_code, 0);
+  test::write_text(folder / "out/thesis", "mine");
+  EXPECT_EQ(run_havers(folder, "import made/B0.csv -o out --force").exit_code, 0);
+  EXPECT_EQ(test::contents(folder / "out/thesis"), "mine");
+  fs::rename(folder / "study.toml", folder / "a\nb.toml");
+  EXPECT_THAT(run_havers(folder, "sweep 'a\nb.toml' -o swept").err,
+              HasSubstr("has a line break in its name (rename it"));
+}
+
 }  // namespace
 }  // namespace havers

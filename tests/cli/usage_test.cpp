@@ -221,6 +221,10 @@ TEST(Check, SaysNoProblemsOrAllOfThem) {
   answer = run_havers(folder, "check bad.toml --json");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_EQ(nlohmann::json::parse(answer.out).at("problems").size(), 3U);
+  answer = run_havers(folder, "simulate bad.toml -o out --json");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_EQ(nlohmann::json::parse(answer.out).at("problems").size(), 3U);
+  EXPECT_EQ(nlohmann::json::parse(answer.out).at("status"), "refused");
 }
 
 // Whatever way of TOML the tables are written in.

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <set>
@@ -16,6 +18,7 @@
 #include "tests/reports/sound_page.hpp"
 #include "tests/support/results.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/slow.hpp"
 
 namespace havers::reports {
@@ -259,6 +262,25 @@ TEST(Figure, IsASentenceWithoutGnuplot) {
   const std::string svg = draw({.id = "x", .description = "", .commands = "plot x\n"});
   setenv("PATH", path.c_str(), 1);
   EXPECT_TRUE(contains(svg, "gnuplot did not start (apt-get install gnuplot-nox)"));
+}
+
+// A wrapper, or another version, that answers otherwise.
+TEST(Figure, IsASentenceWhereGnuplotGivesNoFigure) {
+  const test::ScratchFolder folder;
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", fmt::format("{}:{}", folder.path().string(), path).c_str(), 1);
+  for (const char* said : {"", "</svg>", "<svg></svg>", "</desc><svg><title></svg>"}) {
+    const auto fake = folder.write("gnuplot", fmt::format("#!/bin/sh\necho '{}'\n", said));
+    std::filesystem::permissions(fake, std::filesystem::perms::owner_all);
+    const std::string svg = draw({.id = "x", .description = "", .commands = "plot x\n"});
+    EXPECT_TRUE(contains(svg, "Figure not drawn: gnuplot was ended, or gave no figure.")) << said;
+  }
+  setenv("PATH", path.c_str(), 1);
+}
+
+TEST(Process, IsInAGroupOfItsOwn) {
+  const ProcessResult group = run_process({"sh", "-c", "cut -d ' ' -f 5 /proc/$$/stat"}, "");
+  EXPECT_NE(std::stol(group.output), getpgrp());
 }
 
 TEST(Process, DoesNotStartWithoutAPlaceForItsFiles) {

@@ -90,13 +90,43 @@ TEST(FitProblem, WeighsTheErrorOfAScatterByTheLawThatIsFitted) {
   const auto error_at = [&](double exponent) {
     const Point point = Point::Constant(1, to_search(*problem.unknowns[0].info, exponent));
     const auto at = predict(problem, batch, {point}, 4).front();
-    return scatter_error(problem, batch, point, 0, at.predictions[0])[strength];
+    return porosity_error(problem, batch, point, 0, at.predictions[0])[strength];
   };
   // Log strength falls by 1/(2 − d) of the scatter.
   const auto slope = [](double d) { return 1.0 / (2.0 - d); };
   const double d = std::sqrt(12.0) * 0.05 / 0.95;
   EXPECT_GT(error_at(1.0), 0.0);
   EXPECT_NEAR(error_at(2.0) / error_at(1.0), 2.0 * slope(2.0 * d) / slope(d), 0.03);
+}
+
+// (K4), (K5): what the porosity takes from moduli and joints has its error too.
+TEST(FitProblem, WeighsTheErrorOfMissingJointsAndOfModuli) {
+  Study study = test::synthetic_study({0.0});
+  SectionPorosity section;
+  section.porosity = 0.05;
+  section.porosity_standard_error = 0.01;
+  section.bone_area = 1e-6;
+  section.window_sd = 0.05;
+  section.pore_area = 1e-8;
+  section.pore_area_ratio = 2e-9;
+  section.window_area = 1e-9;
+  for (auto& specimen : study.specimens) specimen.sections = {section};
+  study.porosity.to_modulus = ToModulus::power;
+  const FitProblem problem = make_problem(study);
+  const Simulator missing_weaken{.run =
+                                     [](const sim::Scene& scene) {
+                                       Response response =
+                                           test::ClosedForm{}.simulator().run(scene).value();
+                                       response.strength *= std::exp(-7.0 * scene.joints.missing);
+                                       return std::optional(response);
+                                     },
+                                 .quasi_static = [](const sim::Scene&) { return false; }};
+  SimulationBatch batch(missing_weaken, nullptr, 1);
+  const Point point = start_point(problem.unknowns);
+  const auto at = predict(problem, batch, {point}, 4).front();
+  const Landmarks error = porosity_error(problem, batch, point, 0, at.predictions[0]);
+  EXPECT_NEAR(error[strength], 7.0 * 0.01, 1e-9);
+  EXPECT_NEAR(error[modulus], 2.7 * 0.01 / 0.95, 1e-12);
 }
 
 // In time a run ends by its end fraction alone, and without what it leaves out it takes long.

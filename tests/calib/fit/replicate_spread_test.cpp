@@ -28,6 +28,15 @@ TEST(ReplicateSpread, WithoutScatterIsTheSpecimensOwn) {
   EXPECT_NEAR(spread[1][modulus], 0.02, 1e-12);
 }
 
+TEST(ReplicateSpread, WhereJointsAreMissingIsTheSpecimensOwn) {
+  const Prediction intact = with_sd(0.001, 4), missing = with_sd(0.4, 4);
+  const sim::JointOptions joints{.scatter = 0.2}, fewer{.scatter = 0.2, .missing = 0.1};
+  const auto spread =
+      replicate_spread({replicated_of(0.0, joints, intact), replicated_of(0.0, fewer, missing)});
+  EXPECT_NEAR(spread[0][modulus], 0.001, 1e-12);
+  EXPECT_NEAR(spread[1][modulus], 0.4, 1e-12);
+}
+
 // One simulation that answered shows no spread, but does not have none.
 TEST(ReplicateSpread, OfASingleReplicateIsThatOfTheOthersAtItsOrientation) {
   const Prediction some = with_sd(0.02, 4), single = with_sd(0.0, 1);

@@ -30,6 +30,7 @@ TEST(ModelOfASpecimen, TakesScatterAndModulusFromItsSections) {
   study.porosity.to_modulus = ToModulus::power;
   SectionPorosity section;
   section.porosity = 0.1;
+  section.porosity_standard_error = 0.01;
   section.window_sd = 0.02;
   study.specimens[0].sections = {section};
   const auto model = model_of(study, 0);
@@ -37,6 +38,8 @@ TEST(ModelOfASpecimen, TakesScatterAndModulusFromItsSections) {
   EXPECT_EQ(model.scene.joints.scatter, scatter_of(pooled, study.porosity));
   EXPECT_EQ(model.modulus_factor, modulus_factor(pooled, study.porosity));
   EXPECT_EQ(model.porosity, 0.1);
+  EXPECT_TRUE(model.scatter_told);
+  EXPECT_NEAR(model.modulus_standard_error, 2.7 * 0.01 / 0.9, 1e-15);
 }
 
 // (K5): pores larger than a window take joints away, and leave the others' thresholds alone.
@@ -44,6 +47,7 @@ TEST(ModelOfASpecimen, MissesJointsWhereItsPoresAreLargerThanAFibre) {
   auto study = one_specimen();
   SectionPorosity section;
   section.porosity = 0.1;
+  section.porosity_standard_error = 0.02;
   section.window_sd = 0.2;
   section.pore_area = 1e-8;
   section.window_area = 1e-9;
@@ -53,6 +57,8 @@ TEST(ModelOfASpecimen, MissesJointsWhereItsPoresAreLargerThanAFibre) {
   EXPECT_EQ(large.scene.joints.missing, 0.1);
   EXPECT_EQ(large.scene.joints.scatter, 0.25);
   EXPECT_EQ(large.scatter_standard_error, 0.0);
+  EXPECT_EQ(large.missing_standard_error, 0.02);
+  EXPECT_FALSE(large.scatter_told);
 
   study.specimens[0].sections[0].pore_area_ratio = 0.5e-9;
   const auto small = model_of(study, 0);

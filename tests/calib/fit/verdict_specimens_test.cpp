@@ -175,7 +175,7 @@ TEST(Verdict, ExcusesAHeldOutSpecimenAmongItsReplicates) {
   specimen.use = Use::validate;
   for (const double strength : {50e6, 51e6, 63e6})
     specimen.replicates.push_back(
-        {.failed = false, .strength = strength, .failure_strain = strength / 14e9});
+        {.failed = false, .broke = true, .strength = strength, .failure_strain = strength / 14e9});
   specimen.measured.strength = 62e6;
   specimen.measured.failure_strain = 62e6 / 14e9;
   specimen.residual = {0.1, -4.4, -4.3};
@@ -207,8 +207,8 @@ TEST(Verdict, ComparesAHeldOutSpecimenByTheTermsThereAre) {
   const auto useless = check_of(test::fit(study), "held-out specimens");
   EXPECT_EQ(useless.outcome, Outcome::fail);
   EXPECT_EQ(useless.text,
-            "Nothing can be compared of held-out specimens whose simulations failed or whose tests "
-            "tell too little: S1.");
+            "Nothing can be compared of held-out specimens whose simulations failed or did not "
+            "break, or whose tests tell too little: S1.");
 }
 
 TEST(Verdict, TellsHeldOutSpecimensThatAreOffFromThoseThatNothingIsComparedWith) {

@@ -123,10 +123,65 @@ TEST(Verdict, SpeaksOfOneAsOfOne) {
   one.confirmations.push_back({.failed = true});
   EXPECT_TRUE(says(check_confirmation(problem, one), "in time 1 more has no answer to be trusted"));
   EXPECT_EQ(check_confirmation(problem, one).outcome, Outcome::warn);
+}
+
+TEST(Verdict, SaysHowManySimulationsDoNotBreak) {
+  CalibrationResult result;
+  for (const int unbroken : {0, 1}) {
+    SpecimenResult& specimen = result.specimens.emplace_back();
+    for (int i = 0; i < 4; ++i)
+      specimen.replicates.push_back({.failed = false, .broke = i >= unbroken});
+    specimen.replicates.push_back({.failed = true});
+  }
+  EXPECT_TRUE(says(check_censored(result), "1 of 8 simulations at the answer reach"));
+  EXPECT_EQ(check_censored(result).outcome, Outcome::warn);
+  for (std::size_t i : {1U, 2U}) result.specimens[1].replicates[i].broke = false;
+  EXPECT_TRUE(says(check_censored(result), "1 of 2 specimens does not break"));
+  EXPECT_EQ(check_censored(result).outcome, Outcome::fail);
+  result.specimens.pop_back();
+  EXPECT_EQ(check_censored(result).outcome, Outcome::pass);
+}
+
+// A strength that simulations do not reach is compared with nothing.
+TEST(Verdict, FailsAHeldOutSpecimenWhoseSimulationsDoNotBreak) {
+  CalibrationResult result;
+  SpecimenResult& specimen = result.specimens.emplace_back();
+  specimen.id = "V1";
+  specimen.use = Use::validate;
+  specimen.residual = {0.5, 0.0, 0.0};
+  specimen.replicates = {{.failed = false}, {.failed = false}, {.failed = false, .broke = true}};
+  EXPECT_TRUE(says(check_validation(result, {}), "failed or did not break"));
+  EXPECT_EQ(check_validation(result, {}).outcome, Outcome::fail);
+  specimen.replicates.front().broke = true;
+  EXPECT_EQ(check_validation(result, {}).outcome, Outcome::pass);
+}
+
+// Those that did not fail are no fair sample of its strengths.
+TEST(Verdict, NamesSpecimensWhoseSimulationsOftenFail) {
+  const Study study = test::synthetic_study({0.0});
+  const FitProblem problem{.study = study, .unknowns = unknowns_of(study)};
   Answer answer;
-  answer.best.predictions.resize(2);
-  answer.best.predictions[0].censored = true;
-  EXPECT_TRUE(says(check_censored(problem, answer), "1 of 2 specimens does not break"));
+  answer.best.point = Point::Constant(static_cast<Eigen::Index>(problem.unknowns.size()), 0.5);
+  CalibrationResult result;
+  result.distinct_simulations = 400;
+  result.failed_simulations = 3;
+  result.most_failed_because = "the specimen falls apart; more fibres help";
+  result.specimens.push_back({.id = "C2"});
+  result.specimens[0].replicates.resize(8);
+  result.specimens[0].failed_simulations = 3;
+  const auto simulations = [&] { return verdict_of(problem, answer, result).back(); };
+  EXPECT_EQ(simulations().text,
+            "3 of 400 different simulations failed, more than a quarter of those of C2, most often "
+            "so: the specimen falls apart; more fibres help.");
+  EXPECT_EQ(simulations().outcome, Outcome::warn);
+  result.specimens[0].failed_simulations = 2;
+  EXPECT_TRUE(says(simulations(), "3 of 400 different simulations failed; the replicates"));
+  result.reserved_simulations = 100;
+  result.most_reserved_because = "the time step: 20 ns was given, and its error is not known";
+  EXPECT_TRUE(says(simulations(),
+                   "; 100 are to be trusted but for a reservation, such as the time "
+                   "step: 20 ns was given, and its error is not known."));
+  EXPECT_EQ(simulations().outcome, Outcome::warn);
 }
 
 TEST(CalibrationResult, SaysWhyItIsNotTrusted) {

@@ -267,6 +267,18 @@ TEST(Finding, IsUndecidedWhereARunDidNotBreak) {
   EXPECT_TRUE(std::isnan(finding.value));
 }
 
+TEST(Finding, SaysWhichRunsHadTheModulusOfAShock) {
+  KnownSweep known({{"x", {"0", "1"}}}, 20,
+                   [](const SweepPoint&, int k) { return 100.0 + deviation(k); });
+  for (std::size_t i = 20; i < 40; ++i)
+    known.runs[i].measures[static_cast<std::size_t>(Measure::modulus)] = std::nan("");
+  const Finding finding = judged({.response = Measure::modulus, .keys = {"x"}}, known);
+  EXPECT_EQ(finding.outcome, FindingOutcome::undecided);
+  EXPECT_EQ(finding.runs, 20);
+  EXPECT_THAT(finding.ground,
+              testing::EndsWith("; 20 runs had the modulus of a shock and do not count"));
+}
+
 TEST(Finding, OfTheModulusNeedsNoBreak) {
   const Finding finding = judged_with_an_unbroken_run(Measure::modulus);
   EXPECT_EQ(finding.outcome, FindingOutcome::agrees);

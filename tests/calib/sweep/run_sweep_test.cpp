@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -122,6 +122,7 @@ TEST(RunSweep, TakesTheViscousStressFromTheLinearPart) {
     point.scene.joints.scatter = 0.2;
     point.scene.assembly.orientation = 0.25 * std::numbers::pi;
     point.scene.solver.regime = sim::Regime::dynamic;
+    point.scene.solver.step = 5e-9;
   }
   sweep.points.back().scene.material.viscosity = 1e-7;
   const SweepResult result = run_sweep(sweep, nullptr, 1, {});
@@ -129,6 +130,10 @@ TEST(RunSweep, TakesTheViscousStressFromTheLinearPart) {
     EXPECT_FALSE(run.failed) << run.why;
     EXPECT_GT(run[Measure::linear_part], 0.9);
   }
+  EXPECT_EQ(result.summaries.front().reserved, 1);
+  EXPECT_THAT(result.most_reserved_because,
+              testing::StartsWith("the time step: 5 ns was given, and its error is not known"));
+  EXPECT_THAT(result.runs.front().why, testing::StartsWith("the time step: 5 ns was given"));
 }
 
 TEST(RunSweep, TakesNoStrengthFromRunsThatDidNotBreak) {

@@ -160,6 +160,14 @@ TEST(FitFolder, SaysWhatIsWrongWithAFolder) {
   write_folder(folder, sample(), {});
   std::filesystem::remove(folder.path() / "curves/A1.csv");
   EXPECT_THAT(refusal(), HasSubstr("A1.csv: is not there"));
+  test::FitSample shorter = sample(), nameless = sample();
+  shorter.result.fitted = {"ratio"};
+  shorter.result.correlation = {{1.0, 0.0}, {0.0, 1.0}};
+  nameless.result.parameters[0].name = "";
+  for (const test::FitSample& fit : {shorter, nameless}) {
+    write_folder(folder, fit, {});
+    EXPECT_THAT(refusal(), HasSubstr("result.json: lacks what the result of a fit has"));
+  }
 }
 
 TEST(ImportJson, HoldsTheKeysOfTheContract) {

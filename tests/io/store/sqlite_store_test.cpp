@@ -200,7 +200,7 @@ TEST_F(Store, RefusesWhatIsNotADatabase) {
   EXPECT_THAT(
       refusal(),
       HasSubstr("evaluations.sqlite: cannot be used as a store of simulations: file is not a "
-                "database"));
+                "database (remove it to simulate anew, or name another folder)"));
 }
 
 TEST_F(Store, RefusesTheDatabaseOfAnotherProgramAndLeavesItAlone) {

@@ -175,7 +175,9 @@ TEST_F(ReadSweep, RefusesAFindingThatComparesNothing) {
               ElementsAre(HasSubstr("no two points differ in it alone")));
   EXPECT_THAT(complaints(one + "[[finding]]\ntest = \"linear\"\nkeys = [\"joints.scatter\"]\n",
                          {"sweep.keys.\"joints.scatter\"=[0.3]"}),
-              ElementsAre(HasSubstr("the points are too few or too alike for a line")));
+              ElementsAre(HasSubstr("the points are too few or too alike to try a line by")));
+  EXPECT_THAT(complaints(one + "[[finding]]\ntest = \"linear\"\nkeys = [\"joints.scatter\"]\n"),
+              ElementsAre(HasSubstr("the points are too few or too alike to try a line by")));
 }
 
 // However wrong the scene is: all is said at once.

@@ -84,7 +84,7 @@ per = "joints.thresholds_file"
 )"))
                                  .sweep;
   const calib::SweepResult result = calib::run_sweep(sweep, nullptr, 1, {});
-  EXPECT_THAT(third_column_of(runs_csv(sweep, result), 5 + result.known().size()),
+  EXPECT_THAT(third_column_of(runs_csv(sweep, result), 6 + result.known().size()),
               testing::ElementsAre("joints.thresholds_file", "a,b.csv", "c.csv"));
   EXPECT_THAT(third_column_of(summary_csv(sweep, result), 9), testing::Contains("a,b.csv"));
   EXPECT_EQ(sweep_json(sweep, result)["points"][0]["keys"]["joints.thresholds_file"], "a,b.csv");
