@@ -162,9 +162,13 @@ void print_summary(const std::vector<Done>& all, double wall_seconds) {
   fmt::print("{}: {}, {} failed, {} did not break; {} of them simulated now, in {:.3g} s\n",
              trusted ? "to be trusted" : "NOT to be trusted: too many runs failed or did not break",
              calib::count(runs, "run"), failed, unbroken, simulated, wall_seconds);
-  for (const Done& one : all)
-    if (const std::string& why = one.result.most_reserved_because; !why.empty())
-      fmt::print("but for in {}: {}\n", one.stem, why);
+  for (const Done& one : all) {
+    calib::SweepTotals totals;
+    totals.add(one.result);
+    if (totals.reserved > 0)
+      fmt::print("{} of {} with a reservation, most often so: {}\n",
+                 calib::count(totals.reserved, "run"), one.stem, one.result.most_reserved_because);
+  }
   for (const Done& one : all)
     for (const calib::Finding& finding : one.result.findings)
       fmt::print("{:<6}{:<12}{}{}; {}  {}\n", finding.id, calib::to_string(finding.outcome),

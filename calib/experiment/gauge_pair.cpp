@@ -25,8 +25,7 @@ struct GaugeGrowth {
 
 // What tells how far the loading is; a logger has nothing but its gauges.
 std::vector<double> loading_of(const RawTest& raw, const std::vector<double>& other) {
-  for (const std::vector<double>* load : {&raw.force, &raw.stress, &raw.load_volts})
-    if (!load->empty()) return *load;
+  if (!raw.load().empty()) return raw.load();
   std::vector<double> sum = raw.strain;
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += other[i];
   return sum;

@@ -16,20 +16,15 @@ namespace {
 constexpr std::size_t fewest_beside = 20;  // rows that tell how strain and crosshead go together,
 constexpr std::size_t part_beside = 5;     // or a fifth of all with a strain
 
-const std::vector<double>& load_of(const RawTest& raw) {
-  if (!raw.force.empty()) return raw.force;
-  return raw.stress.empty() ? raw.load_volts : raw.stress;
-}
-
 // Of the largest load, whatever its sign. [-]
 double load_at(const RawTest& raw, std::size_t row) {
-  const std::vector<double>& load = load_of(raw);
+  const std::vector<double>& load = raw.load();
   const auto [low, high] = std::ranges::minmax(load);
   return std::abs(load[row]) / std::max(-low, high);
 }
 
 bool is_after_peak(const RawTest& raw, std::size_t row) {
-  const std::vector<double>& load = load_of(raw);
+  const std::vector<double>& load = raw.load();
   const auto larger = [](double a, double b) { return std::abs(a) < std::abs(b); };
   return std::ranges::max_element(load, larger) - load.begin() < std::ptrdiff_t(row);
 }
@@ -90,7 +85,7 @@ std::string mend_lost_gauge(RawTest& raw) {
   const auto first = static_cast<std::size_t>(from - strain.begin());
   const auto behind = std::find_if(strain.rbegin(), strain.rend(), tells).base();
   const auto end = static_cast<std::size_t>(behind - strain.begin());
-  if (load_of(raw).empty()) {
+  if (raw.load().empty()) {
     cut(raw, {first, end});
     return {};
   }

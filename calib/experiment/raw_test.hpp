@@ -33,11 +33,11 @@ struct RawTest {
   std::vector<Correction> corrections;  ///< What was done before the reduction.
   std::vector<std::string> warnings;    ///< What the reader noticed, a sentence each.
 
-  [[nodiscard]] std::size_t rows() const {
-    for (const std::vector<double>* channel : {&force, &stress, &load_volts})
-      if (!channel->empty()) return channel->size();
-    return time.size();
+  /// The channel that tells how far the loading is; empty where none does.
+  [[nodiscard]] const std::vector<double>& load() const {
+    return !force.empty() ? force : !stress.empty() ? stress : load_volts;
   }
+  [[nodiscard]] std::size_t rows() const { return load().empty() ? time.size() : load().size(); }
 };
 
 }  // namespace havers::calib

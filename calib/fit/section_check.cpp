@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -28,6 +29,8 @@ struct Untold {
 
 Untold untold_of(const FitProblem& problem) {
   const PorosityOptions& laws = problem.study.porosity;
+  const bool searched = std::ranges::any_of(
+      problem.unknowns, [](const Unknown& unknown) { return unknown.info->name == "scatter"; });
   Untold found;
   for (std::size_t s = 0; s < problem.models.size(); ++s) {
     const Specimen& specimen = problem.study.specimens[s];
@@ -40,7 +43,7 @@ Untold untold_of(const FitProblem& problem) {
     collect(found.doubted, [](const SectionPorosity& section) { return section.doubtful; });
     if (laws.to_scatter == ToScatter::window)
       collect(found.scaled, [](const SectionPorosity& one) { return !pores_may_be_canals(one); });
-    if (laws.to_scatter != ToScatter::none && !model.scatter_told)
+    if (laws.to_scatter != ToScatter::none && !model.scatter_told && !searched)
       found.scatter.push_back(specimen.id);
     if (laws.to_modulus != ToModulus::none && !known) found.modulus.push_back(specimen.id);
     found.any = found.any || !specimen.sections.empty() || model.scatter_told ||

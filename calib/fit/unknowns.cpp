@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/fit/scenes.hpp"
+
 namespace havers::calib {
 namespace {
 
 bool scatter_is_measured(const Study& study) {
-  return std::ranges::any_of(study.specimens, [&](const Specimen& specimen) {
-    return tells_scatter(specimen, study.porosity);
-  });
+  for (std::size_t s = 0; s < study.specimens.size(); ++s)
+    if (model_of(study, s).scatter_told) return true;
+  return false;
 }
 
 // "auto" tries what nothing else tells.

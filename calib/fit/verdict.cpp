@@ -151,7 +151,7 @@ Check check_simulations(const CalibrationResult& result) {
   }
   if (share(result.reserved_simulations) > 0.05)
     return {name, Outcome::warn,
-            fmt::format("{}; {} are to be trusted but for a reservation, such as {}.", text,
+            fmt::format("{}; {} have a reservation, most often so: {}.", text,
                         result.reserved_simulations, result.most_reserved_because)};
   return {name, Outcome::pass,
           text + (failed > 0.0 ? "; the replicates that answered stand in for them." : ".")};

@@ -101,7 +101,7 @@ std::string draw(const Figure& figure) {
     return sentence_svg(
         "Figure not drawn: gnuplot did not start (apt-get install gnuplot-nox), or TMPDIR names no "
         "folder that can be written.");
-  const std::string svg = gnuplot.status == 0 ? inline_svg(gnuplot.output, figure) : "";
+  std::string svg = gnuplot.status == 0 ? inline_svg(gnuplot.output, figure) : "";
   if (!svg.empty()) return svg;
   const std::string said = last_line(gnuplot.errors);
   return sentence_svg(said.empty() ? "Figure not drawn: gnuplot was ended, or gave no figure."

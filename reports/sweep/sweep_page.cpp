@@ -155,7 +155,7 @@ std::string about(const SweepReport& report) {
       why.empty() ? "" : fmt::format(" Runs that failed, most often so: {}.", typeset(why)),
       but_for.empty()
           ? ""
-          : fmt::format(" Runs to be trusted with a reservation, such as {}.", typeset(but_for)),
+          : fmt::format(" Runs with a reservation, most often so: {}.", typeset(but_for)),
       open ? " Of points with runs that did not break the modulus alone is drawn." : "");
 }
 

@@ -106,6 +106,9 @@ TEST(Unknowns, OfAutoLeaveTheScatterToWhatPorosityTells) {
   study.specimens[0].sections.emplace_back();
   study.porosity.to_scatter = ToScatter::window;
   EXPECT_FALSE(tries_scatter());
+  study.specimens[0].sections[0].window_sd = std::nan("");
+  EXPECT_TRUE(tries_scatter()) << "sections without a pixel size have no windows";
+  study.specimens[0].sections[0].window_sd = 0.1;
   study.porosity.to_scatter = ToScatter::none;
   EXPECT_TRUE(tries_scatter());
 }

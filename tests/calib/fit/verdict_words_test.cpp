@@ -179,8 +179,8 @@ TEST(Verdict, NamesSpecimensWhoseSimulationsOftenFail) {
   result.reserved_simulations = 100;
   result.most_reserved_because = "the time step: 20 ns was given, and its error is not known";
   EXPECT_TRUE(says(simulations(),
-                   "; 100 are to be trusted but for a reservation, such as the time "
-                   "step: 20 ns was given, and its error is not known."));
+                   "; 100 have a reservation, most often so: the time step: 20 ns "
+                   "was given, and its error is not known."));
   EXPECT_EQ(simulations().outcome, Outcome::warn);
 }
 
