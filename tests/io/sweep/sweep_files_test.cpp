@@ -42,6 +42,8 @@ TEST(SweepFiles, ExportTheLawsAndTheFindings) {
   const nlohmann::json json = sweep_json(sweep, result);
   EXPECT_EQ(json["points"][2]["keys"]["joints.distribution"], "weibull");
   EXPECT_EQ(json["points"][2]["measures"]["strength_Pa"]["n"], 3);
+  EXPECT_EQ(json["points"][2]["with_reservation"], 0);
+  EXPECT_EQ(json["most_reserved_because"], "");
   EXPECT_EQ(json["findings"][0]["id"], "A");
   EXPECT_EQ(json["findings"][0]["what"],
             "joints.scatter = 0.8 against 0.2, joints.distribution = weibull");
