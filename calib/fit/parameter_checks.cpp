@@ -121,7 +121,7 @@ Toes toes_of(const FitProblem& problem, const Unknown& modulus_of, double known_
   }
   const auto n = static_cast<double>(toes.tests);
   toes.mean = sum / n;
-  toes.error = std::sqrt((squares / n - toes.mean * toes.mean) / (n - 1.0));
+  toes.error = std::sqrt(std::max(0.0, squares / n - toes.mean * toes.mean) / (n - 1.0));
   return toes;
 }
 
