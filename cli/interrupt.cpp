@@ -18,9 +18,10 @@ void ask_to_stop(int signal) {
 
 }  // namespace
 
+// What a parent ignores stays ignored: a shell does so for what it runs in the background.
 void catch_interrupts() {
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
+  for (const int signal : {SIGINT, SIGTERM})
+    if (std::signal(signal, ask_to_stop) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 bool interrupted() {

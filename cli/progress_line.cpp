@@ -4,16 +4,24 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
 namespace havers::cli {
 namespace {
 
 constexpr const char* wipe = "\r\033[K";
 
+// That knows how to wipe a line.
+bool is_terminal(int descriptor) {
+  const char* kind = std::getenv("TERM");
+  return isatty(descriptor) != 0 && kind != nullptr && std::string_view(kind) != "dumb";
+}
+
 }  // namespace
 
 ProgressLine::ProgressLine(const CommonOptions& common)
-    : visible_(!common.quiet && isatty(STDERR_FILENO) != 0),
+    : visible_(!common.quiet && is_terminal(STDERR_FILENO)),
       next_(std::chrono::steady_clock::now()) {}
 
 ProgressLine::~ProgressLine() {

@@ -110,6 +110,18 @@ TEST(Bench, SaysThatItWasStoppedAmongSections) {
   EXPECT_FALSE(result["complete"]);
 }
 
+// As a shell has it for what a script runs in the background.
+TEST(Bench, GoesOnWhereAParentIgnoresInterrupts) {
+  const fs::path folder = test::folder_with_scene();
+  const auto answer =
+      run_havers(folder, "-h >help; trap '' INT; '" HAVERS_PROGRAM
+                         "' bench scene.toml -o out --seeds 1 >said & "
+                         "for i in $(seq 1000); do [ -e .out.partial ] && break; sleep 0.01; done; "
+                         "kill -INT $!; wait $! #");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_TRUE(nlohmann::json::parse(test::contents(folder / "out/result.json"))["complete"]);
+}
+
 TEST(Bench, ComparesChainsOfOptimisersWithoutAScene) {
   HAVERS_SLOW;
   const fs::path folder = own_folder();
