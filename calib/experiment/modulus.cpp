@@ -144,7 +144,8 @@ Window clear_of_toe(const Curve& curve, const Window& window, double strength,
   const bool gentle = onward.stiffens() && onward.upper.slope < most;
   if (!gentle || onward.is_straight(options.straightness)) return window;
   const Bend bend = bend_of(curve, window.high, high);
-  return bend.is_straight(options.straightness) ? Window{window.high, high, bend, true} : window;
+  const bool straight = bend.known && bend.is_straight(options.straightness);
+  return straight ? Window{window.high, high, bend, true} : window;
 }
 
 bool differs(const Window& window, double strength, const ReductionOptions& options) {

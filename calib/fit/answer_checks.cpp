@@ -265,13 +265,17 @@ std::string weibull_sentence(const CalibrationResult& result, const std::set<dou
   std::string text;
   for (const auto& [orientation, strengths] : by_orientation) {
     if (strengths.measured.size() < 5 || strengths.simulated.size() < 5) continue;
+    const auto scatter = [](const std::vector<double>& ratios) {
+      const auto [least, most] = std::ranges::minmax(ratios);
+      return most - least > 1e-9;
+    };
+    if (!scatter(strengths.measured)) continue;
     const Weibull tests = weibull(strengths.measured);
-    const auto [least, most] = std::ranges::minmax(strengths.simulated);
     text += fmt::format(
         " The scatter of the strengths measured at {:.4g} deg about those predicted is that of a "
         "Weibull modulus of {:.3g} (95 % interval {:.3g} to {:.3g}), the replicates {}.",
         orientation / degree, tests.unbiased, tests.interval_95[0], tests.interval_95[1],
-        most - least > 1e-9
+        scatter(strengths.simulated)
             ? fmt::format("have one of {:.3g}", weibull(strengths.simulated).unbiased)
             : "do not scatter");
   }

@@ -127,7 +127,7 @@ void add_hindsight(const FitProblem& problem, SimulationBatch& batch, const Answ
                    CalibrationResult& result) {
   result.starts = answer.starts;
   for (const Evaluation& end : answer.ends) result.ends.push_back(end.cost);
-  if (answer.slopes.failed || answer.active.empty()) return;
+  if (answer.slopes.failed) return;
   for (Index k = 0; k < answer.slopes.jacobian.cols(); ++k)
     result.fitted.push_back(unknown_of(problem, answer, k).label);
   set_correlation(answer, result);

@@ -74,19 +74,13 @@ std::optional<double> chance(const FitProblem& problem, const Answer& answer, Ei
   const double own = variance_within(groups, within);
 
   // The answer by that variance, which a misfit between orientations does not widen.
-  Eigen::VectorXd residuals = answer.best.residuals;
-  Eigen::MatrixXd jacobian(residuals.size(), 0);
-  if (!answer.slopes.failed)
-    jacobian = free_columns(problem, answer.best.point, answer.active, answer.asked_slopes);
+  Eigen::VectorXd factor = Eigen::VectorXd::Ones(answer.best.residuals.size());
   for (const auto& [orientation, group] : groups)
     for (std::size_t i = 0; i < group.rows.size(); ++i) {
       const double before = group.variance[i] + std::pow(answer.weights.specimen[q], 2);
-      const double factor = std::sqrt(before / (group.variance[i] + own));
-      residuals[group.rows[i]] *= factor;
-      jacobian.row(group.rows[i]) *= factor;
+      factor[group.rows[i]] = std::sqrt(before / (group.variance[i] + own));
     }
-  residuals -= followed(jacobian, residuals);
-  const Eigen::VectorXd spent = leverage(jacobian);
+  const auto [residuals, spent] = unfollowed(problem, answer, factor);
   for (const auto& [orientation, group] : groups) between -= spent(group.rows).sum();
   if (between < least_freedom) return std::nullopt;
   double squares = 0.0;
@@ -132,6 +126,16 @@ std::string strength_off(const FitProblem& problem, const Answer& answer, double
 }
 
 }  // namespace
+
+Unfollowed unfollowed(const FitProblem& problem, const Answer& answer,
+                      const Eigen::VectorXd& factor) {
+  Eigen::MatrixXd jacobian(factor.size(), 0);
+  if (!answer.slopes.failed)
+    jacobian = factor.asDiagonal() *
+               free_columns(problem, answer.best.point, answer.active, answer.asked_slopes);
+  const Eigen::VectorXd residuals = factor.cwiseProduct(answer.best.residuals);
+  return {residuals - followed(jacobian, residuals), leverage(jacobian)};
+}
 
 bool is_fitted(const FitProblem& problem, const Answer& answer, std::string_view parameter) {
   return std::ranges::any_of(

@@ -21,6 +21,15 @@ std::string chance_text(double p);
 /// Whether a parameter of that name is, for any of the specimens.
 bool is_fitted(const FitProblem& problem, const Answer& answer, std::string_view parameter);
 
+/// What no unknown that is free to move can follow of the answer's residuals, and what is spent of
+/// each on those that can (F9).
+struct Unfollowed {
+  Eigen::VectorXd residuals, spent;
+};
+/// @param factor  what each residual is to be weighed by, beside its weight in the answer
+Unfollowed unfollowed(const FitProblem& problem, const Answer& answer,
+                      const Eigen::VectorXd& factor);
+
 /// Tests less likely than this reject what they test. [-]
 inline constexpr double significance = 0.01;
 

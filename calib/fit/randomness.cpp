@@ -51,22 +51,14 @@ VectorXd fresh_half_width(const FitProblem& problem, const Answer& answer,
   Landmarks effect = answer.weights.specimen;
   for (int round = 1;; ++round) {
     const Weights weights = weigh(problem, fresh, answer.weights.scatter, effect);
-    Eigen::MatrixXd slopes = answer.asked_slopes;
-    const auto each_specimen = [&](const auto& visit) {
-      for (std::size_t f = 0; f < problem.fitted.size(); ++f)
-        visit(f, weights.sd[problem.fitted[f]]);
-    };
-    each_specimen([&](std::size_t f, const Landmarks& sd) {
-      slopes.middleRows<landmark_count>(first_row(f)).array().colwise() *=
-          answer.weights.sd[problem.fitted[f]] / sd;
-    });
+    const Eigen::MatrixXd slopes = weighed(problem, answer.weights, weights, answer.asked_slopes);
     Evaluation moved = fresh;
     score(problem, weights, moved);
     const VectorXd by =
         followed(free_columns(problem, moved.point, answer.active, slopes), moved.residuals);
-    each_specimen([&](std::size_t f, const Landmarks& sd) {
-      moved.predictions[f].mean -= by.segment<landmark_count>(first_row(f)).array() * sd;
-    });
+    for (std::size_t f = 0; f < problem.fitted.size(); ++f)
+      moved.predictions[f].mean -=
+          by.segment<landmark_count>(first_row(f)).array() * weights.sd[problem.fitted[f]];
     score(problem, weights, moved);
     if (round == rounds)
       return uncertainty_of(problem, weights, moved, answer.active, slopes).half_width;

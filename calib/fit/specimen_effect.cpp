@@ -17,6 +17,13 @@ double chi_squared(const Sample& sample, double between) {
   return sum;
 }
 
+// An orthonormal base of what the columns span.
+Eigen::MatrixXd column_space(const Eigen::MatrixXd& matrix) {
+  if (matrix.cols() == 0) return matrix;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(matrix.rows(), qr.rank());
+}
+
 }  // namespace
 
 // chi_squared falls to nothing in the end: bisection in the variance.
@@ -34,23 +41,19 @@ double variance_between(const Sample& sample, double freedom) {
 }
 
 Eigen::VectorXd leverage(const Eigen::MatrixXd& jacobian) {
-  if (jacobian.cols() == 0) return Eigen::VectorXd::Zero(jacobian.rows());
-  const Eigen::MatrixXd inverse = jacobian.completeOrthogonalDecomposition().pseudoInverse();
-  return jacobian.cwiseProduct(inverse.transpose()).rowwise().sum();
+  return column_space(jacobian).rowwise().squaredNorm();
 }
 
 Eigen::VectorXd followed(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals) {
-  if (jacobian.cols() == 0) return Eigen::VectorXd::Zero(residuals.size());
-  const Eigen::MatrixXd inverse = jacobian.completeOrthogonalDecomposition().pseudoInverse();
-  const Eigen::VectorXd step = inverse * residuals;
-  return jacobian * step;
+  const Eigen::MatrixXd space = column_space(jacobian);
+  const Eigen::VectorXd along = space.transpose() * residuals;
+  return space * along;
 }
 
 Landmarks parameters_spent(const FitProblem& problem, const Evaluation& at,
                            const Eigen::MatrixXd& jacobian) {
   Landmarks spent = Landmarks::Zero();
   const Eigen::VectorXd of_row = leverage(jacobian);
-  if (jacobian.cols() == 0) return spent;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f)
     spent += tells(at.predictions[f], problem.targets[problem.fitted[f]])
                  .select(of_row.segment<landmark_count>(first_row(f)).array(), 0.0);

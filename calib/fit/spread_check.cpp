@@ -48,23 +48,17 @@ struct AlikeGroup {
 // orientation.
 std::map<std::pair<Eigen::Index, double>, AlikeGroup> alike_groups(
     const FitProblem& problem, const Answer& answer, const std::set<double>& one_sided) {
-  Eigen::VectorXd residuals = answer.best.residuals;
-  Eigen::MatrixXd jacobian(residuals.size(), 0);
-  if (!answer.active.empty())
-    jacobian = free_columns(problem, answer.best.point, answer.active, answer.asked_slopes);
+  Eigen::VectorXd factor = Eigen::VectorXd::Ones(answer.best.residuals.size());
   std::vector<Landmarks> part(problem.fitted.size(), Landmarks::Zero());
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
     const auto& weights = answer.weights;
     const Landmarks alike = variance_if_alike(weights, s).sqrt();
-    const Landmarks factor = tells(answer.best.predictions[f], problem.targets[s])
-                                 .select(weights.sd[s] / alike, Landmarks(Landmarks::Ones()));
-    residuals.segment<landmark_count>(first_row(f)).array() *= factor;
-    jacobian.middleRows<landmark_count>(first_row(f)).array().colwise() *= factor;
+    factor.segment<landmark_count>(first_row(f)) =
+        tells(answer.best.predictions[f], problem.targets[s]).select(weights.sd[s] / alike, 1.0);
     part[f] = (weights.replicates[s] / alike).square();
   }
-  residuals -= followed(jacobian, residuals);
-  const Eigen::VectorXd spent = leverage(jacobian);
+  const auto [residuals, spent] = unfollowed(problem, answer, factor);
 
   std::map<std::pair<Eigen::Index, double>, AlikeGroup> groups;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {

@@ -92,12 +92,23 @@ Eigen::MatrixXd free_columns(const FitProblem& problem, const Point& point, cons
   return jacobian(Eigen::all, movable);
 }
 
+Eigen::MatrixXd weighed(const FitProblem& problem, const Weights& had, const Weights& now,
+                        Eigen::MatrixXd slopes) {
+  for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
+    const std::size_t s = problem.fitted[f];
+    slopes.middleRows<landmark_count>(first_row(f)).array().colwise() *= had.sd[s] / now.sd[s];
+  }
+  return slopes;
+}
+
 Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, const Evaluation& at,
                            const Active& active, const Eigen::MatrixXd& slopes) {
   const Eigen::MatrixXd jacobian = slopes.leftCols(static_cast<Eigen::Index>(active.size()));
   const VarianceSources sources = sources_of(problem, weights, at);
 
-  Uncertainty result{.follow = jacobian.completeOrthogonalDecomposition().pseudoInverse()};
+  const Eigen::Index rows = jacobian.rows();
+  Uncertainty result{
+      .follow = jacobian.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(rows, rows))};
   const Eigen::MatrixXd& follow = result.follow;
   result.freedom = residuals_told(problem, at) - parameters_spent(problem, at, slopes);
   result.standard_error = follow.rowwise().norm();

@@ -31,4 +31,8 @@ bool at_bound(const Unknown& unknown, double position);
 Eigen::MatrixXd free_columns(const FitProblem& problem, const Point& point, const Active& active,
                              const Eigen::MatrixXd& jacobian);
 
+/// Slopes of residuals that had weights, with others.
+Eigen::MatrixXd weighed(const FitProblem& problem, const Weights& had, const Weights& now,
+                        Eigen::MatrixXd slopes);
+
 }  // namespace havers::calib

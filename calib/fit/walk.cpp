@@ -23,24 +23,8 @@ Weights own_weights(const Trail& trail, const Evaluation& one) {
   return weigh(trail.problem(), one, trail.weights().scatter, trail.weights().specimen);
 }
 
-// The slopes of the answer, weighed as at another point.
-Eigen::MatrixXd weighed(const Trail& trail, const Weights& own, Eigen::MatrixXd slopes) {
-  for (std::size_t f = 0; f < trail.problem().fitted.size(); ++f) {
-    const std::size_t s = trail.problem().fitted[f];
-    const Landmarks factor = trail.weights().sd[s] / own.sd[s];
-    slopes.middleRows<landmark_count>(first_row(f)).array().colwise() *= factor;
-  }
-  return slopes;
-}
-
 double log_determinant(const Eigen::MatrixXd& slopes) {
-  return Eigen::HouseholderQR<Eigen::MatrixXd>(slopes)
-      .matrixQR()
-      .diagonal()
-      .array()
-      .abs()
-      .log()
-      .sum();
+  return slopes.colPivHouseholderQr().matrixQR().diagonal().array().abs().log().sum();
 }
 
 // −log of the restricted likelihood of each point by its own weights, beside that of the trail's:
@@ -53,7 +37,7 @@ void score_each(const Trail& trail, const Eigen::MatrixXd& jacobian,
     if (one.failed) continue;
     const Weights own = own_weights(trail, one);
     score(problem, own, one);
-    one.cost += log_determinant(weighed(trail, own, jacobian)) - here;
+    one.cost += log_determinant(weighed(problem, trail.weights(), own, jacobian)) - here;
     for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
       const std::size_t s = problem.fitted[f];
       const auto told = tells(one.predictions[f], problem.targets[s]);
@@ -65,7 +49,8 @@ void score_each(const Trail& trail, const Eigen::MatrixXd& jacobian,
 // Where the slopes of the answer take the active unknowns, weighed as the residuals are.
 Point refitted(const Trail& trail, const Evaluation& one, const Active& active,
                const Eigen::MatrixXd& jacobian) {
-  const Eigen::MatrixXd slopes = weighed(trail, own_weights(trail, one), jacobian);
+  const Eigen::MatrixXd slopes =
+      weighed(trail.problem(), trail.weights(), own_weights(trail, one), jacobian);
   Point point = one.point;
   point(active) -= slopes.colPivHouseholderQr().solve(one.residuals);
   return inside_bounds(trail.problem().unknowns, point);

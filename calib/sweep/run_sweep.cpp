@@ -58,8 +58,7 @@ class Runner {
         model_(stop_asked),
         batch_(sweep.patterns ? model_.simulator() : fibre_model(stop_asked),
                sweep.patterns ? nullptr : store, threads),
-        seeds_(static_cast<std::size_t>(sweep.plan.seeds)),
-        all_(sweep.points.size() * seeds_ * static_cast<std::size_t>(sweep.levels)) {}
+        seeds_(static_cast<std::size_t>(sweep.plan.seeds)) {}
 
   // The runs of the points from `first` on.
   void run(SweepResult& result, std::size_t first) {
@@ -81,7 +80,7 @@ class Runner {
       const std::vector<std::string> keys = batch_.keys(some);
       for (std::size_t i = 0; i < some.size(); ++i)
         keep(responses[i], some[i], keys[i], result.runs[offset + at + i]);
-      result.cancelled = observer_ && !observer_(offset + end, all_);
+      result.cancelled = observer_ && !observer_(offset + end, result.points.size() * seeds_);
     }
     result.simulated = batch_.simulated();
     result.failed = batch_.failed();
@@ -106,7 +105,7 @@ class Runner {
   const SweepObserver& observer_;
   PatternedModel model_;
   SimulationBatch batch_;
-  std::size_t seeds_, all_;
+  std::size_t seeds_;
   std::size_t next_curve_ = 0;  // the first point that has none yet: runs come in their order
 };
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "io/results/csv_row.hpp"
 #include "io/results/json_table.hpp"
@@ -10,48 +9,73 @@
 namespace havers::io {
 namespace {
 
-// Names with values, in the order of the columns; JSON and CSV have the same.
-using Cells = std::vector<std::pair<std::string, nlohmann::json>>;
-
-Cells setting_cells(const sim::BenchSetting& setting) {
-  return {{"regime", word(setting.regime)},   {"contact", word(setting.contact)},
-          {"tolerance", setting.tolerance},   {"step_s", json_of(setting.step)},
-          {"refinement", setting.refinement}, {"leave_out", setting.leave_out}};
+// In the order of the columns; JSON and CSV have the same.
+template <class Table>
+void keys(Table& table, sim::BenchSetting& setting) {
+  double step = setting.step.value_or(NAN);
+  table.key("regime", setting.regime);
+  table.key("contact", setting.contact);
+  table.key("tolerance", setting.tolerance);
+  table.key("step_s", step);
+  table.key("refinement", setting.refinement);
+  table.key("leave_out", setting.leave_out);
 }
 
-// What a row is computed with; its numbers, the median over the seeds, with the extremes of what
-// the figure shows.
-Cells row_cells(const sim::BenchRow& row) {
-  Cells cells = setting_cells(row.setting);
-  const auto add_range = [&](const std::string& name, sim::BenchSpread spread) {
-    cells.insert(cells.end(), {{name, json_of(spread.median)},
-                               {name + "_low", json_of(spread.low)},
-                               {name + "_high", json_of(spread.high)}});
-  };
-  add_range("joint_force_error", row.errors.bonded_forces);
-  add_range("last_common_break_force_error", row.errors.forces);
-  add_range("strength_error", row.errors.strength);
-  add_range("failure_strain_error", row.errors.failure_strain);
-  add_range("curve_error", row.errors.curve);
-  add_range("wall_s", row.wall);
-  add_range("cpu_s", row.cpu);
-  const auto add = [&](const char* name, double value) {
-    cells.emplace_back(name, json_of(value));
-  };
-  add("steps", row.steps.median);
-  add("iterations", row.iterations.median);
-  add("common_breaks", row.same_breaks.median);
-  add("runs", row.runs);
-  add("trusted_runs", row.trusted);
-  add("runs_out_of_time", row.out_of_time);
-  add("last_strain", row.reached.median);
-  return cells;
+// The median over the seeds, with the extremes.
+template <class Table>
+void range_keys(Table& table, const std::string& name, sim::BenchSpread& spread) {
+  table.key(name.c_str(), spread.median);
+  table.key((name + "_low").c_str(), spread.low);
+  table.key((name + "_high").c_str(), spread.high);
 }
 
-nlohmann::json object_of(const Cells::value_type& first, const Cells& cells) {
-  nlohmann::json object{{first.first, first.second}};
-  for (const auto& [name, value] : cells) object[name] = value;
+// What a row is computed with; its numbers, with the extremes of what the figure shows.
+template <class Table>
+void keys(Table& table, sim::BenchRow& row) {
+  keys(table, row.setting);
+  range_keys(table, "joint_force_error", row.errors.bonded_forces);
+  range_keys(table, "last_common_break_force_error", row.errors.forces);
+  range_keys(table, "strength_error", row.errors.strength);
+  range_keys(table, "failure_strain_error", row.errors.failure_strain);
+  range_keys(table, "curve_error", row.errors.curve);
+  range_keys(table, "wall_s", row.wall);
+  range_keys(table, "cpu_s", row.cpu);
+  table.key("steps", row.steps.median);
+  table.key("iterations", row.iterations.median);
+  table.key("common_breaks", row.same_breaks.median);
+  table.key("runs", row.runs);
+  table.key("trusted_runs", row.trusted);
+  table.key("runs_out_of_time", row.out_of_time);
+  table.key("last_strain", row.reached.median);
+}
+
+// All but the name; the reason, which may be long, at the end.
+template <class Table>
+void keys(Table& table, sim::StabilityResult& result) {
+  std::string outcome = to_string(result.outcome);
+  table.key("outcome", outcome);
+  table.key("as_it_must", result.as_it_must);
+  table.key("error", result.error);
+  table.key("residual", result.residual);
+  table.key("energy_defect", result.energy_defect);
+  table.key("penetration", result.penetration);
+  table.key("wall_s", result.wall);
+  table.key("reason", result.reason);
+}
+
+template <class Item>
+nlohmann::json object_of(const char* title, const std::string& name, Item item) {
+  nlohmann::json object{{title, name}};
+  JsonWriter table(object);
+  keys(table, item);
   return object;
+}
+
+template <class Item>
+CsvRow row_of(const char* title, const std::string& name, Item item) {
+  CsvRow row(title, name);
+  keys(row, item);
+  return row;
 }
 
 nlohmann::json omissions_json(const std::optional<sim::Omissions>& omissions) {
@@ -60,39 +84,6 @@ nlohmann::json omissions_json(const std::optional<sim::Omissions>& omissions) {
           {"largest_change", omissions->change},
           {"cpu_ratio", omissions->cpu_ratio},
           {"until_strain", json_of(omissions->until_strain)}};
-}
-
-void add_cell(CsvRow& row, const std::string& name, const nlohmann::json& value) {
-  if (value.is_string())
-    row.key(name.c_str(), value.get<std::string>());
-  else if (value.is_boolean())
-    row.key(name.c_str(), value.get<bool>());
-  else
-    row.key(name.c_str(), value.is_null() ? NAN : value.get<double>());
-}
-
-// All but the name; the reason, which may be long, at the end.
-Cells stability_cells(const sim::StabilityResult& result) {
-  return {{"outcome", to_string(result.outcome)},
-          {"as_it_must", result.as_it_must},
-          {"error", json_of(result.error)},
-          {"residual", json_of(result.residual)},
-          {"energy_defect", json_of(result.energy_defect)},
-          {"penetration", json_of(result.penetration)},
-          {"wall_s", json_of(result.wall)},
-          {"reason", result.reason}};
-}
-
-CsvRow row_of(const sim::BenchRow& one) {
-  CsvRow row("setting", to_string(one.setting));
-  for (const auto& [name, value] : row_cells(one)) add_cell(row, name, value);
-  return row;
-}
-
-CsvRow row_of(const sim::StabilityResult& result) {
-  CsvRow row("scene", result.name);
-  for (const auto& [name, value] : stability_cells(result)) add_cell(row, name, value);
-  return row;
 }
 
 nlohmann::json summaries_of(
@@ -113,7 +104,7 @@ nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPreci
                                    const calib::Provenance& provenance) {
   nlohmann::json rows = nlohmann::json::array(), cheapest = nlohmann::json::array();
   for (const sim::BenchRow& row : study.rows)
-    rows.push_back(object_of({"text", to_string(row.setting)}, row_cells(row)));
+    rows.push_back(object_of("text", to_string(row.setting), row));
   for (const sim::CheapestSetting& entry : study.cheapest)
     cheapest.push_back(
         {{"quantity", entry.quantity},
@@ -123,8 +114,7 @@ nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPreci
                                : nlohmann::json()}});
   return {{"complete", study.complete},
           {"summary", summary(study)},
-          {"reference",
-           object_of({"text", to_string(study.reference)}, setting_cells(study.reference))},
+          {"reference", object_of("text", to_string(study.reference), study.reference)},
           {"reference_ground", study.reference_ground},
           {"joint_forces_at_strain", study.bonded_strain},
           {"seeds", study.seeds},
@@ -139,7 +129,7 @@ nlohmann::json stability_json(const sim::StabilityBench& bench,
                               const calib::Provenance& provenance) {
   nlohmann::json scenes = nlohmann::json::array();
   for (const sim::StabilityResult& result : bench.scenes)
-    scenes.push_back(object_of({"name", result.name}, stability_cells(result)));
+    scenes.push_back(object_of("name", result.name, result));
   return {{"summary", summary(bench)},
           {"complete", bench.complete},
           {"scenes", scenes},
@@ -147,14 +137,16 @@ nlohmann::json stability_json(const sim::StabilityBench& bench,
 }
 
 std::string work_precision_csv(const sim::WorkPrecision& study) {
-  std::string text = row_of(sim::BenchRow{}).names();
-  for (const sim::BenchRow& row : study.rows) text += row_of(row).cells();
+  std::string text = row_of("setting", "", sim::BenchRow{}).names();
+  for (const sim::BenchRow& row : study.rows)
+    text += row_of("setting", to_string(row.setting), row).cells();
   return text;
 }
 
 std::string stability_csv(const std::vector<sim::StabilityResult>& results) {
-  std::string text = row_of(sim::StabilityResult{}).names();
-  for (const sim::StabilityResult& result : results) text += row_of(result).cells();
+  std::string text = row_of("scene", "", sim::StabilityResult{}).names();
+  for (const sim::StabilityResult& result : results)
+    text += row_of("scene", result.name, result).cells();
   return text;
 }
 

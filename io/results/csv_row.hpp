@@ -8,6 +8,7 @@
 #include <string>
 #include <type_traits>
 
+#include "io/config/words.hpp"
 #include "io/results/csv_numbers.hpp"
 
 namespace havers::io {
@@ -25,6 +26,8 @@ class CsvRow {
       cells_ += csv_number(value);
     else if constexpr (std::is_same_v<T, std::string>)
       cells_ += quoted(value);
+    else if constexpr (Worded<T>)
+      cells_ += word(value);
     else
       cells_ += fmt::format("{:d}", value);
   }

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <exception>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "io/input_error.hpp"
+#include "io/read_text.hpp"
 #include "io/results/csv_row.hpp"
 #include "io/results/json_table.hpp"
 #include "io/sweep/sweep_keys.hpp"
@@ -78,8 +78,8 @@ nlohmann::json laws_json(const calib::SweepResult& result) {
 }
 
 std::vector<calib::SweepLaw> read_laws(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  const char* const advice = "name the laws.json of a sweep";
+  const auto json = nlohmann::json::parse(read_text(file, advice), nullptr, false);
   std::vector<calib::SweepLaw> laws;
   try {
     for (const nlohmann::json& one : json.at("laws")) {
@@ -98,7 +98,7 @@ std::vector<calib::SweepLaw> read_laws(const std::filesystem::path& file) {
                         law.coefficients});
     }
   } catch (const std::exception&) {
-    throw InputError(file.string(), "is no file of laws", "name the laws.json of a sweep");
+    throw InputError(file.string(), "is no file of laws", advice);
   }
   if (laws.empty())
     throw InputError(

@@ -45,11 +45,7 @@ Figure chains_figure(const calib::ChainBenchmark& benchmark, ChainCost cost,
     const bool usual = i == 0;  // the default chain is drawn last, with its band
     std::string& part = usual ? band : lines;
     part +=
-        fmt::format("{}${} using 1:3 with lines lw {} {} title '{}'",
-                    usual           ? ", "
-                    : lines.empty() ? ""
-                                    : ", ",
-                    name, usual ? 2.6 : 1.8,
+        fmt::format(", ${} using 1:3 with lines lw {} {} title '{}'", name, usual ? 2.6 : 1.8,
                     usual ? "lc rgb blue" : looks.at((i - 1) % looks.size()), plain(summary.chain));
   }
   if (figure.commands.empty()) return figure;
@@ -57,7 +53,7 @@ Figure chains_figure(const calib::ChainBenchmark& benchmark, ChainCost cost,
       "set logscale xy\nset format y '%g'\nset format x '%g'\n"
       "set key samplen 4 font ',11' width -6\nset tmargin at screen {:.3f}\n"
       "set xlabel '{}' offset 0,0.5\nset ylabel 'Error of the parameters (%)' offset 1.5,0\n"
-      "plot $chain0 using 1:2:4 with filledcurves lc rgb band title '10 to 90 % of the default', "
+      "plot $chain0 using 1:2:4 with filledcurves lc rgb band title '10 to 90 % of the default'"
       "{}{}\n",
       1.0 - (legend_height(benchmark) + 12.0) / figure.height,
       simulations ? "Simulations" : "Wall time (s)", lines, band);
