@@ -93,11 +93,12 @@ std::string headline(const sim::Simulation& run) {
 }
 
 std::string by_step(double error) {
-  return error > 0.0 ? fmt::format(" (± {:.2g} % by the step)", 100.0 * error) : "";
+  return error > 0.0 ? fmt::format(" (± {:.2g} % of it by the step)", 100.0 * error) : "";
 }
 
 // Of a run that did not break the largest stress is a bound, and its strain says nothing.
 std::string strength_text(const sim::Scene& scene, const sim::Simulation& run) {
+  if (std::isnan(run.strength)) return "-";
   const sim::StepError error = run.error_beyond_accuracy();
   std::string strength = fmt::format("{:.4g} MPa{}", 1e-6 * run.strength, by_step(error.strength));
   if (run.status == sim::SimulationStatus::severed) return strength;
@@ -137,7 +138,7 @@ void print_summary(const sim::Scene& scene, const sim::Simulation& run, double w
     fmt::print("without waves  {:.4g} MPa{}, the part of it that does not ring\n",
                1e-6 * run.strength_without_ringing(),
                by_step(run.error_beyond_accuracy().over_a_wave));
-  fmt::print("modulus        {:.4g} GPa\n", 1e-9 * run.modulus);
+  if (!std::isnan(run.modulus)) fmt::print("modulus        {:.4g} GPa\n", 1e-9 * run.modulus);
   fmt::print("broken joints  {}\n", breaks_text(scene, run));
   fmt::print("regime         {}: {}\n",
              run.regime == sim::Regime::dynamic ? "dynamic" : "quasi-static", run.regime_ground);

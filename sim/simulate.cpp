@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "sim/dynamics/time_stepping.hpp"
 #include "sim/joint/cohesive_cone.hpp"
@@ -114,6 +115,9 @@ Simulation simulate(const Scene& scene, const Observer& observer, const StopAske
   simulation.step_accuracy = scene.solver.step_accuracy;
   if (simulation.strength == 0.0 && has_ended(simulation) && some_are_missing(scene.joints))
     simulation.status = SimulationStatus::severed;
+  if (!has_ended(simulation) && simulation.curve.size() < 2)  // nothing has an answer
+    simulation.strength = simulation.failure_strain = simulation.modulus =
+        std::numeric_limits<double>::quiet_NaN();
   const std::vector<LeftOut> list = left_out_by_choice(scene, simulation);
   simulation.left_out.insert(simulation.left_out.begin(), list.begin(), list.end());
   return simulation;

@@ -44,6 +44,7 @@ struct CurvePoint {
   double kinetic = 0.0;       ///< [J/m]
   double elastic = 0.0;       ///< [J/m]
   double dissipated = 0.0;    ///< By joints and viscosity, since the start. [J/m]
+  double numerical = 0.0;     ///< Taken by implicit Euler, since the start. [J/m]
 };
 
 /// A joint at the end of a run.
@@ -84,7 +85,9 @@ struct Simulation {
   std::vector<JointOutcome> joints;  ///< In the order of Assembly::joints.
   Eigen::VectorXd displacements;  ///< Of the last row, x and y of every node of the assembly. [m]
 
-  double strength = 0.0;  ///< Largest stress at the right side. [Pa]
+  /// Largest stress at the right side; like its strain and the modulus NaN where not even the first
+  /// row had an answer. [Pa]
+  double strength = 0.0;
   /// Largest mean of the stress over the period 2W/c of the longest wave, in which its two ends
   /// count least (a triangle), as breaks set waves free that no machine sees; NaN in the limit, and
   /// where the last joint broke earlier. [Pa]

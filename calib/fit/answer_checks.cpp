@@ -44,7 +44,7 @@ std::string wider_bootstraps(const FitProblem& problem, const CalibrationResult&
   }
   if (wider.empty()) return "";
   return fmt::format(
-      " The bootstrap over specimens gives wider ones: {}; a draw may leave out "
+      " The bootstrap over specimens gives wider ones: {}, in logarithms; a draw may leave out "
       "the few specimens that tell a parameter.",
       fmt::join(wider, ", "));
 }
@@ -197,10 +197,12 @@ Check check_intervals(const FitProblem& problem, const CalibrationResult& result
     return not_checked(name, "no profile was asked for or could be had." + wider);
   if (differ.empty())
     return {name, Outcome::pass,
-            fmt::format("Profile likelihood gives intervals {} times as wide as the slopes do.{}",
+            fmt::format("Profile likelihood gives intervals {} times as wide as the slopes do, in "
+                        "logarithms.{}",
                         times_text(least, most), wider)};
   return {name, Outcome::warn,
-          fmt::format("Profile likelihood gives other intervals: {}. Believe the wider one.{}",
+          fmt::format("Profile likelihood gives other intervals: {}, in logarithms. Believe the "
+                      "wider one.{}",
                       fmt::join(differ, ", "), wider)};
 }
 

@@ -27,6 +27,8 @@ Figure profile_figure(const std::vector<calib::Profile>& profiles, const std::st
 /// Costs of all starts of a search and of those refined, lowest first.
 Figure waterfall_figure(const calib::CalibrationResult& result, const std::string& id);
 
+/// Whether time steps take so much energy that it is drawn.
+bool loses_energy(const sim::Simulation& simulation);
 /// Stress, broken joints and energies of a simulation against strain.
 Figure simulation_figure(const SimulationReport& report, const std::string& id);
 

@@ -27,13 +27,16 @@ set yrange [0:*]
 set ytics autofreq
 set xtics format '%g'
 set xlabel 'Strain (%)' offset 0,0.5
+set key samplen 3 width -2
 set ylabel 'Energy ({unit}J/m)'
 plot $curve using ($1*100):($5/{factor}) with lines lw 1.8 lc rgb blue title 'elastic', \
   $curve using ($1*100):($6/{factor}) with lines lw 1.8 dt 2 lc rgb red title 'dissipated', \
-  $curve using ($1*100):($7/{factor}) with lines lw 1.8 dt 4 lc rgb green title 'kinetic'
+  $curve using ($1*100):($7/{factor}) with lines lw 1.8 dt 4 lc rgb green title 'kinetic'{lost}
 unset multiplot
 )gnuplot";
 
+constexpr std::string_view taken_by_steps =
+    ", $curve using ($1*100):($8/{factor}) with lines lw 1.8 dt 5 lc rgb orange title 'lost'";
 constexpr std::string_view left_side =
     "$curve using ($1*100):($3*1e-6) with lines lw 1.4 dt 2 lc rgb orange title 'left side', ";
 
@@ -79,8 +82,9 @@ std::string curve_data(const std::vector<sim::CurvePoint>& curve) {
     const bool breaks = i > 0 && curve[i].broken_joints != curve[i - 1].broken_joints;
     if (i % stride != 0 && i != peak && i + 1 != curve.size() && !breaks) continue;
     const sim::CurvePoint& p = curve[i];
-    block += fmt::format("{:.6g} {:.6g} {:.6g} {} {:.6g} {:.6g} {:.6g}\n", p.strain, p.stress_right,
-                         p.stress_left, p.broken_joints, p.elastic, p.dissipated, p.kinetic);
+    block += fmt::format("{:.6g} {:.6g} {:.6g} {} {:.6g} {:.6g} {:.6g} {:.6g}\n", p.strain,
+                         p.stress_right, p.stress_left, p.broken_joints, p.elastic, p.dissipated,
+                         p.kinetic, p.numerical);
   }
   return block + "EOD\n";
 }
@@ -116,12 +120,17 @@ std::string count_axis(std::size_t most) {
 double largest_energy(const std::vector<sim::CurvePoint>& curve) {
   double largest = 0.0;
   for (const sim::CurvePoint& p : curve)
-    for (const double energy : {p.elastic, p.dissipated, p.kinetic})
+    for (const double energy : {p.elastic, p.dissipated, p.kinetic, p.numerical})
       if (std::isfinite(energy)) largest = std::max(largest, energy);
   return largest;
 }
 
 }  // namespace
+
+bool loses_energy(const sim::Simulation& simulation) {
+  constexpr double worth_drawing = 0.01;  // of all
+  return simulation.numerical_loss >= worth_drawing;
+}
 
 Figure simulation_figure(const SimulationReport& report, const std::string& id) {
   const sim::Simulation& simulation = report.simulation;
@@ -131,7 +140,7 @@ Figure simulation_figure(const SimulationReport& report, const std::string& id) 
   std::vector<double> strain;
   for (const sim::CurvePoint& point : simulation.curve) strain.push_back(point.strain);
   const std::string range = x_range({strain}, 100.0);
-  if (range.empty()) return figure;
+  if (range.empty() || simulation.curve.size() < 2) return figure;
   const bool dynamic = simulation.regime == sim::Regime::dynamic;
   const Prefix prefix = prefix_for(largest_energy(simulation.curve));
   const std::vector<double> head_tail = break_strains(report, sim::JointKind::head_tail),
@@ -139,13 +148,16 @@ Figure simulation_figure(const SimulationReport& report, const std::string& id) 
   figure.commands =
       curve_data(with_parabolas(simulation)) + breaks_data(head_tail, strain.back(), "head_tail") +
       breaks_data(flank, strain.back(), "flank") +
-      fmt::format(simulation_commands, fmt::arg("range", range),
-                  fmt::arg("top", panel(0.66, 0.955)), fmt::arg("middle", panel(0.41, 0.595)),
-                  fmt::arg("counts", count_axis(std::max(head_tail.size(), flank.size()))),
-                  fmt::arg("bottom", panel(0.095, 0.345)),
-                  fmt::arg("left", dynamic ? left_side : ""),
-                  fmt::arg("right", dynamic ? "right side" : "stress"),
-                  fmt::arg("unit", prefix.symbol), fmt::arg("factor", prefix.factor));
+      fmt::format(
+          simulation_commands, fmt::arg("range", range), fmt::arg("top", panel(0.66, 0.955)),
+          fmt::arg("middle", panel(0.41, 0.595)),
+          fmt::arg("counts", count_axis(std::max(head_tail.size(), flank.size()))),
+          fmt::arg("bottom", panel(0.095, 0.345)), fmt::arg("left", dynamic ? left_side : ""),
+          fmt::arg("right", dynamic ? "right side" : "stress"),
+          fmt::arg("lost", loses_energy(simulation)
+                               ? fmt::format(taken_by_steps, fmt::arg("factor", prefix.factor))
+                               : ""),
+          fmt::arg("unit", prefix.symbol), fmt::arg("factor", prefix.factor));
   return figure;
 }
 

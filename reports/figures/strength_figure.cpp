@@ -164,20 +164,27 @@ std::string axes(const Range& range) {
   return "set offsets graph 0.08, graph 0.14, graph 0.08, graph 0.08\n";
 }
 
-// Filled symbols were fitted, open ones only validated; the shape tells the orientation.
+// Filled symbols were fitted, open ones, white inside, only validated; the shape tells the
+// orientation.
 std::string group_plot(int number, const Group& group, int shape) {
   constexpr std::array<std::string_view, 5> colours{"blue", "red", "green", "purple", "orange"};
   const auto style = static_cast<std::size_t>(shape) % colours.size();
   const bool fitted = group.second == calib::Use::fit;
+  const std::string inside =
+      fitted ? ""
+             : fmt::format(
+                   ", $group{} using ($1*1e-6):($2*1e-6) with points pt {} ps 1.2 lc rgb "
+                   "'white' notitle",
+                   number, 5 + 2 * style);
   return fmt::format(
-      ", $group{0} using ($1*1e-6):($2*1e-6):($3*1e-6):($4*1e-6) with xyerrorbars pt {1} ps 1.2 "
+      "{5}, $group{0} using ($1*1e-6):($2*1e-6):($3*1e-6):($4*1e-6) with xyerrorbars pt {1} ps 1.2 "
       "lw 1.4 lc rgb {2} title '{3:.4g}°{4}', "
       "$group{0} using ($1*1e-6):($2*1e-6):5 with labels noenhanced left offset 1.3,-0.6 "
       "font ',11' tc rgb '#555555' notitle, "
       "$group{0} using ($1*1e-6):($2*1e-6):6 with labels noenhanced right offset -1.3,0.6 "
       "font ',11' tc rgb '#555555' notitle",
       number, 5 + 2 * style - (fitted ? 0 : 1), colours.at(style),
-      1e-3 * static_cast<double>(group.first), fitted ? "" : ", validation");
+      1e-3 * static_cast<double>(group.first), fitted ? "" : ", validation", inside);
 }
 
 // Pixels for the rows of the legend that have no room above a figure of usual height.
@@ -204,13 +211,15 @@ Figure strength_figure(const std::vector<calib::SpecimenResult>& specimens, cons
   std::string data, plots;
   std::map<long, int> shapes;
   int number = 0;
-  for (const auto& [group, members] : groups) {
-    const int shape =
-        shapes.try_emplace(group.first, static_cast<int>(shapes.size())).first->second;
-    data += group_data(number, members, sides);
-    plots += group_plot(number, group, shape);
-    ++number;
-  }
+  for (const calib::Use use : {calib::Use::fit, calib::Use::validate})  // open symbols on top
+    for (const auto& [group, members] : groups) {
+      const int shape =
+          shapes.try_emplace(group.first, static_cast<int>(shapes.size())).first->second;
+      if (group.second != use) continue;
+      data += group_data(number, members, sides);
+      plots += group_plot(number, group, shape);
+      ++number;
+    }
   const std::string stopped = stopped_data(groups, range);
   if (!stopped.empty()) {
     data += stopped;

@@ -178,6 +178,11 @@ std::string comparison_page(const std::vector<FitReport>& reports) {
   content["fits"] = fits;
   content["intervals"] = text(draw(intervals_figure(reports, "intervals")));
   content["parameters"] = parameter_rows(reports);
+  content["held"] = std::ranges::any_of(reports, [](const FitReport& fit) {
+    return std::ranges::any_of(fit.result.parameters, [](const calib::CalibratedParameter& p) {
+      return !p.left_out_because.empty();
+    });
+  });
   return render_page(fmt::format("havers report: {} side by side", count(reports.size(), "fit")),
                      "comparison", content, footer);
 }

@@ -100,12 +100,13 @@ std::string search_sentence(const FitReport& report) {
 
 std::string section_caption(const calib::SectionPorosity& section) {
   return fmt::format(
-      "{}: porosity {}\u00a0%, {} on {}\u00a0mm² of bone, standard deviation {} in windows of one "
-      "fibre; {}, threshold at a depth of {} (0 bone, 1 pore), pixel {}",
+      "{}: porosity {}\u00a0%, {} on {}\u00a0mm² of bone, standard deviation {}\u00a0% in windows "
+      "of "
+      "one fibre; {}, threshold at a depth of {} (0 bone, 1 pore), pixel {}",
       base_name(section.file),
       plus_minus(section.porosity / in::percent, section.porosity_standard_error / in::percent),
       count(section.pore_count, "pore"), number(section.bone_area / in::mm2, 3),
-      number(section.window_sd, 3), section.method, number(section.threshold, 3),
+      number(section.window_sd / in::percent, 3), section.method, number(section.threshold, 3),
       quantity(section.pixel_size / in::um, "µm", 3));
 }
 

@@ -40,7 +40,7 @@ mstch::map row(const std::string& name, const calib::SectionPorosity& s, double 
           {"diameter", text(with_sd(s.mean_pore_diameter, s.pore_diameter_sd, in::um))},
           {"bone_area", text(number(s.bone_area / in::mm2, 3))},
           {"marrow_area", text(number(s.marrow_area / in::mm2, 3))},
-          {"window_sd", text(number(s.window_sd, 3))}};
+          {"window_sd", text(number(s.window_sd / in::percent, 3))}};
 }
 
 mstch::map zone_row(const calib::Zone& zone) {

@@ -15,7 +15,7 @@ using Status = sim::SimulationStatus;
 
 std::string by_step(double error) {
   return error > 0.0
-             ? fmt::format(" (±\u00a0{} by the step)", quantity(error / in::percent, "%", 2))
+             ? fmt::format(" (±\u00a0{} of it by the step)", quantity(error / in::percent, "%", 2))
              : "";
 }
 
@@ -62,11 +62,11 @@ std::string step_error_of(const sim::Simulation& s) {
 std::string cost_of(const SimulationReport& report) {
   const sim::Simulation& s = report.simulation;
   return fmt::format(
-      "Status {}: {}. {} wall time, for a relative energy defect of {}, a residual of at most {} "
-      "and a penetration of at most {}.{}",
-      to_string(s.status), explain(s), duration(report.provenance.wall_seconds),
-      number(s.energy_defect, 3), number(s.worst_residual, 3),
-      quantity(s.worst_penetration / in::um, "µm", 3), step_error_of(s));
+      "Why it ended: {}. {} wall time, for a relative energy defect of {}, a residual of at most "
+      "{} and a penetration of at most {}.{}",
+      explain(s), duration(report.provenance.wall_seconds), number(s.energy_defect, 3),
+      number(s.worst_residual, 3), quantity(s.worst_penetration / in::um, "µm", 3),
+      step_error_of(s));
 }
 
 // Of a run that did not break the strain of the largest stress says nothing.
@@ -195,10 +195,10 @@ Facts scene_facts(const SimulationReport& report) {
                                        to_string(joints.distribution), setting(joints.scatter),
                                        setting(joints.missing / in::percent, "%"), joints.seed)
                          : "one per joint, given"},
-      {"Loading", fmt::format("{}\u00a01/s, {} sides, {} start, up to {} strain, followed to {}",
+      {"Loading", fmt::format("{}\u00a01/s, {} sides, from {}, up to {} strain, followed to {}",
                               setting(loading.strain_rate),
                               loading.lateral == sim::Lateral::periodic ? "periodic" : "free",
-                              loading.start == sim::Start::uniform ? "uniform" : "rest",
+                              loading.start == sim::Start::uniform ? "uniform motion" : "rest",
                               setting(loading.max_strain / in::percent, "%"), followed_to(report))},
       {"Tolerance", setting(solver.tolerance)}};
 }
@@ -215,6 +215,7 @@ std::string simulation_page(const SimulationReport& report) {
                       {"facts", fact_list(key_numbers(report))},
                       {"curve", text(draw(simulation_figure(report, "curve")))},
                       {"in_time", simulation.regime == sim::Regime::dynamic},
+                      {"loses", loses_energy(simulation)},
                       {"end", text(end_of(report))},
                       {"fracture", text(fracture_svg(report.assembly, simulation))},
                       {"left_out", left_out_section(simulation.left_out)},

@@ -140,7 +140,8 @@ std::string axes(const std::vector<Line>& lines) {
     y.take(line.low);
     y.take(line.high);
   }
-  const double margin = x.high > x.low ? 0.04 * (x.high - x.low) : 1.0;
+  const double alone = x.high != 0.0 ? 0.1 * std::abs(x.high) : 1.0;
+  const double margin = x.high > x.low ? 0.04 * (x.high - x.low) : alone;
   return (x.many_decades() ? log_axis('x', x)
                            : fmt::format("{}set xrange [{}:{}]\n", tics_of_small('x', x),
                                          x.low - margin, x.high + margin)) +

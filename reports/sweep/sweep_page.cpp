@@ -130,7 +130,8 @@ mstch::array figures_of(const SweepReport& report) {
     const std::string shown =
         wanted.x.empty()
             ? "Each curve is one run: the first seed that has not failed, at the first value of "
-              "every key that the figure does not tell apart."
+              "every key that the figure does not tell apart. It ends where what follows of its "
+              "avalanche is left out."
             : "Bars and bands: 95\u00a0% intervals of the means; that of a single run has none.";
     const std::string id = fmt::format("{}-{}", report.id, figures.size());
     const mstch::array panels = list_of(
@@ -150,8 +151,8 @@ std::string about(const SweepReport& report) {
   const bool open = std::ranges::any_of(
       report.result.summaries, [](const calib::PointSummary& s) { return s.unbroken > 0; });
   return fmt::format(
-      "{}{}, {} each.{}{}{}", ended(report.sweep.text), count(report.result.points.size(), "point"),
-      count(report.sweep.plan.seeds, "run"),
+      "{}{}, {}{}.{}{}{}", ended(report.sweep.text), count(report.result.points.size(), "point"),
+      count(report.sweep.plan.seeds, "run"), report.result.points.size() == 1 ? "" : " each",
       why.empty() ? "" : fmt::format(" Runs that failed, most often so: {}.", typeset(why)),
       but_for.empty()
           ? ""

@@ -198,7 +198,8 @@ CurvePoint DynamicRun::point() const {
           .broken_joints = broken_,
           .kinetic = energy_.kinetic,
           .elastic = energy_.elastic,
-          .dissipated = energy_.joints + energy_.viscous};
+          .dissipated = energy_.joints + energy_.viscous,
+          .numerical = energy_.numerical};
 }
 
 void DynamicRun::finish(Simulation& simulation) const {

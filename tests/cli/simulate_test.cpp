@@ -160,6 +160,8 @@ TEST(Simulate, ExitsOneWhenTheRunIsNotToBeTrusted) {
                              impact);
   EXPECT_EQ(answer.exit_code, 1) << answer.out << answer.err;
   EXPECT_TRUE(answer.out.starts_with("NOT to be trusted: ")) << answer.out;
+  EXPECT_THAT(answer.out, testing::HasSubstr("\nstrength       -\nbroken joints  0 of "))
+      << answer.out;
 }
 
 TEST(Simulate, AndCheckNameTheLineOfSnapshotsThatCannotBeWritten) {

@@ -70,6 +70,17 @@ TEST(Figure, SaysWhereATestWasStopped) {
   EXPECT_FALSE(contains(svg, "measured strength"));
 }
 
+// White inside, they would be nothing but outlines below those that were fitted.
+TEST(Figure, DrawsSpecimensOfTheValidationOnTop) {
+  auto sample = test::fit_sample();
+  auto& specimens = sample.result.specimens;
+  for (std::size_t i = 0; i < specimens.size(); ++i)
+    specimens[i].use = i == 0 ? calib::Use::validate : calib::Use::fit;
+  const std::string commands = strength_figure(specimens, "strength").commands;
+  EXPECT_LT(commands.rfind("pt 7"), commands.find("rgb 'white'"));
+  EXPECT_LT(commands.find("rgb 'white'"), commands.find(", validation"));
+}
+
 // Where points lie close to each other their names would lie on each other.
 TEST(Figure, NamesTheSpecimensThatHaveRoom) {
   const auto sample = test::fit_sample();
@@ -178,6 +189,16 @@ TEST(Figure, ShowsBothSidesOnlyWhereTheyDiffer) {
   EXPECT_FALSE(contains(draw(simulation_figure(report, "c")), "left side"));
 }
 
+TEST(Figure, ShowsTheEnergyThatStepsTakeWhereItIsSome) {
+  const sim::Assembly assembly;
+  auto simulation = test::simulation_sample(assembly);
+  const SimulationReport report{{}, assembly, simulation, {}};
+  for (const double loss : {0.005, 0.02}) {
+    simulation.numerical_loss = loss;
+    EXPECT_EQ(contains(draw(simulation_figure(report, "c")), ">lost<"), loss > 0.01);
+  }
+}
+
 // Half way to the first break a quarter of the energy is stored, steps or no steps.
 TEST(Figure, DrawsTheEnergyOfStrainThatWasLeaptOver) {
   HAVERS_SLOW;
@@ -194,7 +215,7 @@ TEST(Figure, DrawsTheEnergyOfStrainThatWasLeaptOver) {
   int between = 0;
   double strain = 0.0, right = 0.0, left = 0.0, broken = 0.0, elastic = 0.0, rest = 0.0;
   while (strain < before_break.strain * (1.0 - 1e-5) &&
-         rows >> strain >> right >> left >> broken >> elastic >> rest >> rest) {
+         rows >> strain >> right >> left >> broken >> elastic >> rest >> rest >> rest) {
     const double part = strain / before_break.strain;
     EXPECT_NEAR(elastic / before_break.elastic, part * part, 1e-3);
     EXPECT_NEAR(right / before_break.stress_right, part, 1e-3);

@@ -59,9 +59,9 @@ TEST_F(SimulationPage, IsNotGreenWhereTheStepLeavesAnErrorOrOneThatIsNotKnown) {
   const std::string coarse = page();
   EXPECT_TRUE(contains(coarse, "verdict mixed"));
   EXPECT_TRUE(contains(coarse,
-                       "strength 38.90\u00a0MPa (±\u00a02.2\u00a0% by the step) at "
+                       "strength 38.90\u00a0MPa (±\u00a02.2\u00a0% of it by the step) at "
                        "0.300\u00a0% strain. To be trusted."));
-  EXPECT_TRUE(contains(coarse, "<td>38.90\u00a0MPa (±\u00a02.2\u00a0% by the step)</td>"));
+  EXPECT_TRUE(contains(coarse, "<td>38.90\u00a0MPa (±\u00a02.2\u00a0% of it by the step)</td>"));
   simulation.step_error.reset();
   const std::string unknown = page();
   EXPECT_TRUE(contains(unknown, "verdict mixed"));

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "sim/dynamics/time_stepping.hpp"
@@ -130,6 +131,8 @@ TEST(Simulate, SaysWhenAStepDidNotConverge) {
   EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("; a shorter step_s may have one"));
   EXPECT_EQ(simulation.curve.size(), 1U);  // from rest; what has no answer is no row
   EXPECT_EQ(simulation.displacements.norm(), 0.0);
+  for (const double number : {simulation.strength, simulation.failure_strain, simulation.modulus})
+    EXPECT_TRUE(std::isnan(number));
 }
 
 // Where nearly every fibre reaches from end to end, many layers can bear forces between their

@@ -108,6 +108,22 @@ TEST(Verdict, SaysThatTheModelBendsWhereTheTestsAreStraight) {
   EXPECT_TRUE(says(little, "The model's curves bend before they break"));
 }
 
+// Neither is straight, and nothing says that they are.
+TEST(Verdict, CallsNoCurvesStraightThatBendAlike) {
+  auto study = test::synthetic_study(test::three_orientations);
+  for (auto& specimen : study.specimens) specimen.test.failure_strain /= 0.85;
+  const auto simulator = test::altered([](Response& response, const sim::Scene&) {
+    response.failure_strain /= 0.85;
+    response.strain = {0.0, response.failure_strain, response.failure_strain};
+  });
+  const auto check = check_of(calibrate_with(simulator, study), "brittle");
+  EXPECT_EQ(check.outcome, Outcome::pass);
+  EXPECT_TRUE(says(check,
+                   "cannot be told apart: strength / (modulus × failure strain) is 0.85 in "
+                   "the tests and 0.85 in the model, and only a gap of 10 % or more"))
+      << check.text;
+}
+
 TEST(Verdict, LeavesCurvesUncheckedWhereNoTestBroke) {
   auto study = test::synthetic_study({0.0});
   for (auto& specimen : study.specimens) specimen.broke = false;
