@@ -69,8 +69,9 @@ WideIntervals wide_intervals(const FitProblem& problem, const CalibrationResult&
     if (part <= warned) continue;
     const bool nothing = part > as_without_tests;
     wide.nothing_told = wide.nothing_told || nothing;
-    wide.text += fmt::format(" The 95 % interval of {} covers {} of the range of its bounds, {}.",
+    wide.text += fmt::format(" The 95 % interval of {} covers {} of the range of its bounds{}, {}.",
                              parameter.name, percent_text(part),
+                             unknown.info->scale == Scale::logarithmic ? " in logarithms" : "",
                              nothing ? "hardly less than without any test: its value is not known"
                                      : "which tell much of it");
   }

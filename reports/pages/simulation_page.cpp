@@ -140,6 +140,11 @@ std::string end_of(const SimulationReport& report) {
       when, setting(report.scene.loading.end_fraction));
 }
 
+// What is not there at all would look like a drawing's fault.
+std::string gaps_of(const sim::Simulation& s) {
+  return s.missing_joints() > 0 ? " Joints that are missing from the start leave gaps." : "";
+}
+
 std::string followed_to(const SimulationReport& report) {
   const std::string part = setting(report.simulation.end_fraction_used, "", 3);
   return ends_early(report) ? fmt::format("{} of the strength ({} where nothing is left out)", part,
@@ -216,7 +221,7 @@ std::string simulation_page(const SimulationReport& report) {
                       {"curve", text(draw(simulation_figure(report, "curve")))},
                       {"in_time", simulation.regime == sim::Regime::dynamic},
                       {"loses", loses_energy(simulation)},
-                      {"end", text(end_of(report))},
+                      {"end", text(end_of(report) + gaps_of(simulation))},
                       {"fracture", text(fracture_svg(report.assembly, simulation))},
                       {"left_out", left_out_section(simulation.left_out)},
                       {"scene", mstch::map{{"facts", fact_list(scene_facts(report))}}}},
