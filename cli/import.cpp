@@ -15,6 +15,7 @@
 #include "cli/number_check.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/provenance.hpp"
+#include "io/config/key_unit.hpp"
 #include "io/config/read_import.hpp"
 #include "io/input_error.hpp"
 #include "io/results/result_files.hpp"
@@ -54,7 +55,7 @@ struct ImportFindings {
 };
 
 void give_size(std::optional<double>& size, const std::optional<double>& given_mm) {
-  if (given_mm) size = 1e-3 * *given_mm;
+  if (given_mm) size = io::to_si(*given_mm, io::millimetre);
 }
 
 void give_sizes(io::ReadOptions& options, const ImportArguments& arguments) {

@@ -16,6 +16,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -73,16 +74,23 @@ std::string unknown_word(const CLI::App& app) {
                      hint.empty() ? "" : ", " + hint);
 }
 
+void print_refusal(const std::vector<io::Problem>& problems) {
+  fmt::print(
+      "{}",
+      io::json_text({{"status", "refused"}, {"trusted", false}, {"problems", json_of(problems)}}));
+}
+
 // CLI11 answers -h and --version through exceptions too; those are successes.
-int answer(const CLI::App& app, const CLI::ParseError& error) {
+int answer(const CLI::App& app, const CLI::ParseError& error, bool json) {
   if (error.get_exit_code() == 0) return app.exit(error);
   const std::string unknown = unknown_word(app);
-  if (unknown.empty() && app.get_subcommands().empty()) {
+  const std::string what = unknown.empty() ? error.what() : unknown;
+  constexpr const char* hint = "havers -h and havers COMMAND -h show how it is used";
+  if (json) print_refusal({{"command line", what, hint}});
+  if (unknown.empty() && app.get_subcommands().empty())
     fmt::print(stderr, "{}", app.help());
-    return bad_input;
-  }
-  fmt::print(stderr, "havers: {} (havers -h and havers COMMAND -h show how it is used)\n",
-             unknown.empty() ? error.what() : unknown);
+  else
+    fmt::print(stderr, "havers: {} ({})\n", what, hint);
   return bad_input;
 }
 
@@ -96,10 +104,7 @@ int run(const Command& command, const CommonOptions& common) {
   } catch (const io::InputError& error) {
     for (const io::Problem& problem : error.problems())
       fmt::print(stderr, "havers: {}\n", io::to_string(problem));
-    if (common.json && !command.shows_problems)
-      fmt::print("{}", io::json_text({{"status", "refused"},
-                                      {"trusted", false},
-                                      {"problems", json_of(error.problems())}}));
+    if (common.json && !command.shows_problems) print_refusal(error.problems());
   } catch (const std::filesystem::filesystem_error& error) {
     fmt::print(stderr, "havers: {}: {}\n", error.path1().string(), error.code().message());
   } catch (const std::bad_alloc&) {
@@ -138,7 +143,9 @@ int program(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return answer(app, error);
+    const bool json = std::any_of(
+        argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
+    return answer(app, error, json);
   }
   for (const Command& command : commands)
     if (command.parser->parsed()) return run(command, common);

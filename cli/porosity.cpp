@@ -16,6 +16,7 @@
 #include "cli/number_check.hpp"
 #include "cli/output_folder.hpp"
 #include "cli/provenance.hpp"
+#include "io/config/key_unit.hpp"
 #include "io/config/words.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/input_error.hpp"
@@ -82,11 +83,12 @@ io::DensityReference reference_of(const std::string& text) {
 
 io::SectionOptions options_of(const PorosityArguments& arguments) {
   io::SectionOptions options = arguments.options;
-  if (arguments.pixel_size_um) options.pixel_size = 1e-6 * *arguments.pixel_size_um;
+  if (arguments.pixel_size_um)
+    options.pixel_size = io::to_si(*arguments.pixel_size_um, io::micrometre);
   if (!arguments.mask.empty()) options.mask = arguments.mask;
-  options.rim = 1e-6 * arguments.rim_um;
-  options.window_length = 1e-6 * arguments.fibre_length_um;
-  options.window_height = 1e-6 * arguments.fibre_height_um;
+  options.rim = io::to_si(arguments.rim_um, io::micrometre);
+  options.window_length = io::to_si(arguments.fibre_length_um, io::micrometre);
+  options.window_height = io::to_si(arguments.fibre_height_um, io::micrometre);
   for (const std::string& text : arguments.density) options.density.push_back(reference_of(text));
   options.pictures = !arguments.folder.empty();
   return options;

@@ -112,6 +112,7 @@ Simulation simulate(const Scene& scene, const Observer& observer, const StopAske
                               : simulate_dynamic(scene, observer, stop_asked);
   simulation.regime_ground = choice.ground + simulation.regime_ground;
   simulation.tolerance = scene.solver.tolerance;
+  simulation.contact = scene.solver.contact;
   simulation.step_accuracy = scene.solver.step_accuracy;
   if (simulation.strength == 0.0 && has_ended(simulation) && some_are_missing(scene.joints))
     simulation.status = SimulationStatus::severed;

@@ -54,7 +54,9 @@ struct JointOutcome {
   double broken_at_strain = std::numeric_limits<double>::quiet_NaN();  ///< NaN while bonded. [-]
   double reaction_normal = 0.0;   ///< R_N, compression positive. [N/m]
   double reaction_tangent = 0.0;  ///< R_T. [N/m]
-  double gap = 0.0;               ///< g; below 0 where it penetrates, or by rounding. [m]
+  /// g; below 0 where it penetrates, or by rounding. In the limit one of many, 0 or more, at a
+  /// piece that hangs on nothing. [m]
+  double gap = 0.0;
 
   /// In this run: it was not missing from the start.
   [[nodiscard]] bool broke() const { return broken && !is_missing(threshold); }
@@ -127,7 +129,8 @@ struct Simulation {
   double residual_to_strength = 0.0;  ///< The same over the events up to the strength; in time over
                                       ///< all steps. [-]
   double tolerance = 0.0;             ///< Of the residual, as asked for. [-]
-  double worst_penetration = 0.0;     ///< Largest −g. [m]
+  ContactMethod contact = ContactMethod::active_set;  ///< As asked for; the limit has its own.
+  double worst_penetration = 0.0;                     ///< Largest −g. [m]
   int events_without_contact =
       0;  ///< Quasi-static: events whose contact had no solution and was left out.
   int without_contact_to_strength = 0;  ///< Those of them before the strength.

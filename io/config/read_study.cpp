@@ -34,6 +34,7 @@ bool no_part_of_an_id(char c) {
 }
 
 void check_id(TableReader& table, const std::string& id, std::set<std::string>& ids) {
+  if (table.has("id") && !table.is_text("id")) return;  // that was said
   if (id.empty())
     table.complain("id", table.has("id") ? "is empty" : "is missing", "name the specimen");
   else if (std::ranges::any_of(id, no_part_of_an_id) || id.front() == '.' || id.size() > longest_id)

@@ -110,6 +110,7 @@ TEST(SampleStudy, SectionsThatAreListedTwiceAreDoubted) {
   const auto answer =
       run_havers(own_folder(), "porosity " + section + " " + section + " --pixel-size-um 2 --json");
   const auto json = nlohmann::json::parse(answer.out);
+  EXPECT_EQ(json["sections"][0]["window_area_um2"], 1000.0);  // as in a fit, to the last bit
   EXPECT_TRUE(json["sections"][0]["warnings"].empty());
   EXPECT_EQ(json["sections"][1]["warnings"][0], "is listed again: it counts twice");
 

@@ -175,6 +175,20 @@ TEST(Fit, ReportsTheProblemsOfAllFilesAtOnceAndWritesNothing) {
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
+// At the model's own rate there are few.
+TEST(Fit, RefusesStepsThatAreTooManyAtTheRateOfATest) {
+  const fs::path folder = test::folder_with_tests();
+  const std::string settings =
+      " made/study.toml --set model.solver.regime=dynamic --set model.solver.step_s=2e-8 --set "
+      "model.loading.strain_rate_per_s=1000";
+  for (const std::string command : {"check", "fit -o out"}) {
+    const auto answer = run_havers(folder, command + settings);
+    EXPECT_EQ(answer.exit_code, 2) << answer.out;
+    EXPECT_THAT(answer.err, HasSubstr("made/study.toml: model.solver.step_s: is 2e-08: a strain"));
+    EXPECT_THAT(answer.err, HasSubstr("steps away (as specimen B0 was tested) (leave step_s out"));
+  }
+}
+
 // The object that --json promises, of runs that have no result.
 TEST(Json, SaysHowARunEndedThatLeavesNothing) {
   const fs::path folder = test::folder_with_study();

@@ -90,6 +90,15 @@ TEST(Usage, MistakesInTheCommandLineAreOneLineAndExitTwo) {
   }
 }
 
+TEST(Usage, MistakesInTheCommandLineHaveTheObjectOfJsonToo) {
+  const auto answer = run_havers(own_folder(), "simulate --json");
+  EXPECT_EQ(answer.exit_code, 2);
+  const auto json = nlohmann::json::parse(answer.out);
+  EXPECT_EQ(json["status"], "refused");
+  EXPECT_EQ(json["problems"][0]["where"], "command line");
+  EXPECT_TRUE(answer.err.starts_with("havers: " + json["problems"][0]["what"].get<std::string>()));
+}
+
 // Arguments, each with the sentence that refuses them.
 void expect_refused(const std::vector<std::pair<std::string, std::string>>& wrong) {
   const auto folder = own_folder();
