@@ -3,9 +3,8 @@
 
 namespace havers::cli {
 
-/// From now on SIGINT and SIGTERM set a flag that observers ask for, but for what the parent has
-/// them ignored. Only for commands that ask: in
-/// the others both end the program, as they do by themselves.
+/// From now on SIGINT and SIGTERM set a flag that observers ask for, but for those that the parent
+/// ignores. Only for commands that ask: in the others both do what they do by themselves.
 void catch_interrupts();
 
 /// Whether the user asked to stop. From any thread.

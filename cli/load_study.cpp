@@ -211,20 +211,6 @@ std::vector<std::string> notes_of(const LoadedStudy& loaded, const std::vector<O
   return notes;
 }
 
-// At the rate and angle of a test the study's model may ask for what it does not at its own.
-void require_scenes(const LoadedStudy& loaded, const std::filesystem::path& file) {
-  const calib::Study& study = loaded.study;
-  for (std::size_t s = 0; s < study.specimens.size(); ++s) {
-    std::vector<io::Problem> problems;
-    for (const sim::Scene::Problem& problem : calib::model_of(study, s).scene.problems())
-      problems.push_back(
-          {file.string() + ": model." + problem.key,
-           fmt::format("{} (as specimen {} was tested)", problem.what, study.specimens[s].id),
-           problem.hint});
-    if (!problems.empty()) throw io::InputError(std::move(problems));  // one tells of all
-  }
-}
-
 // Rejections are problems where they leave nothing to fit.
 void require_specimens(const LoadedStudy& loaded, const std::filesystem::path& file) {
   const bool some = std::ranges::any_of(
@@ -238,6 +224,21 @@ void require_specimens(const LoadedStudy& loaded, const std::filesystem::path& f
 }
 
 }  // namespace
+
+std::vector<io::Problem> scene_problems(const calib::Study& study,
+                                        const std::filesystem::path& file) {
+  std::vector<io::Problem> problems;
+  for (std::size_t s = 0; s < study.specimens.size(); ++s)
+    for (const sim::Scene::Problem& problem : calib::model_of(study, s).scene.problems()) {
+      const std::string where = file.string() + ": model." + problem.key;
+      if (std::ranges::find(problems, where, &io::Problem::where) == problems.end())
+        problems.push_back(
+            {where,
+             fmt::format("{} (as specimen {} is tested)", problem.what, study.specimens[s].id),
+             problem.hint});
+    }
+  return problems;
+}
 
 std::vector<std::string> LoadedStudy::all_notes() const {
   std::vector<std::string> all = notes;
@@ -262,7 +263,7 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   loaded.study.specimens.clear();
   loaded.inputs = std::move(read.inputs);
   loaded.notes = std::move(read.warnings);
-  if (sound) doubt_specimens(read.specimens, loaded);  // else what is wrong looks like missing
+  doubt_specimens(read.specimens, loaded);
   doubt_tests(read.specimens, outcomes, loaded);
   doubt_names(read.specimens, outcomes, loaded);
   if (known != nullptr) *known = notes_of(loaded, outcomes);
@@ -270,7 +271,8 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     take_specimen(read.specimens[i], std::move(outcomes[i]), loaded);
   require_specimens(loaded, file);
-  require_scenes(loaded, file);
+  if (problems = scene_problems(loaded.study, file); !problems.empty())
+    throw io::InputError(std::move(problems));
   doubt_model(read.rate_is_given, loaded);
   return loaded;
 }

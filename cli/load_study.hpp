@@ -34,6 +34,10 @@ struct LoadedStudy {
   [[nodiscard]] std::vector<std::string> all_notes() const;
 };
 
+/// What the rates and angles of its tests ask of a study's model that it lacks: each key once.
+std::vector<io::Problem> scene_problems(const calib::Study& study,
+                                        const std::filesystem::path& file);
+
 /// Reads a study, its tests and its sections, the specimens in parallel. A test that cannot be
 /// reduced, or that quality control rejects, is left out. @throws io::InputError with the problems
 /// of all files together, or why no specimen can be fitted; `known` then has the notes so far.

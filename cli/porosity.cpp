@@ -135,13 +135,13 @@ calib::SpecimenPorosity mean_of(const std::vector<Section>& sections) {
 }
 
 void print_table(const std::vector<Section>& sections) {
-  fmt::print("porosity [%]   +-    pores   window SD   scatter  section\n");
+  fmt::print("porosity [%]   +-    pores   window SD [%]   scatter  section\n");
   for (const Section& section : sections) {
     const calib::SectionPorosity& found = section.measured.porosity;
     const bool missing = calib::removes_joints(calib::pool_sections({found}));
-    fmt::print("{:>12.3f}{:>7}{:>7}{:>12}{:>10}  {}\n", 100.0 * found.porosity,
+    fmt::print("{:>12.3f}{:>7}{:>7}{:>16}{:>10}  {}\n", 100.0 * found.porosity,
                cell(100.0 * found.porosity_standard_error, 3), found.pore_count,
-               cell(found.window_sd, 4), missing ? "missing" : cell(section.scatter, 3),
+               cell(100.0 * found.window_sd, 3), missing ? "missing" : cell(section.scatter, 3),
                found.file);
     for (const std::string& warning : found.warnings) fmt::print("  note: {}\n", warning);
     if (std::isfinite(found.density))
@@ -153,8 +153,8 @@ void print_table(const std::vector<Section>& sections) {
   }
   const calib::SpecimenPorosity mean = mean_of(sections);
   if (sections.size() > 1)
-    fmt::print("{:>12.3f}{:>7}{:>19}{:>10}  all, by area\n", 100.0 * mean.porosity,
-               cell(100.0 * mean.porosity_standard_error, 3), cell(mean.window_sd, 4),
+    fmt::print("{:>12.3f}{:>7}{:>23}{:>10}  all, by area\n", 100.0 * mean.porosity,
+               cell(100.0 * mean.porosity_standard_error, 3), cell(100.0 * mean.window_sd, 3),
                calib::removes_joints(mean) ? "missing" : cell(calib::scatter_of(mean, {}), 3));
   if (calib::removes_joints(mean))
     fmt::print(

@@ -131,6 +131,15 @@ std::vector<calib::SectionPorosity> draw_sections(const fs::path& study, const O
   return drawn;
 }
 
+// The study at the rates that its tests will have.
+calib::Study as_tested(const io::StudyFile& file) {
+  calib::Study study = file.study;
+  for (std::size_t s = 0; s < study.specimens.size(); ++s)
+    study.specimens[s].test.strain_rate =
+        calib::strain_rate(bar_of(file.specimens[s]), file.synthesize.laboratory);
+  return study;
+}
+
 Made make_specimen(const fs::path& study, const OutputFolder& output, const io::StudyFile& file,
                    std::size_t s) {
   const std::uint64_t seed = calib::specimen_seed(file.study.calibrate.seed, s);
@@ -227,8 +236,9 @@ void print_summary(const std::vector<Made>& made) {
 int run_synthesize(const SynthesizeArguments& arguments, const CommonOptions& common) {
   io::StudyFile file = io::read_study(arguments.study, common.set, io::Files::will_be_written);
   if (common.seed) file.study.calibrate.seed = *common.seed;
-  if (auto problems = problems_of(arguments.study, file); !problems.empty())
-    throw io::InputError(std::move(problems));
+  std::vector<io::Problem> problems = problems_of(arguments.study, file);
+  if (problems.empty()) problems = scene_problems(as_tested(file), arguments.study);
+  if (!problems.empty()) throw io::InputError(std::move(problems));
   catch_interrupts();
   OutputFolder output(arguments.folder, common.force);
 

@@ -92,7 +92,8 @@ std::string Simulation::why_not_trusted() const {
   const bool given = regime == Regime::dynamic && !step_error;
   const bool unsolved = status == SimulationStatus::not_converged;
   if (unsolved && regime == Regime::dynamic && contact == ContactMethod::gauss_seidel)
-    return explain(status) + "; more max_iterations, or contact = \"active-set\", may find one";
+    return explain(status) +
+           "; more max_iterations, contact = \"active-set\" or a shorter step_s may find one";
   if (unsolved && given)
     return explain(status) + "; a shorter step_s may have one, and without it one is looked for";
   if (!has_ended(*this)) return explain(status);

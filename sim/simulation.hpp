@@ -54,8 +54,8 @@ struct JointOutcome {
   double broken_at_strain = std::numeric_limits<double>::quiet_NaN();  ///< NaN while bonded. [-]
   double reaction_normal = 0.0;   ///< R_N, compression positive. [N/m]
   double reaction_tangent = 0.0;  ///< R_T. [N/m]
-  /// g; below 0 where it penetrates, or by rounding. In the limit one of many, 0 or more, at a
-  /// piece that hangs on nothing. [m]
+  /// g; below 0 where it penetrates, or by rounding. In the limit one of many at a piece that
+  /// hangs on nothing, and 0 where that would overlap. [m]
   double gap = 0.0;
 
   /// In this run: it was not missing from the start.

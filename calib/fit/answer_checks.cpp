@@ -23,6 +23,10 @@ double width(const ParameterInfo& info, const std::array<double, 2>& interval) {
   return to_search(info, interval[1]) - to_search(info, interval[0]);
 }
 
+std::string in_its_scale(const ParameterInfo& info) {
+  return info.scale == Scale::logarithmic ? " in logarithms" : "";
+}
+
 // Where a profile has no end though that of the slopes is inside the bounds.
 const char* open_side(const CalibratedParameter& parameter) {
   if (std::isnan(parameter.profile_95[0]) && parameter.slopes_95[0] > parameter.bounds[0])
@@ -40,11 +44,12 @@ std::string wider_bootstraps(const FitProblem& problem, const CalibrationResult&
     const ParameterInfo& info = *problem.unknowns[k].info;
     const double part = width(info, parameter.bootstrap_95) / width(info, parameter.interval_95);
     if (std::isfinite(part) && part > 1.5)
-      wider.push_back(fmt::format("{} ({} times as wide)", parameter.name, two_digits(part)));
+      wider.push_back(fmt::format("{} ({} times as wide{})", parameter.name, two_digits(part),
+                                  in_its_scale(info)));
   }
   if (wider.empty()) return "";
   return fmt::format(
-      " The bootstrap over specimens gives wider ones: {}, in logarithms; a draw may leave out "
+      " The bootstrap over specimens gives wider ones: {}; a draw may leave out "
       "the few specimens that tell a parameter.",
       fmt::join(wider, ", "));
 }
@@ -177,6 +182,7 @@ Check check_intervals(const FitProblem& problem, const CalibrationResult& result
   if (result.fitted.empty()) return not_fitted(name);
   std::vector<std::string> differ;
   int compared = 0;
+  std::string scale = " in logarithms";  // of all that are compared
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (std::size_t k = 0; k < result.parameters.size(); ++k) {
     const CalibratedParameter& parameter = result.parameters[k];
@@ -187,22 +193,22 @@ Check check_intervals(const FitProblem& problem, const CalibrationResult& result
     const double part = width(info, parameter.profile_95) / width(info, parameter.slopes_95);
     if (!std::isfinite(part)) continue;
     ++compared;
+    if (in_its_scale(info).empty()) scale = "";
     least = std::min(least, part);
     most = std::max(most, part);
     if (part < 0.5 || part > 2.0)
-      differ.push_back(fmt::format("{} ({} times as wide)", parameter.name, two_digits(part)));
+      differ.push_back(fmt::format("{} ({} times as wide{})", parameter.name, two_digits(part),
+                                   in_its_scale(info)));
   }
   const std::string wider = wider_bootstraps(problem, result);
   if (compared == 0 && differ.empty())
     return not_checked(name, "no profile was asked for or could be had." + wider);
   if (differ.empty())
     return {name, Outcome::pass,
-            fmt::format("Profile likelihood gives intervals {} times as wide as the slopes do, in "
-                        "logarithms.{}",
-                        times_text(least, most), wider)};
+            fmt::format("Profile likelihood gives intervals {} times as wide as the slopes do{}.{}",
+                        times_text(least, most), scale, wider)};
   return {name, Outcome::warn,
-          fmt::format("Profile likelihood gives other intervals: {}, in logarithms. Believe the "
-                      "wider one.{}",
+          fmt::format("Profile likelihood gives other intervals: {}. Believe the wider one.{}",
                       fmt::join(differ, ", "), wider)};
 }
 

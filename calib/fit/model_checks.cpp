@@ -197,10 +197,14 @@ Check check_brittle(const FitProblem& problem, const Answer& answer) {
   if (straight && std::abs(simulated / n) < -std::log(slightly_bent))
     return {"brittle", Outcome::pass,
             fmt::format("The curves are straight up to the break: {}.", numbers)};
-  return {"brittle", Outcome::pass,
-          fmt::format("By how straight they are up to the break the curves of tests and model "
-                      "cannot be told apart: {}, and only a gap of {} or more would reject it.",
-                      numbers, percent_text(std::max(1.0 - bent, std::expm1(3.0 * error))))};
+  if (certain)
+    return {"brittle", Outcome::pass,
+            fmt::format("The curves of tests and model bend alike up to the break: {}.", numbers)};
+  return {
+      "brittle", Outcome::pass,
+      fmt::format("By how straight they are up to the break the curves of tests and model "
+                  "cannot be told apart: {}, and only tests {} below the model would reject it.",
+                  numbers, percent_text(1.0 - std::min(bent, std::exp(-3.0 * error))))};
 }
 
 Check check_orientations(const FitProblem& problem, const Answer& answer) {

@@ -106,9 +106,7 @@ Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, co
   const Eigen::MatrixXd jacobian = slopes.leftCols(static_cast<Eigen::Index>(active.size()));
   const VarianceSources sources = sources_of(problem, weights, at);
 
-  const Eigen::Index rows = jacobian.rows();
-  Uncertainty result{
-      .follow = jacobian.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(rows, rows))};
+  Uncertainty result{.follow = jacobian.completeOrthogonalDecomposition().pseudoInverse()};
   const Eigen::MatrixXd& follow = result.follow;
   result.freedom = residuals_told(problem, at) - parameters_spent(problem, at, slopes);
   result.standard_error = follow.rowwise().norm();

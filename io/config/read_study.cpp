@@ -92,6 +92,8 @@ std::vector<SpecimenFiles> read_specimens(TableReader& top, Files files) {
     keys(gauge_columns, specimen.gauge_columns);
     check_id(table, specimen.id, ids);
     check_specimen(table, specimen);
+    if (table.has("orientation_deg") && !specimen.orientation)
+      specimen.orientation = 0.0;  // what is wrong with it was said: it is not missing too
     if (files == Files::must_exist) check_files(table, specimen);
   }
   if (!tables.empty() && std::ranges::count(specimens, calib::Use::fit, &SpecimenFiles::use) == 0)

@@ -140,7 +140,7 @@ Figure simulation_figure(const SimulationReport& report, const std::string& id) 
   std::vector<double> strain;
   for (const sim::CurvePoint& point : simulation.curve) strain.push_back(point.strain);
   const std::string range = x_range({strain}, 100.0);
-  if (range.empty() || simulation.curve.size() < 2) return figure;
+  if (range.empty()) return figure;
   const bool dynamic = simulation.regime == sim::Regime::dynamic;
   const Prefix prefix = prefix_for(largest_energy(simulation.curve));
   const std::vector<double> head_tail = break_strains(report, sim::JointKind::head_tail),

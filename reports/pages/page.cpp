@@ -101,8 +101,7 @@ std::string search_sentence(const FitReport& report) {
 std::string section_caption(const calib::SectionPorosity& section) {
   return fmt::format(
       "{}: porosity {}\u00a0%, {} on {}\u00a0mm² of bone, standard deviation {}\u00a0% in windows "
-      "of "
-      "one fibre; {}, threshold at a depth of {} (0 bone, 1 pore), pixel {}",
+      "of one fibre; {}, threshold at a depth of {} (0 bone, 1 pore), pixel {}",
       base_name(section.file),
       plus_minus(section.porosity / in::percent, section.porosity_standard_error / in::percent),
       count(section.pore_count, "pore"), number(section.bone_area / in::mm2, 3),

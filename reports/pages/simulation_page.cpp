@@ -108,7 +108,8 @@ std::string steps_of(const sim::Simulation& s) {
 Facts key_numbers(const SimulationReport& report) {
   const sim::Simulation& s = report.simulation;
   const bool dynamic = s.regime == sim::Regime::dynamic;
-  const bool bounded = s.status != Status::broken && s.status != Status::severed;
+  const bool bounded =
+      s.status != Status::broken && s.status != Status::severed && !std::isnan(s.strength);
   Facts facts{{bounded ? "Strength, at least" : "Strength",
                quantity(s.strength / in::MPa, "MPa") + by_step(s.error_beyond_accuracy().strength)},
               {"Failure strain", failure_strain_of(report)},
@@ -212,20 +213,20 @@ Facts scene_facts(const SimulationReport& report) {
 
 std::string simulation_page(const SimulationReport& report) {
   const sim::Simulation& simulation = report.simulation;
-  return render_page("havers simulate" + (report.file.empty() ? "" : ": " + report.file),
-                     "simulation",
-                     {{"grade", grade_of(simulation)},
-                      {"sentence", text(sentence_of(simulation))},
-                      {"detail", text(cost_of(report))},
-                      {"facts", fact_list(key_numbers(report))},
-                      {"curve", text(draw(simulation_figure(report, "curve")))},
-                      {"in_time", simulation.regime == sim::Regime::dynamic},
-                      {"loses", loses_energy(simulation)},
-                      {"end", text(end_of(report) + gaps_of(simulation))},
-                      {"fracture", text(fracture_svg(report.assembly, simulation))},
-                      {"left_out", left_out_section(simulation.left_out)},
-                      {"scene", mstch::map{{"facts", fact_list(scene_facts(report))}}}},
-                     report.provenance);
+  return render_page(
+      "havers simulate" + (report.file.empty() ? "" : ": " + report.file), "simulation",
+      {{"grade", grade_of(simulation)},
+       {"sentence", text(sentence_of(simulation))},
+       {"detail", text(cost_of(report))},
+       {"facts", fact_list(key_numbers(report))},
+       {"curve", text(simulation.curve.size() < 2 ? "" : draw(simulation_figure(report, "curve")))},
+       {"in_time", simulation.regime == sim::Regime::dynamic},
+       {"loses", loses_energy(simulation)},
+       {"end", text(end_of(report) + gaps_of(simulation))},
+       {"fracture", text(fracture_svg(report.assembly, simulation))},
+       {"left_out", left_out_section(simulation.left_out)},
+       {"scene", mstch::map{{"facts", fact_list(scene_facts(report))}}}},
+      report.provenance);
 }
 
 }  // namespace havers::reports

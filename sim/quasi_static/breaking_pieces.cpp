@@ -44,12 +44,9 @@ bool BreakingRun::has_detour(const Joint& broken) const {
 // nothing, and without inertia its position is not determined, so neither is what it touches.
 std::vector<char> BreakingRun::apart() {
   const Assembly& assembly = intact_->assembly();
-  const auto joint_of = [&](int joint) -> const Joint& {
-    return assembly.joints[static_cast<std::size_t>(joint)];
-  };
   const auto broken_since = std::span(loose_.joints()).subspan(joints_in_pieces_);
   const bool as_before = joints_in_pieces_ > 0 && std::ranges::all_of(broken_since, [&](int joint) {
-                           return has_detour(joint_of(joint));
+                           return has_detour(assembly.joints[static_cast<std::size_t>(joint)]);
                          });
   joints_in_pieces_ = loose_.size();
   if (!as_before) {
@@ -59,12 +56,15 @@ std::vector<char> BreakingRun::apart() {
       adrift_.push_back(hangs_on_an_end(assembly, pieces, body) ? 0 : 1);
   }
   std::vector<char> apart;
-  for (const int joint : loose_.joints()) {
-    const auto [a, b] = std::pair{joint_of(joint).body_a, joint_of(joint).body_b};
-    apart.push_back(
-        std::max(adrift_[static_cast<std::size_t>(a)], adrift_[static_cast<std::size_t>(b)]));
-  }
+  apart.reserve(loose_.size());
+  for (const int joint : loose_.joints()) apart.push_back(is_adrift(joint) ? 1 : 0);
   return apart;
+}
+
+bool BreakingRun::is_adrift(int joint) const {
+  const Joint& on = intact_->assembly().joints[static_cast<std::size_t>(joint)];
+  return !adrift_.empty() && (adrift_[static_cast<std::size_t>(on.body_a)] != 0 ||
+                              adrift_[static_cast<std::size_t>(on.body_b)] != 0);
 }
 
 }  // namespace havers::sim

@@ -43,10 +43,10 @@ std::vector<JointOutcome> BreakingRun::outcomes() const {
     outcomes[j].reaction_tangent = young * strain_ * reactions(row + 1);
   }
   for (std::size_t i = 0; i < loose_.size(); ++i) {
+    const int joint = loose_.joints()[i];
     const double gap = strain_ * y_(2 * static_cast<Index>(i));
     // A piece that hangs on nothing lies in one of many places: in none where it overlaps.
-    outcomes[static_cast<std::size_t>(loose_.joints()[i])].gap =
-        contact_.is_apart(i) ? std::max(gap, 0.0) : gap;
+    outcomes[static_cast<std::size_t>(joint)].gap = is_adrift(joint) ? std::max(gap, 0.0) : gap;
   }
   return outcomes;
 }

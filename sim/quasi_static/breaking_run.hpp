@@ -89,6 +89,7 @@ class BreakingRun {
   [[nodiscard]] DisjointSets pieces() const;
   [[nodiscard]] bool has_detour(const Joint& broken) const;
   [[nodiscard]] std::vector<char> apart();
+  [[nodiscard]] bool is_adrift(int joint) const;  // at a body that hangs on nothing
   [[nodiscard]] bool severed() const;
   [[nodiscard]] bool bears_nothing() const;
   [[nodiscard]] Eigen::VectorXd gaps(const Eigen::VectorXd& of_loose) const;

@@ -181,11 +181,11 @@ TEST(Fit, RefusesStepsThatAreTooManyAtTheRateOfATest) {
   const std::string settings =
       " made/study.toml --set model.solver.regime=dynamic --set model.solver.step_s=2e-8 --set "
       "model.loading.strain_rate_per_s=1000";
-  for (const std::string command : {"check", "fit -o out"}) {
+  for (const std::string command : {"check", "fit -o out", "synthesize -o out"}) {
     const auto answer = run_havers(folder, command + settings);
     EXPECT_EQ(answer.exit_code, 2) << answer.out;
     EXPECT_THAT(answer.err, HasSubstr("made/study.toml: model.solver.step_s: is 2e-08: a strain"));
-    EXPECT_THAT(answer.err, HasSubstr("steps away (as specimen B0 was tested) (leave step_s out"));
+    EXPECT_THAT(answer.err, HasSubstr("steps away (as specimen B0 is tested) (leave step_s out"));
   }
 }
 

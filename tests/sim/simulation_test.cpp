@@ -28,6 +28,18 @@ TEST(SimulationStatus, HasAWordAndASentenceEach) {
   EXPECT_THAT(explain(SimulationStatus::strain_limit), HasSubstr("lower bound"));
 }
 
+// What helps depends on what was asked for.
+TEST(Simulation, SaysWhatMayHelpWhereAStepHasNoAnswer) {
+  Simulation simulation;
+  simulation.status = SimulationStatus::not_converged;
+  simulation.step_error.reset();
+  EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("; a shorter step_s may have one"));
+  simulation.contact = ContactMethod::gauss_seidel;
+  EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("; more max_iterations, contact"));
+  simulation.regime = Regime::quasi_static;
+  EXPECT_EQ(simulation.why_not_trusted(), explain(SimulationStatus::not_converged));
+}
+
 TEST(Simulation, IsNotTrustedUnlessItsChecksHold) {
   Simulation simulation;
   EXPECT_FALSE(simulation.trusted());  // pessimistic at first

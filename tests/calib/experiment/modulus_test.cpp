@@ -95,6 +95,7 @@ TEST(Modulus, LeavesTheWindowWhereWhatFollowsIsOfFewRows) {
   const TensileTruth truth{.strength = 100e6};
   for (const std::size_t rows : {17U, 60U}) {
     RawTest raw = record(truth);
+    raw.stress.clear();
     for (auto* channel : {&raw.time, &raw.force, &raw.extension, &raw.strain})
       channel->resize(rows);
     for (std::size_t i = 0; i < rows; ++i) {

@@ -254,7 +254,7 @@ TEST(Verdict, SaysWhereTheBootstrapIsWiderAndKeepsItInsideTheBounds) {
   young.bootstrap_95 = young.interval_95;
   EXPECT_FALSE(says(check_intervals(problem, result), "young_GPa ("));
   young.bootstrap_95[1] *= young.interval_95[1] / young.interval_95[0];
-  EXPECT_TRUE(says(check_intervals(problem, result), "young_GPa (2 times as wide)"));
+  EXPECT_TRUE(says(check_intervals(problem, result), "young_GPa (2 times as wide in logarithms)"));
 }
 
 TEST(Verdict, NamesEverySpecimenThatAloneDeterminesAParameter) {
