@@ -220,6 +220,23 @@ TEST(BreakingSequence, KeepsTheLawAtEveryBreakWherePiecesHangLoosely) {
   }
 }
 
+// All joints of a kind break together, and leave pieces that hang on nothing: by up to eight times
+// the height of a fibre their joints would overlap.
+TEST(BreakingSequence, LaysNoPieceThatHangsOnNothingIntoAnother) {
+  Scene scene = test::small_scene(0.0, 5, 3);
+  scene.loading.lateral = Lateral::free;
+  scene.loading.max_strain = 0.05;
+  scene.joints.head_tail = 50e6;
+  scene.joints.flank = 10e6;
+  scene.joints.scatter = 0.0;
+  scene.joints.friction = 0.3;
+  scene.joints.reinforced_boundary.reset();
+  const Simulation run = simulate(scene);
+  EXPECT_GT(run.broken_joints, 20);
+  for (const JointOutcome& joint : run.joints)
+    EXPECT_GE(joint.gap, -1e-9 * scene.assembly.fibre_height);
+}
+
 // Friction acts on what is pressed together, and there is no jump where it vanishes: what it
 // changes in the curve, up to and after the peak, is proportional to it.
 TEST(BreakingSequence, HasALimitWithoutFriction) {
