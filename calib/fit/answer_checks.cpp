@@ -23,10 +23,6 @@ double width(const ParameterInfo& info, const std::array<double, 2>& interval) {
   return to_search(info, interval[1]) - to_search(info, interval[0]);
 }
 
-std::string in_its_scale(const ParameterInfo& info) {
-  return info.scale == Scale::logarithmic ? " in logarithms" : "";
-}
-
 // Where a profile has no end though that of the slopes is inside the bounds.
 const char* open_side(const CalibratedParameter& parameter) {
   if (std::isnan(parameter.profile_95[0]) && parameter.slopes_95[0] > parameter.bounds[0])

@@ -157,6 +157,10 @@ std::string chance_text(double p) {
   return p < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p);
 }
 
+std::string in_its_scale(const ParameterInfo& info) {
+  return info.scale == Scale::logarithmic ? " in logarithms" : "";
+}
+
 Check check_brittle(const FitProblem& problem, const Answer& answer) {
   if (answer.best.failed || answer.best.predictions.empty()) return nothing_compared("brittle");
   double measured = 0.0, simulated = 0.0, variance = 0.0;
@@ -200,11 +204,10 @@ Check check_brittle(const FitProblem& problem, const Answer& answer) {
   if (certain)
     return {"brittle", Outcome::pass,
             fmt::format("The curves of tests and model bend alike up to the break: {}.", numbers)};
-  return {
-      "brittle", Outcome::pass,
-      fmt::format("By how straight they are up to the break the curves of tests and model "
-                  "cannot be told apart: {}, and only tests {} below the model would reject it.",
-                  numbers, percent_text(1.0 - std::min(bent, std::exp(-3.0 * error))))};
+  return {"brittle", Outcome::pass,
+          fmt::format("By how straight they are up to the break the curves of tests and model "
+                      "cannot be told apart: {}. Tests {} below the model would reject it.",
+                      numbers, percent_text(1.0 - std::min(bent, std::exp(-3.0 * error))))};
 }
 
 Check check_orientations(const FitProblem& problem, const Answer& answer) {

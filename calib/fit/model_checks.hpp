@@ -18,6 +18,9 @@ std::string percent_text(double part);
 /// "p = 0.03", "p < 1e-6": the probability of a test.
 std::string chance_text(double p);
 
+/// " in logarithms", or nothing: behind a ratio of widths, which is one in the scale of the search.
+std::string in_its_scale(const ParameterInfo& info);
+
 /// Whether a parameter of that name is, for any of the specimens.
 bool is_fitted(const FitProblem& problem, const Answer& answer, std::string_view parameter);
 

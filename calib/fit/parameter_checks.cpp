@@ -70,8 +70,7 @@ WideIntervals wide_intervals(const FitProblem& problem, const CalibrationResult&
     const bool nothing = part > as_without_tests;
     wide.nothing_told = wide.nothing_told || nothing;
     wide.text += fmt::format(" The 95 % interval of {} covers {} of the range of its bounds{}, {}.",
-                             parameter.name, percent_text(part),
-                             unknown.info->scale == Scale::logarithmic ? " in logarithms" : "",
+                             parameter.name, percent_text(part), in_its_scale(*unknown.info),
                              nothing ? "hardly less than without any test: its value is not known"
                                      : "which tell much of it");
   }
