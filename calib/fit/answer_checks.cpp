@@ -201,7 +201,7 @@ Check check_intervals(const FitProblem& problem, const CalibrationResult& result
     return not_checked(name, "no profile was asked for or could be had." + wider);
   if (differ.empty())
     return {name, Outcome::pass,
-            fmt::format("Profile likelihood gives intervals {} times as wide as the slopes do{}.{}",
+            fmt::format("Profile likelihood gives intervals {} times as wide{} as the slopes do.{}",
                         times_text(least, most), scale, wider)};
   return {name, Outcome::warn,
           fmt::format("Profile likelihood gives other intervals: {}. Believe the wider one.{}",
