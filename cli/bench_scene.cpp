@@ -44,8 +44,9 @@ void print_row(const sim::BenchRow& row, bool reference) {
              io::word(setting.contact), setting.tolerance, step_text(setting), setting.refinement,
              setting.leave_out);
   for (const sim::BenchSpread& error :
-       {row.errors.bonded_forces, row.errors.strength, row.errors.failure_strain, row.errors.curve})
-    fmt::print("{:>10}", std::isfinite(error.median) ? fmt::format("{:.1e}", error.median) : "-");
+       {row.errors.bonded_forces, row.errors.strength, row.errors.strength_without_ringing,
+        row.errors.failure_strain, row.errors.curve})
+    fmt::print("{:>11}", std::isfinite(error.median) ? fmt::format("{:.1e}", error.median) : "-");
   fmt::print("{:>10.2g}{:>10.2g}{:>12.0f}{}{}\n", row.wall.median, row.cpu.median,
              row.iterations.median, reference ? "  reference" : "", state_of(row));
 }
@@ -53,20 +54,23 @@ void print_row(const sim::BenchRow& row, bool reference) {
 void print_summary(const sim::WorkPrecision& study) {
   fmt::print("{}\n", summary(study));
   if (study.rows.empty()) return;
-  fmt::print("\n{:<14}{:<14}{:>9}{:>11}{:>12}{:>11}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>12}\n",
-             "regime", "contact", "tolerance", "step (ns)", "refinement", "leave out", "forces",
-             "strength", "strain", "curve", "wall (s)", "CPU (s)", "iterations");
+  fmt::print(
+      "\n{:<14}{:<14}{:>9}{:>11}{:>12}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>10}{:>10}{:>12}\n",
+      "regime", "contact", "tolerance", "step (ns)", "refinement", "leave out", "forces",
+      "strength", "no ringing", "strain", "curve", "wall (s)", "CPU (s)", "iterations");
   for (const sim::BenchRow& row : study.rows) print_row(row, &row == &study.rows.front());
   fmt::print(
-      "Errors of joint forces, strength, failure strain and curve are relative{}; medians over the "
-      "seeds.\n",
+      "Errors of joint forces, strength, strength without ringing, failure strain and curve are "
+      "relative{}; medians over the seeds.\n",
       study.closed_form ? ", those of forces, before the first break, to their closed form" : "");
   const sim::BenchErrors& own = study.reference_errors;
   if (own.strength.high > 0.0)
     fmt::print(
-        "The reference itself may err by {:.1e} in strength, {:.1e} in failure strain and {:.1e} "
-        "in the curve, which a step twice as long changes them by; the largest of all seeds.\n",
-        own.strength.high, own.failure_strain.high, own.curve.high);
+        "The reference itself may err by {:.1e} in strength, {:.1e} in that without ringing, "
+        "{:.1e} in failure strain and {:.1e} in the curve, which a step twice as long changes them "
+        "by; the largest of all seeds.\n",
+        own.strength.high, own.strength_without_ringing.high, own.failure_strain.high,
+        own.curve.high);
   if (study.omissions) fmt::print("{}\n", explain(*study.omissions));
 }
 

@@ -63,9 +63,11 @@ std::string text(const sim::Loading& loading) {
 }
 
 std::string text(const sim::SolverOptions& solver) {
-  const auto& [regime, step, accuracy, contact, tolerance, max_iterations, leave_out] = solver;
-  return fmt::format("{} {} {} {} {} {} {}", static_cast<int>(regime), text(step), accuracy,
-                     static_cast<int>(contact), tolerance, max_iterations, leave_out);
+  const auto& [regime, step, leap, accuracy, contact, tolerance, max_iterations, leave_out] =
+      solver;
+  return fmt::format("{} {} {} {} {} {} {}{}", static_cast<int>(regime), text(step), accuracy,
+                     static_cast<int>(contact), tolerance, max_iterations, leave_out,
+                     leap ? " leap" : "");
 }
 
 // The curve up to the limit, where it ends unbroken: strength and failure strain of what is left.

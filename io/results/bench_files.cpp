@@ -36,6 +36,7 @@ void keys(Table& table, sim::BenchRow& row) {
   range_keys(table, "joint_force_error", row.errors.bonded_forces);
   range_keys(table, "last_common_break_force_error", row.errors.forces);
   range_keys(table, "strength_error", row.errors.strength);
+  range_keys(table, "strength_without_ringing_error", row.errors.strength_without_ringing);
   range_keys(table, "failure_strain_error", row.errors.failure_strain);
   range_keys(table, "curve_error", row.errors.curve);
   range_keys(table, "wall_s", row.wall);

@@ -51,6 +51,7 @@ mstch::map work_row(const sim::BenchRow& row, bool reference, double time_limit)
           {"forces_end", text(error_text(row.errors.forces.median))},
           {"breaks", text(whole(row.same_breaks.median))},
           {"strength", text(error_text(row.errors.strength.median))},
+          {"without_ringing", text(error_text(row.errors.strength_without_ringing.median))},
           {"failure_strain", text(error_text(row.errors.failure_strain.median))},
           {"failure_range", text(spread_text(row.errors.failure_strain))},
           {"curve", text(error_text(row.errors.curve.median))},
@@ -83,9 +84,10 @@ std::string what_reference_errs_by(const sim::BenchErrors& errors) {
   if (!(errors.strength.high > 0.0)) return "";
   const auto percent = [](double error) { return quantity(error / in::percent, "%", 2); };
   return fmt::format(
-      " The reference's own strength may err by {}, its failure strain by {}, the largest of all "
-      "seeds.",
-      percent(errors.strength.high), percent(errors.failure_strain.high));
+      " The reference's own strength may err by {}, that without ringing by {}, its failure strain "
+      "by {}, the largest of all seeds.",
+      percent(errors.strength.high), percent(errors.strength_without_ringing.high),
+      percent(errors.failure_strain.high));
 }
 
 mstch::map stability_row(const sim::StabilityResult& result) {

@@ -73,6 +73,7 @@ Scene with_setting(const BenchSetting& setting, Scene scene) {
   scene.solver.contact = setting.contact;
   scene.solver.tolerance = setting.tolerance;
   scene.solver.step = setting.step;
+  scene.solver.leap = setting.leap;
   scene.solver.leave_out = setting.leave_out;
   scene.assembly.refinement = setting.refinement;
   return scene;

@@ -18,6 +18,7 @@ struct BenchSetting {
                                     ///< chooses it. [s]
   int refinement = 1;
   bool leave_out = true;
+  bool leap = false;  ///< With a step: over uniform motion before the first break.
 
   bool operator==(const BenchSetting&) const = default;
 };

@@ -14,13 +14,15 @@ struct WatchedRun {
   Eigen::VectorXd bonded_forces;  ///< At the strain asked for; empty when a joint broke before, or,
                                   ///< in the quasi-static limit, was missing. [N/m]
   std::vector<int> order;         ///< Joints in the order of breaking.
-  std::vector<Eigen::VectorXd> forces_at_break;  ///< After the row of each break. [N/m]
+  std::vector<Eigen::VectorXd> forces_at_break;  ///< After the row of each break, but of the last
+                                                 ///< of large walls. [N/m]
   double wall = 0.0, cpu = 0.0;                  ///< [s]
   bool out_of_time = false;                      ///< Stopped at the limit.
 };
 
 struct WatchOptions {
-  double bonded_strain = 0.0;  ///< Where `bonded_forces` are taken, by linear interpolation. [-]
+  double bonded_strain = 0.0;  ///< Where `bonded_forces` are taken, on the line through the rows
+                               ///< around it, which a run that leaps has before and after. [-]
   double time_limit = 60.0;    ///< Wall time. [s]
 };
 
@@ -29,8 +31,9 @@ WatchedRun watch(const Scene& scene, const WatchOptions& options, const StopAske
 /// Joints that break in the reference's order before the two runs part.
 std::size_t same_breaks(const WatchedRun& run, const WatchedRun& reference);
 
-/// Error of all joint forces after the last of these breaks, relative to the largest the reference
-/// has had until then, as the last break may take all load away; NaN without such a break. [-]
+/// Error of all joint forces after the last of these breaks of which both have them, relative to
+/// the largest the reference has had until then, as the last break may take all load away; NaN
+/// without such a break. [-]
 double force_error(const WatchedRun& run, const WatchedRun& reference);
 
 // Closed forms of the bonded specimen. Where layers are not alike they hold if these lie along the

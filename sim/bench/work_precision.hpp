@@ -24,7 +24,7 @@ struct BenchSpread {
 struct BenchErrors {
   BenchSpread bonded_forces;  ///< Of all joint forces before the first break.
   BenchSpread forces;         ///< After the last break of which runs agree: joint and order.
-  BenchSpread strength;
+  BenchSpread strength, strength_without_ringing;
   BenchSpread failure_strain;
   BenchSpread curve;  ///< Root mean square of the stress, relative to the strength, up to failure.
 };
@@ -32,9 +32,9 @@ struct BenchErrors {
 struct BenchRow {
   BenchSetting setting;
   int runs = 0, trusted = 0;  ///< Seeds, and those whose run is to be trusted.
-  int out_of_time = 0;        ///< Seeds whose run was stopped at the time limit.
+  int out_of_time = 0;        ///< 1 where the last was stopped at the time limit, and others left.
   BenchSpread reached;        ///< Strain of the last row. [-]
-  BenchSpread stopped_at;     ///< The same, of those alone that were stopped at the time limit. [-]
+  BenchSpread stopped_at;     ///< The same, of the one that was stopped at the time limit. [-]
   BenchErrors errors;
   BenchSpread wall, cpu;  ///< [s]
   BenchSpread steps, iterations;

@@ -39,6 +39,7 @@ std::vector<CheapestSetting> cheapest_settings(const WorkPrecision& study) {
   const std::array quantities{
       Quantity{"joint forces before the first break", &BenchErrors::bonded_forces},
       Quantity{"strength", &BenchErrors::strength},
+      Quantity{"strength without ringing", &BenchErrors::strength_without_ringing},
       Quantity{"failure strain", &BenchErrors::failure_strain},
       Quantity{"curve", &BenchErrors::curve}};
   for (const auto& [quantity, error] : quantities)

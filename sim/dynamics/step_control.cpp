@@ -71,7 +71,8 @@ void show_again(const Scene& scene, Stepping stepping, const Observer& observer,
 }  // namespace
 
 bool may_leap(const Scene& scene) {
-  return scene.solver.leave_out && scene.loading.start == Start::uniform;
+  const SolverOptions& solver = scene.solver;
+  return solver.leave_out && scene.loading.start == Start::uniform && (!solver.step || solver.leap);
 }
 
 double first_step(const Scene& scene) {

@@ -7,8 +7,8 @@
 
 namespace havers::sim {
 
-/// Whether a run in chosen steps leaps to its first break. From rest the motion is a shock, and
-/// without leaving out every step is taken.
+/// Whether a run leaps to its first break: in chosen steps, or where the scene asks for it. From
+/// rest the motion is a shock, and without leaving out every step is taken.
 bool may_leap(const Scene& scene);
 
 /// Where halving starts: a quarter of the time a wave takes across a fibre or, where steps cannot

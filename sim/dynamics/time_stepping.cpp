@@ -99,7 +99,7 @@ void tell_waves(const Scene& scene, Simulation& simulation) {
 Simulation simulate_dynamic(const Scene& scene, const Observer& observer,
                             const StopAsked& stop_asked) {
   if (!scene.solver.step) return run_in_chosen_steps(scene, observer, stop_asked);
-  Simulation run = run_in_steps(scene, {*scene.solver.step}, observer, stop_asked);
+  Simulation run = run_in_steps(scene, {*scene.solver.step, may_leap(scene)}, observer, stop_asked);
   run.regime_ground = fmt::format(
       "; the step of {} is given, and its error is not known: a run without step_s chooses its own "
       "and says it",

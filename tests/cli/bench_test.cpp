@@ -24,7 +24,7 @@ TEST(Bench, LeavesPageFigureTableAndResult) {
   EXPECT_EQ(answer.exit_code, 0) << answer.err;
   const auto result = nlohmann::json::parse(test::contents(folder / "out/result.json"));
   EXPECT_TRUE(result["complete"]);
-  EXPECT_EQ(result["cheapest"].size(), 12U);
+  EXPECT_EQ(result["cheapest"].size(), 15U);
   const std::string table = test::contents(folder / "out/bench.csv");
   EXPECT_EQ(std::ranges::count(table, '\n'), static_cast<long>(result["rows"].size()) + 1);
   EXPECT_TRUE(answer.out.starts_with(result["summary"].get<std::string>())) << answer.out;

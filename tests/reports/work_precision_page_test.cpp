@@ -136,9 +136,11 @@ TEST_F(WorkPrecisionPage, SaysWhatTheReferencesStrengthMayErrByToo) {
   study = {.complete = true, .rows = {{.runs = 3, .trusted = 3}}};
   EXPECT_FALSE(contains(page(), "own strength may err"));
   study.reference_errors.strength.high = 0.014;
+  study.reference_errors.strength_without_ringing.high = 0.0026;
   study.reference_errors.failure_strain.high = 0.0025;
   EXPECT_TRUE(contains(page(),
-                       "own strength may err by 1.4\u00a0%, its failure strain by "
+                       "own strength may err by 1.4\u00a0%, that without ringing by 0.26\u00a0%, "
+                       "its failure strain by "
                        "0.25\u00a0%, the largest of all seeds."));
 }
 

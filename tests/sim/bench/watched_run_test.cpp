@@ -54,6 +54,27 @@ TEST(WatchedRun, TakesTheForcesAtTheStrainAskedFor) {
   EXPECT_LT((run.bonded_forces - expected).norm(), 1e-9 * expected.norm());
 }
 
+// Steps of 20 ps would be 200 000 to the first break.
+TEST(WatchedRun, TakesTheForcesOfARunThatLeapsFromTheRowsAroundTheLeap) {
+  for (const double viscosity : {0.0, 1e-7}) {
+    Scene scene = test::dynamic_scene(30.0);
+    scene.loading.strain_rate = 1000.0;
+    scene.loading.max_strain = 1.01 * first_break_by_uniform_stress(scene);
+    scene.material.viscosity = viscosity;
+    scene.solver.step = 2e-11;
+    scene.solver.leap = true;
+    const double strain = 0.4 * first_break_by_uniform_stress(scene);
+    const WatchedRun run = watch(scene, {.bonded_strain = strain}, {});
+    EXPECT_GT(run.simulation.leapt_strain, strain);
+    EXPECT_LT(run.simulation.steps, 10'000);
+    const double late = strain + viscosity * scene.loading.strain_rate;  // K(q + τv)
+    const Eigen::VectorXd expected = bonded_forces_at(scene, late);
+    ASSERT_EQ(run.bonded_forces.size(), expected.size());
+    // The motion counts as uniform to 1e-9 of its forces.
+    EXPECT_LT((run.bonded_forces - expected).norm(), 3e-9 * expected.norm()) << viscosity;
+  }
+}
+
 TEST(WatchedRun, TakesTheForcesOfTheLimitFromTheIntactSpecimen) {
   for (const bool leave_out : {true, false}) {
     Scene scene = test::small_scene(30.0);
