@@ -44,7 +44,8 @@ nlohmann::json read_json(const std::filesystem::path& file) {
     throw InputError(file.string(), "is not JSON", "name a fit's folder or its result.json");
   if (!json.is_object() || !json.contains("verdict") || !json.contains("study"))
     throw InputError(file.string(), "is not the result of a fit",
-                     "havers fit STUDY.toml -o DIR writes one");
+                     "havers fit STUDY.toml -o DIR writes one; the page of another run is in its "
+                     "folder");
   return json;
 }
 

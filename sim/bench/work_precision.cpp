@@ -22,16 +22,24 @@ using Eigen::VectorXd;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr double no_limit = 1e9;  // [s]
 
-// The finest run: steps of a 64th of the longest, and of a quarter of those that runs have chosen.
-// Most of them would be of uniform motion.
-BenchSetting reference_setting(const Scene& scene, const std::vector<WatchedRun>& chosen) {
+struct SettingRuns {
+  BenchSetting setting;
+  std::vector<WatchedRun> runs;  // over the seeds; none yet: empty
+};
+
+// The finest run: a quarter of the shortest step with which runs end in time, and but a few times
+// as long as these. Most of its steps would be of uniform motion.
+BenchSetting reference_setting(const Scene& scene, const std::vector<SettingRuns>& settings) {
   BenchSetting reference = direct_setting(scene);
   if (reference.regime == Regime::quasi_static) return without_omissions(reference);
-  double step = base_step(scene) / 64.0;
-  for (const WatchedRun& run : chosen)
-    if (run.simulation.step > 0.0)  // one that is severed is answered in the limit
-      step = std::min(step, run.simulation.step / 4.0);
-  reference.step = step;
+  double shortest = base_step(scene);
+  for (const auto& [setting, runs] : settings) {
+    if (runs.empty() || runs.back().out_of_time) continue;
+    for (const WatchedRun& run : runs)
+      if (run.simulation.step > 0.0)  // one that is severed is answered in the limit
+        shortest = std::min(shortest, run.simulation.step);
+  }
+  reference.step = shortest / 4.0;
   reference.leap = true;
   return reference;
 }
@@ -209,16 +217,22 @@ WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
   }
 
   Bench bench(scene, observer, study);
-  std::vector<BenchSetting> settings = bench_settings(scene);
-  const auto chosen = std::ranges::find_if(settings, has_chosen_steps);
-  std::vector<WatchedRun> in_chosen_steps;
-  if (chosen != settings.end()) in_chosen_steps = bench.run(*chosen, options.time_limit);
-  study.reference = reference_setting(scene, in_chosen_steps);
+  std::vector<SettingRuns> settings;
+  for (const BenchSetting& setting : bench_settings(scene)) settings.push_back({setting, {}});
+  const BenchSetting direct = direct_setting(scene);
+  for (auto& [setting, runs] : settings) {  // for the step that the reference can have
+    BenchSetting but_for_step = setting;
+    but_for_step.step.reset();
+    if (direct.regime == Regime::dynamic && but_for_step == direct)
+      runs = bench.run(setting, options.time_limit);
+  }
+  study.reference = reference_setting(scene, settings);
   std::optional<BenchSetting> twice_its_step;
   if (study.reference.step) {
     twice_its_step = study.reference;
     twice_its_step->step = 2.0 * *study.reference.step;
-    settings.insert(chosen, *twice_its_step);
+    settings.insert(std::ranges::find_if(settings, has_chosen_steps, &SettingRuns::setting),
+                    {*twice_its_step, {}});
     const BenchSpread none = spread({});  // until that has run
     study.reference_errors = {none, none, none, none, none, none};
   }
@@ -230,12 +244,9 @@ WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
   std::vector<WatchedRun> before = references;
   study.closed_form = take_exact_forces(scene, study.bonded_strain, references);
   study.rows.push_back(row_of(study.reference, before, references));
-  for (const BenchSetting& setting : settings) {
+  for (auto& [setting, runs] : settings) {
     const bool of_reference = twice_its_step == setting;
-    std::vector<WatchedRun> runs =
-        has_chosen_steps(setting)
-            ? in_chosen_steps
-            : bench.run(setting, of_reference ? no_limit : options.time_limit);
+    if (runs.empty()) runs = bench.run(setting, of_reference ? no_limit : options.time_limit);
     if (bench.stopped()) break;
     study.rows.push_back(row_of(setting, runs, references));
     if (of_reference) study.reference_errors = study.rows.back().errors;
