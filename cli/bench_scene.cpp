@@ -47,8 +47,9 @@ void print_row(const sim::BenchRow& row, bool reference) {
        {row.errors.bonded_forces, row.errors.strength, row.errors.strength_without_ringing,
         row.errors.failure_strain, row.errors.curve})
     fmt::print("{:>11}", std::isfinite(error.median) ? fmt::format("{:.1e}", error.median) : "-");
-  fmt::print("{:>10.2g}{:>10.2g}{:>12.0f}{}{}\n", row.wall.median, row.cpu.median,
-             row.iterations.median, reference ? "  reference" : "", state_of(row));
+  fmt::print("{:>10.2g}{:>10.2g}{:>12.0f}{}{}{}\n", row.wall.median, row.cpu.median,
+             row.iterations.median, reference ? "  reference" : "",
+             row.setting.leap ? "  from the first break on" : "", state_of(row));
 }
 
 void print_summary(const sim::WorkPrecision& study) {

@@ -19,6 +19,7 @@ void keys(Table& table, sim::BenchSetting& setting) {
   table.key("step_s", step);
   table.key("refinement", setting.refinement);
   table.key("leave_out", setting.leave_out);
+  table.key("leap", setting.leap);
 }
 
 // The median over the seeds, with the extremes.
@@ -115,7 +116,9 @@ nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPreci
                                : nlohmann::json()}});
   return {{"complete", study.complete},
           {"summary", summary(study)},
-          {"reference", object_of("text", to_string(study.reference), study.reference)},
+          {"reference", study.rows.empty()
+                            ? nlohmann::json()
+                            : object_of("text", to_string(study.reference), study.reference)},
           {"reference_ground", study.reference_ground},
           {"joint_forces_at_strain", study.bonded_strain},
           {"seeds", study.seeds},

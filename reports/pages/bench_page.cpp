@@ -90,6 +90,16 @@ std::string what_reference_errs_by(const sim::BenchErrors& errors) {
       percent(errors.failure_strain.high));
 }
 
+std::string what_errors_are_of(const sim::WorkPrecision& study) {
+  return fmt::format(
+      " Errors are relative to {}, of the same seed: {}.{}{}", study.reference_ground,
+      setting_text(study.reference),
+      study.closed_form
+          ? " Those of joint forces before the first break are relative to their closed form."
+          : "",
+      what_reference_errs_by(study.reference_errors));
+}
+
 mstch::map stability_row(const sim::StabilityResult& result) {
   const bool ran = result.outcome != sim::StabilityOutcome::refused;
   const auto if_ran = [&](double value) { return text(ran ? error_text(value) : "–"); };
@@ -114,15 +124,9 @@ std::string work_precision_page(const sim::Scene& scene, const sim::WorkPrecisio
   return render_page(
       "havers bench: error against run time", "bench",
       {{"sentence", text(typeset(summary(study)))},
-       {"detail",
-        text(fmt::format(
-            "{} × {} fibres, {}. Errors are relative to {}, of the same seed: {}.{}{}",
-            scene.assembly.fibres, scene.assembly.layers, count(study.seeds.size(), "seed"),
-            study.reference_ground, setting_text(study.reference),
-            study.closed_form ? " Those of joint forces before the first break are relative to "
-                                "their closed form."
-                              : "",
-            what_reference_errs_by(study.reference_errors)))},
+       {"detail", text(fmt::format("{} × {} fibres, {}.{}", scene.assembly.fibres,
+                                   scene.assembly.layers, count(study.seeds.size(), "seed"),
+                                   study.rows.empty() ? "" : what_errors_are_of(study)))},
        {"has_rows", !study.rows.empty()},
        {"grade", grade_of(study)},
        {"figure", text(work_precision_svg(study))},

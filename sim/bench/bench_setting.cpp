@@ -58,7 +58,8 @@ std::string to_string(const BenchSetting& setting) {
       fmt::format("{}, {} triangles a fibre", setting.leave_out ? "" : ", nothing left out",
                   8 * setting.refinement * setting.refinement);
   if (setting.regime == Regime::quasi_static) return "quasi-static" + rest;
-  const std::string step = setting.step ? "h = " + step_in_words(*setting.step) : "h chosen";
+  std::string step = setting.step ? "h = " + step_in_words(*setting.step) : "h chosen";
+  if (setting.leap) step += " from the first break on";
   if (setting.contact == ContactMethod::gauss_seidel)
     return fmt::format("Gauss-Seidel {:.0e}, {}{}", setting.tolerance, step, rest);
   return fmt::format("active set, {}{}", step, rest);

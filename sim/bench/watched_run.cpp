@@ -17,8 +17,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// Of joints at breaks, that a run keeps: 64 MiB.
-constexpr std::size_t most_forces = std::size_t{1} << 22U;
+// Of joints at breaks, that a run keeps: 16 MiB.
+constexpr std::size_t most_forces = std::size_t{1} << 20U;
 
 VectorXd forces_of(const std::vector<JointOutcome>& joints) {
   VectorXd forces(2 * static_cast<Index>(joints.size()));
@@ -60,6 +60,7 @@ class Watcher {
   /// most.
   [[nodiscard]] VectorXd forces_on_line() const {
     if (before_.forces.size() == 0) return {};
+    if (bonded_strain_ < before_.strain || bonded_strain_ > last_.strain) return {};
     const double w = (bonded_strain_ - before_.strain) / (last_.strain - before_.strain);
     return (1.0 - w) * before_.forces + w * last_.forces;
   }

@@ -27,21 +27,30 @@ struct SettingRuns {
   std::vector<WatchedRun> runs;  // over the seeds; none yet: empty
 };
 
-// The finest run: a quarter of the shortest step with which runs end in time, and but a few times
-// as long as these. Most of its steps would be of uniform motion.
-BenchSetting reference_setting(const Scene& scene, const std::vector<SettingRuns>& settings) {
-  BenchSetting reference = direct_setting(scene);
-  if (reference.regime == Regime::quasi_static) return without_omissions(reference);
-  double shortest = base_step(scene);
-  for (const auto& [setting, runs] : settings) {
-    if (runs.empty() || runs.back().out_of_time) continue;
-    for (const WatchedRun& run : runs)
-      if (run.simulation.step > 0.0)  // one that is severed is answered in the limit
-        shortest = std::min(shortest, run.simulation.step);
+// Of the direct solver: the exact sequence or, in time, a quarter of the shortest step with which
+// runs end, and but a few times as long as these. Most of its steps would be of uniform motion.
+void choose_reference(const Scene& scene, const std::vector<SettingRuns>& settings,
+                      WorkPrecision& study) {
+  study.reference = direct_setting(scene);
+  study.reference_ground = "the exact breaking sequence of the quasi-static limit";
+  if (study.reference.regime == Regime::quasi_static) {
+    study.reference.leave_out = false;
+    return;
   }
-  reference.step = shortest / 4.0;
-  reference.leap = true;
-  return reference;
+  double shortest = base_step(scene);
+  bool some_ended = false;
+  for (const auto& [setting, runs] : settings)
+    if (!runs.empty() && std::ranges::all_of(runs, has_ended, &WatchedRun::simulation)) {
+      some_ended = true;
+      for (const WatchedRun& run : runs)
+        if (run.simulation.step > 0.0)  // one that is severed is answered in the limit
+          shortest = std::min(shortest, run.simulation.step);
+    }
+  study.reference.step = shortest / 4.0;
+  study.reference.leap = true;
+  study.reference_ground =
+      some_ended ? "the finest step whose runs end in little time, solved directly"
+                 : "a quarter of the longest step, as no run ended in time, solved directly";
 }
 
 double relative_error(double value, double reference) {
@@ -122,7 +131,9 @@ BenchErrors errors_of(Runs runs, Runs references) {
 
 BenchRow row_of(const BenchSetting& setting, Runs runs, Runs references) {
   BenchRow row{.setting = setting, .runs = static_cast<int>(runs.size())};
+  row.setting.leap = false;
   for (const WatchedRun& run : runs) {
+    row.setting.leap = row.setting.leap || (setting.leap && run.simulation.leapt_strain > 0.0);
     row.trusted += run.simulation.trusted() ? 1 : 0;
     row.out_of_time += run.out_of_time ? 1 : 0;
   }
@@ -160,9 +171,12 @@ std::optional<Omissions> omissions_of(const std::vector<BenchRow>& rows, Runs ru
   const BenchRow &row = rows.back(), &before = rows[rows.size() - 2];
   if (row.setting == before.setting || without_omissions(row.setting) != before.setting) return {};
   if (row.trusted < row.runs || before.trusted + before.out_of_time < before.runs) return {};
+  const BenchErrors errors =
+      errors_of(runs.first(std::min(runs.size(), runs_before.size())), runs_before);
   Omissions omissions{.setting = row.setting,
-                      .change = largest(errors_of(
-                          runs.first(std::min(runs.size(), runs_before.size())), runs_before)),
+                      .change = before.out_of_time > 0
+                                    ? std::fmax(errors.bonded_forces.high, errors.forces.high)
+                                    : largest(errors),
                       .cpu_ratio = before.cpu.median / row.cpu.median};
   if (!std::isfinite(omissions.change)) return {};
   if (before.out_of_time > 0) {  // a run that was stopped has a CPU time of a step only
@@ -226,7 +240,8 @@ WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
     if (direct.regime == Regime::dynamic && but_for_step == direct)
       runs = bench.run(setting, options.time_limit);
   }
-  study.reference = reference_setting(scene, settings);
+  if (bench.stopped()) return study;
+  choose_reference(scene, settings, study);
   std::optional<BenchSetting> twice_its_step;
   if (study.reference.step) {
     twice_its_step = study.reference;
@@ -236,14 +251,12 @@ WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
     const BenchSpread none = spread({});  // until that has run
     study.reference_errors = {none, none, none, none, none, none};
   }
-  study.reference_ground = study.reference.regime == Regime::quasi_static
-                               ? "the exact breaking sequence of the quasi-static limit"
-                               : "the finest step, solved directly, uniform motion leapt over";
   std::vector<WatchedRun> references = bench.run(study.reference, no_limit);
   if (bench.stopped()) return study;
   std::vector<WatchedRun> before = references;
   study.closed_form = take_exact_forces(scene, study.bonded_strain, references);
   study.rows.push_back(row_of(study.reference, before, references));
+  study.reference.leap = study.rows.front().setting.leap;
   for (auto& [setting, runs] : settings) {
     const bool of_reference = twice_its_step == setting;
     if (runs.empty()) runs = bench.run(setting, of_reference ? no_limit : options.time_limit);

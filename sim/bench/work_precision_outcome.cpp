@@ -14,8 +14,11 @@
 namespace havers::sim {
 namespace {
 
-// Whether every run of a row is to be trusted, has this error, and has the reference's mesh.
+// Whether every run of a row is to be trusted, has this error, and has the reference's mesh. That
+// of twice the reference's step is what the reference is judged by.
 bool is_judged(const WorkPrecision& study, const BenchRow& row, const BenchSpread& error) {
+  const std::optional<double>& step = study.reference.step;
+  if (step && row.setting.step == 2.0 * *step) return false;
   return row.setting.refinement == study.reference.refinement && row.trusted == row.runs &&
          error.of == row.runs;
 }

@@ -18,6 +18,7 @@ sim::WorkPrecision work_precision_sample() {
     sim::BenchRow made{.setting = setting, .runs = 1, .trusted = trusted};
     made.wall = made.cpu = {0.2, 0.1, 0.3};
     made.errors = {.bonded_forces = {error, error, error, 1},
+                   .strength_without_ringing = {7.0 * error, error, error, 1},
                    .failure_strain = {error, 0.5 * error, 2.0 * error, 1}};
     made.steps = made.iterations = {1'234'567.0, 0.0, 0.0};
     return made;
@@ -45,6 +46,7 @@ TEST_F(WorkPrecisionPage, WritesNumbersAsAReaderDoes) {
   EXPECT_TRUE(contains(shown, "h = 10\u00a0ps"));
   EXPECT_TRUE(
       contains(shown, "3.0\u00a0×\u00a010⁻⁶ (1.5\u00a0×\u00a010⁻⁶ to 6.0\u00a0×\u00a010⁻⁶)"));
+  EXPECT_TRUE(contains(shown, ">2.1\u00a0×\u00a010⁻⁵<")) << "without ringing";
   EXPECT_TRUE(contains(shown, ">1234567<"));
   EXPECT_TRUE(
       contains(shown, "differs by 1.3\u00a0×\u00a010⁻¹³ at most and takes 1.7 times the CPU time"));
@@ -130,6 +132,7 @@ TEST_F(WorkPrecisionPage, ShowsNoEmptyTableOfABenchStoppedAtOnce) {
   EXPECT_TRUE(contains(page(), "Stopped before every setting was run."));
   EXPECT_FALSE(contains(page(), "<table"));
   EXPECT_FALSE(contains(page(), "<figcaption>"));
+  EXPECT_FALSE(contains(page(), "Errors are relative"));
 }
 
 TEST_F(WorkPrecisionPage, SaysWhatTheReferencesStrengthMayErrByToo) {

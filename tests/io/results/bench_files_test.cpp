@@ -3,7 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "io/machine/csv_rows.hpp"
 #include "io/results/csv_row.hpp"
@@ -45,11 +48,18 @@ TEST(BenchFiles, QuoteNamesAndReasonsAsCsvDoes) {
 
 TEST(BenchFiles, HaveAColumnForEveryPartOfASetting) {
   sim::WorkPrecision study;
-  study.rows.emplace_back();
+  study.rows.push_back({.errors = {.strength = {0.25}, .strength_without_ringing = {0.125}}});
   const Rows rows = rows_of(work_precision_csv(study));
   ASSERT_EQ(rows.front().size(), rows.back().size());
-  EXPECT_EQ(rows.front().front(), "setting");
-  EXPECT_EQ(rows.front()[1], "regime");
+  const std::vector<std::string> names(rows.front().begin(), rows.front().begin() + 8);
+  EXPECT_THAT(names, testing::ElementsAre("setting", "regime", "contact", "tolerance", "step_s",
+                                          "refinement", "leave_out", "leap"));
+  const auto value = [&](const std::string& name) {
+    return rows.back().at(
+        static_cast<std::size_t>(std::ranges::find(rows.front(), name) - rows.front().begin()));
+  };
+  EXPECT_EQ(value("strength_error"), "0.25");
+  EXPECT_EQ(value("strength_without_ringing_error"), "0.125");
   EXPECT_EQ(rows.back()[0], to_string(study.rows.front().setting));
 }
 

@@ -72,6 +72,8 @@ TEST(WatchedRun, TakesTheForcesOfARunThatLeapsFromTheRowsAroundTheLeap) {
     ASSERT_EQ(run.bonded_forces.size(), expected.size());
     // The motion counts as uniform to 1e-9 of its forces.
     EXPECT_LT((run.bonded_forces - expected).norm(), 3e-9 * expected.norm()) << viscosity;
+    scene.loading.max_strain = 0.5 * strain;
+    EXPECT_EQ(watch(scene, {.bonded_strain = strain}, {}).bonded_forces.size(), 0);
   }
 }
 

@@ -80,10 +80,12 @@ TEST(WorkPrecision, NamesTheCheapestSettingThatReachesATarget) {
     EXPECT_GT(*cheapest.row, 0U) << "the reference itself";
     EXPECT_EQ(row.setting.refinement, study.reference.refinement);
     EXPECT_EQ(row.trusted, row.runs);
-    const BenchSpread& error = cheapest.quantity.starts_with("strength") ? row.errors.strength
-                               : cheapest.quantity == "failure strain"   ? row.errors.failure_strain
-                               : cheapest.quantity == "curve"            ? row.errors.curve
-                                                                         : row.errors.bonded_forces;
+    const BenchSpread& error = cheapest.quantity == "strength" ? row.errors.strength
+                               : cheapest.quantity.starts_with("strength")
+                                   ? row.errors.strength_without_ringing
+                               : cheapest.quantity == "failure strain" ? row.errors.failure_strain
+                               : cheapest.quantity == "curve"          ? row.errors.curve
+                                                                       : row.errors.bonded_forces;
     EXPECT_LE(error.high, cheapest.target) << "for every seed";
   }
   EXPECT_TRUE(reference_is_trusted(study));
@@ -117,6 +119,25 @@ TEST(WorkPrecision, TakesForItsReferenceTheFinestRunAndLeapsOverUniformMotion) {
   study.rows.front().trusted = 0;
   EXPECT_FALSE(reference_is_trusted(study));
   EXPECT_EQ(summary(study), "The reference is not to be trusted: 0 of 1 runs ended well.");
+}
+
+TEST(WorkPrecision, TellsWavesThatRingFromTheStrength) {
+  HAVERS_SLOW;
+  Scene scene = tiny(Regime::dynamic);
+  scene.loading.strain_rate = 1000.0;
+  scene.solver.step = 2e-8;
+  const WorkPrecision study = compare_settings(scene, {.seeds = 1});
+  int differ = 0;
+  for (const BenchRow& row : study.rows)
+    if (row.errors.strength.median != row.errors.strength_without_ringing.median) ++differ;
+  EXPECT_GT(differ, 5);
+  EXPECT_LT(study.reference_errors.strength_without_ringing.high,
+            study.reference_errors.strength.high);
+  EXPECT_TRUE(study.reference.leap);
+  for (const CheapestSetting& cheapest : study.cheapest)
+    if (cheapest.row) {
+      EXPECT_NE(study.rows[*cheapest.row].setting.step, 2.0 * *study.reference.step);
+    }
 }
 
 // A run of twice its step tells what the reference's own error is about.
@@ -227,6 +248,7 @@ TEST(WorkPrecision, MeasuresForcesAgainstTheReferenceWhereTheyHaveNoClosedForm) 
   const WorkPrecision study = compare_settings(scene, {.seeds = 1});
   EXPECT_TRUE(study.complete);
   EXPECT_FALSE(study.closed_form);
+  EXPECT_FALSE(study.reference.leap) << "waves run from the start";
 }
 
 TEST(WorkPrecision, StopsAtTheTimeLimitAllButTheReferenceAndLeavesTheOtherSeeds) {
@@ -274,6 +296,8 @@ TEST(BenchSetting, IsSaidInWords) {
   EXPECT_EQ(to_string({.step = 2e-8, .leave_out = false}),
             "active set, h = 20 ns, nothing left out, 8 triangles a fibre");
   EXPECT_EQ(to_string({.step = 4.577e-3}), "active set, h = 4.58 ms, 8 triangles a fibre");
+  EXPECT_EQ(to_string({.step = 2e-12, .leap = true}),
+            "active set, h = 2 ps from the first break on, 8 triangles a fibre");
   EXPECT_EQ(to_string({.step = 3.5e-6}), "active set, h = 3.5 µs, 8 triangles a fibre");
 }
 
