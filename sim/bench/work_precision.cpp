@@ -27,8 +27,9 @@ struct SettingRuns {
   std::vector<WatchedRun> runs;  // over the seeds; none yet: empty
 };
 
-// Of the direct solver: the exact sequence or, in time, a quarter of the shortest step with which
-// runs end, and but a few times as long as these. Most of its steps would be of uniform motion.
+// The direct solver's: the exact sequence or, in time, a quarter of the shortest step with which
+// all runs end, so that it takes but a few times as long as these. Most steps would be of uniform
+// motion.
 void choose_reference(const Scene& scene, const std::vector<SettingRuns>& settings,
                       WorkPrecision& study) {
   study.reference = direct_setting(scene);
@@ -49,7 +50,7 @@ void choose_reference(const Scene& scene, const std::vector<SettingRuns>& settin
   study.reference.step = shortest / 4.0;
   study.reference.leap = true;
   study.reference_ground =
-      some_ended ? "the finest step whose runs end in little time, solved directly"
+      some_ended ? "a quarter of the shortest step whose runs ended in time, solved directly"
                  : "a quarter of the longest step, as no run ended in time, solved directly";
 }
 
@@ -131,7 +132,7 @@ BenchErrors errors_of(Runs runs, Runs references) {
 
 BenchRow row_of(const BenchSetting& setting, Runs runs, Runs references) {
   BenchRow row{.setting = setting, .runs = static_cast<int>(runs.size())};
-  row.setting.leap = false;
+  row.setting.leap = false;  // but where motion was uniform
   for (const WatchedRun& run : runs) {
     row.setting.leap = row.setting.leap || (setting.leap && run.simulation.leapt_strain > 0.0);
     row.trusted += run.simulation.trusted() ? 1 : 0;

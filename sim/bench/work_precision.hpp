@@ -24,13 +24,14 @@ struct BenchSpread {
 struct BenchErrors {
   BenchSpread bonded_forces;  ///< Of all joint forces before the first break.
   BenchSpread forces;         ///< After the last break of which runs agree: joint and order.
-  BenchSpread strength, strength_without_ringing;
+  BenchSpread strength;       ///< The largest stress, waves included.
+  BenchSpread strength_without_ringing;  ///< As fits take it.
   BenchSpread failure_strain;
   BenchSpread curve;  ///< Root mean square of the stress, relative to the strength, up to failure.
 };
 
 struct BenchRow {
-  BenchSetting setting;
+  BenchSetting setting;       ///< It leaps where one of its runs did.
   int runs = 0, trusted = 0;  ///< Seeds, and those whose run is to be trusted.
   int out_of_time = 0;        ///< 1 where the last was stopped at the time limit, and others left.
   BenchSpread reached;        ///< Strain of the last row. [-]

@@ -225,12 +225,7 @@ TEST(BreakingSequence, KeepsTheLawAtEveryBreakWherePiecesHangLoosely) {
 TEST(BreakingSequence, LaysNoPieceThatHangsOnNothingIntoAnother) {
   Scene scene = test::small_scene(0.0, 5, 3);
   scene.loading.lateral = Lateral::free;
-  scene.loading.max_strain = 0.05;
-  scene.joints.head_tail = 50e6;
-  scene.joints.flank = 10e6;
   scene.joints.scatter = 0.0;
-  scene.joints.friction = 0.3;
-  scene.joints.reinforced_boundary.reset();
   const Simulation run = simulate(scene);
   EXPECT_GT(run.broken_joints, 20);
   for (const JointOutcome& joint : run.joints)
