@@ -1,4 +1,5 @@
-// Numbers with their nouns, in the sentences of all rooms above the model.
+// Numbers with their nouns, in the sentences of corrections, warnings and pages: in all folders
+// above sim.
 #pragma once
 
 #include <concepts>
@@ -7,7 +8,7 @@
 
 namespace havers::calib {
 
-/// "1 row", "2 rows"; `noun` takes an s.
+/// "1 row", "2 rows", "0 rows"; `n` is of any integer type, `noun` one whose plural takes an s.
 std::string count(std::integral auto n, std::string_view noun) {
   return std::to_string(n) + " " + std::string(noun) + (n == 1 ? "" : "s");
 }

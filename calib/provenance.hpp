@@ -7,6 +7,7 @@
 
 namespace havers::calib {
 
+/// Of one run of a command: cli fills it, the files and pages of the result carry it.
 struct Provenance {
   std::string havers;                                              ///< Its version, "0.1.0".
   std::string compiler;                                            ///< What built it, "GNU 12.2.0".

@@ -17,7 +17,7 @@ struct Problem {
 /// "file:line", for a problem's `where`.
 std::string at_line(const std::string& file, std::size_t line);
 
-/// "where: what (hint)", in one line.
+/// "where: what (hint)", in one line: characters of control, of a file as well, become blanks.
 std::string to_string(const Problem& problem);
 
 /// All problems of an input together, each once, for one mistake may stand in the way of many keys
@@ -25,7 +25,9 @@ std::string to_string(const Problem& problem);
 class InputError : public std::exception {
  public:
   explicit InputError(std::vector<Problem> problems);
+  /// A single problem.
   InputError(std::string where, std::string what, std::string hint = {});
+  /// A line for each problem.
   [[nodiscard]] const char* what() const noexcept override { return text_.c_str(); }
   [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }
 

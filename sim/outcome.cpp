@@ -1,3 +1,5 @@
+// What a curve says once it is there: the state of failure, means over waves, and the numbers of a
+// result.
 #include "sim/outcome.hpp"
 
 #include <gsl/gsl_fit.h>
@@ -30,6 +32,7 @@ void take_note_of_strength(Simulation& simulation) {
 
 bool has_failed(const Simulation& simulation, double end_fraction) {
   const CurvePoint& last = simulation.curve.back();
+  // An end fraction of 0 ends a run as well, where nothing but rounding is borne.
   constexpr double nothing = 1e-9;  // of the strength
   const double limit = std::max(end_fraction, nothing) * simulation.strength;
   return last.broken_joints > 0 && last.stress_right < limit && last.stress_left < limit;
@@ -44,6 +47,7 @@ std::optional<double> stress_at(const std::vector<CurvePoint>& curve, double str
   const auto next = std::ranges::find_if(
       curve, [strain](const CurvePoint& point) { return point.strain >= strain; });
   if (next == curve.end()) return std::nullopt;
+  // The origin comes before the first row.
   const CurvePoint before = next == curve.begin() ? CurvePoint{} : *std::prev(next);
   const double width = next->strain - before.strain;
   const double w = width > 0.0 ? (strain - before.strain) / width : 1.0;
@@ -74,6 +78,8 @@ Rows rows_for_means(const std::vector<CurvePoint>& curve, double span) {
 // Means over the stretch before each row that has one.
 Rows means_of(const Rows& rows, double span) {
   const auto& [strain, stress] = rows;
+  // By trapezoids, exact for what is linear from row to row. `left`, the row before a stretch
+  // begins, only moves on: all stretches together cost O(rows).
   std::vector<double> area{0.0};  // under the curve up to each row
   Rows means;
   for (std::size_t i = 1, left = 0; i < strain.size(); ++i) {
@@ -98,6 +104,7 @@ double largest_mean_stress(const std::vector<CurvePoint>& curve, double span) {
   // So short a stretch has few digits in the area, or none in the strain.
   if (span <= 1e-9 * curve.back().strain)
     return std::ranges::max(curve, {}, &CurvePoint::stress_right).stress_right;
+  // The mean of means over stretches of one length has the weights of a triangle.
   const Rows means = means_of(means_of(rows_for_means(curve, span), span), span);
   return means.stress.empty() ? none : *std::ranges::max_element(means.stress);
 }
@@ -122,6 +129,7 @@ double slope_up_to(double end, const std::vector<CurvePoint>& curve) {
 }  // namespace
 
 double strain_of_modulus(const Simulation& simulation) {
+  // Passes over the strain of a first break that never came, which is no number.
   return std::fmin(simulation.first_break_strain, simulation.curve.back().strain);
 }
 
@@ -133,6 +141,7 @@ void summarise(Simulation& simulation) {
   simulation.failure_strain = strongest->strain;
   simulation.broken_joints = curve.back().broken_joints;
   simulation.first_break_strain = std::numeric_limits<double>::quiet_NaN();
+  // Any strain is less than one that is no number.
   for (const JointOutcome& joint : simulation.joints)
     if (joint.broke() && !(simulation.first_break_strain <= joint.broken_at_strain))
       simulation.first_break_strain = joint.broken_at_strain;

@@ -1,3 +1,5 @@
+// What follows from a scene's numbers alone, and the complaints about one that cannot be simulated.
+// A complaint names the key of a scene file, and shows a value in its unit.
 #include "sim/scene.hpp"
 
 #include <fmt/format.h>
@@ -68,7 +70,8 @@ bool is_not_negative(double value) {
   return value == 0.0 || is_positive(value);
 }
 
-// Collects complaints; a value is shown in the unit of its key.
+// Collects complaints; a value is shown in the unit of its key. Comparisons are such that what is
+// no number does not hold.
 class Checker {
  public:
   void require(bool holds, std::string_view key, double value, std::string_view rule,
@@ -95,6 +98,7 @@ class Checker {
 };
 
 void check_assembly(const AssemblyOptions& assembly, Checker& checker) {
+  // Of fibres, of the grid around a turned specimen, and of length to height.
   constexpr double most_fibres = 1e6, most_cells = 1e7, most_slender = 1e6;
   const double fibres = static_cast<double>(assembly.layers) * assembly.fibres;
   checker.require(assembly.layers >= 1, "assembly.layers", assembly.layers, "at least 1");
@@ -129,6 +133,7 @@ void check_assembly(const AssemblyOptions& assembly, Checker& checker) {
                s = std::abs(std::sin(assembly.orientation));
   const double cells = (assembly.width() * c + assembly.height() * s) / assembly.fibre_length *
                        (assembly.width() * s + assembly.height() * c) / assembly.fibre_height;
+  // Too many fibres are said already.
   if (fibres <= most_fibres && cells > most_cells)
     checker.say("assembly.orientation_deg",
                 fmt::format("needs a grid of {:.2g} fibres around so long and narrow a specimen, "
@@ -164,6 +169,7 @@ void check_joints(const JointOptions& joints, Checker& checker) {
   checker.positive("joints.flank_MPa", joints.flank / 1e6);
   if (joints.head_tail_shear)
     checker.not_negative("joints.head_tail_shear_MPa", *joints.head_tail_shear / 1e6);
+  // f_T may be 0 and f_N not, as μ_c is their ratio (M5).
   if (joints.flank_tension)
     checker.positive("joints.flank_tension_MPa", *joints.flank_tension / 1e6);
   checker.require(joints.scatter >= 0.0 && joints.scatter < 2.0, "joints.scatter", joints.scatter,
@@ -175,6 +181,7 @@ void check_joints(const JointOptions& joints, Checker& checker) {
 
 void check_loading(const Loading& loading, Checker& checker) {
   checker.positive("loading.strain_rate_per_s", loading.strain_rate);
+  // A rate that is not above 0 is said already.
   checker.require(
       !(loading.strain_rate > 0.0) || std::isfinite(loading.max_strain / loading.strain_rate),
       "loading.strain_rate_per_s", loading.strain_rate,
@@ -257,6 +264,7 @@ bool some_are_missing(const JointOptions& joints) {
 }
 
 std::vector<Scene::Problem> Scene::problems() const {
+  // What needs an assembly or a regime is asked only of what has passed the other checks.
   Checker checker;
   check_assembly(assembly, checker);
   const bool can_be_laid = checker.found().empty();

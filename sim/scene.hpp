@@ -22,6 +22,7 @@ struct AssemblyOptions {
   [[nodiscard]] double height() const { return layers * fibre_height; }  ///< H. [m]
 };
 
+/// Which of the two is zero out of the plane.
 enum class Plane { stress, strain };
 
 /// The material of every fibre. Section 2.
@@ -69,14 +70,16 @@ struct JointOptions {
   double missing = 0.0;                     ///< Fraction of joints that pores take away (M13). [-]
   double friction = 0.3;                    ///< μ_f of broken joints. [-]
   std::optional<bool> reinforced_boundary;  ///< Default: on at 0° only.
-  std::uint64_t seed = 1;
-  std::vector<Threshold> thresholds;  ///< One per joint instead of a draw; empty: draw.
+  std::uint64_t seed = 1;                   ///< Of all draws.
+  std::vector<Threshold> thresholds;        ///< One per joint instead of a draw; empty: draw.
 };
 
 /// Whether joints are, or may be, missing from the start.
 bool some_are_missing(const JointOptions& joints);
 
+/// Top and bottom tied to each other, or free of forces.
 enum class Lateral { periodic, free };
+/// The velocity a run in time starts with: that of uniform stretching, or none, which is a shock.
 enum class Start { uniform, rest };
 
 /// Loading and boundary. Section 5.
@@ -89,7 +92,9 @@ struct Loading {
       0.3;  ///< It ends when both sides carry less than this part of the strength. [-]
 };
 
+/// automatic: the limit where inertia is small enough (M12).
 enum class Regime { automatic, dynamic, quasi_static };
+/// automatic: the active set.
 enum class ContactMethod { automatic, active_set, gauss_seidel };
 
 /// How the simulation is computed.

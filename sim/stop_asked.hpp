@@ -9,6 +9,7 @@ namespace havers::sim {
 /// true it stays so. Empty: never.
 using StopAsked = std::function<bool()>;
 
+/// False where nobody was given to ask.
 inline bool stop_is_asked(const StopAsked& stop_asked) {
   return stop_asked && stop_asked();
 }

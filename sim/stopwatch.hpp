@@ -6,7 +6,8 @@
 
 namespace havers::sim {
 
-/// Runs from when it is made.
+/// Runs from when it is made. CPU time is that of the process, so that runs side by side count each
+/// other's.
 class Stopwatch {
  public:
   [[nodiscard]] double wall_seconds() const {  ///< [s]

@@ -13,9 +13,11 @@ namespace havers::calib {
 namespace {
 
 // (X11) Far from its neighbours, by what the noise, the range and their own wandering allow: the
-// tip of a steep test that breaks is no spike.
+// tip of a steep test that breaks is no spike. `y` points into a channel, two rows or more from its
+// ends.
 bool is_spike(const double* y, double threshold) {
   const double distance = std::abs(y[0] - 0.5 * (y[-1] + y[1]));
+  // So written, what is not a number is no spike.
   if (!(distance > threshold)) return false;
   const double wander =
       std::max({std::abs(y[-1] - y[-2]), std::abs(y[1] - y[-1]), std::abs(y[2] - y[1])});
@@ -41,6 +43,7 @@ std::size_t remove_spikes(std::vector<double>& values) {
   const double threshold = std::max(10.0 * noise_of(values), 0.01 * (high - low));
   std::size_t removed = 0;
   for (std::size_t i = 2; i + 2 < values.size(); ++i) {
+    // In place, so that a spike is no neighbour of the rows after it.
     if (!is_spike(&values[i], threshold)) continue;
     values[i] = 0.5 * (values[i - 1] + values[i + 1]);
     ++removed;
@@ -66,6 +69,7 @@ std::size_t spread_repeated_times(std::vector<double>& time) {
 }
 
 void clean_channels(RawTest& test, const ReductionOptions& options) {
+  // First: else all rows would be listed as spread, though nothing is there to spread them over.
   drop_standing_time(test);
   if (options.spread_repeated_times)
     if (const std::size_t rows = spread_repeated_times(test.time); rows > 0)

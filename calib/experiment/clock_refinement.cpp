@@ -1,3 +1,5 @@
+// Gauss and Newton over a spline, linear in its coefficients, and the two clocks: each step
+// eliminates the spline from the normal equations, solves for the clocks, and then for the spline.
 #include "calib/experiment/clock_refinement.hpp"
 
 #include <gsl/gsl_bspline.h>
@@ -17,7 +19,9 @@
 namespace havers::calib {
 namespace {
 
+// `spline` is the number of coefficients of the spline.
 constexpr std::size_t order = 4, knots = 13, spline = knots + order - 2;  // cubic
+// Steps of the grid over which a slope of the logger's signal is taken.
 constexpr double slope_steps = 5.0;
 
 // Cubic B-splines on [0, 1], with knots that lie closer towards 0, where a toe bends the curve.
@@ -50,6 +54,7 @@ class Splines {
       gsl_bspline_alloc(order, knots), gsl_bspline_free};
 };
 
+// A signal as parts of its range: 0 at its lowest value, 1 at its largest.
 struct ValueRange {
   double low, extent;
   explicit ValueRange(std::span<const double> values) {
@@ -60,7 +65,8 @@ struct ValueRange {
   [[nodiscard]] double part(double value) const { return (value - low) / extent; }
 };
 
-// Sums over rows: splines by splines, splines by (offset, rate), and so on.
+// Normal equations: sums over rows of splines by splines, splines by (offset, rate), (offset, rate)
+// by itself, and of both by what is left of the signal (`_right`).
 struct RowSums {
   Eigen::MatrixXd splines = Eigen::MatrixXd::Zero(spline, spline);
   Eigen::MatrixXd mixed = Eigen::MatrixXd::Zero(spline, 2);
@@ -81,11 +87,14 @@ class Refinement {
   explicit Refinement(const ClockEvidence& evidence)
       : evidence_(evidence), machine_(evidence.machine.value), logger_(evidence.logger.value) {
     const double noise = noise_of(evidence.logger.value) / logger_.extent;
+    // (X17) Of two readings over the time between them.
     slope_variance_ = 2.0 * std::pow(noise / (slope_steps * evidence.step), 2);
   }
 
   // `clocks`: 0 the spline alone, 1 the offset too, 2 the rate too.
   void refine(ClockFit& fit, int clocks) {
+    // So many whatever is reached: a step moves the offset by one step of the grid at most, and the
+    // first guess is as near.
     constexpr int steps = 15;
     for (int i = 0; i < steps; ++i) take_step(fit, clocks);
   }
@@ -96,7 +105,8 @@ class Refinement {
   }
   [[nodiscard]] double of_gauge(double g) { return splines_.at(g).dot(coefficients_); }
 
-  // Whether the row is one the clocks can be told from.
+  // Whether a row of the machine, time and value, is one the clocks can be told from; `at` is its
+  // time on the logger's clock, where a slope needs readings on both sides.
   [[nodiscard]] bool counts(double time, double value, double at) const {
     const Signal& logger = evidence_.logger;
     return time <= evidence_.machine.time.back() && at > logger.time.front() + evidence_.step &&
@@ -135,6 +145,7 @@ double Refinement::add_rows(const ClockFit& fit, RowSums& sums) {
     const Eigen::VectorXd basis = splines_.at(gauge(at));
     const double residual = machine_part(machine.value[i]) - basis.dot(coefficients_);
     const double steepness = splines_.slope_at(gauge(at)).dot(coefficients_);
+    // Derivatives of c(g(s)) by offset and rate, with s = reference + (t − offset) / rate.
     const Eigen::Vector2d by_rate{1.0, at - fit.reference};
     const Eigen::Vector2d clocks = -steepness * slope_of(at) / fit.rate * by_rate;
     sums.splines += basis * basis.transpose();
@@ -147,6 +158,7 @@ double Refinement::add_rows(const ClockFit& fit, RowSums& sums) {
     squares += residual * residual;
   }
   const auto surplus = static_cast<double>(residuals.size()) - static_cast<double>(spline) - 2.0;
+  // Fewer rows than unknowns say nothing: over an infinite variance their sums vanish.
   if (surplus <= 0.0) return std::numeric_limits<double>::infinity();
   constexpr double finest = 1e-6;  // of the range: no recorder resolves less
   return std::max(finest * finest, squares / surplus * rows_per_independent(residuals));
@@ -160,8 +172,9 @@ Eigen::Matrix2d positive_part(const Eigen::Matrix2d& matrix) {
          eigen.eigenvectors().transpose();
 }
 
-// What the rows say of the clocks beyond what the spline could. Noise in the slopes is none of it:
-// where there is not more than that, they say nothing.
+// What the rows say of the clocks beyond what the spline could: the Schur complement of the normal
+// equations, `shared` being the solution of splines by (offset, rate). Noise in the slopes is none
+// of it: where there is not more than that, they say nothing.
 ClockSums beyond_noise(const RowSums& sums, const Eigen::MatrixXd& shared, double variance) {
   const Eigen::Matrix2d rows = sums.clocks - sums.mixed.transpose() * shared;
   const Eigen::Matrix2d told = positive_part(rows - sums.of_noise);
@@ -178,6 +191,7 @@ Eigen::Vector2d Refinement::move_clocks(ClockSums sums, int clocks, ClockFit& fi
     sums.told += information;
     sums.right += residual / (error * error) * row;
   };
+  // Weak bounds: the offset by the length of the record, the rate by 1.
   add({1.0, 0.0}, 0.0, evidence_.machine.time.back() - evidence_.machine.time.front());
   add({0.0, 1.0}, 0.0, 1.0);
   if (evidence_.broke) {
@@ -186,11 +200,14 @@ Eigen::Vector2d Refinement::move_clocks(ClockSums sums, int clocks, ClockFit& fi
         evidence_.broke->standard_error);
   }
   if (clocks == 1) {
+    // So the rate has an equation of its own, without a right-hand side, and stays.
     sums.told(0, 1) = sums.told(1, 0) = sums.right[1] = 0.0;
   }
   const Eigen::Matrix2d told = sums.told.inverse();
+  // (X17) H⁻¹ G H⁻¹, H being what the signals tell and G that with the noise of the slopes.
   const Eigen::Matrix2d covariance = told * sums.rows * told;
   Eigen::Vector2d change = told * sums.right;
+  // The equations are linear in the clocks only near where the slopes were taken.
   change[0] = std::clamp(change[0], -evidence_.step, evidence_.step);
   change[1] = std::clamp(change[1], -0.01, 0.01);
   fit.offset += change[0];
@@ -217,6 +234,8 @@ void Refinement::take_step(ClockFit& fit, int clocks) {
 
 }  // namespace
 
+// The offset first, by equal rates; the rate is tried from there, and kept only where the signals
+// tell it and it is near 1.
 ClockFit refine_clocks(const ClockEvidence& evidence, ClockFit fit) {
   constexpr double largest_rate_error = 0.01;  // beyond it the clocks' rates are taken as equal
   Refinement refinement(evidence);
@@ -230,6 +249,7 @@ ClockFit refine_clocks(const ClockEvidence& evidence, ClockFit fit) {
 
 void draw_clocks(ClockEvidence evidence, const Signal& machine, const Signal& logger,
                  ClockFit& fit) {
+  // The figure shows the toe too, so that its spline has all rows. The clocks stay.
   evidence.lowest = -std::numeric_limits<double>::infinity();
   Refinement refinement(evidence);
   refinement.refine(fit, 0);

@@ -1,3 +1,5 @@
+// (X17), (X18) A first guess by the correlation of the signals' rates, then the break where both
+// saw one, then least squares; each stage may refuse.
 #include "calib/experiment/clocks.hpp"
 
 #include <fmt/format.h>
@@ -43,7 +45,8 @@ double extent_of(std::span<const double> values) {
   return high - low;
 }
 
-// The correlation at every lag, in steps, from `first`.
+// The correlation at every lag, in steps, from `first`; at lag k the first of b meets a[k]. In
+// O(n²) of the grid's points, of which `telling_step` allows some 4000.
 struct Correlogram {
   std::ptrdiff_t first = 0;
   std::vector<double> value;
@@ -116,7 +119,8 @@ double least_jump(const Signal& logger, const SignalRates& rates, double step) {
       std::max(noises * noise_of(logger.value), changes * step * std::ranges::max(rates.value)));
 }
 
-// Keeps the rows up to the break in both records.
+// Keeps the rows up to the break in both records; nothing, and all rows, where too few would be
+// left.
 std::optional<CommonBreak> cut_at(const SeenBreak& seen, const SeenBreak& logged,
                                   ClockEvidence& evidence) {
   if (std::min(seen.rows_before, logged.rows_before) < fewest_rows) return std::nullopt;
@@ -235,6 +239,7 @@ std::string match_rates(const ClockRecords& whole, ClockEvidence evidence, Clock
 std::string match(const Signal& machine, const Signal& logger, ClockFit& fit) {
   if (machine.time.size() < fewest_rows || logger.time.size() < fewest_rows)
     return "there are too few rows";
+  // The coarser of the two: in less the other shows noise, or what lies between its rows.
   const double step = std::max(telling_step(machine), telling_step(logger));
   if (!(step > 0.0)) return "the time is the same in all rows of both";
   const ClockRecords whole{machine, logger, step};
@@ -242,12 +247,15 @@ std::string match(const Signal& machine, const Signal& logger, ClockFit& fit) {
     return "one of the records is too short for the steps of the other";
   ClockEvidence evidence{
       .machine = machine, .logger = logger, .broke = {}, .step = whole.step, .lowest = above_toe};
+  // Without a match by the rates the break alone may do, where it is plain; else the user hears
+  // what the rates lack.
   std::string why = match_rates(whole, evidence, fit);
   if (!why.empty()) {
     const auto broke = evidence.broke = cut_at_plain_break(evidence);
     if (!broke) return why + what_helps;
     fit = fit_from(broke->machine_time - broke->logger_time, evidence, whole);
   }
+  // (X18) By how much the error of the offset moves the machine's signal where it is fastest.
   const double fastest =
       std::ranges::max(whole.machine_rates.value) / extent_of(evidence.machine.value);
   why = doubt_of_offset(fit, fit.offset_standard_error * fastest);

@@ -16,7 +16,9 @@ namespace {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
 
+// In fewer rows no wave is sought; more than the most are fitted by their means.
 constexpr std::size_t fewest_wave_points = 24, most_wave_points = 512;
+// The grid from which the fit starts, in periods along the points.
 constexpr double fewest_periods = 0.75, most_periods = 8.0, period_step = 0.25;
 constexpr double shortest_told = 0.8;  // periods; a bend is as good an account of less
 constexpr double least_fading = -0.5, most_fading = 12.0;  // of a wave, e-folds along the points
@@ -34,6 +36,7 @@ struct LineAndWave {
   [[nodiscard]] int NumResiduals() const { return static_cast<int>(x.size()); }
   [[nodiscard]] static int NumParameters() { return 6; }
 
+  // The first four columns are linear in a, b, c, s; the last two are the derivatives by ω and g.
   bool operator()(const double* parameters, double* residuals, double* jacobian) const {
     const Eigen::Map<const VectorXd> p(parameters, NumParameters());
     MatrixXd columns(x.size(), p.size());
@@ -46,6 +49,7 @@ struct LineAndWave {
     return true;
   }
 
+  // 1, x, and the faded cosine and sine: a column each.
   [[nodiscard]] MatrixXd basis(double frequency, double fading) const {
     MatrixXd columns(x.size(), 4);
     const Eigen::ArrayXd fade = (-fading * x.array()).exp();
@@ -57,7 +61,8 @@ struct LineAndWave {
   }
 };
 
-// Means of successive rows, mapped to [0, 1].
+// Means of successive rows, mapped to [0, 1]; rows at the end that fill no mean are left out.
+// Stress and strain differ by many orders of magnitude.
 struct Mapped {
   double low = 0.0, extent = 0.0;
   VectorXd points;
@@ -75,7 +80,7 @@ Mapped mapped(std::span<const double> values) {
   return {low, extent, points};
 }
 
-// Of a bend without waves: a cubic has a toe and yielding.
+// Sum of squares that a bend without waves leaves: a cubic has a toe and yielding.
 double squares_of_bend(const LineAndWave& points) {
   MatrixXd columns(points.x.size(), 4);
   for (int power = 0; power < 4; ++power) columns.col(power) = points.x.array().pow(power);
@@ -83,6 +88,8 @@ double squares_of_bend(const LineAndWave& points) {
   return (columns * answer - points.y).squaredNorm();
 }
 
+// The sum of squares may have many minima over the frequency: at each point of a grid of frequency
+// and fading the other four are linear, and the solver starts from the best.
 VectorXd best_wave(const LineAndWave& points) {
   VectorXd best(LineAndWave::NumParameters());
   double least = std::numeric_limits<double>::infinity();
@@ -111,7 +118,9 @@ std::optional<CarriedWave> find_damped_wave(std::span<const double> x, std::span
   const double noise = noise_of(std::span(my.points.data(), my.points.data() + my.points.size()));
   const double of_noise = count * noise * noise;
   const double of_bend = squares_of_bend(points);
+  // The F test of two parameters more than the four of a cubic.
   const double certain = 1.0 + 2.0 * least_f / count;
+  // The bend leaves no more than noise does, and a wave could explain nothing.
   if (of_bend < certain * of_noise) return {};
 
   const VectorXd wave = best_wave(points);
@@ -119,17 +128,21 @@ std::optional<CarriedWave> find_damped_wave(std::span<const double> x, std::span
   MatrixXd columns(points.x.size(), wave.size());
   points(wave.data(), left.data(), columns.data());
   const double squares = Eigen::Map<VectorXd>(left.data(), points.x.size()).squaredNorm();
+  // (X24) Long enough, hardly growing nor gone at once, better than a bend by the F test, and by
+  // far better beyond what noise leaves of both.
   const bool is_wave =
       wave[4] >= shortest_told * turn && wave[5] >= least_fading && wave[5] <= most_fading;
   if (!is_wave || of_bend < certain * squares ||
       squares - of_noise > most_unexplained * (of_bend - of_noise))
     return {};
 
+  // (X4) As a robust line has it: rows that err alike are fewer, and Student's t is wider.
   const MatrixXd normal = columns.transpose() * columns;
   const double variance = normal.ldlt().solve(VectorXd::Unit(normal.rows(), 1))[1];
   const double freedom = std::max(count / rows_per_independent(left) - 6.0, 3.0);
   CarriedWave found;
   found.line.fitted = true;
+  // Back from [0, 1] to the units of x and y.
   found.line.slope = wave[1] * my.extent / mx.extent;
   found.line.slope_standard_error =
       std::sqrt(variance * squares / (freedom - 2.0)) * my.extent / mx.extent;

@@ -13,8 +13,10 @@
 namespace havers::calib {
 namespace {
 
+// Of fewer rows no curve is made.
 constexpr std::size_t fewest_readings = 10;
 
+// Measured sides before an area that the file gives. 0 where neither is known. [m²]
 double area_of(const RawTest& raw) {
   if (raw.width && raw.thickness) return *raw.width * *raw.thickness;
   return raw.area.value_or(0.0);
@@ -38,8 +40,8 @@ void take_stress(const RawTest& raw, EngineeringCurve& curve) {
   }
 }
 
-// (X2) Whether the strain is the crosshead's extension over the gauge length, as its name says: a
-// name may err.
+// (X2) Whether the strain is the crosshead's extension over the gauge length, as its name says. A
+// name may err: where extension and gauge length are known, the numbers decide.
 bool is_of_crosshead(const RawTest& raw) {
   if (!raw.crosshead_strain || raw.extension.empty() || !raw.gauge_length)
     return raw.crosshead_strain;
@@ -53,7 +55,8 @@ bool is_of_crosshead(const RawTest& raw) {
   return difference <= tolerance * largest;
 }
 
-// (X2) The crosshead's extension over the gauge length, less what the machine gives way.
+// (X2) The crosshead's extension over the gauge length, or the column that the machine made of it,
+// less what the machine gives way. Precondition: one of them is there.
 void take_crosshead(const RawTest& raw, double machine_compliance, EngineeringCurve& curve) {
   const bool corrected = machine_compliance > 0.0 && !raw.force.empty() && raw.gauge_length;
   curve.strain.reserve(raw.rows());
@@ -75,6 +78,7 @@ void take_crosshead(const RawTest& raw, double machine_compliance, EngineeringCu
         "which contains the compliance of the machine; the modulus is too low by it");
 }
 
+// A gauge's strain as it is; what comes of the crosshead is corrected or warned of.
 void take_strain(const RawTest& raw, double machine_compliance, EngineeringCurve& curve) {
   const bool recorded = !raw.strain.empty();
   if (recorded && !is_of_crosshead(raw))
@@ -100,6 +104,8 @@ bool is_compressed(const std::vector<double>& stress) {
   return -low > high && std::accumulate(stress.begin(), stress.end(), 0.0) < 0.0;
 }
 
+// Whether the specimen is longer at the most negative load than at the first row. False where no
+// elongation was recorded beside the load.
 bool gets_longer(const std::vector<double>& elongation, const std::vector<double>& load) {
   if (elongation.size() != load.size()) return false;
   const auto largest = std::ranges::min_element(load) - load.begin();
@@ -113,6 +119,7 @@ void turn_negative_load(RawTest& raw, bool stretched) {
   const char* turned = nullptr;
   for (const auto& [load, name] : {std::pair(&raw.stress, "stress"), {&raw.force, "force"}}) {
     if (load->empty() || !is_compressed(*load)) continue;
+    // A specimen that gets shorter is compressed: its load stays negative, and is refused later.
     if (!stretched && !gets_longer(elongation, *load)) continue;
     for (double& value : *load) value = -value;
     turned = name;
@@ -133,6 +140,8 @@ EngineeringCurve engineering_curve(const RawTest& raw, double machine_compliance
   take_stress(raw, curve);
   take_strain(raw, machine_compliance, curve);
   if (!curve.problems.empty()) return curve;
+  // The first complaint only. Tension that was written negative has been turned before: what is
+  // negative here is compression.
   if (raw.rows() < fewest_readings)
     curve.problems.push_back(
         fmt::format("{} {} too few", count(raw.rows(), "row"), raw.rows() == 1 ? "is" : "are"));

@@ -14,20 +14,22 @@
 namespace havers::calib {
 namespace {
 
-// The first channel that was recorded.
+// The first channel that was recorded; an empty one where none was.
 const std::vector<double>& first_of(std::initializer_list<const std::vector<double>*> channels) {
   for (const std::vector<double>* channel : channels)
     if (!channel->empty()) return *channel;
   return **channels.begin();
 }
 
-// How a signal in volts is told from one that is known.
+// How a signal in volts is told from one that is known: the title of its correction, and the words
+// of the sentence that says what is missing.
 struct Calibration {
   const char *name, *signal, *known, *hint, *unit;
   double scale;  // SI to unit
 };
 
-// Keeps the rows whose time the logger saw.
+// Keeps the rows of the machine whose time the logger saw: outside, its signal would only be its
+// last value.
 void keep_common_rows(RawTest& test, const ClockFit& clocks, const std::vector<double>& logged) {
   std::vector<bool> seen;
   for (const double time : test.time) {
@@ -49,6 +51,7 @@ std::vector<double> calibrated(const std::vector<double>& volts, const std::vect
                                const Calibration& calibration, JoinedTest& joined) {
   constexpr double largest_error = 0.05;  // of the factor
   const bool recorded = known.size() == volts.size();
+  // (X4) With the error of rows that err alike, as those of a known strain do.
   const Line line =
       recorded ? with_true_error(fit_robust_line(volts, known), volts, known) : Line{};
   if (!(line.slope_standard_error < largest_error * std::abs(line.slope))) {
@@ -67,7 +70,8 @@ std::vector<double> calibrated(const std::vector<double>& volts, const std::vect
   return values;
 }
 
-// The logger's channel at the rows of the machine.
+// The logger's channel at the rows of the machine, linear between its own; empty where it was not
+// recorded.
 std::vector<double> at_machine_rows(const std::vector<double>& time,
                                     const std::vector<double>& channel, const JoinedTest& joined) {
   std::vector<double> values;
@@ -87,6 +91,7 @@ constexpr Calibration load_cell{"load cell factor",
                                 "N",
                                 1.0};
 
+// The strain of the test is the elongation over the gauge length.
 void take_elongation(std::vector<double> elongation, JoinedTest& joined) {
   if (!joined.test.gauge_length) {
     joined.problems.emplace_back(
@@ -99,6 +104,8 @@ void take_elongation(std::vector<double> elongation, JoinedTest& joined) {
   joined.test.crosshead_strain = false;
 }
 
+// The known before the unknown: a strain, an elongation, and volts only where there is neither.
+// Volts are fitted to the test's own strain, which they then replace.
 void take_channels(const RawTest& logger, JoinedTest& joined) {
   RawTest& test = joined.test;
   if (test.force.empty() && !test.load_volts.empty())
@@ -144,6 +151,7 @@ bool only_logger_stretches(const RawTest& machine, const RawTest& logger) {
   return sum > signal.front() * static_cast<double>(signal.size());
 }
 
+// Both records are mended alike: the reader is told which of them a repair was in.
 void list_repairs(const RawTest& logger, RawTest& test) {
   const std::string whose = "in the logger's record: ";
   for (const Correction& correction : logger.corrections)
@@ -160,6 +168,7 @@ JoinedTest join_logger(const RawTest& machine, const RawTest& recorded,
   const RawTest logger = cleaned(recorded, options);
   if (only_logger_stretches(test, logger)) turn_negative_load(test, true);
   list_repairs(logger, test);
+  // The load of both records, where both have it: the rest only rises and falls with it.
   const auto& load = first_of({&test.force, &test.load_volts, &test.stress, &test.extension});
   const auto& signal = first_of(
       {&logger.force, &logger.load_volts, &logger.strain, &logger.volts, &logger.extension});

@@ -16,7 +16,8 @@ namespace {
 constexpr std::size_t fewest_beside = 20;  // rows that tell how strain and crosshead go together,
 constexpr std::size_t part_beside = 5;     // or a fifth of all with a strain
 
-// Of the largest load, whatever its sign. [-]
+// The load at a row, a part of the largest, whatever its sign: a load that is written negative is
+// turned in the reduction, later than this. [-]
 double load_at(const RawTest& raw, std::size_t row) {
   const std::vector<double>& load = raw.load();
   const auto [low, high] = std::ranges::minmax(load);
@@ -29,12 +30,14 @@ bool is_after_peak(const RawTest& raw, std::size_t row) {
   return std::ranges::max_element(load, larger) - load.begin() < std::ptrdiff_t(row);
 }
 
+// Strain over the crosshead, both as recorded; not fitted where no crosshead was.
 Line line_beside(const RawTest& raw, RowRange beside) {
   if (raw.extension.empty()) return {};
   return fit_robust_line(std::span(raw.extension).subspan(beside.first, beside.rows()),
                          std::span(raw.strain).subspan(beside.first, beside.rows()));
 }
 
+// Lists what was done; a range at the record's beginning is that of a gauge that came late.
 void tell(RawTest& raw, RowRange lost, const Line& line) {
   const bool late = lost.first == 0;
   const std::string part =
@@ -49,6 +52,8 @@ void tell(RawTest& raw, RowRange lost, const Line& line) {
                                      late ? "strains there rest" : "the failure strain rests"));
 }
 
+// (X14) Fills the rows `lost` at one end of the record by the line of those `beside` them; says why
+// it cannot.
 std::string extend(RawTest& raw, RowRange lost, RowRange beside) {
   const Line line = line_beside(raw, beside);
   const bool broken = is_after_peak(raw, lost.first);
@@ -59,10 +64,12 @@ std::string extend(RawTest& raw, RowRange lost, RowRange beside) {
   for (std::size_t i = lost.first; i < lost.last; ++i)
     raw.strain[i] =
         line.fitted ? line.intercept + line.slope * raw.extension[i] : raw.strain[lost.first - 1];
+  // What is lost after the largest load leaves the failure strain as it is: nothing to tell.
   if (!broken) tell(raw, lost, line);
   return {};
 }
 
+// Of a record without a load, a logger's: a row without a reading of its gauge says nothing.
 void cut(RawTest& raw, RowRange kept) {
   for (std::vector<double>* channel : {&raw.time, &raw.extension, &raw.strain, &raw.volts}) {
     if (channel->empty()) continue;
@@ -83,6 +90,7 @@ std::string mend_lost_gauge(RawTest& raw) {
     return {};
   }
   const auto first = static_cast<std::size_t>(from - strain.begin());
+  // Only the ends are mended: a gap on the way is refused in the reduction, as not finite.
   const auto behind = std::find_if(strain.rbegin(), strain.rend(), tells).base();
   const auto end = static_cast<std::size_t>(behind - strain.begin());
   if (raw.load().empty()) {

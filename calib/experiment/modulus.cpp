@@ -1,3 +1,5 @@
+// The window is found first, by slopes of its parts: where the curve is straight. The line is
+// fitted in what is left, or by a convention where nothing is straight.
 #include "calib/experiment/modulus.hpp"
 
 #include <fmt/format.h>
@@ -24,6 +26,7 @@ constexpr double gentle_toe = 1.1;        // slope after to slope in it; else a 
 // Strains of the window of ISO 527-1, for curves without a straight part.
 constexpr double standard_low = 5e-4, standard_high = 25e-4;
 
+// Strain [-] and stress [Pa] up to the largest stress.
 struct Curve {
   std::span<const double> strain, stress;
 
@@ -66,6 +69,8 @@ struct Bend {
   }
 };
 
+// Slopes from `low` to `middle` and from there to `high` [Pa]; not known where either part has too
+// few rows.
 Bend bend_at(const Curve& curve, double low, double middle, double high) {
   const RowRange whole = between(curve.stress, low, high);
   const RowRange upper = between(curve.stress, middle, high);
@@ -88,6 +93,7 @@ int swings_along(const Curve& curve, RowRange rows) {
     return curve.robust(
         {rows.first + k * rows.rows() / parts, rows.first + (k + 1) * rows.rows() / parts});
   };
+  // A slope is compared with the extreme of the swing that goes on, so that noise about it is none.
   int swings = 0;
   double direction = 0.0;
   Line extreme;  // of the swing that goes on
@@ -191,6 +197,7 @@ bool fit_standard(const Curve& curve, ModulusFit& fit) {
 // (X4) Noise of the strain flattens the slope by its part of the strain's variance, of which means
 // of rows keep less.
 void steepen(const Curve& curve, RowRange window, Line& line) {
+  // Of the variance: a strain that is mostly noise is not steepened without end.
   constexpr double most = 0.5;
   const auto strain = curve.strain.subspan(window.first, window.rows());
   if (!line.fitted || strain.size() < 2) return;
@@ -256,6 +263,7 @@ ModulusFit fit_modulus(std::span<const double> strain, std::span<const double> s
                    std::max(options.window_high, before_failure) * strength,
                    {},
                    true};
+  // Waves first: a window on one flank of a wave is straight, and steep.
   std::optional<ModulusFit> waved = fit_through_waves(curve, all);
   const Window window =
       waved ? all
@@ -265,6 +273,7 @@ ModulusFit fit_modulus(std::span<const double> strain, std::span<const double> s
     fit.window = between(stress, window.low, window.high);
     fit.line = curve.robust(fit.window);
   }
+  // (X5) The curvature that is accepted is an error too. Of waves no bend is known, and it is 0.
   if (window.straight) {
     steepen(curve, fit.window, fit.line);
     fit.line.slope_standard_error =

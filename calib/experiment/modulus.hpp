@@ -15,18 +15,20 @@ namespace havers::calib {
 struct RowRange {
   std::size_t first = 0, last = 0;
 
+  /// 0 of a range that ends before it begins.
   [[nodiscard]] std::size_t rows() const { return last > first ? last - first : 0; }
 };
 
+/// The modulus, and what it rests on.
 struct ModulusFit {
-  Line line;  ///< Stress over strain. `fitted` false: no modulus can be had.
-  RowRange window;
+  Line line;        ///< Stress over strain. `fitted` false: no modulus can be had.
+  RowRange window;  ///< Rows that the line was fitted to.
   std::vector<Correction> corrections;  ///< "modulus window", where it was narrowed or moved.
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;    ///< A sentence each.
 };
 
-/// Fits the modulus to a curve up to its largest stress (X3)-(X6). Strain [-], stress [Pa],
-/// strength [Pa].
+/// Fits the modulus to a curve up to its largest stress (X3)-(X6), (X24). Strain [-], stress [Pa],
+/// strength [Pa]. Rows too few, or of one strain, leave the line unfitted, the window being theirs.
 ModulusFit fit_modulus(std::span<const double> strain, std::span<const double> stress,
                        double strength, const ReductionOptions& options);
 

@@ -27,7 +27,8 @@ std::size_t largest_row(std::span<const double> values) {
   return static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
 }
 
-// Whether a channel goes back between two rows, by more than its noise.
+// Whether a channel goes back between two rows, by more than its noise and a part of what it had
+// grown by. False of one that was not recorded.
 bool goes_back(std::span<const double> values, std::size_t from, std::size_t to) {
   constexpr double part = 0.02;
   if (values.empty()) return false;
@@ -35,10 +36,13 @@ bool goes_back(std::span<const double> values, std::size_t from, std::size_t to)
   return values[from] - values[to] > least;
 }
 
+// A load that may fall: stress [Pa], time [s] or nothing, and the part of the stress reached below
+// which the specimen has parted (X20).
 struct Fall {
   std::span<const double> stress, time;
   double part;
 
+  // Rows serve as time where none was recorded.
   [[nodiscard]] double at(std::size_t row) const {
     return time.empty() ? static_cast<double>(row) : time[row];
   }
@@ -53,7 +57,10 @@ struct Fall {
     return at(last) - at(first);
   }
 
+  // (X20) Whether the stress loses more than a quarter of `held` within a moment around a row, or
+  // from one row to the next where rows are farther apart.
   [[nodiscard]] bool is_sudden(std::size_t row, double held) const {
+    // A part of the loading's time, so that neither speed nor sampling matters.
     const double window = moment * rise_to(held);
     std::size_t before = row - 1, after = row + 1;
     while (before > 0 && at(row) - at(before - 1) <= window) --before;
@@ -62,6 +69,7 @@ struct Fall {
     return stress[before] - lowest > sudden * held;
   }
 
+  // Rows from `row` on with a stress that a specimen which has parted cannot have.
   [[nodiscard]] std::size_t rows_again(std::size_t row, double held) const {
     return static_cast<std::size_t>(
         std::ranges::count_if(stress.subspan(row), [&](double s) { return s >= part * held; }));
@@ -70,18 +78,22 @@ struct Fall {
   // The first row of a sudden fall for good, or the end of a record that ends in one. What is
   // compared is the largest stress that a few rows before it hold.
   [[nodiscard]] std::optional<std::size_t> parting() const {
+    // The least of a few rows: a glitch among them does not hold.
     const auto held_before = [&](std::size_t row) {
       return std::ranges::min(stress.subspan(row - held_rows, held_rows));
     };
     double largest = 0.0, held = 0.0;
     for (std::size_t row = held_rows; row <= stress.size(); ++row)
       largest = std::max(largest, held_before(row));
+    // Only the row that crosses the part can be the break; one that too many rows rise above again
+    // is a loss of signal or a cycle.
     for (std::size_t row = held_rows; row < stress.size(); ++row) {
       held = std::max(held, held_before(row));
       if (held < least_held * largest || stress[row] >= part * held) continue;
       if (stress[row - 1] < part * held || !is_sudden(row, held)) continue;
       if (rows_again(row, held) <= std::max(fewest_again, row / rows_per_again)) return row;
     }
+    // Machines end a record where some of the load is lost, before it comes to `part`.
     if (is_sudden(stress.size() - 1, held)) return stress.size();
     return std::nullopt;
   }
@@ -96,6 +108,7 @@ std::string offset_after(const Fall& fall, std::size_t row, double strength) {
   if (rest.size() < least_rows) return {};
   const auto [low, high] = std::ranges::minmax(rest);
   const double middle = 0.5 * (low + high);
+  // In few rows the offset has to be plainer.
   const double least = rest.size() < enough_rows ? 0.03 : 0.025;  // of the strength
   if (high - low > steady * strength || std::abs(middle) < least * strength) return {};
   return fmt::format(
@@ -118,6 +131,7 @@ std::string gap_before(const Fall& fall, std::size_t row, double strength) {
       gap, missed * 1e-6);
 }
 
+// `row` is the first that is not kept; it may be the end of the record.
 RecordEnd parted_at(const Fall& fall, std::size_t row) {
   RecordEnd end{.broke = true, .rows = row, .cut = {}, .warnings = {}};
   end.cut = {"cut after break",
@@ -203,8 +217,11 @@ RecordEnd stopped(const Fall& fall) {
 RecordEnd end_of_record(const MeasuredTest& test, std::span<const double> crosshead,
                         double break_part) {
   const Fall fall{test.stress, test.time, break_part};
+  // The end of a range first: what follows it may well fall as a break does, below the strength
+  // that the cell did not show.
   if (const std::size_t rows = rows_at_range_end(test.stress, test.strain); rows > 0)
     return beyond_range(fall, rows);
+  // (X20) A sudden fall; but a crosshead that returns as fast does the same.
   if (const std::optional<std::size_t> row = fall.parting()) {
     const std::size_t peak = largest_row(fall.stress.first(*row));
     const std::size_t fallen = std::min(*row, fall.stress.size() - 1);
@@ -213,6 +230,7 @@ RecordEnd end_of_record(const MeasuredTest& test, std::span<const double> crossh
   }
   const std::size_t peak = largest_row(fall.stress);
   std::size_t row = peak;
+  // (X20) No sudden one: a slow fall, where there is one, is a failure unless something goes back.
   while (row < fall.stress.size() && fall.stress[row] >= break_part * fall.stress[peak]) ++row;
   if (row == fall.stress.size()) return stopped(fall);
   const bool returned = goes_back(test.strain, peak, row) || goes_back(crosshead, peak, row);
@@ -225,6 +243,7 @@ std::string jump_of_stress(const MeasuredTest& test) {
   const std::size_t stride = 1 + loading.size() / enough_for_median;
   std::vector<double> some;
   std::size_t steepest = 1;
+  // The steepest rise, and the steps of some rows for the median.
   for (std::size_t i = 1; i < loading.size(); ++i) {
     if (i % stride == 0) some.push_back(std::abs(loading[i] - loading[i - 1]));
     if (loading[i] - loading[i - 1] > loading[steepest] - loading[steepest - 1]) steepest = i;
@@ -246,6 +265,7 @@ std::string drop_of_stress(const MeasuredTest& test) {
   const double least = std::max(smallest * test.stress[peak], 10.0 * test.strength_standard_error);
   std::size_t top = 0, deepest = 0;
   double drop = least;
+  // The deepest fall below what was reached before, as far as a few rows hold it, without a glitch.
   for (std::size_t row = 1; row + held_rows <= peak; ++row) {
     if (test.stress[row] > test.stress[top]) top = row;
     const double held = std::ranges::max(std::span(test.stress).subspan(row, held_rows));

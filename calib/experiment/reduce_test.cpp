@@ -1,3 +1,6 @@
+// The order of the steps: each needs what those before it have put right. Channels are cleaned
+// before their ranges are used, the end is found before the strength, slips are taken back before
+// the modulus, and the toe is shifted by its line.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -52,6 +55,7 @@ std::size_t row_of_strength(const MeasuredTest& test) {
 
 // (X20) Whether the specimen broke, and the rows that tell of it.
 void find_end(const RawTest& raw, const ReductionOptions& options, MeasuredTest& test) {
+  // Beside a gauge only: alone the crosshead is the strain already.
   const auto crosshead = raw.strain.empty() ? std::span<const double>{} : std::span(raw.extension);
   const RecordEnd end = end_of_record(test, crosshead, options.break_part);
   test.broke = end.broke;
@@ -61,6 +65,7 @@ void find_end(const RawTest& raw, const ReductionOptions& options, MeasuredTest&
   truncate(test, end.rows);
 }
 
+// Precondition: only the end has been cut, so that rows of `raw` are those of the test.
 void find_strength(const RawTest& raw, MeasuredTest& test) {
   test.strength = test.stress[row_of_strength(test)];
   if (!raw.force.empty())
@@ -86,6 +91,8 @@ std::string without_line(const MeasuredTest& test, RowRange window,
       low, high, options.window_low, options.window_high);
 }
 
+// (X3) In the last loading, but from the first row where that begins within the window. Says why
+// there is none.
 std::string take_modulus(MeasuredTest& test, const ReductionOptions& options, ModulusFit& fit) {
   const std::size_t loading = row_of_strength(test) + 1;
   const auto strain = std::span(test.strain).first(loading);
@@ -133,6 +140,7 @@ double energy_to(const MeasuredTest& test, std::size_t peak) {
   return energy;
 }
 
+// What raw channels and curve say together; the time is moved out of `raw`.
 MeasuredTest uncorrected(RawTest& raw, EngineeringCurve curve) {
   MeasuredTest test;
   test.strain = std::move(curve.strain);
@@ -178,6 +186,8 @@ void doubt_strain(MeasuredTest& test) {
                   100.0 * (1.0 - 1.0 / test.linearity)));
 }
 
+// What is measured at the strength, once no correction is to come. The noise is that of the last
+// loading: cycles of preload are none of it (X7).
 void take_failure(MeasuredTest& test) {
   const std::size_t peak = row_of_strength(test);
   const auto strain = std::span(test.strain).first(peak + 1);
@@ -204,15 +214,20 @@ Reduction reduce_test(const RawTest& recorded, const ReductionOptions& options) 
   MeasuredTest test = uncorrected(raw, std::move(curve));
   if (!problems.empty()) return unreduced(test, problems);
   test.load_turned = raw.load_turned;
+  // A first measure, by which preload, jumps and drops are judged; that of the strength replaces
+  // it.
   test.strength_standard_error = noise_of(test.stress);
   note_preload(test);
+  // The end before the strength: what rises after the break is none.
   find_end(raw, options, test);
   find_strength(raw, test);
+  // Slips before the modulus, as they bend its window.
   if (std::string problem = mend_gauge(raw, options, test); !problem.empty())
     return unreduced(test, {std::move(problem)});
   ModulusFit fit;
   if (std::string problem = take_modulus(test, options, fit); !problem.empty())
     return unreduced(test, {std::move(problem)});
+  // What is told of strains comes after this shift.
   if (options.remove_toe) remove_toe(test, fit.line);
   take_failure(test);
   test.unit_doubt = doubt_of_units(raw, test);

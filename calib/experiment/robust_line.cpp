@@ -27,6 +27,7 @@ Range range_of(std::span<const double> values) {
 // (X4) A line of means is the line of the rows, and no more points are needed for it.
 constexpr std::size_t most_points = 2048;
 
+// Of blocks of successive rows; the last may be of fewer. The rows themselves where they are few.
 std::vector<double> means(std::span<const double> values) {
   const std::size_t rows = rows_per_point(values.size());
   std::vector<double> result;
@@ -37,12 +38,14 @@ std::vector<double> means(std::span<const double> values) {
   return result;
 }
 
+// Every point by GSL, whose `weighting` is the bisquare or none.
 Line fit_all(std::span<const double> x, std::span<const double> y,
              const gsl_multifit_robust_type* weighting) {
   assert(x.size() == y.size());
   if (x.size() < 3) return {};
   const Range rx = range_of(x), ry = range_of(y);
   if (rx.extent <= 0.0) return {};
+  // All of one y: a level line, with no range to map.
   if (ry.extent <= 0.0) return {.intercept = ry.low, .fitted = true};
 
   // A fit that stops at its last iteration is still an answer. Once, as threads are here.
@@ -62,6 +65,7 @@ Line fit_all(std::span<const double> x, std::span<const double> y,
       gsl_multifit_robust_alloc(weighting, x.size(), 2), gsl_multifit_robust_free);
   gsl_multifit_robust(&all_x.matrix, &all_y.vector, &c.vector, &of_c.matrix, work.get());
 
+  // Back to the units of x and y; the last entry of the covariance is the slope's.
   Line line{.fitted = true};
   line.slope = answer[1] * ry.extent / rx.extent;
   line.slope_standard_error = std::sqrt(std::max(0.0, covariance[3])) * ry.extent / rx.extent;
@@ -98,6 +102,7 @@ std::vector<double> residuals_of(const Line& line, std::span<const double> x,
 }
 
 Line with_true_error(Line line, std::span<const double> x, std::span<const double> y) {
+  // (X4) Of fewer, ν/(ν − 2) would have no bound.
   constexpr double fewest_freedom = 3.0;
   if (!line.fitted) return line;
   const std::vector<double> residuals = residuals_of(line, x, y);

@@ -24,6 +24,8 @@ double value_at(const Signal& signal, double time);
 /// The step at which the signal rises well above its noise, not below its sampling. [s]
 double telling_step(const Signal& signal);
 
+/// Rates over steps [s] from the signal's first time on, clipped at twice that of its loading
+/// (X17).
 SignalRates rates_of(const Signal& signal, double step);
 
 }  // namespace havers::calib

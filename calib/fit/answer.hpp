@@ -13,27 +13,29 @@ namespace havers::calib {
 /// The best point, with everything known about it.
 struct Answer {
   CalibrationStatus status = CalibrationStatus::all_failed;
+  /// The trail's best by `weights`; failed where its simulations did.
   Evaluation best;
   Weights weights;
   Active active;                  ///< Unknowns that were fitted.
   std::vector<LeftUnknown> left;  ///< Unknowns that were not.
   std::vector<Evaluation> ends;   ///< Where the refined starts came to, best first.
-  std::vector<StageLog> stages;
-  std::vector<double> starts;  ///< Costs of all starts, lowest first.
-  int replicates = 0;
-  bool agrees = true;  ///< The weights, with what the searches came to by them.
-  Differences slopes;  ///< At the best point; failed where it could not be had.
+  std::vector<StageLog> stages;   ///< In the order of the search.
+  std::vector<double> starts;     ///< Costs of all starts, lowest first.
+  int replicates = 0;             ///< Of each specimen at the answer.
+  bool agrees = true;             ///< The weights, with what the searches came to by them.
+  Differences slopes;             ///< At the best point; failed where it could not be had.
   /// The same Jacobian and, beside it, that of what was asked for and left out (F9).
   Eigen::MatrixXd asked_slopes;
   Uncertainty uncertainty;            ///< Empty when `slopes` failed.
   std::vector<Evaluation> elsewhere;  ///< Along the unknowns asked for that were left out (F22).
-  std::vector<Profile> profiles;
+  std::vector<Profile> profiles;  ///< In the order of `active` (F15); empty where not asked for.
 };
 
-/// Values, errors and intervals of all unknowns.
+/// Values, errors and intervals by the slopes of all unknowns, in their order; those by profile and
+/// bootstrap are for add_hindsight.
 std::vector<CalibratedParameter> parameters_of(const FitProblem& problem, const Answer& answer);
 
-/// Every specimen simulated at the answer, those kept for validation too.
+/// Every specimen simulated at the answer, those kept for validation too, in the study's order.
 std::vector<SpecimenResult> specimens_of(const FitProblem& problem, SimulationBatch& batch,
                                          const Answer& answer);
 
@@ -42,7 +44,8 @@ std::vector<SpecimenResult> specimens_of(const FitProblem& problem, SimulationBa
 double cost_of(const std::vector<SpecimenResult>& specimens, double otherwise);
 
 /// Correlations of the fitted parameters, what is determined in words, intervals by other means,
-/// and what a further test would tell: all that follows from the slopes at the answer.
+/// and what a further test would tell: all that follows from the slopes at the answer; where these
+/// failed, the costs of the starts alone. Precondition: `result` has its parameters and specimens.
 void add_hindsight(const FitProblem& problem, SimulationBatch& batch, const Answer& answer,
                    CalibrationResult& result);
 
@@ -53,7 +56,8 @@ std::vector<sim::LeftOut> left_out_of(const FitProblem& problem, const Simulatio
 /// What passes for want of anything to check; `why` ends with its full stop.
 Check not_checked(const std::string& check, const std::string& why);
 
-/// One sentence per check, with its numbers and what to do.
+/// One sentence per check, with its numbers and what to do. Precondition: all else of `result` is
+/// there.
 std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
                               const CalibrationResult& result);
 

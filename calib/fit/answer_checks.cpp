@@ -19,6 +19,7 @@ Check not_fitted(const char* check) {
   return not_checked(check, "no parameter was fitted with an interval.");
 }
 
+// In the scale of the search (F1), where intervals are symmetric.
 double width(const ParameterInfo& info, const std::array<double, 2>& interval) {
   return to_search(info, interval[1]) - to_search(info, interval[0]);
 }
@@ -60,12 +61,13 @@ std::string times_text(double least, double most) {
 
 Check check_randomness(const CalibrationResult& result) {
   constexpr const char* name = "fresh seeds";
-  constexpr double other_width = 2.0;
+  constexpr double other_width = 2.0;  // times as wide or as narrow (F17)
   const Randomness& r = result.randomness;
   if (result.fitted.empty()) return not_fitted(name);
   if (!std::isfinite(r.fresh_shift))
     return {name, Outcome::warn,
             "Simulations with fresh seeds failed: the answer rests on its own."};
+  // Of an infinite gain, where common seeds cancel altogether, nothing is said.
   const std::string gain =
       std::isfinite(r.common_gain) && r.common_gain < 1.5
           ? " Common random numbers bring nothing here: replicates answer a change each in its own "
@@ -91,7 +93,7 @@ Check check_randomness(const CalibrationResult& result) {
 
 Check check_confirmation(const FitProblem& problem, const CalibrationResult& result) {
   constexpr const char* name = "confirmed in time";
-  constexpr double close = 0.02;
+  constexpr double close = 0.02;  // part by which strength and failure strain may differ
   if (problem.study.calibrate.confirm > 0 && result.fitted.empty()) return not_fitted(name);
   double strength = 0.0, strain = 0.0, wave = 0.0;
   std::size_t compared = 0;
@@ -132,7 +134,7 @@ Check check_influence(const CalibrationResult& result) {
   std::vector<std::string> alone, strong;
   for (const auto& specimen : result.specimens)
     for (const auto& [parameter, shift] : specimen.influence) {
-      if (!std::isfinite(shift)) {
+      if (!std::isfinite(shift)) {  // the others do not determine it (F16)
         alone.push_back(specimen.id);
         break;
       }
@@ -164,6 +166,7 @@ Check check_correlation(const CalibrationResult& result) {
                                     result.correlation[i][j]));
   if (pairs.empty())
     return {name, Outcome::pass, "No two parameters are correlated by more than 0.9."};
+  // The first of the directions is their number, the second the one that is known best.
   std::string text = fmt::format("Correlated by more than 0.9: {}. {}", fmt::join(pairs, ", "),
                                  result.directions.size() > 1 ? result.directions[1] : "");
   if (result.next_tests.empty()) return {name, Outcome::warn, text};
@@ -218,7 +221,7 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
     const Target& target = problem.targets[s];
-    if (!target.present[strength] || target.censored) continue;
+    if (!target.present[strength] || target.censored) continue;  // a bound is no strength
     const auto scene = replicate_scenes(problem, answer.best.point, s, 1).front();
     // A wall at −θ is that at θ in a mirror.
     specimens.push_back({std::abs(problem.study.specimens[s].orientation), scene.joints.scatter,
@@ -244,7 +247,7 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
       problem.study.laws.empty() || law.laws_compared
           ? ""
           : "; the sweep's laws are not compared, as they have none for some orientation");
-  if (better < -6.0)
+  if (better < -6.0)  // chance alone rarely gets there
     return {name, Outcome::fail,
             numbers + ": the law without fibres says it better, the model is rejected."};
   if (better < 0.0) return {name, Outcome::warn, numbers + ": these tests do not need the fibres."};
@@ -269,6 +272,7 @@ std::string weibull_sentence(const CalibrationResult& result, const std::set<dou
   std::string text;
   for (const auto& [orientation, strengths] : by_orientation) {
     if (strengths.measured.size() < 5 || strengths.simulated.size() < 5) continue;
+    // weibull() needs values that differ; replicates of joints without scatter do not.
     const auto scatter = [](const std::vector<double>& ratios) {
       const auto [least, most] = std::ranges::minmax(ratios);
       return most - least > 1e-9;

@@ -9,8 +9,9 @@
 namespace havers::calib {
 namespace {
 
-// log Φ(z), with its digits on either side.
+// log Φ(z).
 double log_chance(double z) {
+  // 1 − Q keeps the digits of a chance near 1, log erfc those of one near 0.
   return z > 0.0 ? std::log1p(-gsl_cdf_ugaussian_Q(z))
                  : gsl_sf_log_erfc(-z / std::numbers::sqrt2) - std::numbers::ln2;
 }
@@ -28,6 +29,7 @@ double residual_of_bound(double z) {
 
 double slope_of_bound(double z) {
   const double residual = residual_of_bound(z);
+  // residual² = −2 log Φ, differentiated. Far above the bound both are 0.
   return residual < 0.0 ? -hazard(z) / residual : 0.0;
 }
 

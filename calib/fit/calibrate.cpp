@@ -1,3 +1,6 @@
+// The search of README.md, step by step: screen with few replicates, search globally with as few,
+// search and weigh in turn with all of them, then assess. Every answer is the trail's best point;
+// what a search returns is for the log and to compare starts by.
 #include "calib/fit/calibrate.hpp"
 
 #include <algorithm>
@@ -17,7 +20,7 @@ namespace {
 constexpr double screening_step = 0.2;
 // Replicates that are enough to find the neighbourhood of the answer.
 constexpr int scouting_replicates = 3;
-constexpr int most_rounds = 8;
+constexpr int most_rounds = 8;  // of search and weights, which are then said not to agree
 // Cost that a search may leave on the table: a fifth of a standard deviation (½·0.2²).
 constexpr double close_enough = 0.02;
 
@@ -31,7 +34,8 @@ std::vector<Landmarks> porosity_errors(Trail& trail, const Evaluation& at) {
   return errors;
 }
 
-// The first of the study's start and the middle of the bounds where the simulations answer.
+// The first of the study's start and the middle of the bounds where the simulations answer: the
+// trail begins there, with weights as if specimens were alike. False where neither does.
 bool find_a_start(Trail& trail, int replicates) {
   const FitProblem& problem = trail.problem();
   trail.set_replicates(replicates);
@@ -47,7 +51,9 @@ bool find_a_start(Trail& trail, int replicates) {
   return false;
 }
 
-// Unknowns that the specimens inform neither at the start nor at the middle of the bounds.
+// Unknowns that the specimens inform neither at the start nor at the middle of the bounds: what
+// tells nothing at one point only may tell elsewhere. Where slopes can be had at neither point,
+// nothing is left out.
 std::vector<LeftUnknown> screen(Trail& trail, const Active& all) {
   trail.enter("what the specimens inform");
   std::vector<LeftUnknown> left;
@@ -67,6 +73,8 @@ std::vector<LeftUnknown> screen(Trail& trail, const Active& all) {
   return left;
 }
 
+// One search from the trail's best point: least squares, if the study wants them or nothing is
+// costly; then, to `polish`, Sbplx over the costly unknowns.
 void search(Trail& trail, const Active& active, bool polish, Answer& answer) {
   const auto split = split_by_cost(trail.problem(), trail.batch(), trail.best().point, active);
   trail.enter("least squares");
@@ -118,6 +126,7 @@ bool alternate_search_and_weights(Trail& trail, Answer& answer) {
     polished = polished || rough;
     const auto slopes = differentiate(trail, trail.best(), answer.active, slope_step);
     if (slopes.failed) continue;
+    // What the screening thought informed may not be so here (F10): the others are searched on.
     auto left = uninformed(trail.problem(), trail.best().point, answer.active, slopes);
     if (!left.empty()) {
       leave_out(trail, std::move(left), answer);
@@ -129,8 +138,11 @@ bool alternate_search_and_weights(Trail& trail, Answer& answer) {
     effect = specimen_effect(trail.problem(), trail.weights(), trail.best(), all);
     const auto error =
         uncertainty_of(trail.problem(), trail.weights(), trail.best(), answer.active, all);
+    // Least squares that stopped short (F12) are polished by the next round, once.
     rough = error.distance >= close_enough && !polished;
+    // Weights agree with the answer where the specimen effect stays, to 5 % of it and 1e-4.
     const bool agree = ((effect - before).abs() <= 0.05 * effect + 1e-4).all();
+    // Last, as it walks along each of those left out, which takes simulations.
     if (!rough && agree && !mend_left_out(trail, slopes.jacobian, answer)) return true;
   }
   return false;
@@ -145,6 +157,7 @@ void assess_answer(Trail& trail, Answer& answer) {
   trail.lift_budget();
   trail.enter("uncertainty");
   answer.slopes = differentiate(trail, answer.best, answer.active, slope_step);
+  // A point beside the answer may have turned out better.
   answer.best = trail.best();
   if (answer.slopes.failed) return;
   answer.asked_slopes = with_left_out(trail, answer, answer.slopes);
@@ -155,6 +168,7 @@ void assess_answer(Trail& trail, Answer& answer) {
     std::ranges::move(walk_along(trail, unknown, answer.active, answer.slopes.jacobian),
                       std::back_inserter(answer.elsewhere));
   }
+  // Before the profiles, whose ends are no nearer than these.
   if (!answer.elsewhere.empty())
     widen_intervals(answer.best, answer.elsewhere, answer.active, answer.uncertainty);
   trail.enter("profiles");
@@ -178,6 +192,7 @@ Answer solve(Trail& trail) {
     answer.status = CalibrationStatus::nothing_to_fit;
     return answer;
   }
+  // A specimen of few replicates may fail where it has answers enough of all.
   if (!find_a_start(trail, std::min(scouting_replicates, all)) && !find_a_start(trail, all))
     return answer;
 
@@ -185,6 +200,7 @@ Answer solve(Trail& trail) {
     answer.active.push_back(static_cast<Eigen::Index>(k));
   answer.left = screen(trail, answer.active);
   answer.active = without(answer.active, answer.left);
+  // The trail's best may be beside the start or the middle of the bounds by now.
   if (!answer.left.empty()) put_back(trail, answer.left);
   if (!answer.active.empty()) {
     auto [starts, ends, logs] = search_globally(trail, answer.active);
@@ -213,15 +229,18 @@ CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
   result.parameters = parameters_of(problem, answer);
   result.specimens = specimens_of(problem, batch, answer);
   if (!problem.fitted.empty()) {
+    // The first by the order of the study; `fitted` is by ids.
     const std::size_t first = std::ranges::min(problem.fitted);
     result.scene = replicate_scenes(problem, answer.best.point, first, 1).front();
     result.scene_of = study.specimens[first].id;
   }
+  // Where no point has an answer, the few replicates that have one make no cost.
   if (answer.status != CalibrationStatus::all_failed)
     result.cost = cost_of(result.specimens, answer.best.cost);
   std::ranges::copy(answer.weights.specimen, result.specimen_effect.begin());
   add_hindsight(problem, batch, answer, result);
   result.left_out = left_out_of(problem, batch, answer);
+  // A stop may come as late as in the hindsight.
   if (batch.stopped()) answer.status = CalibrationStatus::cancelled;
   result.status = answer.status;
   result.evaluations = batch.asked();

@@ -6,7 +6,9 @@
 
 namespace havers::calib {
 
-/// As calibrate(), with the simulator given.
+/// As calibrate(), with the simulator given. Its answers must depend on the scene alone, as equal
+/// scenes in normal form are one simulation (F3). An exception of the simulator is a simulation
+/// that failed; one of the store ends the fit.
 CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
                                  EvaluationStore* store = nullptr,
                                  const CalibrationObserver& observer = {});

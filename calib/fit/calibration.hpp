@@ -15,10 +15,11 @@
 
 namespace havers::calib {
 
+/// How a calibration ended.
 enum class CalibrationStatus {
   converged,       ///< The optimisers stopped at a minimum.
   budget_spent,    ///< The budget of simulations ended first; the best point so far is given.
-  all_failed,      ///< Nowhere did every specimen's simulations give a usable answer.
+  all_failed,      ///< Where searches began or ended, simulations gave some specimen no answer.
   nothing_to_fit,  ///< No parameter is informed by the specimens.
   cancelled,       ///< Stopped by the user; run again to go on from the store.
 };
@@ -94,22 +95,24 @@ struct Influence {
   double shift = 0.0;  ///< In standard errors; NaN where the others do not determine it. [-]
 };
 
+/// One specimen at the answer, fitted or kept for validation.
 struct SpecimenResult {
   std::string id;
   Use use = Use::fit;
-  double orientation = 0.0;  ///< [rad]
-  double porosity = 0.0;     ///< NaN where unknown. [-]
-  double scatter = 0.0;      ///< d used. [-]
-  MeasuredTest measured;
+  double orientation = 0.0;          ///< [rad]
+  double porosity = 0.0;             ///< NaN where unknown. [-]
+  double scatter = 0.0;              ///< d used. [-]
+  MeasuredTest measured;             ///< Reduced; whether it broke is as the study says.
   Spread modulus;                    ///< Simulated. [Pa]
   Spread strength;                   ///< Simulated. [Pa]
   Spread failure_strain;             ///< Simulated. [-]
   std::array<double, 3> residual{};  ///< Standardised, of modulus, strength, failure strain. [-]
-  std::vector<TermResult> terms{};   ///< Those that count for this specimen.
+  /// Those that count for this specimen; empty where its test is of no use or nothing answered.
+  std::vector<TermResult> terms{};
   std::vector<ReplicateResult> replicates{};
   std::vector<Influence> influence{};  ///< Of this specimen on each fitted parameter.
   CurveBand band{};
-  int failed_simulations = 0;
+  int failed_simulations = 0;  ///< Of `replicates`.
 
   /// Of the replicates: how many have an answer, and how many of these did not break.
   [[nodiscard]] long usable() const;
@@ -117,6 +120,7 @@ struct SpecimenResult {
   [[nodiscard]] bool mostly_unbroken() const { return 2 * unbroken() > usable(); }
 };
 
+/// warn: the answer stands, with a reservation. fail: it is not to be trusted.
 enum class Outcome { pass, warn, fail };
 std::string to_string(Outcome outcome);
 
@@ -130,9 +134,9 @@ struct Check {
 
 /// One stage of the search, for the report.
 struct StageLog {
-  std::string optimiser;  ///< "NLopt BOBYQA", "Ceres Levenberg-Marquardt".
-  double cost_before = 0.0, cost_after = 0.0;
-  int evaluations = 0;
+  std::string optimiser;                       ///< "NLopt BOBYQA", "Ceres Levenberg-Marquardt".
+  double cost_before = 0.0, cost_after = 0.0;  ///< ½ Σ residual². [-]
+  int evaluations = 0;                         ///< Points, not simulations.
   std::string message{};
   double wall_seconds = std::numeric_limits<double>::quiet_NaN();  ///< NaN where not recorded. [s]
 };
@@ -178,6 +182,7 @@ struct NextTest {
   std::vector<double> width{};  ///< Standard error of each fitted parameter, after over before. [-]
 };
 
+/// All that a fit says. What it did not get to is empty or as it is here.
 struct CalibrationResult {
   CalibrationStatus status = CalibrationStatus::all_failed;
   std::vector<Check> verdict{};
@@ -223,9 +228,9 @@ std::vector<std::string> checks_with(const CalibrationResult& result, Outcome ou
 /// What the caller may watch: called after every evaluated point of a search. False stops the fit.
 struct CalibrationProgress {
   std::string stage;
-  long evaluations = 0;
-  long simulated = 0;  ///< Of these, run and not found in the store.
-  double best_cost = 0.0;
+  long evaluations = 0;    ///< Simulations asked for.
+  long simulated = 0;      ///< Of these, run and not found in the store.
+  double best_cost = 0.0;  ///< ½ Σ residual², by the weights of the stage. [-]
   std::vector<std::pair<std::string, double>> best;  ///< Parameter name and value, in its unit.
 };
 using CalibrationObserver = std::function<bool(const CalibrationProgress&)>;

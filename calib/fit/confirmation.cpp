@@ -1,3 +1,5 @@
+// The same seeds in the quasi-static limit and in time steps (F21). Replicates of the fit are in
+// the batch's memory: the runs in time are what this costs.
 #include "calib/fit/confirmation.hpp"
 
 #include <algorithm>
@@ -14,6 +16,7 @@ struct RunPair {
   sim::Scene still, moving;
 };
 
+// Spread evenly over the fitted specimens; one that is taken again gives its next replicate.
 std::vector<RunPair> pairs_of(const FitProblem& problem, const Answer& answer) {
   std::vector<RunPair> pairs;
   std::map<std::size_t, int> taken;
@@ -25,8 +28,11 @@ std::vector<RunPair> pairs_of(const FitProblem& problem, const Answer& answer) {
     const auto choice = sim::choose_regime(pair.still);
     if (choice.regime != sim::Regime::quasi_static) continue;  // it was simulated in time
     pair.moving = pair.still;
+    // The inertia number (M12) goes with the rate: this is the fastest that counts as quasi-static.
     pair.moving.loading.strain_rate *= sim::quasi_static_below / choice.inertia_number;
     pair.moving.solver.regime = sim::Regime::dynamic;
+    // As the study has it: a fall that is followed (F4) leaves nothing out in the limit; in time
+    // that would take long, and is not needed.
     pair.moving.solver.leave_out = problem.study.model.solver.leave_out;
     pair.names = {.specimen = problem.study.specimens[s].id,
                   .seed = pair.still.joints.seed,

@@ -9,8 +9,8 @@
 namespace havers::calib {
 namespace {
 
-constexpr int grid_points = 121;
-constexpr double no_stress = std::numeric_limits<double>::quiet_NaN();
+constexpr int grid_points = 121;  // from no strain to the largest failure strain
+constexpr double no_stress = std::numeric_limits<double>::quiet_NaN();  // beyond a curve's end
 
 // Linear between rows; `beyond` after the last. Strains need not rise strictly: a break is a
 // vertical step.
@@ -19,6 +19,7 @@ double stress_at(const std::vector<double>& strain, const std::vector<double>& s
   const auto next = std::ranges::lower_bound(strain, at);
   if (next == strain.end()) return beyond;
   const auto i = static_cast<std::size_t>(next - strain.begin());
+  // Before the first row: on its line from the origin.
   if (i == 0) return strain[0] > 0.0 ? stress[0] * at / strain[0] : stress[0];
   const double width = strain[i] - strain[i - 1];
   const double part = width > 0.0 ? (at - strain[i - 1]) / width : 1.0;
@@ -40,6 +41,7 @@ CurveBand band_of(std::span<const Response> replicates, const MeasuredTest& meas
   for (int i = 0; i < grid_points; ++i) {
     const double strain = end * i / (grid_points - 1);
     std::vector<double> stresses;
+    // What broke bears nothing any more; of what did not, nothing is known beyond its end.
     for (const auto& response : replicates)
       if (!response.failed && !response.strain.empty())
         stresses.push_back(

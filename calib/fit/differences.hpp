@@ -12,7 +12,8 @@ namespace havers::calib {
 /// replicates' noise, which makes the residuals only piecewise smooth.
 inline constexpr double slope_step = 0.05;
 
-/// How the residuals change with the active unknowns (F8). Rows as Evaluation::residuals.
+/// How the residuals change with the active unknowns (F8). Rows as Evaluation::residuals, columns
+/// as `active`.
 struct Differences {
   bool failed = true;
   Eigen::MatrixXd jacobian;
@@ -26,6 +27,7 @@ struct Differences {
 std::vector<Point> moved_points(const std::vector<Unknown>& unknowns, const Point& at,
                                 const Active& active, double step);
 
+/// Two points for each unknown. Failed where an unknown has no two points that differ and answer.
 /// @param at    a copy: the trail's best point, where the slopes are often asked for, may change
 ///              while they are made.
 /// @param step  in the scale of the search, as slope_step; cut at the bounds.

@@ -24,7 +24,9 @@ struct Response {
 class EvaluationStore {
  public:
   virtual ~EvaluationStore() = default;
+  /// Nothing where the key is not kept.
   virtual std::optional<Response> find(const std::string& key) = 0;
+  /// Failed responses too: the same scene would fail again.
   virtual void save(const std::string& key, const Response& response) = 0;
 };
 

@@ -1,3 +1,5 @@
+// From a point to residuals: the scenes of each specimen there, all simulated in one batch, their
+// landmarks less the measured ones (F7), over standard deviations by source (F6).
 #include "calib/fit/fit_problem.hpp"
 
 #include <algorithm>
@@ -32,6 +34,7 @@ void follow_fall(const std::vector<std::string>& terms, sim::Scene& scene) {
   if (in_limit) scene.solver.leave_out = false;
 }
 
+// Laws of porosity may be searched too: scatter and modulus then change with the point.
 SpecimenModel model_at(const FitProblem& problem, const Point& point, std::size_t specimen) {
   PorosityOptions laws = problem.study.porosity;
   for (const auto& info : all_parameters())
@@ -40,18 +43,21 @@ SpecimenModel model_at(const FitProblem& problem, const Point& point, std::size_
   return model_of(problem.study, specimen, laws);
 }
 
+// Parameters in the order of their table, as some keep what others set (calib/study).
 sim::Scene scene_at(const FitProblem& problem, const Point& point, std::size_t specimen) {
   const SpecimenModel model = model_at(problem, point, specimen);
   sim::Scene scene = model.scene;
   for (const auto& info : all_parameters())
     if (const auto value = value_at(problem.unknowns, point, info, specimen))
       apply(scene, info.name, *value);
+  // (K4) A searched modulus is that of bone without pores.
   scene.material.young *= model.modulus_factor;
   follow_fall(problem.study.calibrate.terms, scene);
   return scene;
 }
 
-// (F2) The study's seed, which all points have in common, or one of this point's own.
+// (F2) The study's seed, which all points have in common, or one of this point's own: a hash of
+// its coordinates, so that a point asked for again has it again.
 std::uint64_t seed_at(const FitProblem& problem, const Point& point) {
   const auto& options = problem.study.calibrate;
   std::uint64_t seed = options.seed;
@@ -91,6 +97,7 @@ std::vector<sim::Scene> replicate_scenes(const FitProblem& problem, const Point&
 
 std::vector<Evaluation> predict(const FitProblem& problem, SimulationBatch& batch,
                                 const std::vector<Point>& points, int replicates) {
+  // Point by point, specimen by specimen, replicate by replicate.
   std::vector<sim::Scene> scenes;
   for (const auto& point : points)
     for (const std::size_t s : problem.fitted)
@@ -119,6 +126,7 @@ Landmarks difference(const Prediction& prediction, const Target& target) {
   Landmarks result = prediction.mean - target.value;
   // What did not break gives a bound on the strength, and no landmark of a break.
   if (prediction.censored) {
+    // Of two lower bounds neither contradicts the other.
     result[strength] = target.censored ? 0.0 : std::max(result[strength], 0.0);
     result.tail<4>() = 0.0;
   }
@@ -142,6 +150,7 @@ Landmarks slopes_of_residuals(const Prediction& prediction, const Target& target
 Eigen::Array<bool, landmark_count, 1> tells(const Prediction& prediction, const Target& target) {
   Eigen::Array<bool, landmark_count, 1> told = target.present;
   if (prediction.censored) {
+    // A strength that simulations did not reach tells something where it is too high already.
     told[strength] = told[strength] && difference(prediction, target)[strength] > 0.0;
     told.tail<4>() = false;
   }
@@ -166,6 +175,7 @@ void score(const FitProblem& problem, const Weights& weights, Evaluation& evalua
         residuals_of(evaluation.predictions[f], problem.targets[s], weights.sd[s]);
   }
   const double cost = 0.5 * evaluation.residuals.squaredNorm();
+  // A landmark without a number, as log E where the modulus is not known, fails the point.
   evaluation.failed = !std::isfinite(cost);
   if (!evaluation.failed) evaluation.cost = cost;
 }
@@ -188,6 +198,8 @@ Landmarks porosity_error(const FitProblem& problem, SimulationBatch& batch, cons
   Landmarks variance = Landmarks::Zero();
   if (!problem.targets[specimen].usable) return variance;
   const SpecimenModel model = model_at(problem, point, specimen);
+  // (error · ∂y/∂number)² by a one-sided difference with the seeds of `here`; 0 where the specimen
+  // cannot be simulated there.
   const auto add = [&](double error, double sim::JointOptions::*number, double step) {
     sim::Scene scene = scene_at(problem, point, specimen);
     scene.joints.*number += step;
@@ -197,6 +209,7 @@ Landmarks porosity_error(const FitProblem& problem, SimulationBatch& batch, cons
     if (!moved.failed_point()) variance += (error * (moved.mean - here.mean) / step).square();
   };
   variance[modulus] = std::pow(model.modulus_standard_error, 2);
+  // Steps lead away from the nearer end of what d, or the missing part, may be.
   if (model.scatter_standard_error > 0.0 && !searched(problem, "scatter"))
     add(model.scatter_standard_error, &sim::JointOptions::scatter,
         scene_at(problem, point, specimen).joints.scatter < 1.0 ? scatter_step : -scatter_step);
@@ -210,7 +223,7 @@ Landmarks variance_if_alike(const Weights& weights, std::size_t specimen) {
 }
 
 int all_replicates(const CalibrateOptions& options) {
-  constexpr int before_need = 8;
+  constexpr int before_need = 8;  // until the need is told (F17)
   return options.replicates == replicates_by_need ? before_need : options.replicates;
 }
 
@@ -228,6 +241,7 @@ Weights weigh(const FitProblem& problem, const Evaluation& at, std::vector<Landm
   const auto spread = replicate_spread(replicated);
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
+    // The specimen is one draw of the model, the prediction a mean of n.
     weights.replicates[s] = spread[f] * std::sqrt(1.0 + 1.0 / at.predictions[f].usable);
     weights.sd[s] = (problem.targets[s].noise.square() + weights.replicates[s].square() +
                      weights.scatter[s].square() + specimen.square())

@@ -16,7 +16,7 @@ namespace havers::calib {
 
 /// All that stays the same during a calibration.
 struct FitProblem {
-  const Study& study;
+  const Study& study;  ///< Not owned.
   std::vector<Unknown> unknowns;
   std::vector<SpecimenModel> models{};  ///< One per specimen of the study.
   std::vector<Target> targets{};        ///< One per specimen of the study.
@@ -29,6 +29,7 @@ struct FitProblem {
     return unknowns[static_cast<std::size_t>(k)];
   }
 };
+/// The study has to outlive it.
 FitProblem make_problem(const Study& study);
 
 /// The scenes of a specimen at a point, one per replicate. Where the post-peak drop is a term of
@@ -36,7 +37,8 @@ FitProblem make_problem(const Study& study);
 std::vector<sim::Scene> replicate_scenes(const FitProblem& problem, const Point& point,
                                          std::size_t specimen, int replicates);
 
-/// Standard deviation of each residual, by source (F6). One Landmarks per specimen of the study.
+/// Standard deviation of each residual, by source (F6). One Landmarks per specimen of the study; 0
+/// for those that are not fitted.
 struct Weights {
   std::vector<Landmarks>
       replicates;  ///< The specimen is one draw, the model's mean is of n: sd·√(1+1/n).
@@ -69,7 +71,8 @@ struct Evaluation {
 std::vector<Evaluation> predict(const FitProblem& problem, SimulationBatch& batch,
                                 const std::vector<Point>& points, int replicates);
 
-/// Residuals and cost of an evaluation (F7).
+/// Residuals and cost of an evaluation (F7), from its predictions; failed where the cost is no
+/// number.
 void score(const FitProblem& problem, const Weights& weights, Evaluation& evaluation);
 
 /// simulated − measured, or − the bound of a test that was stopped; 0 where the test does not have

@@ -26,13 +26,14 @@ const Unknown& unknown_of(const FitProblem& problem, const Answer& answer, Index
 // "young_GPa × ratio^-0.31": a product of powers, of those that matter.
 std::string product(const FitProblem& problem, const Answer& answer,
                     const Eigen::VectorXd& direction) {
-  constexpr double matters = 0.1;
+  constexpr double matters = 0.1;  // the smallest exponent that is written
   std::string text;
   for (Index k = 0; k < direction.size(); ++k) {
     if (std::abs(direction[k]) < matters) continue;
     const Unknown& unknown = unknown_of(problem, answer, k);
     const bool plain = std::abs(direction[k] - 1.0) < 0.005;
     if (!text.empty()) text += " × ";
+    // What is searched as it is (F1) is a power of e.
     if (unknown.info->scale != Scale::logarithmic)
       text += fmt::format("exp({:.2g} {})", direction[k], unknown.label);
     else
@@ -63,6 +64,7 @@ std::vector<std::string> directions_of(const FitProblem& problem, const Answer& 
     svd.matrixV().col(i).cwiseAbs().maxCoeff(&largest);
     const double scale = svd.matrixV()(largest, i);
     const Eigen::VectorXd direction = svd.matrixV().col(i) / scale;
+    // Exponents are 1/scale times the unit vector, which is known to 1/(singular value).
     sentences.push_back(fmt::format(
         "{} is known to ± {:.2g} % (one standard error{}).", product(problem, answer, direction),
         100.0 / (svd.singularValues()[i] * std::abs(scale)), where_held(problem, answer)));
@@ -72,6 +74,7 @@ std::vector<std::string> directions_of(const FitProblem& problem, const Answer& 
 
 void set_correlation(const Answer& answer, CalibrationResult& result) {
   const Eigen::MatrixXd& follow = answer.uncertainty.follow;
+  // (F11) (JᵀJ)⁻¹ = J⁺J⁺ᵀ.
   const Eigen::MatrixXd covariance = follow * follow.transpose();
   for (Index i = 0; i < covariance.rows(); ++i) {
     auto& row = result.correlation.emplace_back();
@@ -80,6 +83,8 @@ void set_correlation(const Answer& answer, CalibrationResult& result) {
   }
 }
 
+// (F15) The profile's ends become the parameter's interval, the bound where the cost does not show
+// one; the bootstrap (F16) is told beside it.
 void set_intervals(const FitProblem& problem, const Answer& answer, const Resampling& resampling,
                    CalibrationResult& result) {
   for (std::size_t i = 0; i < answer.active.size(); ++i) {
@@ -102,6 +107,7 @@ void set_intervals(const FitProblem& problem, const Answer& answer, const Resamp
     }
     parameter.bootstrap_missing = resampling.missing;
     if (!resampling.missing.empty()) continue;
+    // One step from the answer knows no bounds.
     const auto end = [&](double shift) {
       const double at = answer.best.point[answer.active[i]] + shift;
       return value_in_unit(unknown, std::clamp(at, unknown.lower, unknown.upper));
@@ -110,6 +116,7 @@ void set_intervals(const FitProblem& problem, const Answer& answer, const Resamp
   }
 }
 
+// (F16) In standard errors; NaN where the other specimens do not determine the unknowns.
 void set_influence(const FitProblem& problem, const Answer& answer, const Resampling& resampling,
                    CalibrationResult& result) {
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
@@ -127,6 +134,7 @@ void add_hindsight(const FitProblem& problem, SimulationBatch& batch, const Answ
                    CalibrationResult& result) {
   result.starts = answer.starts;
   for (const Evaluation& end : answer.ends) result.ends.push_back(end.cost);
+  // Without slopes nothing of what follows can be said.
   if (answer.slopes.failed) return;
   for (Index k = 0; k < answer.slopes.jacobian.cols(); ++k)
     result.fitted.push_back(unknown_of(problem, answer, k).label);

@@ -1,3 +1,6 @@
+// (F10) An unknown is informed by what its column of the Jacobian has beyond the columns of the
+// others, against the replicates' noise and against its bounds. Unknowns that are not are taken
+// away one at a time, as each of them changes what is left of the others.
 #include "calib/fit/identifiability.hpp"
 
 #include <fmt/format.h>
@@ -24,6 +27,7 @@ struct Column {
   double noise = 0.0;              // expected |rest|² if it were only noise
 };
 
+// By least squares over `others`, indices of columns; none of them: the column itself.
 Column split(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& variance, Eigen::Index k,
              const std::vector<Eigen::Index>& others) {
   Column column{.rest = jacobian.col(k)};
@@ -34,6 +38,7 @@ Column split(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& variance, E
   qr.setThreshold(1e-10);
   column.coefficients = qr.solve(jacobian.col(k));
   column.rest -= matrix * column.coefficients;
+  // The noise of the others comes with what they explain.
   for (std::size_t j = 0; j < others.size(); ++j)
     column.noise += std::pow(column.coefficients[static_cast<Eigen::Index>(j)], 2) *
                     variance.col(others[j]).sum();
@@ -48,16 +53,20 @@ bool seen(const Column& column) {
 bool informs(const Unknown& unknown, const Column& column) {
   const ParameterInfo& info = *unknown.info;
   const double usual = to_search(info, info.upper) - to_search(info, info.lower);
+  // Residuals have unit variance: 1/|rest| is the standard error.
   return seen(column) &&
          column.rest.norm() * part_of_bounds * std::max(usual, unknown.range()) >= 1.0;
 }
 
+// Half a sentence on an unknown that shows nothing by itself, with the largest change of a residual
+// that it makes.
 std::string no_effect(const FitProblem& problem, const Unknown& unknown, const Column& column) {
   const bool logarithmic = unknown.info->scale == Scale::logarithmic;
   const std::size_t n = problem.fitted.size();
   const std::string specimens =
       n == 1 ? "the fitted specimen" : fmt::format("the {}", count(n, "fitted specimen"));
   const Eigen::VectorXd& slope = column.rest;
+  // Standard deviations of a residual for each unit of z.
   if (slope.cwiseAbs().maxCoeff() < 1e-3)
     return fmt::format("structurally unidentifiable: nothing that {} {} changes with it", specimens,
                        n == 1 ? "shows" : "show");
@@ -83,6 +92,7 @@ std::string combination(const Unknown& unknown, const Unknown& partner, double c
   if (partner.info->scale != Scale::logarithmic)
     return fmt::format("only a combination of {} is determined", pair);
   if (unknown.info->name == "scatter") {
+    // Strength goes as σ₁ (1 − d/2), (M8): here in logarithms, for each unit of d.
     const double law = -0.5 / (1.0 - 0.5 * position);
     if (std::abs(coefficient / law - 1.0) < 0.15)
       return fmt::format("only {} × (1 − {}/2) is determined", partner.label, unknown.label);
@@ -108,6 +118,7 @@ LeftUnknown left_unknown(const FitProblem& problem, const Point& at, const Activ
   const Column alone = split(slopes.jacobian, slopes.variance, k, {});
   if (!informs(unknown, alone)) return {index_of(k), no_effect(problem, unknown, alone)};
 
+  // It shows, but not beside the others: the one whose column is most like its own is named.
   Eigen::Index partner = -1;
   double likeness = 0.0;
   for (Eigen::Index j = 0; j < slopes.jacobian.cols(); ++j) {
@@ -167,6 +178,7 @@ std::vector<LeftUnknown> uninformed(const FitProblem& problem, const Point& at, 
   std::vector<LeftUnknown> left;
   for (Eigen::Index k = 0; (k = last_uninformed(problem, active, rest)) >= 0;) {
     left.push_back(left_unknown(problem, at, active, rest, k));
+    // The others are judged anew: beside one less, some may be informed.
     active.erase(active.begin() + k);
     erase_column(rest.jacobian, k);
     erase_column(rest.variance, k);

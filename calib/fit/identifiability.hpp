@@ -8,6 +8,7 @@
 
 namespace havers::calib {
 
+/// An unknown that is not fitted, and why.
 struct LeftUnknown {
   Eigen::Index unknown = 0;
   std::string because;  ///< Half a sentence, after "left out because".

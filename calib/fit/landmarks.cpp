@@ -1,3 +1,5 @@
+// (F4) The landmarks that need a whole curve: of its rows up to the peak, averaged in blocks and as
+// parts of stress and strain there, so that noise and scales do not matter.
 #include "calib/fit/landmarks.hpp"
 
 #include <algorithm>
@@ -18,6 +20,7 @@ struct Normalised {
   std::vector<double> strain{0.0}, stress{0.0};
 };
 
+// Rows beyond the last whole block are left out; the peak is the last point by itself.
 Normalised normalised(std::span<const double> strain, std::span<const double> stress,
                       std::size_t peak) {
   Normalised curve;
@@ -37,6 +40,7 @@ Normalised normalised(std::span<const double> strain, std::span<const double> st
   return curve;
 }
 
+// y₄: heights above the chord at equal parts of the arc length.
 double mean_height(const Normalised& curve) {
   std::vector<double> length{0.0};
   for (std::size_t i = 1; i < curve.strain.size(); ++i)
@@ -63,6 +67,7 @@ double area(const Normalised& curve) {
   return sum;
 }
 
+// y₆, to the first row at half the peak or below; the end of a curve counts as its fall.
 double strain_of_fall(std::span<const double> strain, std::span<const double> stress,
                       std::size_t peak) {
   std::size_t i = peak;
@@ -82,6 +87,7 @@ Landmarks shape_of(std::span<const double> strain, std::span<const double> stres
   Landmarks shape = Landmarks::Zero();
   if (stress.empty() || strain.size() != stress.size()) return shape;
   const auto peak = static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin());
+  // A peak at no strain, or of no stress, has no parts.
   if (!(strain[peak] > 0.0 && stress[peak] > 0.0)) return shape;
   const Normalised curve = normalised(strain, stress, peak);
   shape[pre_peak] = mean_height(curve);

@@ -1,3 +1,4 @@
+// Levenberg-Marquardt steps by Ceres, the Jacobian by batches of differences.
 #include "calib/fit/least_squares.hpp"
 
 #include <ceres/ceres.h>
@@ -17,6 +18,7 @@ VectorXd inside(const LeastSquares& problem, const VectorXd& point) {
 }
 
 // Ceres' own numeric derivatives leave the bounds and run one point at a time; these do neither.
+// The best point tried is kept here. Members are mutable, as Ceres evaluates a constant function.
 class Residuals final : public ceres::CostFunction {
  public:
   Residuals(const LeastSquares& problem, const LeastSquaresOptions& options, VectorXd start,
@@ -30,6 +32,7 @@ class Residuals final : public ceres::CostFunction {
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
     move_to(Eigen::Map<const VectorXd>(parameters[0], at_.size()));
+    // A point that failed: Ceres tries a shorter step.
     if (here_.size() == 0) return false;
     std::ranges::copy(here_, residuals);
     if (!jacobians || !jacobians[0]) return true;
@@ -46,6 +49,7 @@ class Residuals final : public ceres::CostFunction {
   }
 
  private:
+  // Ceres asks for a point's residuals, then for its derivatives: it is simulated once.
   void move_to(const VectorXd& point) const {
     if (point == at_) return;
     at_ = point;
@@ -80,6 +84,8 @@ void set_bounds(const LeastSquares& problem, std::vector<double>& values,
 Eigen::MatrixXd difference_jacobian(const LeastSquares& problem, const VectorXd& at,
                                     const VectorXd& here, const LeastSquaresOptions& options) {
   assert(options.stencil == 2 || options.stencil == 4);
+  // Of unknown k and pair p the lower point has the index 2 (k · pairs + p), the upper one the
+  // next.
   const Index pairs = options.stencil / 2;
   std::vector<VectorXd> points;
   for (Index k = 0; k < at.size(); ++k) {
@@ -93,6 +99,7 @@ Eigen::MatrixXd difference_jacobian(const LeastSquares& problem, const VectorXd&
   }
   const auto values = problem.residuals(points);
 
+  // By one side where the other failed; 0 where both did, or at bounds that leave no room.
   const auto slope = [&](Index k, Index pair) -> VectorXd {
     const auto low = static_cast<std::size_t>(2 * (k * pairs + pair));
     const bool low_fails = values[low].size() == 0, high_fails = values[low + 1].size() == 0;
@@ -105,7 +112,8 @@ Eigen::MatrixXd difference_jacobian(const LeastSquares& problem, const VectorXd&
   for (Index k = 0; k < at.size(); ++k) {
     jacobian.col(k) = slope(k, 0);
     if (pairs == 1) continue;
-    // The errors of the two central differences are as 1 to 4, away from the bounds.
+    // The errors of the two central differences are as 1 to 4, away from the bounds: what they
+    // differ by tells that of the first.
     const auto first = static_cast<std::size_t>(2 * k * pairs);
     const double narrow = points[first + 1][k] - points[first][k];
     const double wide = points[first + 3][k] - points[first + 2][k];
@@ -125,7 +133,7 @@ LeastSquaresResult least_squares(const LeastSquares& problem, const VectorXd& st
   Residuals residuals(problem, options, result.best, result.residuals);
   std::vector<double> values(result.best.begin(), result.best.end());
   ceres::Problem::Options ownership;
-  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;  // `residuals` is a local
   ceres::Problem description(ownership);
   description.AddResidualBlock(&residuals, nullptr, values.data());
   set_bounds(problem, values, description);

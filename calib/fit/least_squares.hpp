@@ -9,8 +9,8 @@
 
 namespace havers::calib {
 
-/// What to make small. `residuals` answers many points in one batch; an empty vector says that a
-/// point has failed.
+/// What to make small. `residuals` answers many points in one batch, in their order, with vectors
+/// of one size; an empty vector says that a point has failed.
 struct LeastSquares {
   std::function<std::vector<Eigen::VectorXd>(const std::vector<Eigen::VectorXd>&)> residuals;
   Eigen::VectorXd lower, upper;  ///< Bounds; infinite where there are none.
@@ -35,7 +35,8 @@ struct LeastSquaresResult {
   std::string message{};
 };
 
-/// Levenberg and Marquardt's method, by Ceres. Returns the best point evaluated.
+/// Levenberg and Marquardt's method, by Ceres. Returns the best point that a step tried: those of
+/// the differences do not count.
 LeastSquaresResult least_squares(const LeastSquares& problem, const Eigen::VectorXd& start,
                                  const LeastSquaresOptions& options = {});
 

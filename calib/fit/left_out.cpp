@@ -24,6 +24,8 @@ void put_back(Trail& trail, const std::vector<LeftUnknown>& left) {
 }
 
 void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
+  // Tried at the study's values, with the others refitted; if the specimens contradict them, all is
+  // as it was found.
   const Evaluation found = trail.best();
   Point point = found.point;
   for (const auto& one : left) point[one.unknown] = trail.problem().unknown(one.unknown).start;
@@ -41,10 +43,12 @@ void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
 bool mend_left_out(Trail& trail, const Eigen::MatrixXd& jacobian, Answer& answer) {
   if (trail.problem().study.calibrate.automatic) return false;
   for (LeftUnknown& one : answer.left) {
+    // A walk scores each point by weights of its own; here they compare with the best point.
     auto walked = walk_along(trail, one.unknown, answer.active, jacobian);
     for (Evaluation& point : walked) score(trail.problem(), trail.weights(), point);
     const auto lowest = std::ranges::min_element(walked, {}, &Evaluation::cost);
     if (lowest == walked.end() || lowest->cost > trail.best().cost - contradicts) continue;
+    // One at a time: the caller weighs and searches anew.
     Active along = answer.active;
     along.push_back(one.unknown);
     trail.restart(trail.weights(), search_ceres(trail, *lowest, along).best);
@@ -65,11 +69,13 @@ Eigen::MatrixXd with_left_out(Trail& trail, const Answer& answer, const Differen
   const Evaluation best = trail.best();
   const Active left = asked_and_left(trail.problem(), answer);
   const auto others = differentiate(trail, best, left, slope_step);
+  // A point where one of them moved is no answer, however low its cost.
   trail.restart(trail.weights(), best);
   if (others.failed) return fitted.jacobian;
   std::vector<Eigen::Index> moving;
   for (Eigen::Index k = 0; k < others.jacobian.cols(); ++k) {
     const double range = trail.problem().unknown(left[static_cast<std::size_t>(k)]).range();
+    // One standard deviation of the residuals over all its bounds (F9).
     if (others.jacobian.col(k).norm() * range >= 1.0) moving.push_back(k);
   }
   const Eigen::MatrixXd beside = others.jacobian(Eigen::all, moving);

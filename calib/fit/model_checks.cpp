@@ -35,6 +35,8 @@ struct Group {
   std::vector<double> difference, variance;  // the latter without the specimen effect
 };
 
+// Of landmark q, by orientation [rad]; no strengths of those where stopped tests leave the weaker
+// ones as the ones that broke (F25).
 std::map<double, Group> groups_of(const FitProblem& problem, const Answer& answer, Eigen::Index q) {
   std::map<double, Group> groups;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
@@ -68,6 +70,7 @@ double variance_within(const std::map<double, Group>& groups, double freedom) {
 std::optional<double> chance(const FitProblem& problem, const Answer& answer, Eigen::Index q) {
   const auto groups = groups_of(problem, answer, q);
   double within = 0.0, between = static_cast<double>(groups.size());
+  // Each orientation spends one degree of freedom on its mean.
   for (const auto& [orientation, group] : groups)
     within += static_cast<double>(group.rows.size()) - 1.0;
   if (within < least_freedom) return std::nullopt;
@@ -83,6 +86,7 @@ std::optional<double> chance(const FitProblem& problem, const Answer& answer, Ei
   const auto [residuals, spent] = unfollowed(problem, answer, factor);
   for (const auto& [orientation, group] : groups) between -= spent(group.rows).sum();
   if (between < least_freedom) return std::nullopt;
+  // n · mean² of each orientation; within them the variance is 1 by `own`.
   double squares = 0.0;
   for (const auto& [orientation, group] : groups)
     squares += std::pow(residuals(group.rows).sum(), 2) / static_cast<double>(group.rows.size());
@@ -130,6 +134,7 @@ std::string strength_off(const FitProblem& problem, const Answer& answer, double
 Unfollowed unfollowed(const FitProblem& problem, const Answer& answer,
                       const Eigen::VectorXd& factor) {
   Eigen::MatrixXd jacobian(factor.size(), 0);
+  // Without slopes nothing is followed, and nothing spent.
   if (!answer.slopes.failed)
     jacobian = factor.asDiagonal() *
                free_columns(problem, answer.best.point, answer.active, answer.asked_slopes);
@@ -181,6 +186,8 @@ Check check_brittle(const FitProblem& problem, const Answer& answer) {
   const std::string numbers = fmt::format(
       "strength / (modulus × failure strain) is {:.2f} in the tests and {:.2f} in the model",
       std::exp(measured / n), std::exp(simulated / n));
+  // Far off and certain is rejected, less and certain a warning; what is not certain passes, with
+  // the distance at which it would not.
   const bool certain = std::abs(gap) > 3.0 * error;
   // What is off is the model, where the tests are straight.
   const bool straight = std::abs(measured / n) < -std::log(slightly_bent);

@@ -1,3 +1,5 @@
+// (F18) Information adds: errors after a further test are those of JᵀJ of the answer and the rows
+// of one more specimen, which are known before it is made.
 #include "calib/fit/next_test.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +28,7 @@ double distance(const FitProblem& problem, std::size_t fitted, double orientatio
 }
 
 // The fitted specimen nearest to an orientation, which one that does not exist is made from: one
-// that broke, if there is one.
+// that broke, if there is one there, and of equals the first by its id.
 std::size_t nearest(const FitProblem& problem, double orientation) {
   const auto rank = [&](std::size_t f) {
     const bool stopped = !problem.study.specimens[problem.fitted[f]].broke;
@@ -48,6 +50,7 @@ MatrixXd simulated_rows(SimulationBatch& batch, const FitProblem& problem, const
   return rows;
 }
 
+// A specimen that does not exist has no value of a parameter that differs between specimens.
 bool all_shared(const FitProblem& problem) {
   return std::ranges::all_of(problem.unknowns,
                              [](const Unknown& u) { return u.label == u.info->name; });
@@ -57,10 +60,12 @@ bool all_shared(const FitProblem& problem) {
 MatrixXd further_rows(SimulationBatch& batch, const FitProblem& problem, const Answer& answer,
                       double orientation) {
   const std::size_t near = nearest(problem, orientation);
+  // What the study has there need not be simulated.
   if (distance(problem, near, orientation) < degree) return rows_of(answer, near);
   if (!all_shared(problem)) return {};
   Specimen turned = problem.study.specimens[problem.fitted[near]];
   turned.orientation = orientation;
+  // Its seeds go with its id (F2).
   turned.id = fmt::format("next at {:.4g}", orientation / degree);
   return simulated_rows(batch, problem, answer, problem.fitted[near], turned);
 }
@@ -74,6 +79,7 @@ MatrixXd faster_rows(SimulationBatch& batch, const FitProblem& problem, const An
   return simulated_rows(batch, problem, answer, like, faster);
 }
 
+// Standard errors by JᵀJ, which is regular: every unknown in it is informed.
 std::vector<double> errors(const MatrixXd& normal) {
   const MatrixXd inverse = normal.ldlt().solve(MatrixXd::Identity(normal.rows(), normal.cols()));
   std::vector<double> result;
@@ -95,6 +101,7 @@ MatrixXd with_more_sections(const FitProblem& problem, const Answer& answer) {
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
     const auto sections = static_cast<double>(problem.study.specimens[s].sections.size());
+    // The variance goes as 1/sections: of that of n one more saves 1/(n + 1).
     const Landmarks saved =
         answer.weights.scatter[s].square() * (sections > 0.0 ? 1.0 / (sections + 1.0) : 0.0);
     const Landmarks variance = answer.weights.sd[s].square();

@@ -76,6 +76,7 @@ void cut_at(double max_strain, Response& response) {
   if (failed || strain.empty() || strain.back() <= max_strain) return;
   const auto beyond = std::ranges::upper_bound(strain, max_strain);
   const auto n = static_cast<std::size_t>(beyond - strain.begin());
+  // Before the first row a curve has the slope of its modulus.
   double end = modulus * max_strain;
   if (n > 0) {
     const double part = (max_strain - strain[n - 1]) / (strain[n] - strain[n - 1]);
@@ -95,12 +96,15 @@ void cut_at(double max_strain, Response& response) {
 
 NormalForm normal_form(const sim::Scene& scene, bool quasi_static) {
   NormalForm form{.scene = scene, .max_strain = scene.loading.max_strain};
+  // Thresholds from a file do not follow σ₁.
   if (!scene.joints.thresholds.empty()) return form;
+  // Where nothing is drawn all seeds are one simulation.
   if (scene.joints.scatter == 0.0 && scene.joints.missing == 0.0) form.scene.joints.seed = 0;
   if (!quasi_static) return form;
 
   const double to_reference = reference_head_tail / scene.joints.head_tail;
   const double strain_factor = reference_young / scene.material.young / to_reference;
+  // The reference's curve would end before the limit asked for.
   if (form.max_strain > strain_factor * reference_max_strain) return form;
   form.scaled = true;
   form.stress_factor = 1.0 / to_reference;
@@ -108,6 +112,7 @@ NormalForm normal_form(const sim::Scene& scene, bool quasi_static) {
 
   auto& [assembly, material, joints, loading, solver] = form.scene;
   material.young = reference_young;
+  // The limit knows no inertia, rate nor step: whatever they are, the key is the same.
   material.density = sim::Material{}.density;
   joints.head_tail = reference_head_tail;
   joints.flank = rounded(joints.flank * to_reference);

@@ -55,7 +55,7 @@ struct WideIntervals {
 // What few degrees of freedom, or unknowns that are left out, leave of one that is informed (F10).
 // Bounds alone, without a test, give an interval of 95 % of their range.
 WideIntervals wide_intervals(const FitProblem& problem, const CalibrationResult& result) {
-  constexpr double warned = 0.5, as_without_tests = 0.9;
+  constexpr double warned = 0.5, as_without_tests = 0.9;  // parts of the bounds' range
   WideIntervals wide;
   for (std::size_t k = 0; k < result.parameters.size(); ++k) {
     const CalibratedParameter& parameter = result.parameters[k];
@@ -78,7 +78,7 @@ WideIntervals wide_intervals(const FitProblem& problem, const CalibrationResult&
 }
 
 // Slope of a curve over its modulus, less 1: the upper half of what lies between the beginning of
-// the modulus's window and nine tenths of the strength.
+// the modulus's window and nine tenths of the strength. Nothing where too few rows tell it.
 std::optional<double> steepening(const MeasuredTest& test) {
   constexpr double nearly_failed = 0.9;
   constexpr std::size_t rows_that_tell = 5;
@@ -121,6 +121,7 @@ Toes toes_of(const FitProblem& problem, const Unknown& modulus_of, double known_
   }
   const auto n = static_cast<double>(toes.tests);
   toes.mean = sum / n;
+  // Of the mean, by the scatter between tests; NaN of one, which check_toe does not take.
   toes.error = std::sqrt(std::max(0.0, squares / n - toes.mean * toes.mean) / (n - 1.0));
   return toes;
 }
@@ -171,6 +172,7 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer,
     const Unknown& unknown = problem.unknown(one.unknown);
     text += fmt::format("{} is left out: {}. It stays at {}. ", unknown.label, one.reason(),
                         where_left(unknown, answer.best.point[one.unknown]));
+    // What was asked for widens the others' intervals (F22); what "auto" leaves out does not.
     if (asked || std::ranges::count(answer.active, one.partner) == 0) continue;
     conditional = true;
     text += fmt::format("The interval of {} holds for that value only. ",
@@ -237,6 +239,7 @@ Check check_toe(const FitProblem& problem, const Answer& answer) {
   for (Eigen::Index i = 0; i < answer.uncertainty.half_width.size(); ++i)
     if (const Unknown& unknown = problem.unknown(answer.active[static_cast<std::size_t>(i)]);
         unknown.info->name == "young_GPa")
+      // E is searched in its logarithm: half widths are parts of it, as the steepening is.
       groups.push_back(toes_of(problem, unknown, answer.uncertainty.half_width[i]));
   if (groups.empty()) return not_checked(name, "young_GPa has no interval.");
   std::erase_if(groups, [](const Toes& one) { return one.tests < 3; });

@@ -1,3 +1,5 @@
+// (F19) Laws without fibres, fitted to log strengths by least squares and compared with the model
+// by their criterion; (F23) Weibull's modulus.
 #include "calib/fit/plain_law.hpp"
 
 #include <gsl/gsl_cdf.h>
@@ -49,12 +51,13 @@ std::vector<LawDesign> designs_of(std::span<const Broken> specimens) {
 }  // namespace
 
 double strength_by(std::span<const SweepLaw> laws, const Broken& specimen) {
-  constexpr double same_angle = 0.5 * degree;
+  constexpr double same_angle = 0.5 * degree;  // at another one a law says nothing
   const SweepLaw* nearest = nullptr;
   double distance = std::numeric_limits<double>::infinity();
   for (const SweepLaw& law : laws) {
     double away = 0.0;
     if (law.per == "assembly.orientation_deg")
+      // A wall at −θ is that at θ in a mirror.
       away = std::abs(std::abs(law.at * degree) - std::abs(specimen.orientation));
     else if (law.per == "joints.ratio")
       away = std::abs(std::log(law.at / specimen.ratio));
@@ -63,6 +66,7 @@ double strength_by(std::span<const SweepLaw> laws, const Broken& specimen) {
     distance = away;
   }
   if (nearest == nullptr) return std::numeric_limits<double>::quiet_NaN();
+  // The constant comes last.
   double strength = nearest->coefficients.back();
   for (std::size_t i = 0; i < nearest->terms.size(); ++i)
     strength += nearest->coefficients[i] *
@@ -72,6 +76,7 @@ double strength_by(std::span<const SweepLaw> laws, const Broken& specimen) {
 
 double aicc(double sum_of_squares, double specimens, double parameters) {
   const double k = parameters + 1.0;
+  // The correction has no meaning with so few.
   if (specimens - k - 1.0 < 0.5) return std::numeric_limits<double>::infinity();
   constexpr double least_error = 1e-3;  // of the best class of machines (F5)
   const double square = std::max(sum_of_squares / specimens, least_error * least_error);
@@ -92,6 +97,7 @@ PlainLaw best_plain_law(std::span<const Broken> specimens, double model_paramete
   for (const LawDesign& design : designs_of(specimens)) {
     const auto qr = design.columns.colPivHouseholderQr();
     const double left = (design.columns * qr.solve(strength) - strength).squaredNorm();
+    // By rank: of one scatter at an orientation a slope in it is no further parameter.
     const double criterion = aicc(left, n, static_cast<double>(qr.rank()));
     if (criterion < best.criterion) {
       best.name = design.name;
@@ -113,6 +119,7 @@ PlainLaw best_plain_law(std::span<const Broken> specimens, double model_paramete
 // The likelihood's slope falls with m: bisection in log m.
 Weibull weibull(std::span<const double> values) {
   const auto n = static_cast<double>(values.size());
+  // Values over the largest one: their powers are 1 at the most, however large m is.
   const double largest = *std::ranges::max_element(values);
   double mean_log = 0.0;
   for (const double x : values) mean_log += std::log(x / largest) / n;

@@ -35,6 +35,7 @@ std::optional<PorosityTrend> trend_if(const PorositySample& sample, double betwe
   const Index freedom = n - qr.rank() - 1;
   if (freedom < 1) return std::nullopt;
 
+  // Weighted values, less what level and parameters can follow of them.
   const auto left_of = [&](const Eigen::VectorXd& values) {
     Eigen::VectorXd turned = qr.householderQ().adjoint() * weight.cwiseProduct(values);
     return Eigen::VectorXd(turned.tail(n - qr.rank()));
@@ -71,6 +72,7 @@ PorositySample sample_of(const FitProblem& problem, const Answer& answer, Landma
     sample.difference[i] = difference(answer.best.predictions[f], problem.targets[s])[q];
     sample.variance[i] = variance_if_alike(answer.weights, s)[q];
     sample.porosity[i] = problem.models[s].porosity;
+    // Of the difference itself: the Jacobian is that of residuals, which are divided by s.
     sample.slopes.row(i) = sd * answer.slopes.jacobian.row(first_row(f) + q);
   }
   return sample;
@@ -123,7 +125,7 @@ std::string trend_sentence(const PorosityLaw& law, const PorosityTrend& trend) {
 // How much specimens differ is not known: what they may differ by to make the slope likeliest
 // rejects no more true models than are meant.
 std::optional<PorosityTrend> porosity_trend(const PorositySample& sample) {
-  constexpr int steps = 24;
+  constexpr int steps = 24;                    // through magnitudes of what specimens may differ by
   constexpr double below = 0.1, above = 10.0;  // of the smallest and largest standard deviation
   if (sample.difference.size() < 3) return std::nullopt;
   auto likeliest = trend_if(sample, 0.0);

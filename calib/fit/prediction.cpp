@@ -17,6 +17,7 @@ Landmarks landmarks_of(const Response& response) {
   return landmarks;
 }
 
+// A failed replicate keeps its place, as replicates of two points are compared pair by pair (F2).
 Prediction summarise(std::span<const Response> responses) {
   assert(!responses.empty());
   Prediction result;
@@ -37,6 +38,7 @@ Prediction summarise(std::span<const Response> responses) {
 
   for (const auto& replicate : result.replicates)
     if (replicate.isFinite().all()) result.sd += (replicate - result.mean).square();
+  // Of a single one, 0.
   result.sd = (result.sd / std::max(result.usable - 1, 1)).sqrt();
   return result;
 }

@@ -16,10 +16,10 @@ Landmarks landmarks_of(const Response& response);
 struct Prediction {
   std::vector<Landmarks>
       replicates;  ///< NaN where a simulation failed, so that replicates pair up. [-]
-  Landmarks mean = Landmarks::Zero();
-  Landmarks sd = Landmarks::Zero();  ///< Between replicates.
-  int usable = 0;
-  bool censored = false;  ///< Most did not break: the strength is a lower bound.
+  Landmarks mean = Landmarks::Zero();  ///< Over those that answered; 0 where none did. [-]
+  Landmarks sd = Landmarks::Zero();    ///< Between replicates; 0 of a single one. [-]
+  int usable = 0;                      ///< Replicates that answered.
+  bool censored = false;               ///< Most did not break: the strength is a lower bound.
 
   [[nodiscard]] int failed() const { return static_cast<int>(replicates.size()) - usable; }
   /// Half of the replicates must have answered.

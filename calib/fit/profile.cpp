@@ -1,3 +1,6 @@
+// (F15) The cost at parts of Wald's half width on either side of the answer, the others moved by
+// the slopes there instead of a fit of their own; the interval by the signed root of its rise,
+// which is a straight line where the cost is a parabola.
 #include "calib/fit/profile.hpp"
 
 #include <Eigen/QR>
@@ -23,6 +26,7 @@ struct Held {
   Point point;
 };
 
+// Adds `shift` of the columns `others` to a point, where it is worth its simulations.
 void add_worth(const Answer& answer, const std::vector<Index>& others, const VectorXd& shift,
                Point& point) {
   for (std::size_t i = 0; i < others.size(); ++i) {
@@ -97,6 +101,7 @@ void add_roots(Trail& trail, const Answer& answer, const std::vector<Held>& held
     const auto k = static_cast<std::size_t>(held[i].fixed);
     const double at = held[i].point[answer.active[k]], centre = answer.best.point[answer.active[k]];
     const double cost = std::min(first[i].cost, second[i].cost);
+    // At a bound what is held may be the answer itself.
     if (std::isfinite(cost) && at != centre)
       roots[k].emplace_back(at, signed_root(at - centre, cost - answer.best.cost));
   }
@@ -119,6 +124,7 @@ double crossing(const std::vector<Root>& roots, double quantile, bool upper) {
     const auto [from, low] = side[i - 1];
     const auto [to, high] = side[i];
     if (std::abs(high) < quantile) continue;
+    // Between two points the root is taken to be straight.
     return from + (to - from) * (quantile - std::abs(low)) / (std::abs(high) - std::abs(low));
   }
   return std::numeric_limits<double>::quiet_NaN();
@@ -167,7 +173,10 @@ Profile profile_of(const Unknown& unknown, const Answer& answer, Index k,
   profile.level = 0.5 * quantile * quantile;
   const double centre = answer.best.point[answer.active[static_cast<std::size_t>(k)]];
   const auto end = [&](bool upper) {
+    // NaN, where the cost does not show an end, stays NaN below.
     double at = crossing(roots, quantile, upper);
+    // No narrower than what is left out allows (F22), which the cost beside one of its values does
+    // not show.
     if (!answer.elsewhere.empty())
       at = upper ? std::max(at, centre + answer.uncertainty.upper[k])
                  : std::min(at, centre + answer.uncertainty.lower[k]);

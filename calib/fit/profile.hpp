@@ -7,7 +7,8 @@
 
 namespace havers::calib {
 
-/// The cost along each active unknown, the others refitted (F15), all unknowns in one batch.
+/// The cost along each active unknown, the others refitted (F15), all unknowns in one batch. In the
+/// order of the active unknowns; at most eight points of each, evaluated twice.
 /// Precondition: !answer.slopes.failed.
 std::vector<Profile> profiles_of(Trail& trail, const Answer& answer);
 

@@ -1,3 +1,5 @@
+// (F17) How far the answer is the replicates' own: by their variance, and by as many replicates
+// again, to which the answer is moved by its slopes instead of a fit anew.
 #include "calib/fit/randomness.hpp"
 
 #include <algorithm>
@@ -54,6 +56,7 @@ VectorXd fresh_half_width(const FitProblem& problem, const Answer& answer,
     const Eigen::MatrixXd slopes = weighed(problem, answer.weights, weights, answer.asked_slopes);
     Evaluation moved = fresh;
     score(problem, weights, moved);
+    // The residuals that the parameters would follow are gone once these have moved.
     const VectorXd by =
         followed(free_columns(problem, moved.point, answer.active, slopes), moved.residuals);
     for (std::size_t f = 0; f < problem.fitted.size(); ++f)
@@ -74,6 +77,7 @@ Randomness randomness_of(SimulationBatch& batch, const FitProblem& problem, cons
   result.replicates_needed = replicates_needed(problem, answer.weights, answer.best);
   result.common_gain = answer.slopes.paired > 0.0 ? answer.slopes.independent / answer.slopes.paired
                                                   : std::numeric_limits<double>::infinity();
+  // Variance of each unknown by chance, as part of all of its variance.
   const VectorXd chance = follow.array().square().matrix() * variance_of_mean(problem, answer);
   const VectorXd whole = answer.uncertainty.standard_error.array().square();
   result.simulator_share = (chance.array() / whole.array()).maxCoeff();
@@ -86,6 +90,7 @@ Randomness randomness_of(SimulationBatch& batch, const FitProblem& problem, cons
   const VectorXd widths =
       (fresh_half_width(problem, answer, fresh).array() / answer.uncertainty.half_width.array());
   Index most = 0;
+  // In logarithms, as half as wide is as bad as twice.
   widths.array().log().abs().maxCoeff(&most);
   result.fresh_width = widths[most];
   return result;

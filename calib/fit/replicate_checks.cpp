@@ -56,6 +56,8 @@ Check check_validation(const CalibrationResult& result, const std::vector<std::s
     if (specimen.use != Use::validate) continue;
     ++held_out;
     double worst = std::nan("");
+    // Modulus, strength, failure strain; fmax passes over those that are not compared, which are
+    // NaN.
     std::array<double, 3> residual = specimen.residual;
     const auto excuse = [&](double& one, double ReplicateResult::*number, double measured) {
       if (is_among_replicates(specimen, number, measured))
@@ -64,6 +66,7 @@ Check check_validation(const CalibrationResult& result, const std::vector<std::s
     excuse(residual[1], &ReplicateResult::strength, specimen.measured.strength);
     excuse(residual[2], &ReplicateResult::failure_strain, specimen.measured.failure_strain);
     for (const double one : residual) worst = std::fmax(worst, std::abs(one));
+    // A strength that simulations do not reach is compared with nothing.
     const bool open = specimen.measured.broke && specimen.mostly_unbroken();
     if (std::isnan(worst) || open) unknown.push_back(specimen.id);
     if (worst > largest_off) off.push_back(fmt::format("{} ({:.1f})", specimen.id, worst));

@@ -11,6 +11,7 @@ struct Pool {
   double freedom = 0.0;
 };
 
+// A single replicate shows no spread, which does not say that there is none.
 bool counts(const Replicated& specimen) {
   return specimen.scatter > 0.0 && specimen.prediction->usable > 1;
 }
@@ -25,6 +26,7 @@ Replicated replicated_of(double orientation, const sim::JointOptions& joints,
 }
 
 std::vector<Landmarks> replicate_spread(const std::vector<Replicated>& specimens) {
+  // By orientation [rad].
   std::map<double, Pool> pools;
   for (const Replicated& specimen : specimens) {
     if (!counts(specimen)) continue;

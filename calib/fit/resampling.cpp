@@ -1,3 +1,5 @@
+// (F16) Other specimens by one step with the slopes at the answer: each has its JᵀJ and Jᵀr, and a
+// draw is a sum of these, which costs no simulation.
 #include "calib/fit/resampling.hpp"
 
 #include <Random123/philox.h>
@@ -62,6 +64,7 @@ Normal sum_of(const std::vector<Normal>& normals) {
 
 // −(JᵀJ)⁻¹ Jᵀr; NaN where the specimens do not determine it.
 VectorXd step_of(const Normal& normal) {
+  // Scaled to a diagonal of ones, so that one limit tells what is singular, whatever the units.
   const VectorXd scale = normal.matrix.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const MatrixXd scaled = scale.asDiagonal() * normal.matrix * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled);
@@ -70,6 +73,8 @@ VectorXd step_of(const Normal& normal) {
   return -(scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * normal.vector));
 }
 
+// Specimen of a turn of a draw: a function of its arguments alone. The key is not that of the
+// replicates' seeds.
 std::size_t pick(std::uint64_t seed, int draw, std::size_t turn, std::size_t count) {
   const r123::Philox2x64::ctr_type counter{{static_cast<std::uint64_t>(draw), turn}};
   return r123::Philox2x64()(counter, {{seed ^ 0x626f6f74ULL}})[0] % count;
@@ -84,11 +89,13 @@ void bootstrap(const std::vector<Normal>& normals, std::uint64_t seed, Resamplin
   }
   const Normal all = sum_of(normals);
   std::vector<std::vector<double>> shifts(static_cast<std::size_t>(all.vector.size()));
+  // Not quite 0: the answer is not quite where its slopes vanish.
   const VectorXd here = step_of(all);
   for (int draw = 0; draw < draws; ++draw) {
     Normal sum{0.0 * all.matrix, 0.0 * all.vector};
     for (std::size_t turn = 0; turn < n; ++turn) sum.add(normals[pick(seed, draw, turn, n)], 1.0);
     const VectorXd shift = step_of(sum) - here;
+    // Draws that do not determine the unknowns tell no shift of them.
     if (!shift.allFinite()) continue;
     for (std::size_t k = 0; k < shifts.size(); ++k)
       shifts[k].push_back(shift[static_cast<Index>(k)]);

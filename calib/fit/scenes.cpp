@@ -37,6 +37,7 @@ SpecimenModel model_of(const Study& study, std::size_t s, const PorosityOptions&
         known(laws.modulus_exponent * porosity.porosity_standard_error / (1.0 - porosity.porosity));
   const double scatter = scatter_of(porosity, laws);
   if (!std::isfinite(scatter)) return model;  // the study's model has one
+  // (K5) Pores larger than a window take joints away and leave the others' thresholds alone.
   if (laws.to_scatter == ToScatter::window && removes_joints(porosity)) {
     model.scene.joints.missing = porosity.porosity;
     model.missing_standard_error = known(porosity.porosity_standard_error);
@@ -49,6 +50,7 @@ SpecimenModel model_of(const Study& study, std::size_t s, const PorosityOptions&
 }
 
 std::uint64_t replicate_seed(std::uint64_t study_seed, std::string_view id, int replicate) {
+  // (F2) The id's hash and the replicate are the counter, the study's seed is the key.
   std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a
   for (const char c : id) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
   const auto low = [](std::uint64_t x) { return static_cast<std::uint32_t>(x); };

@@ -16,7 +16,7 @@ struct SearchResult {
 SearchResult search_ceres(Trail& trail, const Evaluation& start, const Active& active);
 
 /// Unknowns by what they cost: moving a free one asks for no new simulation (F3), moving a costly
-/// one does.
+/// one does. Found by the keys of scenes beside `at`: nothing is simulated.
 struct Split {
   Active costly, free;
 };

@@ -1,3 +1,5 @@
+// Levenberg-Marquardt over the active unknowns, through the trail, which scores every point and
+// keeps the best.
 #include <algorithm>
 
 #include "calib/fit/differences.hpp"
@@ -32,6 +34,7 @@ SearchResult search_ceres(Trail& trail, const Evaluation& start, const Active& a
     problem.upper[i] = trail.problem().unknown(k).upper;
   }
   problem.residuals = [&](const std::vector<Point>& moved) {
+    // Unknowns that are not active stay where the start has them.
     std::vector<Point> points(moved.size(), start.point);
     for (std::size_t p = 0; p < moved.size(); ++p) points[p](active) = moved[p];
     std::vector<Eigen::VectorXd> residuals;
@@ -41,6 +44,7 @@ SearchResult search_ceres(Trail& trail, const Evaluation& start, const Active& a
     }
     return residuals;
   };
+  // The tolerance is a part of the cost: what is left on the table is one of the start's.
   const auto end = least_squares(problem, start.point(active),
                                  {.step = slope_step,
                                   .max_iterations = max_steps,

@@ -1,3 +1,5 @@
+// Starts are spread, and NLopt searches, over costly unknowns only: the free ones are solved for at
+// each, which takes no new simulation (F3).
 #include <gsl/gsl_qrng.h>
 
 #include <algorithm>
@@ -45,9 +47,11 @@ MultiStart search_globally(Trail& trail, const Active& active) {
   MultiStart result;
   if (trail.problem().study.calibrate.global != GlobalSearch::starts && !starts.empty()) {
     trail.enter("global search");
+    // Where all unknowns are free there is nothing else to search over.
     auto found = search_nlopt_globally(trail, starts.front(),
                                        all_free ? Split{.costly = split.free, .free = {}} : split);
     result.logs.push_back(found.log);
+    // It began at the best start, and is no worse.
     starts.insert(starts.begin(), std::move(found.best));
   }
   for (const auto& start : starts) result.starts.push_back(start.cost);

@@ -1,3 +1,5 @@
+// NLopt over the costly unknowns. It decides where to look next, and nothing else: costs come from
+// the trail, which also keeps the best point, and a search that is to end is ended by force.
 #include <algorithm>
 #include <exception>
 #include <nlopt.hpp>
@@ -23,6 +25,7 @@ struct Objective {
 
   double operator()(const std::vector<double>& values) {
     if (trail.stopped()) optimiser.force_stop();
+    // The free unknowns begin where the best point so far has them.
     Point point = best.point;
     for (std::size_t i = 0; i < values.size(); ++i) point[split.costly[i]] = values[i];
     auto here = trail.evaluate(inside_bounds(trail.problem().unknowns, point));
@@ -35,6 +38,7 @@ struct Objective {
                      void* self) {
     auto& objective = *static_cast<Objective*>(self);
     try {
+      // After a failure NLopt may ask for more points before it ends: they are not evaluated.
       if (!objective.thrown) return objective(values);
     } catch (...) {
       objective.thrown = std::current_exception();
@@ -44,6 +48,8 @@ struct Objective {
   }
 };
 
+// How it ended, for the log: NLopt tells much of it by exceptions, and none is a reason to end the
+// fit.
 std::string run(nlopt::opt& optimiser, std::vector<double> values) {
   double cost = 0.0;
   try {
@@ -65,6 +71,7 @@ void set_box(nlopt::opt& optimiser, const FitProblem& problem, const Active& cos
     const auto& unknown = problem.unknown(k);
     lower.push_back(unknown.lower);
     upper.push_back(unknown.upper);
+    // In the scale of the search: for a polish 2 % of a parameter.
     step.push_back(stride == Stride::wide ? unknown.range() / 8.0 : 0.02);
   }
   optimiser.set_lower_bounds(lower);
@@ -97,6 +104,7 @@ Plan global_plan(GlobalSearch global) {
       return {nlopt::GN_MLSL_LDS, "NLopt MLSL"};
     case GlobalSearch::esch:
       return {nlopt::GN_ESCH, "NLopt ESCH"};
+    // `starts` does not come here.
     case GlobalSearch::direct:
     case GlobalSearch::starts:
       break;
@@ -113,6 +121,7 @@ SearchResult follow(const Plan& plan, Trail& trail, const Evaluation& start, con
 
   const auto count = static_cast<unsigned>(split.costly.size());
   nlopt::opt optimiser(plan.algorithm, count);
+  // MLSL refines what it samples by a local method of NLopt's.
   if (plan.algorithm == nlopt::GN_MLSL_LDS) {
     nlopt::opt local(nlopt::LN_SBPLX, count);
     local.set_ftol_abs(wide_cost_tolerance);
@@ -155,6 +164,7 @@ Split split_by_cost(const FitProblem& problem, const SimulationBatch& batch, con
   for (const Eigen::Index k : active) {
     const auto& unknown = problem.unknown(k);
     Point moved = at;
+    // A tenth of the range, to where there is more of it.
     moved[k] += (at[k] < 0.5 * (unknown.lower + unknown.upper) ? 0.1 : -0.1) * unknown.range();
     (keys(moved) == here ? split.free : split.costly).push_back(k);
   }
@@ -176,6 +186,7 @@ SearchResult search_nlopt_globally(Trail& trail, const Evaluation& start, const 
   const auto& options = trail.problem().study.calibrate;
   Plan plan = global_plan(options.global);
   plan.max_points = max_global_points * static_cast<int>(split.costly.size());
+  // So that the same study takes the same path.
   nlopt::srand(static_cast<unsigned long>(options.seed));
   return follow(plan, trail, start, split);
 }

@@ -21,9 +21,11 @@ std::string sections_in_doubt(const Specimen& specimen, const Doubt& in_doubt) {
   return files.empty() ? "" : fmt::format("{} ({})", specimen.id, fmt::join(files, ", "));
 }
 
-// What the specimens' porosity does not tell of what a study takes from it.
+// What the specimens' porosity does not tell of what a study takes from it. Names of specimens:
+// with sections in doubt (I17), with pores that no canal has (K2), without a scatter or a modulus
+// of their own.
 struct Untold {
-  std::vector<std::string> doubted, scaled, scatter, modulus;  // specimens
+  std::vector<std::string> doubted, scaled, scatter, modulus;
   bool any = false;  // has sections, or tells one of these
 };
 
@@ -32,6 +34,7 @@ Untold untold_of(const FitProblem& problem) {
   const bool searched = std::ranges::any_of(
       problem.unknowns, [](const Unknown& unknown) { return unknown.info->name == "scatter"; });
   Untold found;
+  // Those kept for validation too: their predictions take as much from it.
   for (std::size_t s = 0; s < problem.models.size(); ++s) {
     const Specimen& specimen = problem.study.specimens[s];
     const SpecimenModel& model = problem.models[s];

@@ -1,3 +1,5 @@
+// Scenes in normal form have keys; what neither memory nor store has of these is simulated in
+// parallel, and rescaled to the scenes asked for (F3).
 #include "calib/fit/simulation_batch.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -14,7 +16,8 @@
 namespace havers::calib {
 namespace {
 
-// Answers with numbers that are none have failed; the fit goes on without them.
+// Answers with numbers that are none have failed; the fit goes on without them. A modulus of 0 is
+// one that is not known.
 std::optional<Response> run_checked(const Simulator& simulator, const sim::Scene& scene) {
   std::optional<Response> answer = simulator.run(scene);
   if (!answer) return answer;
@@ -35,6 +38,7 @@ NormalForm form_of(const Simulator& simulator, const sim::Scene& scene) {
 
 }  // namespace
 
+// One key to be answered; `scene` is that of the caller's normal form.
 struct SimulationBatch::Work {
   std::string key;
   const sim::Scene* scene = nullptr;
@@ -46,6 +50,8 @@ SimulationBatch::SimulationBatch(Simulator simulator, EvaluationStore* store, in
     : simulator_(std::move(simulator)), store_(store), threads_(threads) {}
 
 void SimulationBatch::settle(std::vector<Work>& work) {
+  // Each writes its own work alone. What the store throws is no fault of a simulation, and goes on
+  // to the caller.
   const auto settle_one = [&](std::size_t i) {
     auto& [key, scene, response, simulated] = work[i];
     if (stopped_) return;
@@ -76,6 +82,7 @@ std::vector<Response> SimulationBatch::run(const std::vector<sim::Scene>& scenes
     scaled_ |= forms.back().scaled;
   }
 
+  // Each key once, in the order in which it is first asked for.
   std::vector<Work> missing;
   std::unordered_set<std::string> seen;
   for (std::size_t i = 0; i < keys.size(); ++i)
@@ -84,8 +91,9 @@ std::vector<Response> SimulationBatch::run(const std::vector<sim::Scene>& scenes
   settle(missing);
 
   asked_ += static_cast<long>(scenes.size());
+  // By the caller's thread, in order: counts and memory are the same for any number of threads.
   for (auto& [key, scene, response, simulated] : missing) {
-    if (!response) continue;
+    if (!response) continue;  // stopped: neither kept nor counted
     simulated_ += simulated ? 1 : 0;
     failed_ += response->failed ? 1 : 0;
     memory_.emplace(std::move(key), std::move(*response));

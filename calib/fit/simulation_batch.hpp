@@ -36,19 +36,22 @@ class SimulationBatch {
   /// @param threads  0: as many as the machine has.
   SimulationBatch(Simulator simulator, EvaluationStore* store, int threads);
 
+  /// One response per scene, failed ones among them. Throws what the store throws. Not to be called
+  /// from two threads at once.
   std::vector<Response> run(const std::vector<sim::Scene>& scenes);
 
   /// The keys of scenes, in normal form: equal keys, one simulation.
   [[nodiscard]] std::vector<std::string> keys(const std::vector<sim::Scene>& scenes) const;
 
-  [[nodiscard]] long asked() const { return asked_; }
-  [[nodiscard]] long simulated() const { return simulated_; }
-  [[nodiscard]] long failed() const { return failed_; }  ///< Of the distinct ones.
+  [[nodiscard]] long asked() const { return asked_; }          ///< Scenes, with repeats.
+  [[nodiscard]] long simulated() const { return simulated_; }  ///< Run, not found.
+  [[nodiscard]] long failed() const { return failed_; }        ///< Of the distinct ones.
   /// Why most of them failed; empty where none did.
   [[nodiscard]] std::string most_failed_because() const { return most_frequent_why(true); }
   [[nodiscard]] long reserved() const;  ///< Of the distinct ones: to be trusted but for something.
   /// What most of these are to be trusted but for; empty where there is nothing.
   [[nodiscard]] std::string most_reserved_because() const { return most_frequent_why(false); }
+  /// Keys that were answered, by the store too: a budget counts these.
   [[nodiscard]] long distinct() const { return static_cast<long>(memory_.size()); }
   /// Whether scenes that differ in E and σ₁ alone were one simulation (F3).
   [[nodiscard]] bool scaled() const { return scaled_; }
@@ -60,12 +63,12 @@ class SimulationBatch {
   [[nodiscard]] std::string most_frequent_why(bool failed) const;
 
   Simulator simulator_;
-  EvaluationStore* store_;
+  EvaluationStore* store_;  ///< Not owned; may be null.
   int threads_;
-  std::unordered_map<std::string, Response> memory_;
+  std::unordered_map<std::string, Response> memory_;  ///< By key, in normal form.
   long asked_ = 0, simulated_ = 0, failed_ = 0;
   bool scaled_ = false;
-  std::atomic<bool> stopped_ = false;
+  std::atomic<bool> stopped_ = false;  ///< Set and read by all threads.
 };
 
 }  // namespace havers::calib

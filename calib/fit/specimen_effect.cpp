@@ -1,3 +1,5 @@
+// (F9) τ by Paule and Mandel, and what parameters spend of the residuals that tell it, by the
+// leverage of their rows.
 #include "calib/fit/specimen_effect.hpp"
 
 #include <Eigen/QR>
@@ -8,6 +10,8 @@
 namespace havers::calib {
 namespace {
 
+// Of specimens that differ by a variance `between`; a bound adds −z φ/Φ where others add a square
+// (F25).
 double chi_squared(const Sample& sample, double between) {
   double sum = 0.0;
   for (std::size_t i = 0; i < sample.difference.size(); ++i)
@@ -30,6 +34,7 @@ Eigen::MatrixXd column_space(const Eigen::MatrixXd& matrix) {
 double variance_between(const Sample& sample, double freedom) {
   if (freedom < least_freedom || chi_squared(sample, 0.0) <= freedom) return 0.0;
   double low = 0.0, high = 0.0;
+  // An upper end for the differences; bounds may add more than their squares.
   for (const double difference : sample.difference) high += difference * difference / freedom;
   for (const double above : sample.above) high += above * above / freedom;
   while (chi_squared(sample, high) > freedom) high *= 2.0;
@@ -70,6 +75,7 @@ Landmarks specimen_effect(const FitProblem& problem, const Weights& weights, con
       const std::size_t s = problem.fitted[f];
       const auto& prediction = at.predictions[f];
       const auto& target = problem.targets[s];
+      // A bound adds to the sum, and is not counted in the freedom.
       const bool bound = q == strength && has_bound(prediction, target);
       if (!bound && !tells(prediction, target)[q]) continue;
       (bound ? sample.above : sample.difference).push_back(difference(prediction, target)[q]);

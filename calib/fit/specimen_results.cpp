@@ -86,6 +86,7 @@ std::vector<TermResult> terms_of(const Prediction& prediction, const Target& tar
 }
 
 // Modulus, strength, failure strain; the last follows from the landmarks, ε = σ / (E · linearity).
+// NaN where a landmark that it takes is no term.
 std::array<double, 3> standardised(const std::vector<TermResult>& terms) {
   std::array<double, 3> distance{no_number, no_number, no_number}, sd{1.0, 1.0, 1.0};
   for (const TermResult& term : terms)
@@ -106,6 +107,7 @@ struct Simulated {
   Prediction prediction;
 };
 
+// In the order of the study. Those of fitted specimens are in the batch's memory as a rule.
 std::vector<Simulated> simulate_all(const FitProblem& problem, SimulationBatch& batch,
                                     const Answer& answer) {
   std::vector<Simulated> all;
@@ -118,6 +120,7 @@ std::vector<Simulated> simulate_all(const FitProblem& problem, SimulationBatch& 
   return all;
 }
 
+// (F6) Standard deviations of one draw of the model, for each specimen of the study.
 std::vector<Landmarks> spread_of(const FitProblem& problem, const std::vector<Simulated>& all) {
   std::vector<Replicated> replicated;
   for (std::size_t s = 0; s < all.size(); ++s) {
@@ -169,6 +172,7 @@ Landmarks error_of_scatter(const FitProblem& problem, SimulationBatch& batch, co
              : porosity_error(problem, batch, answer.best.point, s, here);
 }
 
+// Of the cost, which specimens kept for validation are no part of.
 void set_shares(std::vector<SpecimenResult>& specimens) {
   const double sum = 2.0 * cost_of(specimens, 0.0);
   for (auto& specimen : specimens)

@@ -1,3 +1,5 @@
+// A study of the specimen alone, in which it counts as fitted, is simulated beside the answer:
+// central differences as of the fitted ones (F8), but of the landmarks themselves.
 #include "calib/fit/specimen_slopes.hpp"
 
 #include <algorithm>
@@ -13,6 +15,7 @@ Eigen::MatrixXd specimen_slopes(SimulationBatch& batch, const FitProblem& proble
   alone.specimens.front().use = Use::fit;
   FitProblem one = make_problem(alone);
   one.unknowns = problem.unknowns;  // "auto" may try others for this specimen alone
+  // It is specimen 0 here, and has the unknowns that act on `as` in the whole study.
   for (Unknown& unknown : one.unknowns) {
     const bool has = std::ranges::find(unknown.specimens, as) != unknown.specimens.end();
     unknown.specimens.assign(has ? 1 : 0, 0);

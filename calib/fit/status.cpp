@@ -1,3 +1,4 @@
+// Words and counts of a result. Tables of words are in the order of their enumerators.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

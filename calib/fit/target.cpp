@@ -24,6 +24,7 @@ Row row_at_break(const MeasuredTest& test) {
   if (peak < rows || test.strain.size() != test.stress.size()) return {};
   const auto at = [&](std::ptrdiff_t i) { return static_cast<std::size_t>(i); };
   const double top = test.stress[at(peak)];
+  // A record that ends at its peak, or falls by a tenth within a row, parted between two.
   const bool abrupt = peak + 1 == count || test.stress[at(peak + 1)] < 0.9 * top;
   if (!abrupt) return {};
   return {.strain = std::max(test.strain[at(peak)] - test.strain[at(peak - rows)], 0.0) / rows,
@@ -57,6 +58,7 @@ Target target_of(const Specimen& specimen, const std::vector<std::string>& terms
   const double by_strain = squared(row.strain / strain) / 12.0;
   const double by_end = by_strength + by_strain;
   Landmarks variance;
+  // In the order of Landmark. Heights have half the relative error of the end, energy all of it.
   variance << by_modulus, by_strength, by_modulus + by_end, 0.25 * by_end, by_end, by_strain;
   variance += squared(channel_class);
   variance[modulus] += squared(channel_class);  // of both channels

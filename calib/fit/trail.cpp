@@ -7,6 +7,7 @@ namespace havers::calib {
 
 std::vector<Evaluation> Trail::evaluate(const std::vector<Point>& points) {
   const auto& options = problem_.study.calibrate;
+  // Simulations of one point of the budget; scouts, who have fewer replicates, spend a part of one.
   const auto whole_point =
       static_cast<long>(problem_.fitted.size()) * std::max(all_replicates(options), replicates_);
   budget_spent_ =
@@ -24,6 +25,7 @@ std::vector<Evaluation> Trail::evaluate(const std::vector<Point>& points) {
 }
 
 void Trail::restart(Weights weights, Evaluation from) {
+  // Costs by other weights do not compare: the former best is forgotten.
   weights_ = std::move(weights);
   score(problem_, weights_, from);
   best_ = std::move(from);
@@ -32,6 +34,7 @@ void Trail::restart(Weights weights, Evaluation from) {
 void Trail::note(const Evaluation& evaluation) {
   ++points_;
   if (evaluation.cost < best_.cost) best_ = evaluation;
+  // An observer that has said no is not asked again; the rest of a batch still counts.
   if (!observer_ || cancelled_) return;
   CalibrationProgress progress{.stage = stage_,
                                .evaluations = batch_.asked(),

@@ -19,36 +19,44 @@ namespace havers::calib {
 /// store counts like one that is run, so that a fit resumed takes the same path.
 class Trail {
  public:
+  /// All three have to outlive it.
   Trail(const FitProblem& problem, SimulationBatch& batch, const CalibrationObserver& observer)
       : problem_(problem),
         batch_(batch),
         observer_(observer),
         replicates_(all_replicates(problem.study.calibrate)) {}
 
-  /// Scored evaluations in the order of the points; failed ones once stopped.
+  /// Scored evaluations in the order of the points, one batch; failed ones once stopped.
+  /// Precondition: restart() has given weights.
   std::vector<Evaluation> evaluate(const std::vector<Point>& points);
   Evaluation evaluate(const Point& point) { return evaluate(std::vector{point}).front(); }
 
   /// New weights: the best so far is forgotten, and begins again with the point given.
   void restart(Weights weights, Evaluation from);
 
+  /// Names the stage of the search, for the observer.
   void enter(std::string stage) { stage_ = std::move(stage); }
+  /// Of the points that follow; predictions of the best point keep theirs.
   void set_replicates(int replicates) { replicates_ = replicates; }
   void lift_budget() { budget_lifted_ = true; }  ///< For the last look at the answer.
 
   [[nodiscard]] const FitProblem& problem() const { return problem_; }
   [[nodiscard]] SimulationBatch& batch() { return batch_; }
   [[nodiscard]] const Weights& weights() const { return weights_; }
+  /// The lowest cost since restart(), by the weights that it gave; where they are equal the
+  /// earliest.
   [[nodiscard]] const Evaluation& best() const { return best_; }
   [[nodiscard]] int replicates() const { return replicates_; }
-  [[nodiscard]] int points() const { return points_; }
+  [[nodiscard]] int points() const { return points_; }  ///< Evaluated, failed ones too.
   /// Since the search began. [s]
   [[nodiscard]] double wall_seconds() const { return stopwatch_.wall_seconds(); }
+  /// By the observer, or by the simulator inside a simulation.
   [[nodiscard]] bool cancelled() const { return cancelled_ || batch_.stopped(); }
   [[nodiscard]] bool budget_spent() const { return budget_spent_; }
   [[nodiscard]] bool stopped() const { return cancelled() || budget_spent_; }
 
  private:
+  /// Counts a point, keeps it if it is the best, and tells the observer.
   void note(const Evaluation& evaluation);
 
   const FitProblem& problem_;

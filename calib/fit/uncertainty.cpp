@@ -1,3 +1,5 @@
+// (F11) Standard errors by J⁺, since residuals have unit variance, and quantiles by how well the
+// parts of that variance are known.
 #include "calib/fit/uncertainty.hpp"
 
 #include <gsl/gsl_cdf.h>
@@ -15,10 +17,10 @@ namespace {
 /// What the residuals' variances rest on: the part that the replicates' spread makes is as well
 /// known as the replicates of all specimens of an orientation tell it.
 struct VarianceSources {
-  Eigen::VectorXd replicates;       // part of each residual's variance
-  Eigen::VectorXd weight;           // 1/variance of each residual; 0 where it tells nothing
-  std::vector<double> orientation;  // of each fitted specimen
-  std::map<double, double> freedom;
+  Eigen::VectorXd replicates;        // part of each residual's variance
+  Eigen::VectorXd weight;            // 1/variance of each residual; 0 where it tells nothing
+  std::vector<double> orientation;   // of each fitted specimen
+  std::map<double, double> freedom;  // of the replicates, by orientation
 };
 
 VarianceSources sources_of(const FitProblem& problem, const Weights& weights,
@@ -70,6 +72,7 @@ double quantile(const Eigen::VectorXd& shares, const Landmarks& freedom, const L
     for (const auto& [orientation, part] : by_replicates)
       inverse += part * part / sources.freedom.at(orientation);
   }
+  // Of a million degrees of freedom and more Student's t is as good as normal.
   return inverse > 1e-6 ? gsl_cdf_tdist_Pinv(0.975, std::max(1.0 / inverse, 1.0))
                         : gsl_cdf_ugaussian_Pinv(0.975);
 }
@@ -96,6 +99,7 @@ Eigen::MatrixXd weighed(const FitProblem& problem, const Weights& had, const Wei
                         Eigen::MatrixXd slopes) {
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
+    // Rows are divided by s, as residuals are.
     slopes.middleRows<landmark_count>(first_row(f)).array().colwise() *= had.sd[s] / now.sd[s];
   }
   return slopes;
@@ -103,6 +107,7 @@ Eigen::MatrixXd weighed(const FitProblem& problem, const Weights& had, const Wei
 
 Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, const Evaluation& at,
                            const Active& active, const Eigen::MatrixXd& slopes) {
+  // Errors hold at what is left out, whose columns cost freedom alone.
   const Eigen::MatrixXd jacobian = slopes.leftCols(static_cast<Eigen::Index>(active.size()));
   const VarianceSources sources = sources_of(problem, weights, at);
 
@@ -112,6 +117,7 @@ Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, co
   result.standard_error = follow.rowwise().norm();
   result.half_width = result.standard_error;
   for (Eigen::Index k = 0; k < follow.rows(); ++k) {
+    // What each residual makes of the unknown's variance.
     const Eigen::VectorXd shares =
         follow.row(k).array().square() / std::max(follow.row(k).squaredNorm(), 1e-300);
     result.half_width[k] *= quantile(shares, result.freedom, weights.specimen, sources);

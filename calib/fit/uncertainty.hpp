@@ -9,7 +9,7 @@ namespace havers::calib {
 
 /// Standard errors of the active unknowns, in the scale of their search (F11).
 struct Uncertainty {
-  Eigen::MatrixXd follow;  ///< How each unknown follows the residuals, which have unit variance.
+  Eigen::MatrixXd follow;  ///< J⁺, active unknowns by residuals, which have unit variance.
   Eigen::VectorXd standard_error;
   Eigen::VectorXd half_width;    ///< t quantile of 95 % times the standard error.
   Eigen::VectorXd lower, upper;  ///< Ends of the 95 % interval, from the answer (F11), (F22).
@@ -27,11 +27,11 @@ Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, co
 bool at_bound(const Unknown& unknown, double position);
 
 /// The columns of unknowns that can follow the residuals: of the active ones, which come first,
-/// those that are not at a bound.
+/// those that are not at a bound, and all of what was left out.
 Eigen::MatrixXd free_columns(const FitProblem& problem, const Point& point, const Active& active,
                              const Eigen::MatrixXd& jacobian);
 
-/// Slopes of residuals that had weights, with others.
+/// Slopes of residuals that were standardised by the weights they had, by those that they have now.
 Eigen::MatrixXd weighed(const FitProblem& problem, const Weights& had, const Weights& now,
                         Eigen::MatrixXd slopes);
 

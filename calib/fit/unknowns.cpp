@@ -1,3 +1,5 @@
+// From what a study asks for to the unknowns of its search, and from a point to each specimen's
+// values.
 #include "calib/fit/unknowns.hpp"
 
 #include <fmt/format.h>
@@ -29,12 +31,14 @@ Level level_of(const CalibrateOptions& options, const ParameterInfo& info) {
   return found == options.level.end() ? Level::shared : found->second;
 }
 
+// The end of a label. Specimens whose text agrees, angles to four digits, share a value.
 std::string group_of(const Specimen& specimen, Level level) {
   if (level == Level::shared) return "";
   if (level == Level::specimen) return fmt::format("[{}]", specimen.id);
   return fmt::format("[{:.4g} deg]", specimen.orientation / degree);
 }
 
+// With the study's bounds, or the parameter's usual ones, and the study's value as its start.
 Unknown bounded(const Study& study, const ParameterInfo& info) {
   const auto given = study.calibrate.bounds.find(std::string(info.name));
   const auto bounds =
@@ -97,6 +101,7 @@ Point middle_point(const std::vector<Unknown>& unknowns) {
 
 Point inside_bounds(const std::vector<Unknown>& unknowns, Point point) {
   std::ranges::transform(point, unknowns, point.begin(), [](double z, const Unknown& u) {
+    // An optimiser may ask for what is no number.
     return std::isfinite(z) ? std::clamp(z, u.lower, u.upper) : u.start;
   });
   return point;
@@ -122,6 +127,7 @@ std::optional<double> value_at(const std::vector<Unknown>& unknowns, const Point
     ++groups;
   }
   if (groups == 0) return std::nullopt;
+  // The mean in the scale of the search: of logarithms a geometric one.
   return from_search(info, sum / groups);
 }
 

@@ -18,6 +18,7 @@ using Point = Eigen::VectorXd;
 /// Indices into a Point: the unknowns that a search may move. The others keep their value.
 using Active = std::vector<Eigen::Index>;
 
+/// One value to be found, of a parameter for a group of specimens.
 struct Unknown {
   const ParameterInfo* info = nullptr;
   std::string label;                     ///< "ratio", "young_GPa[45 deg]", "young_GPa[A1]".

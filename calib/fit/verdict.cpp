@@ -1,3 +1,5 @@
+// The verdict as a list of checks. Here are those of the searches and of the simulations, and what
+// remains of a verdict where there is no answer; the others have files of their own.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -63,6 +65,7 @@ Check check_starts(const FitProblem& problem, const Answer& answer) {
             "Only one start gave an answer; nothing to compare it with."};
   const auto ends = ends_of(problem, answer);
   const auto& best = ends.front();
+  // Half of χ² = 1: a standard deviation of one parameter.
   const auto is_low = [&](const Evaluation& end) { return end.cost <= best.cost + 0.5; };
   // What was searched along then, and is left out by now, moves the others.
   const auto& half = answer.uncertainty.half_width;
@@ -178,6 +181,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_sections(problem));
   checks.push_back(check_porosity(problem, answer));
   checks.push_back(check_specimen_spread(problem, answer));
+  // Of the same spread, as the replicates have it: part of that check.
   checks.back().text += weibull_sentence(result, one_sided_orientations(problem, answer.best));
   checks.push_back(check_plain_law(problem, answer));
   checks.push_back(check_correlation(result));
@@ -193,6 +197,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
     leave_all_unchecked(checks, "the budget ended before the searches did.");
   else if (answer.active.empty())
     leave_unchecked(checks, "no parameter is fitted.");
+  // How many simulations failed is told without an answer too.
   checks.push_back(check_simulations(result));
   return checks;
 }

@@ -1,3 +1,5 @@
+// (F22) What was left out may have any value that the specimens allow: the others are refitted
+// beside each of some, and an interval holds where they come to.
 #include "calib/fit/walk.hpp"
 
 #include <Eigen/QR>
@@ -19,10 +21,12 @@ std::vector<Point> from_bound_to_bound(const Unknown& unknown, Eigen::Index inde
   return points;
 }
 
+// (F6) With the replicates' spread at that point; τ and the errors by porosity are the trail's.
 Weights own_weights(const Trail& trail, const Evaluation& one) {
   return weigh(trail.problem(), one, trail.weights().scatter, trail.weights().specimen);
 }
 
+// ½ log |JᵀJ|, by R of QR.
 double log_determinant(const Eigen::MatrixXd& slopes) {
   return slopes.colPivHouseholderQr().matrixQR().diagonal().array().abs().log().sum();
 }
@@ -73,15 +77,18 @@ std::vector<Evaluation> walk_along(Trail& trail, Eigen::Index unknown, const Act
     auto moved = trail.evaluate(points);
     score_each(trail, jacobian, moved);
     for (std::size_t i = 0; i < walked.size(); ++i)
+      // Slopes of the answer may lead astray far from it.
       if (moved[i].cost < walked[i].cost) walked[i] = std::move(moved[i]);
   }
   std::erase_if(walked, &Evaluation::failed);
+  // However low its cost, no point of a walk is an answer.
   trail.restart(trail.weights(), best);
   return walked;
 }
 
 void widen_intervals(const Evaluation& best, const std::vector<Evaluation>& elsewhere,
                      const Active& active, Uncertainty& uncertainty) {
+  // The likeliest value may be elsewhere than the answer has it.
   double lowest = best.cost;
   for (const Evaluation& one : elsewhere) lowest = std::min(lowest, one.cost);
   for (std::size_t i = 0; i < active.size(); ++i) {
@@ -95,6 +102,7 @@ void widen_intervals(const Evaluation& best, const std::vector<Evaluation>& else
       uncertainty.lower[k] = std::min(uncertainty.lower[k], shift - error * std::sqrt(left));
       uncertainty.upper[k] = std::max(uncertainty.upper[k], shift + error * std::sqrt(left));
     };
+    // From the answer on: where another value is likelier its own part is narrower too.
     uncertainty.lower[k] = uncertainty.upper[k] = 0.0;
     include(best);
     for (const Evaluation& one : elsewhere) include(one);

@@ -7,6 +7,8 @@
 
 namespace havers::calib {
 
+/// Ways to measure the porosity of an image. The number of a method is its place in all arrays
+/// here.
 enum class PorosityMethod {
   naive,         ///< Darker than the middle of the grey scale, over the whole image.
   otsu,          ///< Otsu's threshold of the whole image, over the whole image.
@@ -14,8 +16,10 @@ enum class PorosityMethod {
   ours,          ///< What `havers porosity` does.
 };
 constexpr std::size_t porosity_methods = 4;
+/// For tables and figures.
 std::string to_string(PorosityMethod method);
 
+/// What one way gives of one image.
 struct PorosityReading {
   double porosity = 0.0;  ///< [-]
   double cpu = 0.0;       ///< From the file to the number. [s]
@@ -43,11 +47,13 @@ struct MethodSummary {
   double cpu_per_pixel = 0.0;  ///< Of all trials together. [s]
 };
 
+/// Every method over the trials with one hardship.
 struct HardshipSummary {
   std::string hardship;
   std::array<MethodSummary, porosity_methods> methods;
 };
 
+/// What the bench of porosity shows.
 struct MethodComparison {
   std::vector<PorosityTrial> trials;
   std::array<MethodSummary, porosity_methods> methods;  ///< Over all trials.

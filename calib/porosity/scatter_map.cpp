@@ -32,6 +32,7 @@ Pooled pool(std::vector<Share> shares) {
     within += std::pow(one.weight * one.error, 2);
     between += std::pow(one.weight * (one.value - pooled.mean), 2);
   }
+  // (K1) Squares about their own mean are too small by (n − 1)/n; of one section they tell nothing.
   const auto n = static_cast<double>(shares.size());
   if (n > 1.0) between *= n / (n - 1.0);
   pooled.standard_error = std::sqrt(std::max(within, between));
@@ -53,7 +54,9 @@ void pool_porosity(const std::vector<SectionPorosity>& sections, SpecimenPorosit
 void pool_window_sd(const std::vector<SectionPorosity>& sections, SpecimenPorosity& specimen) {
   std::vector<Share> shares;
   for (const SectionPorosity& section : sections) {
+    // Without a pixel size a section has no windows.
     if (!std::isfinite(section.window_sd)) continue;
+    // What is pooled is the variance, with its error 2 SD se(SD), and the root is taken at the end.
     const double variance =
         std::pow(section.window_sd, 2) + std::pow(section.porosity - specimen.porosity, 2);
     shares.push_back(
@@ -70,7 +73,8 @@ void pool_window_sd(const std::vector<SectionPorosity>& sections, SpecimenPorosi
     specimen.window_sd_standard_error = variance.standard_error / (2.0 * specimen.window_sd);
 }
 
-// Σa²/Σa over the pores of all sections with a pixel size.
+// (K2) Σa²/Σa over the pores of all sections with a pixel size: a section's Σa² is its pore area
+// times its a*. All have windows of one size.
 void pool_pore_area_ratio(const std::vector<SectionPorosity>& sections,
                           SpecimenPorosity& specimen) {
   double area = 0.0, squares = 0.0;
@@ -83,7 +87,7 @@ void pool_pore_area_ratio(const std::vector<SectionPorosity>& sections,
   if (area > 0.0) specimen.pore_area_ratio = squares / area;
 }
 
-// Before it is held inside its bounds.
+// (K3) Before it is held inside its bounds. NaN where nothing tells it.
 double free_scatter(const SpecimenPorosity& porosity, const PorosityOptions& options) {
   switch (options.to_scatter) {
     case ToScatter::window:
@@ -118,10 +122,12 @@ double missing_joints(const SpecimenPorosity& porosity) {
 
 double scatter_of(const SpecimenPorosity& porosity, const PorosityOptions& options) {
   assert(porosity.porosity >= 0.0 && porosity.porosity < 1.0);
+  // A scatter that is NaN stays so.
   return std::clamp(free_scatter(porosity, options), 0.0, largest_scatter);
 }
 
 double scatter_standard_error(const SpecimenPorosity& porosity, const PorosityOptions& options) {
+  // To first order, of the scatter before it is held: at a bound it is as uncertain.
   const double d = free_scatter(porosity, options);
   if (!std::isfinite(d)) return d;
   if (options.to_scatter == ToScatter::linear)
@@ -129,6 +135,7 @@ double scatter_standard_error(const SpecimenPorosity& porosity, const PorosityOp
   const double solid = 1.0 - porosity.porosity;
   const double by_sd =
       std::sqrt(12.0) * options.strength_exponent / solid * porosity.window_sd_standard_error;
+  // The windows' SD and the porosity are taken as independent.
   return std::hypot(by_sd, d / solid * porosity.porosity_standard_error);
 }
 

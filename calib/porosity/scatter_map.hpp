@@ -7,10 +7,13 @@
 
 namespace havers::calib {
 
-/// How porosity becomes scatter, and how it acts on the modulus.
+/// How porosity becomes scatter: by its spread over windows (K3), by a straight line, or not at
+/// all.
 enum class ToScatter { window, linear, none };
+/// How it acts on the modulus: not, or by a power of what is solid (K4).
 enum class ToModulus { none, power };
 
+/// The laws of porosity, as a study's table [porosity] gives them. The numbers can be calibrated.
 struct PorosityOptions {
   ToScatter to_scatter = ToScatter::window;
   ToModulus to_modulus = ToModulus::none;

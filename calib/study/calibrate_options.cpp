@@ -1,3 +1,4 @@
+// All that is wrong is told at once, so that a study is mended in one go; nothing is changed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +20,7 @@ std::string names_to_choose_from() {
   return names;
 }
 
+// `table` is the key of [calibrate] that names the parameter.
 void check_name(const std::string& name, const std::string& table, Complaints& found) {
   if (!find_parameter(name))
     found.push_back(
@@ -36,7 +38,9 @@ void check_parameters(const CalibrateOptions& options, Complaints& found) {
   }
 }
 
-// The one that a fit sets later undoes the other: resultant_MPa and aspect_ratio keep the ratio.
+// The one that a fit sets later undoes the other: ratio and flank_MPa both set σ₂, head_tail_MPa
+// and resultant_MPa scale all stresses, flank_MPa changes the resultant, and aspect_ratio, which
+// keeps the ratio, changes σ₂.
 void check_rivals(const CalibrateOptions& options, Complaints& found) {
   const auto asked = [&](std::string_view name) {
     return std::ranges::find(options.parameters, name) != options.parameters.end();
@@ -56,15 +60,18 @@ void check_bounds(const CalibrateOptions& options, Complaints& found) {
     check_name(name, "bounds", found);
     const auto* info = find_parameter(name);
     const std::string key = "bounds." + name;
+    // So written, a bound that is no number is wrong too.
     if (!(lower < upper))
       found.push_back({key, fmt::format("is [{}, {}], must rise", lower, upper)});
     if (info && info->scale == Scale::logarithmic && !(lower > 0.0))
       found.push_back({key, fmt::format("starts at {}, must start above 0", lower)});
+    // At d = 2 a joint would start broken (M8).
     if (name == "scatter" && !(lower >= 0.0 && upper < 2.0))
       found.push_back({key, fmt::format("is [{}, {}], must lie in [0, 2)", lower, upper)});
   }
 }
 
+// The terms are the landmarks of a curve (F4), by their names.
 void check_terms(const CalibrateOptions& options, Complaints& found) {
   std::vector<std::string> known;
   for (Eigen::Index q = 0; q < landmark_count; ++q)

@@ -16,7 +16,8 @@ void scale_thresholds(sim::JointOptions& joints, double factor) {
   if (joints.flank_tension) *joints.flank_tension *= factor;
 }
 
-// f₂ acts as shear on a head-tail joint, f₁ as tension on a flank joint, unless set apart.
+// f₂ acts as shear on a head-tail joint, f₁ as tension on a flank joint, unless set apart (section
+// 4 of the model): the other kind's force over its own length, l or L/2. [Pa]
 double default_shear(const sim::Scene& scene) {
   return scene.joints.flank * 0.5 * scene.assembly.fibre_length / scene.assembly.fibre_height;
 }
@@ -25,11 +26,13 @@ double default_tension(const sim::Scene& scene) {
   return scene.joints.head_tail * scene.assembly.fibre_height / (0.5 * scene.assembly.fibre_length);
 }
 
+// (M9) σ₁ stays, and σ₂ follows.
 void set_ratio(sim::Scene& scene, double ratio) {
   scene.joints.flank = sim::flank_from_ratio(scene.assembly, scene.joints.head_tail, ratio);
 }
 
-/// How a parameter is read from a scene and written to it, in its unit.
+/// How a parameter is read from a scene and written to it, in its unit. A row for each of
+/// `all_parameters` that is not of porosity.
 struct Access {
   std::string_view name;
   double (*get)(const sim::Scene&);
@@ -64,6 +67,7 @@ constexpr std::array accesses{
     Access{"aspect_ratio",
            [](const Scene& s) { return s.assembly.fibre_length / s.assembly.fibre_height; },
            [](Scene& s, double x) {
+             // The ratio depends on the length: it is read before, and kept.
              const double ratio = sim::ratio(s.assembly, s.joints);
              s.assembly.fibre_length = x * s.assembly.fibre_height;
              set_ratio(s, ratio);
@@ -76,7 +80,7 @@ constexpr std::array accesses{
            [](Scene& s, double x) { s.material.viscosity = x; }},
 };
 
-// Null for a parameter of the scene.
+// The number of a law of porosity by its name; null for a parameter of the scene.
 double PorosityOptions::*law_of(std::string_view name) {
   if (name == "modulus_exponent") return &PorosityOptions::modulus_exponent;
   if (name == "strength_exponent") return &PorosityOptions::strength_exponent;
@@ -88,6 +92,7 @@ double PorosityOptions::*law_of(std::string_view name) {
 
 const std::vector<ParameterInfo>& all_parameters() {
   constexpr auto logarithmic = Scale::logarithmic, linear = Scale::linear;
+  // In the order in which a fit sets them.
   static const std::vector<ParameterInfo> table{
       {"young_GPa", "E", "GPa", 1.0, 60.0, logarithmic, "Young's modulus of the fibres.", true},
       {"head_tail_MPa", "σ₁", "MPa", 1.0, 1000.0, logarithmic,

@@ -17,6 +17,7 @@ namespace havers::calib {
 
 inline constexpr double degree = std::numbers::pi / 180.0;  ///< [rad]
 
+/// Whether a specimen is fitted, or kept to be predicted by the fit.
 enum class Use { fit, validate };
 
 /// One test with the sections of the same bone, read and reduced.
@@ -82,6 +83,7 @@ struct SweepLaw {
   std::vector<double> coefficients;  ///< Those of the terms, then the constant. [Pa]
 };
 
+/// A study whose files are read, ready to be fitted.
 struct Study {
   std::string name;
   std::vector<Specimen> specimens;

@@ -5,13 +5,16 @@
 
 namespace havers::calib {
 
+/// One number that a claim is judged by: a relative difference (W3), a coefficient of variation
+/// (W4), a distance from a line over the mean (W5), or a mean in its SI unit.
 struct Comparison {
   std::vector<ComparedKey> compared{};
+  /// The interval is NaN where a point has fewer than two runs.
   double value = 0.0, low = 0.0, high = 0.0;
   bool step = false;  ///< Between neighbours, beside a claim about the ends.
 };
 
-/// What a claim is judged by.
+/// What a claim is judged by. All of it belongs to the caller, who keeps it.
 struct Evidence {
   const FindingRequest& request;
   const SweepPlan& plan;

@@ -1,3 +1,5 @@
+// A claim is a range for every comparison; its outcome follows from where the intervals lie.
+// Numbers are judged in full, and only what is shown is rounded or held within what it can be.
 #include "calib/sweep/finding.hpp"
 
 #include <fmt/format.h>
@@ -43,6 +45,7 @@ Bracket range_of(const FindingRequest& request) {
   return {};
 }
 
+// By the whole interval; one that is not known is neither inside nor outside.
 bool inside(const Comparison& c, Bracket range) {
   return c.low >= range.low && c.high <= range.high;
 }
@@ -53,7 +56,7 @@ bool outside(const Comparison& c, Bracket range) {
 }
 
 // Every interval inside: agrees. One wholly outside: disagrees; where it is that of a step between
-// neighbours only, what the ends say is in doubt.
+// neighbours only, what the ends say is in doubt. A step need not be inside, but known.
 FindingOutcome outcome_of(const std::vector<Comparison>& comparisons, Bracket range) {
   bool agrees = true;
   for (const Comparison& c : comparisons) {
@@ -91,6 +94,7 @@ std::string in_its_unit(Measure measure, double value) {
   return fmt::format("{:g}{}{}", value / words.scale, words.unit.empty() ? "" : " ", words.unit);
 }
 
+// What was asked, for the reader of the finding.
 std::string ground_of(const FindingRequest& request) {
   const double percent = 100.0 * request.margin;
   switch (request.test) {
@@ -125,6 +129,7 @@ void show(const Comparison& comparison, const FindingRequest& request, Finding& 
   finding.value = comparison.value;
   finding.low = comparison.low;
   finding.high = comparison.high;
+  // Runs that are equal but for rounding have no interval to show.
   if (finding.high - finding.low <= rounding * std::abs(finding.value))
     finding.low = finding.high = finding.value;
   if (!judges_means(request.test) || !is_share(request.response) || std::isnan(comparison.low))
@@ -164,8 +169,10 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
   finding.test = request.test;
   finding.response = request.response;
   finding.ground = ground_of(request);
+  // Not known until something is compared.
   finding.value = finding.low = finding.high = std::numeric_limits<double>::quiet_NaN();
   finding.inertia_low = finding.inertia_high = finding.value;
+  // fmin and fmax take the number where the other is none.
   for (const std::size_t point : group.points) {
     finding.runs += static_cast<long>(values_of(evidence.runs, point, request.response).size());
     const double inertia = evidence.points[point].inertia_number;
@@ -173,6 +180,7 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
     finding.inertia_high = std::fmax(finding.inertia_high, inertia);
   }
   finding.ground += without_value(evidence, group);
+  // A bound is no value: one such run, and no comparison is made.
   const long unbroken = unbroken_of(evidence.runs, group.points, request.response);
   if (unbroken > 0)
     finding.ground +=
@@ -189,6 +197,7 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
     finding.outcome = outcome_of(comparisons, range);
     if (worst.step && outside(worst, range) && finding.outcome == FindingOutcome::undecided)
       finding.ground += "; this step goes the other way";
+    // `matters` is judged as `same`, and means the contrary.
     if (request.test == FindingTest::matters) finding.outcome = opposite(finding.outcome);
   }
   finding.meaning = meaning_of(request, finding.outcome);
@@ -217,10 +226,12 @@ std::string to_string(FindingOutcome outcome) {
 int extra_digits(const Finding& finding, double scale) {
   const double width = (finding.high - finding.low) / scale;
   if (!std::isfinite(width) || width <= 0.0) return 0;
+  // The place of the second digit of the width, as the page rounds it; at most that of the units.
   const std::string two_digits = fmt::format("{:.1e}", width);
   const int exponent = std::stoi(two_digits.substr(two_digits.find('e') + 1));
   const double unit = scale * std::pow(10.0, std::min(0, exponent - 1));
   const auto steps = [unit](double value) { return std::round(value / unit); };
+  // An end beyond what was asked that is rounded to it, or within, would contradict the outcome.
   const bool hidden =
       (finding.low < finding.asked_low && steps(finding.low) >= steps(finding.asked_low)) ||
       (finding.high > finding.asked_high && steps(finding.high) <= steps(finding.asked_high));

@@ -25,6 +25,7 @@ enum class FindingTest {
 /// relative.
 bool judges_means(FindingTest test);
 
+/// A claim and how it is to be judged, as a sweep's file states it.
 struct FindingRequest {
   std::string id, claim;
   FindingTest test = FindingTest::same;
@@ -35,6 +36,7 @@ struct FindingRequest {
   std::string if_agrees, if_disagrees, if_undecided;  ///< What it means, in words.
 };
 
+/// Undecided: an interval lies across the end of what was asked, or is not known.
 enum class FindingOutcome { agrees, disagrees, undecided };
 
 std::string to_string(FindingOutcome outcome);

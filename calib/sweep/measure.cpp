@@ -13,14 +13,16 @@ namespace {
 
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
-// The strain whose stress the viscous one adds from the start on. [-]
+// (M2) In uniform motion viscous fibres bear E τ ε̇ from the start on: the strain whose stress that
+// is. 0 where it has to build up from rest, or the limit knows no time. [-]
 double viscous_strain_of(const sim::Scene& scene) {
   const bool from_the_start = scene.loading.start == sim::Start::uniform &&
                               sim::choose_regime(scene).regime == sim::Regime::dynamic;
   return from_the_start ? scene.material.viscosity * scene.loading.strain_rate : 0.0;
 }
 
-// Up to which strain the curve keeps within 1 % of the modulus's line.
+// Up to which strain the curve lies beside the modulus's line by 1 % of the strength at most; no
+// farther than the failure strain.
 double linear_until(const Response& response, double viscous_strain) {
   double until = 0.0;
   for (std::size_t i = 0; i < response.strain.size(); ++i) {
@@ -44,6 +46,7 @@ std::array<double, measure_count> measures_of(const Response& response, const si
                                               const Pattern* pattern) {
   std::array<double, measure_count> measures{};
   measures.fill(not_measured);
+  // What is not set is NaN, and no mean takes it.
   if (response.failed || response.strain.empty()) return measures;
   const auto set = [&](Measure m, double value) {
     measures.at(static_cast<std::size_t>(m)) = value;
@@ -51,10 +54,12 @@ std::array<double, measure_count> measures_of(const Response& response, const si
   const double failure = response.failure_strain;
   set(Measure::strength, response.strength);
   set(Measure::failure_strain, failure);
+  // A modulus that is not known leaves the line open too.
   if (response.modulus > 0.0) {
     set(Measure::modulus, response.modulus);
     set(Measure::linear_part, linear_until(response, viscous_strain_of(scene)) / failure);
   }
+  // Without a break the run ends at the strain limit, which says nothing of the fall.
   if (response.broke) set(Measure::fall_part, (response.strain.back() - failure) / failure);
   if (pattern == nullptr) return measures;
   set(Measure::head_tail_broken, pattern->head_tail);
@@ -73,6 +78,7 @@ double Statistics::half_width(double risk) const {
   return gsl_cdf_tdist_Qinv(0.5 * risk, static_cast<double>(n - 1)) * standard_error();
 }
 
+// In one pass; plain sums of squares would lose the spread of values that are nearly equal.
 Statistics statistics_of(const std::vector<double>& values) {
   Statistics statistics{.n = 0, .mean = 0.0, .sd = 0.0};
   double squares = 0.0;  // of the deviations [Welford 1962]
@@ -134,7 +140,9 @@ std::vector<PointGroup> groups_of(const std::vector<SweepPoint>& points, const S
   std::vector<PointGroup> groups;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].level > 1) continue;
+    // A key that does not vary, as the empty one, makes one group.
     const std::string value = column == plan.keys.size() ? "" : points[i].values[column];
+    // In the order in which values come first.
     auto group = std::ranges::find(groups, value, &PointGroup::value);
     if (group == groups.end()) group = groups.insert(group, {value, {}});
     group->points.push_back(i);

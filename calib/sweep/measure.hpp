@@ -13,6 +13,7 @@
 
 namespace havers::calib {
 
+/// What is measured on a run. The number of a measure is its place in all arrays of measures.
 enum class Measure {
   strength,          ///< [Pa]
   failure_strain,    ///< [-]
@@ -44,6 +45,7 @@ struct SweepPoint {
 /// I (M12) of a scene; NaN where the scene asks for the quasi-static limit, which no rate enters.
 double inertia_of(const sim::Scene& scene);
 
+/// One simulation of a point, and what was measured on it.
 struct SweepRun {
   std::size_t point = 0;
   std::uint64_t seed = 0;
@@ -58,6 +60,7 @@ struct SweepRun {
   }
   /// The strain limit came first: strength and failure strain are lower bounds.
   [[nodiscard]] bool unbroken() const { return !failed && !broke; }
+  /// It is to be trusted but for what `why` says.
   [[nodiscard]] bool reserved() const { return !failed && !why.empty(); }
 };
 
@@ -65,10 +68,12 @@ struct SweepRun {
 std::array<double, measure_count> measures_of(const Response& response, const sim::Scene& scene,
                                               const Pattern* pattern);
 
+/// What a number of values say together.
 struct Statistics {
   long n = 0;
   double mean = 0.0, sd = 0.0;  ///< NaN without enough runs.
 
+  /// Of the mean; NaN of fewer than two values, as the half width.
   [[nodiscard]] double standard_error() const;
   /// Half width of the interval of confidence 1 − `risk`, by Student's t.
   [[nodiscard]] double half_width(double risk = 0.05) const;
@@ -77,6 +82,7 @@ struct Statistics {
 /// Of the values that are numbers.
 Statistics statistics_of(const std::vector<double>& values);
 
+/// The runs of one point together.
 struct PointSummary {
   long runs = 0, failed = 0, unbroken = 0;  ///< Unbroken: the strain limit came first.
   long reserved = 0;                        ///< To be trusted but for what the run says.
@@ -101,6 +107,7 @@ std::vector<double> values_of(const std::vector<SweepRun>& runs, std::size_t poi
 long unbroken_of(const std::vector<SweepRun>& runs, const std::vector<std::size_t>& points,
                  Measure m);
 
+/// Counts all runs of a point, and sums up those that tell each measure.
 PointSummary summary_of(const std::vector<SweepRun>& runs, std::size_t point);
 
 /// Which points share the value of a key: their value and their indices, in order; one group of

@@ -6,6 +6,7 @@ namespace havers::calib {
 
 MeasureWords words_of(Measure measure) {
   constexpr double percent = 0.01, MPa = 1e6, GPa = 1e9;
+  // In the order of `Measure`.
   const std::array<MeasureWords, measure_count> words{{
       {"Strength", "MPa", MPa},
       {"Failure strain", "%", percent},

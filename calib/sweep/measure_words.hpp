@@ -7,10 +7,12 @@
 
 namespace havers::calib {
 
+/// A number in SI units is shown as number / scale, with the unit behind it.
 struct MeasureWords {
   std::string name, unit;
   double scale = 1.0;  ///< SI value over the shown one.
 };
+/// The unit is empty of counts and ratios.
 MeasureWords words_of(Measure measure);
 
 }  // namespace havers::calib

@@ -14,6 +14,8 @@ struct Pattern {
                         ///< NaN when none broke. [-]
 };
 
+/// O(n log n) of the broken joints. Missing joints make chains longer, but are not counted as
+/// broken. Precondition: one outcome for each joint of the assembly, in its order.
 Pattern pattern_of(const sim::Assembly& assembly, const std::vector<sim::JointOutcome>& joints);
 
 }  // namespace havers::calib

@@ -16,7 +16,8 @@ namespace {
 
 using Unit = std::vector<std::vector<double>>;  // points in [0, 1)^keys
 
-// A permutation of the strata for each key, and a place in each stratum. [MCB79]
+// A permutation of the strata for each key, by sorting random numbers, and a place in each stratum.
+// [MCB79] The numbers are functions of point, key and seed alone.
 Unit latin_hypercube(std::size_t points, std::size_t keys, std::uint64_t seed) {
   Unit unit(points, std::vector<double>(keys));
   for (std::size_t key = 0; key < keys; ++key) {
@@ -25,6 +26,7 @@ Unit latin_hypercube(std::size_t points, std::size_t keys, std::uint64_t seed) {
     for (std::size_t i = 0; i < points; ++i) {
       const auto bits = r123::Philox2x64()({{i, key}}, {{seed}});
       order[i] = {bits[0], i};
+      // The upper 53 bits, as many as a double holds: in [0, 1).
       place[i] = static_cast<double>(bits[1] >> 11) * 0x1p-53;
     }
     std::ranges::sort(order);
@@ -36,6 +38,7 @@ Unit latin_hypercube(std::size_t points, std::size_t keys, std::uint64_t seed) {
   return unit;
 }
 
+// A sequence without a seed: its first points.
 Unit sobol(std::size_t points, std::size_t keys) {
   const std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> sequence(
       gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(keys)), gsl_qrng_free);
@@ -44,8 +47,10 @@ Unit sobol(std::size_t points, std::size_t keys) {
   return unit;
 }
 
+// The value a part of the way from the lower bound to the upper, as the text of a TOML number.
 std::string between(const SweepKey& key, double part) {
   const double low = number_in(key.values[0]), high = number_in(key.values[1]);
+  // A bound of 0 or below has no logarithm.
   const bool by_logarithm = low > 0.0 && high >= 100.0 * low;
   return fmt::format("{:.9g}",
                      by_logarithm ? low * std::pow(high / low, part) : low + part * (high - low));
@@ -85,7 +90,7 @@ std::vector<std::vector<std::string>> list(const std::vector<SweepKey>& keys) {
   return rows;
 }
 
-// Of all points and seeds; a grid grows fast.
+// Of all points and seeds; a grid grows fast, beyond what an integer holds.
 double runs_of(const SweepPlan& plan) {
   double points = is_sample(plan.sampling) ? plan.points : 1.0;
   for (const SweepKey& key : plan.keys)
@@ -104,6 +109,7 @@ bool is_sample(Sampling sampling) {
 double number_in(const std::string& value) {
   double number = 0.0;
   const char* const end = value.data() + value.size();
+  // A number with anything behind it is none.
   return std::from_chars(value.data(), end, number).ptr == end ? number : std::nan("");
 }
 
@@ -120,10 +126,12 @@ std::vector<SweepPlan::Problem> SweepPlan::problems() const {
     complain("keys", "has more keys than the 40 dimensions of the Sobol sequence");
   for (const SweepKey& key : keys) {
     if (key.values.empty()) complain("keys", fmt::format("gives {} no values", key.name));
+    // The values of a list go together: each key has as many.
     if (sampling == Sampling::list && key.values.size() != keys.front().values.size())
       complain("keys", fmt::format("is a list, but {} has {} and {} has {}", key.name,
                                    count(key.values.size(), "value"), keys.front().name,
                                    keys.front().values.size()));
+    // NaN, of a bound that is no number, is not less either.
     if (is_sample(sampling) &&
         !(key.values.size() == 2 && number_in(key.values.front()) < number_in(key.values.back())))
       complain("keys", fmt::format("is a sample, but {} has no lower and upper bound", key.name));

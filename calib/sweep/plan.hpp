@@ -12,6 +12,7 @@ namespace havers::calib {
 /// fill the box between two bounds for each key.
 enum class Sampling { list, grid, latin_hypercube, sobol };
 
+/// Whether keys have bounds instead of values.
 bool is_sample(Sampling sampling);
 
 /// A key of a scene and what it takes, as TOML values.
@@ -26,6 +27,7 @@ double number_in(const std::string& value);
 constexpr int most_sample_points = 100'000;  ///< Of a sample.
 constexpr double most_runs = 1e6;            ///< Of all points: what memory holds.
 
+/// Which points, and how many runs of each.
 struct SweepPlan {
   Sampling sampling = Sampling::grid;
   std::vector<SweepKey> keys;

@@ -38,6 +38,7 @@ StrengthLaw strength_law(std::span<const double> strengths) {
   const std::vector<double> values(strengths.begin(), strengths.end());
   const Statistics all = statistics_of(values);
   StrengthLaw law;
+  // Fewer runs tell no law, and equal ones have none.
   if (all.n < 5 || !(all.sd > 1e-9 * all.mean)) return law;
   law.runs = all.n;
   const Weibull fitted = weibull(values);
@@ -47,6 +48,7 @@ StrengthLaw strength_law(std::span<const double> strengths) {
 
   std::vector<double> powers, logs;
   for (const double x : values) {
+    // Shifted and scaled by mean and deviation, so that no exponential overflows.
     powers.push_back(std::exp((x - all.mean) / all.sd));
     logs.push_back(std::log(x));
   }

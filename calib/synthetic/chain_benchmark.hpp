@@ -53,11 +53,13 @@ struct Progress {
 /// Rows of one chain: 10, 50 and 90 %.
 struct ChainSummary {
   std::string chain;
+  /// Each at 10, 50 and 90 % of the rows.
   std::array<double, 3> error{}, simulations{}, seconds{};
   Rate success;
   std::vector<Progress> by_simulations{}, by_seconds{};
 };
 
+/// All fits, and what they come to.
 struct ChainBenchmark {
   std::vector<ChainRow> rows;
   std::vector<ChainSummary> summaries;  ///< In the order of the rows; empty when stopped.
@@ -71,7 +73,8 @@ struct ChainBenchmark {
   [[nodiscard]] const ChainSummary& winner() const;
 };
 
-/// Fits `studies` known studies by every chain. `go_on` is asked before every fit; false ends.
+/// Fits `studies` known studies by every chain, one after the other on `threads` threads (0: all).
+/// `go_on` is asked before every fit; false ends, with the rows so far and no summaries.
 ChainBenchmark benchmark_chains(CostlyUnknowns unknowns, int studies, int threads,
                                 const std::function<bool()>& go_on);
 

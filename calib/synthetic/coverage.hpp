@@ -34,7 +34,7 @@ struct CoverageSummary {
   [[nodiscard]] int held() const;  ///< Intervals that hold the truth.
 };
 
-/// What a share says of intervals that promise 95 %.
+/// What a share says of intervals that promise 95 %, from what chance leaves open.
 enum class IntervalWidth {
   as_promised,
   too_wide,
@@ -44,8 +44,10 @@ enum class IntervalWidth {
   too_few,  ///< Neither all nor none would be beside 95 % by more than chance, or the share's own
             ///< interval reaches below 85 %, three times as many misses as promised.
 };
+/// For tables: "as promised", "too few to tell".
 std::string to_string(IntervalWidth width);
 
+/// All intervals, and what they come to.
 struct Coverage {
   std::vector<CoverageRow> rows;
   std::vector<CoverageSummary> summaries;

@@ -29,6 +29,7 @@ Design three_orientations();
 /// The same with scatter unknown instead of threshold: two unknowns that cost simulations.
 Design unknown_scatter();
 
+/// A study, and the answer that its fit should have.
 struct KnownStudy {
   Study study;
   KnownParameters parameters;
@@ -46,6 +47,7 @@ struct Rate {
   double part = 0.0;
   std::array<double, 2> interval_95{};
 };
+/// Of n = 0: NaN, from 0 to 1.
 Rate rate_of(int successes, int n);
 
 /// Median, and 10 and 90 % beside it: {10 %, 50 %, 90 %}. Precondition: not empty.

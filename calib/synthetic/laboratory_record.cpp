@@ -14,6 +14,7 @@ namespace {
 // What a random number is for; with the seed and the row it names the number.
 enum class Draw : std::uint64_t { noise = 1, seed = 2, modulus = 3, gain = 4 };
 
+// The same for the same arguments, whatever was drawn before.
 r123::Philox2x64::ctr_type draw(std::uint64_t seed, std::uint64_t row, Draw purpose) {
   return r123::Philox2x64()({{row, static_cast<std::uint64_t>(purpose)}}, {{seed}});
 }
@@ -29,6 +30,7 @@ double strain_of_specimen(double gauge, double toe) {
 }
 
 // The inverse of (Y1) by Newton's method, from above: (Y1) is convex, so that no step goes too far.
+// 0 where the specimen is not strained.
 double strain_of_gauge(double specimen, double toe) {
   if (toe <= 0.0 || specimen <= 0.0) return std::max(specimen, 0.0);
   double gauge = specimen + toe;
@@ -64,6 +66,7 @@ RawTest record_test(const sim::Simulation& simulation, const Bar& bar, const Lab
   // preload.
   const double start = strain_of_gauge(laboratory.preload / (bar.area() * simulation.modulus),
                                        laboratory.toe_strain);
+  // One draw for a test: a calibration errs alike in all rows.
   const auto gain = gauss_pair(seed, 0, Draw::gain);
   const double force_gain = 1.0 + laboratory.gain_error * gain.x;
   const double strain_gain = 1.0 + laboratory.gain_error * gain.y;
@@ -91,6 +94,7 @@ std::uint64_t specimen_seed(std::uint64_t study_seed, std::uint64_t specimen) {
 }
 
 double modulus_variation(std::uint64_t specimen_seed, double cv) {
+  // Of the logarithm, for that coefficient of variation; the mean stays 1 by the shift.
   const double sd = std::sqrt(std::log1p(cv * cv));
   return std::exp(sd * gauss_pair(specimen_seed, 0, Draw::modulus).x - 0.5 * sd * sd);
 }

@@ -21,6 +21,7 @@ TableReader ConfigFile::top() {
 }
 
 std::string ConfigFile::where(const toml::node& node, const std::string& key) const {
+  // The top, where a key may be missing, has no line, nor has what no text was parsed for.
   const toml::source_region& source = node.source();
   if (is_override(node)) return fmt::format("{}{}", override_mark, key);
   if (&node == top_.get() || source.begin.line == 0)
@@ -28,7 +29,8 @@ std::string ConfigFile::where(const toml::node& node, const std::string& key) co
   return fmt::format("{}:{}: {}", file_.string(), source.begin.line, key);
 }
 
-// The one other table that has the key, or what is near in its own.
+// The one other table that has the key, or what is near in its own. At the top a key has no table
+// to name, and of two tables neither is surely meant.
 std::string ConfigFile::hint_of_key(std::string_view key,
                                     const std::set<std::string, std::less<>>& known) const {
   const auto has_key = [&](const auto& table) { return table.second.contains(key); };
@@ -39,8 +41,10 @@ std::string ConfigFile::hint_of_key(std::string_view key,
 }
 
 std::vector<Problem> ConfigFile::problems() {
+  // Tables to look through, breadth first. Those of one [[name]] share a path, and so their keys.
   std::vector<std::pair<const toml::table*, std::string>> open{{top_.get(), ""}};
   for (std::size_t i = 0; i < open.size(); ++i) {
+    // A copy: what is opened below may move the list.
     const auto [table, path] = open[i];
     const auto& known = asked_[path];
     for (auto&& [key, node] : *table) {
@@ -48,7 +52,7 @@ std::vector<Problem> ConfigFile::problems() {
       if (!known.contains(key.str()))
         complain({where(node, name), "is not a known key", hint_of_key(key.str(), known)});
       else if (!asked_.contains(name))
-        continue;  // a value, judged where it was read
+        continue;  // a value, or keys of the user's own: judged where it was read
       else if (const toml::table* inner = node.as_table())
         open.emplace_back(inner, name);
       else if (const toml::array* list = node.as_array())

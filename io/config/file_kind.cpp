@@ -1,3 +1,5 @@
+// A file is known by its tables at the top alone: a study has those of a scene under [model], a
+// sweep beside its own.
 #include "io/config/file_kind.hpp"
 
 #include <fmt/format.h>
@@ -10,9 +12,10 @@ namespace havers::io {
 namespace {
 
 struct KindWords {
-  const char *name, *commands;
+  const char *name, *commands;  // the second as a hint
 };
 
+// In the order of FileKind.
 constexpr std::array<KindWords, 3> kind_words{KindWords{"scene", "havers simulate takes it"},
                                               KindWords{"study", "havers fit takes it"},
                                               KindWords{"sweep", "havers sweep takes it"}};
@@ -53,6 +56,8 @@ FileKind kind_of_file(const std::filesystem::path& file, const Overrides& overri
 
 void require_kind(FileKind expected, const TableReader& top, const std::filesystem::path& file) {
   const Tables tables = tables_of(top);
+  // With tables of both a study and a scene either may be meant, with none nothing is known: the
+  // reader names each key that is wrong.
   const bool of_several = tables.study && tables.scene;
   const bool of_none = !tables.study && !tables.sweep && !tables.scene;
   const FileKind kind = kind_of(tables);

@@ -8,15 +8,18 @@
 
 namespace havers::io {
 
+/// What the file describes, and so which command takes it.
 enum class FileKind { scene, study, sweep };
 
+/// "scene", "study", "sweep".
 std::string_view name_of(FileKind kind);
 
 /// Study before sweep before scene; a file whose tables are of no kind is a scene.
 /// @throws InputError when the file cannot be read or is not TOML, or an override is neither.
 FileKind kind_of_file(const std::filesystem::path& file, const Overrides& overrides);
 
-/// @throws InputError when the tables are those of another kind, whose keys would all be unknown.
+/// `top` is the file's. @throws InputError when the tables are those of another kind, whose keys
+/// would all be unknown. A file with tables of no kind passes: its reader names the keys.
 void require_kind(FileKind expected, const TableReader& top, const std::filesystem::path& file);
 
 }  // namespace havers::io

@@ -10,6 +10,8 @@
 namespace havers::io {
 
 double from_si(double si, KeyUnit unit) {
+  // The quotient is rounded, so that it may miss the number of the file by a bit. Fifteen digits
+  // give a short number back as it was written; else a neighbour may be the one.
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double nearest = si * unit.over / unit.times;
   const double rounded = std::strtod(fmt::format("{:.15g}", nearest).c_str(), nullptr);

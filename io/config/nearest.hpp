@@ -13,7 +13,7 @@ namespace havers::io {
 std::string did_you_mean(std::string_view word,
                          const std::set<std::string, std::less<>>& candidates);
 
-/// The same; "known are X, Y, Z" where none is near.
+/// The same; "known are X, Y, Z" where none is near, and nothing where there are no candidates.
 std::string nearest_or_all(std::string_view word,
                            const std::set<std::string, std::less<>>& candidates);
 

@@ -1,3 +1,5 @@
+// The file and each override become tables of their own, merged key by key. Every node keeps the
+// source that it was parsed from, so that a complaint about it names its line or its --set.
 #include "io/config/parse_toml.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +14,8 @@
 namespace havers::io {
 namespace {
 
-// What is behind the parser's most frequent complaints.
+// What is behind the parser's most frequent complaints, by words of its own; empty for others. The
+// first that fits counts, so the more special of two stands first.
 const char* hint_for(std::string_view complaint) {
   using Hint = std::pair<std::string_view, const char*>;
   for (const auto& [words, hint] :
@@ -52,7 +55,7 @@ toml::table parse_file(const std::filesystem::path& file) {
   }
 }
 
-// TOML's whole numbers have 64 bits with their sign.
+// TOML's whole numbers have 64 bits with their sign; a longer one would pass for a bare word.
 bool has_too_many_digits(std::string_view text) {
   std::int64_t number = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -61,6 +64,7 @@ bool has_too_many_digits(std::string_view text) {
 
 // "joints.scatter=0.3" as a table; its nodes name "--set joints.scatter" as their source.
 toml::table parse_override(const std::string& text) {
+  // Without a "=" the whole text is the key.
   const std::size_t equals = text.find('=');
   const std::string key = text.substr(0, equals);
   const std::string source = std::string(override_mark) + key;
@@ -75,6 +79,7 @@ toml::table parse_override(const std::string& text) {
   if (has_too_many_digits(value))
     throw InputError(source, fmt::format("is {}, must be at most 2^63 - 1", value));
   try {
+    // A literal text: no backslash in it is an escape.
     return toml::parse(fmt::format("{} = '{}'", key, value), source);
   } catch (const toml::parse_error& error) {
     throw InputError(source, fmt::format("is not TOML: {}", error.description()),
@@ -82,6 +87,8 @@ toml::table parse_override(const std::string& text) {
   }
 }
 
+// Puts `overrides` on top: tables of one name are joined, anything else is replaced. A later
+// override wins.
 void merge(toml::table& top, toml::table&& overrides) {
   std::vector<std::pair<toml::table*, toml::table*>> pairs{{&top, &overrides}};
   while (!pairs.empty()) {
@@ -108,6 +115,7 @@ bool is_override(const toml::node& node) {
 
 toml::table parse_toml(const std::filesystem::path& file, const Overrides& overrides) {
   toml::table table = file.empty() ? toml::table{} : parse_file(file);
+  // A faulty file ends the reading; of the overrides all are tried, to name every faulty one.
   std::vector<Problem> problems;
   for (const std::string& text : overrides) {
     try {

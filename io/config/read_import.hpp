@@ -7,9 +7,10 @@
 
 namespace havers::io {
 
+/// What `havers import --set` may say; defaults as in a study.
 struct ImportSettings {
-  ReadOptions columns{.alone = true};
-  ReadOptions gauge_columns{.logger = true, .alone = true};
+  ReadOptions columns{.alone = true};                        ///< Of the test.
+  ReadOptions gauge_columns{.logger = true, .alone = true};  ///< Of the second logger's file.
   calib::ReductionOptions reduction;
 };
 

@@ -1,3 +1,5 @@
+// A scene file is the tables of a scene (scene_tables.hpp) and [output], which is no part of the
+// model.
 #include "io/config/read_scene.hpp"
 
 #include <fmt/format.h>
@@ -26,12 +28,15 @@ SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrid
     output.complain("snapshots", "this build writes no snapshots for ParaView",
                     "apt-get install libvtk9-dev and build again, or set output.snapshots = 0");
 
+  // Given thresholds are not drawn, so these keys are left over: a warning, as a scene with them
+  // can be run.
   if (TableReader joints = top.table("joints"); joints.has("thresholds_file"))
     for (const char* const key : {"seed", "scatter", "distribution", "missing"})
       if (joints.has(key))
         read.warnings.push_back(fmt::format(
             "joints.{} changes nothing: thresholds_file gives those of every joint", key));
 
+  // Only a scene that can be simulated is asked for doubts.
   config.finish();
   std::ranges::move(read.scene.doubts(), std::back_inserter(read.warnings));
   read.inputs = config.inputs();

@@ -13,6 +13,7 @@ namespace havers::io {
 /// a string.
 using Overrides = std::vector<std::string>;
 
+/// A scene as read, and what surrounds it in its file.
 struct SceneFile {
   sim::Scene scene;
   int snapshots = 0;                            ///< .vtu files to write.

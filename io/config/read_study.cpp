@@ -1,3 +1,5 @@
+// Reads a study table by table. Every reader complains and goes on with what is good, so that all
+// that is wrong is said at once.
 #include "io/config/read_study.hpp"
 
 #include <fmt/format.h>
@@ -94,7 +96,7 @@ std::vector<SpecimenFiles> read_specimens(TableReader& top, Files files) {
     check_specimen(table, specimen);
     if (table.has("orientation_deg") && !specimen.orientation)
       specimen.orientation = 0.0;  // what is wrong with it was said: it is not missing too
-    if (files == Files::must_exist) check_files(table, specimen);
+    if (files == Files::must_exist) check_files(table, specimen);  // else synthesize writes them
   }
   if (!tables.empty() && std::ranges::count(specimens, calib::Use::fit, &SpecimenFiles::use) == 0)
     top.complain("specimen", "none has use = \"fit\"", "a fit needs at least one that it may use");
@@ -140,11 +142,11 @@ void read_parameters(TableReader& calibrate, calib::CalibrateOptions& options) {
 // A bound must be in order with itself, and the model must be possible at either end.
 void check_bounds(TableReader& bounds, std::string_view name, std::pair<double, double> value,
                   const sim::Scene& model) {
-  calib::CalibrateOptions alone;
+  calib::CalibrateOptions alone;  // of this bound only
   alone.bounds.emplace(name, value);
   const std::vector<calib::CalibrateOptions::Problem> problems = alone.problems();
   for (const auto& problem : problems) bounds.complain(name, problem.what);
-  if (!problems.empty() || !model.problems().empty()) return;
+  if (!problems.empty() || !model.problems().empty()) return;  // either was said
   for (const double end : {value.first, value.second}) {
     sim::Scene scene = model;
     calib::apply(scene, name, end);  // the laws of porosity have no problems of their own
@@ -223,7 +225,7 @@ calib::Specimen without_tests(const SpecimenFiles& files) {
   calib::Specimen specimen;
   specimen.id = files.id;
   specimen.use = files.use;
-  specimen.broke = files.broke.value_or(true);
+  specimen.broke = files.broke.value_or(true);  // until its record is read
   specimen.orientation = files.orientation.value_or(0.0);
   specimen.porosity = files.porosity;
   return specimen;
@@ -240,7 +242,7 @@ StudyFile read_tables(ConfigFile& config, const std::filesystem::path& file, Fil
 
   TableReader model = top.table("model");
   read_scene_tables(model, read.study.model);
-  read.rate_is_given = model.table("loading").has("strain_rate_per_s");
+  read.rate_is_given = model.table("loading").has("strain_rate_per_s");  // by the file
   if (TableReader joints = model.table("joints"); joints.has("thresholds_file"))
     joints.complain("thresholds_file",
                     "is of one assembly; a study draws thresholds for each specimen",
@@ -253,7 +255,7 @@ StudyFile read_tables(ConfigFile& config, const std::filesystem::path& file, Fil
   read_synthesize(top.table("synthesize"), read.synthesize);
   read_reduction(top.table("reduction"), read.reduction);
   read_sections(top.table("sections"), read.sections);
-  read.warnings = study_doubts(top, read);
+  read.warnings = study_doubts(top, read);  // of all that was read above
   read.inputs = config.inputs();
   return read;
 }

@@ -41,6 +41,7 @@ struct SynthesizeOptions {
   int section_pixels = 512;   ///< Side of a drawn section.
 };
 
+/// A study as its file says it: tests and sections are named, and not yet read.
 struct StudyFile {
   calib::Study
       study;  ///< Everything but the specimens, which hold only id, use, orientation, porosity.

@@ -1,3 +1,5 @@
+// The tables of a scene, read over its defaults, and judged together: what the keys cannot say one
+// by one is for Scene::problems().
 #include "io/config/scene_tables.hpp"
 
 #include <fmt/format.h>
@@ -29,6 +31,7 @@ bool read_strength(TableReader& joints, std::string_view name, std::optional<dou
   return false;
 }
 
+// Two strengths at most; Σ alone says nothing of how it is shared.
 bool are_usable(TableReader& joints, const Strengths& strengths) {
   constexpr const char* pairs = "give two of head_tail_MPa, flank_MPa, resultant_MPa and ratio";
   const int given = static_cast<int>(strengths.head_tail.has_value()) +
@@ -42,14 +45,16 @@ bool are_usable(TableReader& joints, const Strengths& strengths) {
   return given <= 2 && !(given == 1 && strengths.resultant);
 }
 
+// What (M9) divides by; the wrong value itself is named by Scene::problems().
 bool can_be_resolved(const sim::AssemblyOptions& assembly) {
   return assembly.layers > 0 && assembly.fibre_length > 0.0 && assembly.fibre_height > 0.0;
 }
 
-// One strength alone keeps the other's default; a ratio alone keeps σ₁.
+// One strength alone keeps the other's default; a ratio alone keeps σ₁. `joints` holds the defaults
+// and becomes the answer. Precondition: the strengths are usable.
 void resolve(const Strengths& given, const sim::AssemblyOptions& assembly,
              sim::JointOptions& joints) {
-  // Σ_res = σ₁ + share · σ₂
+  // Σ_res = σ₁ + share · σ₂ (M9); the share is of the wall alone, whatever the stresses.
   const double share = (sim::resultant(assembly, joints) - joints.head_tail) / joints.flank;
   if (given.head_tail) joints.head_tail = *given.head_tail;
   if (given.flank) joints.flank = *given.flank;
@@ -58,12 +63,14 @@ void resolve(const Strengths& given, const sim::AssemblyOptions& assembly,
   if (given.resultant && given.flank) joints.head_tail = *given.resultant - share * joints.flank;
   if (given.resultant && given.ratio)
     joints.head_tail = sim::head_tail_from_resultant(assembly, *given.resultant, *given.ratio);
+  // (M9) r is proportional to σ₁, so that scaling σ₁ gives the ratio, and σ₂ stays as given.
   if (given.flank && given.ratio)
     joints.head_tail *= *given.ratio / sim::ratio(assembly, joints);
   else if (given.ratio)
     joints.flank = sim::flank_from_ratio(assembly, joints.head_tail, *given.ratio);
 }
 
+// Only what can be turned into two stresses is; the wall must have been read before.
 void read_strengths(TableReader& table, const sim::AssemblyOptions& assembly,
                     sim::JointOptions& joints) {
   Strengths given;
@@ -73,6 +80,7 @@ void read_strengths(TableReader& table, const sim::AssemblyOptions& assembly,
   good &= read_strength(table, "ratio", given.ratio);
   if (!are_usable(table, given) || !good || !can_be_resolved(assembly)) return;
 
+  // Σ may be less than the stress that is given with it: the other would be negative.
   sim::JointOptions resolved = joints;
   resolve(given, assembly, resolved);
   if (resolved.head_tail > 0.0 && resolved.flank > 0.0)
@@ -100,7 +108,8 @@ std::vector<double> read_thresholds_file(TableReader& table,
   }
 }
 
-// A file of another wall may have as many joints.
+// A file of another wall may have as many joints, as 7 layers of 5 fibres have 91 and 2 of 23 too.
+// Lengths tell them apart; where the file has none, NaN, nothing is compared.
 void require_joints(TableReader& table, const std::vector<double>& lengths,
                     const sim::Scene& scene) {
   constexpr double rounding = 1e-6;
@@ -133,6 +142,7 @@ void read_scene_tables(TableReader& tables, sim::Scene& scene) {
   TableReader solver = tables.table("solver");
   keys(solver, scene.solver);
 
+  // With all tables there; building the wall for its joints needs a scene that can be.
   const std::vector<sim::Scene::Problem> problems = scene.problems();
   for (const sim::Scene::Problem& problem : problems)
     tables.complain(problem.key, problem.what, problem.hint);

@@ -1,3 +1,5 @@
+// Each `doubt_` looks at one table of a study. They ask the file whether a key is there, as one
+// that changes nothing is to be said only where the user wrote it.
 #include "io/config/study_doubts.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +26,7 @@ void changes_nothing(Sentences& found, std::string_view key, std::string_view wh
   found.push_back(fmt::format("{} changes nothing: {}", key, why));
 }
 
-// Keys of a scene pasted whole.
+// Keys of a scene pasted whole, which a study takes from elsewhere.
 void doubt_model(TableReader model, const StudyFile& read, Sentences& found) {
   if (read.study.model.assembly.orientation != 0.0)
     changes_nothing(found, "model.assembly.orientation_deg", "every specimen has its own");
@@ -37,6 +39,7 @@ void doubt_model(TableReader model, const StudyFile& read, Sentences& found) {
   });
   if (joints.has("scatter") && all_tell && laws.to_scatter == calib::ToScatter::linear)
     changes_nothing(found, "model.joints.scatter", "every specimen has one from its porosity");
+  // Asked for here, so that the key is known: nothing else of a study reads [model.output].
   int snapshots = 0;
   if (model.table("output").key("snapshots", snapshots) && snapshots != 0)
     changes_nothing(found, "model.output.snapshots", "a fit writes none");
@@ -51,6 +54,7 @@ struct LawKey {
 void doubt_porosity(TableReader top, const StudyFile& read, Sentences& found) {
   const bool sections = std::ranges::any_of(
       read.specimens, [](const SpecimenFiles& specimen) { return !specimen.sections.empty(); });
+  // A porosity of its own, or sections that will give one.
   const bool porous =
       sections || std::ranges::any_of(read.specimens, [](const SpecimenFiles& specimen) {
         return specimen.porosity.has_value();
@@ -61,6 +65,7 @@ void doubt_porosity(TableReader top, const StudyFile& read, Sentences& found) {
   const bool linear = laws.to_scatter == calib::ToScatter::linear;
   const bool power = laws.to_modulus == calib::ToModulus::power;
   TableReader table = top.table("porosity");
+  // to_scatter has a law by default, so only one that was written is idle.
   if (!porous && ((table.has("to_scatter") && (window || linear)) || power)) {
     changes_nothing(found, "porosity", "no specimen has sections or a porosity");
     return;
@@ -78,6 +83,7 @@ void doubt_porosity(TableReader top, const StudyFile& read, Sentences& found) {
 
 void doubt_specimens(TableReader top, const StudyFile& read, Sentences& found) {
   if (read.specimens.empty()) return;
+  // In the order of the file, as read.specimens.
   std::vector<TableReader> tables = top.tables("specimen");
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const SpecimenFiles& specimen = read.specimens[i];
@@ -98,9 +104,10 @@ void doubt_specimens(TableReader top, const StudyFile& read, Sentences& found) {
 }
 
 // All angles of a study in radians are small numbers; among others in degrees one is known by the
-// 15, 30 ... 90 degrees that it is.
+// 15, 30 ... 90 degrees that it is. One sentence for a study of the first kind, one an angle else.
 void doubt_angles(const StudyFile& read, Sentences& found) {
   constexpr double most = 1.6;  // a little more than a right angle in radians
+  // As the file has them, in degrees.
   double largest = 0.0;
   for (const calib::Specimen& specimen : read.study.specimens)
     largest = std::max(largest, std::abs(specimen.orientation) / calib::degree);
@@ -111,6 +118,7 @@ void doubt_angles(const StudyFile& read, Sentences& found) {
   }
   for (const calib::Specimen& specimen : read.study.specimens) {
     const double given = specimen.orientation / calib::degree;
+    // The angle in degrees, were the number one in radians, and the nearest step of 15.
     const double meant = 15.0 * std::round(given / calib::degree / 15.0);
     if (given == 0.0 || std::abs(given) >= most || std::abs(given / calib::degree - meant) > 0.3)
       continue;
@@ -121,6 +129,7 @@ void doubt_angles(const StudyFile& read, Sentences& found) {
   }
 }
 
+// Limits of quality control where it is off.
 void doubt_reduction(const TableReader& reduction, const StudyFile& read, Sentences& found) {
   for (const char* key : {"largest_modulus_error", "largest_noise"})
     if (!read.reduction.quality_control && reduction.has(key))
@@ -152,6 +161,7 @@ std::vector<std::string> study_doubts(TableReader top, const StudyFile& read) {
   Sentences found;
   for (const calib::ParameterInfo& info : calib::all_parameters()) {
     if (is_fitted(study.calibrate, info)) {
+      // Only a model that can be has values to compare with bounds.
       if (study.model.problems().empty()) doubt_start(info, study, found);
       continue;
     }

@@ -9,7 +9,9 @@
 
 namespace havers::io {
 
-/// A sentence each, of a study whose tables are read.
+/// A sentence each, of a study whose tables are read; a warning, for the study can be fitted all
+/// the same. `top` tells what the file says and `read` what became of it: a key that states a
+/// default is in the one and not to be seen in the other.
 std::vector<std::string> study_doubts(TableReader top, const StudyFile& read);
 
 }  // namespace havers::io

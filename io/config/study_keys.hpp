@@ -7,14 +7,15 @@
 
 namespace havers::io {
 
+/// [porosity]: how it becomes scatter and acts on the modulus, (K3) and (K4).
 template <class Table>
 void keys(Table& table, calib::PorosityOptions& porosity) {
   table.key("to_scatter", porosity.to_scatter);
   table.key("to_modulus", porosity.to_modulus);
-  table.key("strength_exponent", porosity.strength_exponent);
-  table.key("linear_offset", porosity.linear_offset);
-  table.key("linear_slope", porosity.linear_slope);
-  table.key("modulus_exponent", porosity.modulus_exponent);
+  table.key("strength_exponent", porosity.strength_exponent);  // n of (K3)
+  table.key("linear_offset", porosity.linear_offset);          // d₀
+  table.key("linear_slope", porosity.linear_slope);            // k
+  table.key("modulus_exponent", porosity.modulus_exponent);    // m of (K4)
 }
 
 /// [sections]: how images are measured.
@@ -32,18 +33,19 @@ void keys(Table& table, SectionOptions& options) {
 /// number.
 template <class Table>
 void keys(Table& table, calib::CalibrateOptions& options) {
-  table.key("terms", options.terms);
-  table.key("replicates", options.replicates);
-  table.key("global", options.global);
-  table.key("local", options.local);
-  table.key("smooth", options.smooth);
-  table.key("profiles", options.profiles);
-  table.key("common_seeds", options.common_seeds);
-  table.key("confirm", options.confirm);
-  table.key("budget", options.budget);
+  table.key("terms", options.terms);                // of the objective (F4)
+  table.key("replicates", options.replicates);      // 0: as many as needed
+  table.key("global", options.global);              // the search among starts
+  table.key("local", options.local);                // how a start is refined
+  table.key("smooth", options.smooth);              // least squares after it
+  table.key("profiles", options.profiles);          // likelihood of each parameter
+  table.key("common_seeds", options.common_seeds);  // at every point of a search (F2)
+  table.key("confirm", options.confirm);            // simulations in time
+  table.key("budget", options.budget);              // points with all specimens and replicates
   table.key("seed", options.seed);
 }
 
+/// [synthesize]: noise of the laboratory, and the sections it draws.
 template <class Table>
 void keys(Table& table, SynthesizeOptions& options) {
   table.key("force_noise_N", options.laboratory.force_noise);
@@ -53,29 +55,29 @@ void keys(Table& table, SynthesizeOptions& options) {
   table.key("sampling_s", options.laboratory.sampling);
   table.key("crosshead_mm_per_min", options.laboratory.crosshead_rate, millimetre_per_minute);
   table.key("pore_radius_um", options.pore_radius, micrometre);
-  table.key("modulus_cv", options.modulus_cv);
-  table.key("section_pixels", options.section_pixels);
+  table.key("modulus_cv", options.modulus_cv);          // between specimens
+  table.key("section_pixels", options.section_pixels);  // side of a square image
 }
 
 /// [reduction]: every correction has its switch.
 template <class Table>
 void keys(Table& table, calib::ReductionOptions& options) {
-  table.key("window_low", options.window_low);
+  table.key("window_low", options.window_low);  // both of the strength (X3)
   table.key("window_high", options.window_high);
-  table.key("straightness", options.straightness);
-  table.key("remove_toe", options.remove_toe);
-  table.key("cut_after_break", options.cut_after_break);
-  table.key("break_part", options.break_part);
-  table.key("remove_spikes", options.remove_spikes);
-  table.key("spread_repeated_times", options.spread_repeated_times);
-  table.key("mend_slips", options.mend_slips);
+  table.key("straightness", options.straightness);                    // (X5)
+  table.key("remove_toe", options.remove_toe);                        // (X9)
+  table.key("cut_after_break", options.cut_after_break);              // (X20)
+  table.key("break_part", options.break_part);                        // of the strength (X20)
+  table.key("remove_spikes", options.remove_spikes);                  // (X11)
+  table.key("spread_repeated_times", options.spread_repeated_times);  // (X12)
+  table.key("mend_slips", options.mend_slips);                        // (X13), (X14)
   table.key("machine_compliance_mm_per_kN", options.machine_compliance, millimetre_per_kilonewton);
-  table.key("quality_control", options.quality_control);
-  table.key("largest_modulus_error", options.largest_modulus_error);
-  table.key("largest_noise", options.largest_noise);
+  table.key("quality_control", options.quality_control);              // (X16)
+  table.key("largest_modulus_error", options.largest_modulus_error);  // of the modulus (X16)
+  table.key("largest_noise", options.largest_noise);                  // of the strength (X16)
 }
 
-/// A name, or a number that stands for one.
+/// Reads a name, or a whole number that stands for one, as its digits. False: absent, or wrong.
 template <class Table>
 bool name_or_number(Table& table, const std::string& key, std::string& name) {
   if (!table.is_name_or_number(key)) return false;
@@ -90,6 +92,7 @@ bool name_or_number(Table& table, const std::string& key, std::string& name) {
 /// "500 N/V". A unit alone is that of the column that is found by its name.
 template <class Table>
 void keys(Table& table, ReadOptions& options) {
+  // The others are found, never named: volts by their unit.
   for (const Quantity quantity :
        {Quantity::time, Quantity::force, Quantity::extension, Quantity::strain, Quantity::stress}) {
     ColumnHint hint;
@@ -102,7 +105,8 @@ void keys(Table& table, ReadOptions& options) {
   }
 }
 
-/// Which of a file's specimens: a text is its name, a number its number.
+/// Which of a file's specimens: a text is its name, a number its place in the file, from 1. They
+/// are kept apart, as specimens may be called by numbers.
 template <class Table>
 void specimen_in_file(Table& table, ReadOptions& options) {
   const char* key = "specimen_in_file";
@@ -113,22 +117,23 @@ void specimen_in_file(Table& table, ReadOptions& options) {
     table.key(key, options.specimen_number);
 }
 
+/// [[specimen]], but its tables columns and gauge_columns.
 template <class Table>
 void keys(Table& table, SpecimenFiles& specimen) {
   table.key("id", specimen.id);
-  table.key("test", specimen.test);
+  table.key("test", specimen.test);  // the testing machine's file
   specimen_in_file(table, specimen.columns);
-  table.key("gauge", specimen.gauge);
+  table.key("gauge", specimen.gauge);  // a second logger's file
   table.key("width_mm", specimen.width, millimetre);
   table.key("thickness_mm", specimen.thickness, millimetre);
   table.key("gauge_length_mm", specimen.gauge_length, millimetre);
   table.key("orientation_deg", specimen.orientation, degree);
   table.key("sections", specimen.sections);
   table.key("pixel_size_um", specimen.pixel_size, micrometre);
-  table.key("mask", specimen.mask);
-  table.key("porosity", specimen.porosity);
+  table.key("mask", specimen.mask);          // of all its sections
+  table.key("porosity", specimen.porosity);  // of a specimen without sections
   table.key("use", specimen.use);
-  table.key("broke", specimen.broke);
+  table.key("broke", specimen.broke);  // overrides what the record shows (X20)
 }
 
 }  // namespace havers::io

@@ -36,16 +36,19 @@ std::string dotted(const std::string& path, std::string_view name);
 /// or wrong; what is wrong is collected in the file.
 class TableReader {
  public:
+  /// To be had from ConfigFile::top() and table().
   TableReader(ConfigFile& file, const toml::table* table, std::string path)
       : file_(&file), table_(table), path_(std::move(path)) {}
 
+  /// A number, whole or not, in `unit`; the value in SI. Neither NaN nor infinite, 0 or from 1e-30
+  /// to 1e30 in size, so that squares and quotients of it can be computed.
   bool key(std::string_view name, double& value, KeyUnit unit = {});
-  bool key(std::string_view name, int& value);
-  bool key(std::string_view name, std::uint64_t& value);
+  bool key(std::string_view name, int& value);            ///< At most 1e9 in size.
+  bool key(std::string_view name, std::uint64_t& value);  ///< At most 2^63 − 1, as TOML has it.
   bool key(std::string_view name, bool& value);
   bool key(std::string_view name, std::string& value);
-  bool key(std::string_view name, std::pair<double, double>& value);
-  bool key(std::string_view name, std::vector<std::string>& value);
+  bool key(std::string_view name, std::pair<double, double>& value);  ///< [5.0, 30.0]
+  bool key(std::string_view name, std::vector<std::string>& value);   ///< Replaces a default.
 
   /// Paths are resolved against the file's folder.
   bool key(std::string_view name, std::filesystem::path& value);
@@ -53,6 +56,7 @@ class TableReader {
   /// Complains unless the file that the key names is there.
   bool require_file(std::string_view name, const std::filesystem::path& file);
 
+  /// One of the words of an enumeration; the complaint lists them.
   template <Worded E>
   bool key(std::string_view name, E& value) {
     const std::optional<std::size_t> index = word_index(name, {words<E>.begin(), words<E>.end()});
@@ -60,6 +64,7 @@ class TableReader {
     return index.has_value();
   }
 
+  /// Stays without a value where the key is absent or wrong.
   template <class T, class... Units>
   bool key(std::string_view name, std::optional<T>& value, Units... unit) {
     T read{};
@@ -68,19 +73,21 @@ class TableReader {
     return good;
   }
 
-  /// The table of that name; an absent one has no keys.
+  /// The table of that name, whose keys are judged thereafter; an absent one has no keys.
   TableReader table(std::string_view name);
-  /// The tables [[name]].
+  /// The tables [[name]], in the order of the file; none where it is absent, or wrong.
   std::vector<TableReader> tables(std::string_view name);
 
   /// The lists of an inner table whose keys are the user's own; every item as a TOML value.
   using List = std::pair<std::string, std::vector<std::string>>;
   std::vector<List> lists(std::string_view name);
 
+  /// Whether the file has the key, be its value right or wrong; it is not thereby asked for.
   [[nodiscard]] bool has(std::string_view name) const;
   /// Whether the key holds a text, for keys that take a text or something else.
   [[nodiscard]] bool is_text(std::string_view name) const;
-  /// Complains of a key that holds neither a text nor a number.
+  /// Asks for the key. False, with a complaint, where it holds neither a text nor a number; an
+  /// absent key is no fault.
   bool is_name_or_number(std::string_view name);
   /// A complaint about a key, dotted where it is of an inner table; it need not be in the file.
   void complain(std::string_view name, std::string what, std::string hint = {});
@@ -89,14 +96,21 @@ class TableReader {
   void require(bool holds, std::string_view name, double value, std::string_view rule);
 
  private:
+  /// The node of a key, which is known from now on; null where it is absent.
   const toml::node* ask(std::string_view name);
+  /// Complains, and answers false.
   bool wrong_type(std::string_view name, const toml::node& node, std::string_view expected);
+  /// A value of exactly that TOML type; `expected` is what it must be, in words.
   template <class T>
   bool take(std::string_view name, T& value, std::string_view expected);
+  /// A number within the limits; otherwise nothing, with a complaint.
   std::optional<double> usable_number(std::string_view name, const toml::node& node);
+  /// A whole number; nothing where the key is absent or, with a complaint, wrong.
   std::optional<std::int64_t> whole_number(std::string_view name);
+  /// The place of the key's text among the known words.
   std::optional<std::size_t> word_index(std::string_view name,
                                         const std::vector<std::string_view>& known);
+  /// The key as the user would write it from the top of the file: "model.joints.scatter".
   [[nodiscard]] std::string full(std::string_view name) const;
 
   ConfigFile* file_;
@@ -113,24 +127,30 @@ class ConfigFile {
   ConfigFile(const ConfigFile&) = delete;
   ConfigFile& operator=(const ConfigFile&) = delete;
 
+  /// A reader keeps a pointer to its file, which stays where it is: neither copied nor moved.
   TableReader top();
+  /// Of the file as a whole, or of another that it names.
   void complain(Problem problem);
-  /// To be called when all keys were asked for: all problems, unknown keys among them.
+  /// To be called when all keys were asked for, and once: all problems, unknown keys among them.
+  /// They are moved out.
   std::vector<Problem> problems();
-  /// @throws InputError with these.
+  /// @throws InputError with these, if any.
   void finish();
 
   /// The file, and those that it names and that are there.
   [[nodiscard]] const std::vector<std::filesystem::path>& inputs() const { return inputs_; }
 
  private:
+  /// It notes what is asked and which files are named.
   friend class TableReader;
+  /// Of a key: "file:line: key", or "--set key" where the command line gave it.
   [[nodiscard]] std::string where(const toml::node& node, const std::string& key) const;
+  /// What to do about an unknown key of a table that knows these.
   [[nodiscard]] std::string hint_of_key(std::string_view key,
                                         const std::set<std::string, std::less<>>& known) const;
 
-  std::filesystem::path file_;
-  std::unique_ptr<toml::table> top_;
+  std::filesystem::path file_;        ///< Empty: overrides alone.
+  std::unique_ptr<toml::table> top_;  ///< A pointer, to keep toml++ out of this header.
   std::vector<std::filesystem::path> inputs_{file_};
   std::map<std::string, std::set<std::string, std::less<>>> asked_;  ///< Keys by the table's path.
   std::vector<Problem> problems_;

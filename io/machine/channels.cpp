@@ -1,3 +1,6 @@
+// Every column gets a candidate, the quantity that its name and unit allow, with a rank: how sure
+// that is. The user's columns are set first; the others are then taken rank by rank, so that a
+// better column counts wherever it stands.
 #include "io/machine/channels.hpp"
 
 #include <fmt/format.h>
@@ -38,13 +41,17 @@ std::string unit_of(const Table& table, std::size_t i) {
   return is_unit ? table.names[i] : table.units[i];
 }
 
-// What a column may be; the smaller the rank, the sooner it is taken.
+// What a column may be; the smaller the rank, the sooner it is taken. The column of a gauge, an
+// extensometer or a load cell beats any other of its quantity; a strain by its unit alone beats one
+// that is doubted, as that of the crosshead; any other unit alone comes last.
 struct Candidate {
   Quantity quantity = Quantity::other;
   int rank = 0;
 };
 enum Rank { of_sensor, by_name, by_unit_of_strain, in_doubt, by_unit, ranks };
 
+// The name decides where the unit allows it, or is not there; else the unit does. Nothing where the
+// name is that of a command, or of a size of the specimen.
 Candidate classify(const Column& column) {
   if (is_no_reading(column.name) || fact_of_key(column.name)) return {};
   const Quantity named = quantity_of_name(column.name);
@@ -54,14 +61,17 @@ Candidate classify(const Column& column) {
                                                                          : by_name;
   if (named != Quantity::other && column.unit.empty()) return {named, rank};
   if (named != Quantity::other && unit && fits(named, unit->dimension)) return {named, rank};
+  // An "Extension" in percent.
   if (named == Quantity::extension && is_crosshead_strain(column.name, dimension_of(column)))
     return {Quantity::strain, rank};
+  // A signal whose factor is not known may still become a force or a strain (X19).
   if (unit && unit->dimension == Dimension::voltage) return {in_volts(named), by_unit};
   const Quantity held = quantity_of_unit(column);
   return {held, held == Quantity::strain ? by_unit_of_strain : by_unit};
 }
 
-// By which an elongation of the gauge is divided.
+// By which an elongation of the gauge is divided: the user's length, the extensometer's own, the
+// specimen's.
 std::optional<double> gauge_length_of(const calib::RawTest& test, const ReadOptions& options) {
   const bool own = test.extensometer_length && !options.gauge_length;
   return own ? test.extensometer_length : test.gauge_length;
@@ -74,7 +84,7 @@ InputError without_gauge_length(const std::string& where, const Column& column) 
       "say gauge_length_mm"};
 }
 
-// Factor to SI; the warnings say what was assumed.
+// Factor to SI; the warnings say what was assumed. That of an elongation makes a strain of it.
 double factor(const Column& column, const std::string& where, const ReadOptions& options,
               calib::RawTest& test) {
   const std::string_view assumed = info_of(column.quantity).assumed_unit;
@@ -102,7 +112,7 @@ double factor(const Column& column, const std::string& where, const ReadOptions&
   return unit->to_si;
 }
 
-// Tension is positive here, whatever the column counts.
+// Tension is positive here, whatever the column counts. Time has no sign, whatever its name.
 double signed_factor(const Column& column, const std::string& where, const ReadOptions& options,
                      calib::RawTest& test) {
   const double to_si = factor(column, where, options, test);
@@ -157,6 +167,8 @@ std::optional<std::size_t> second_gauge(const TestFile& file,
 // user has chosen.
 void choose(TestFile& file, const std::vector<Candidate>& candidates, const ReadOptions& options,
             Chosen& chosen) {
+  // The user's columns are out of question, and a quantity that the user has chosen needs no word
+  // about others.
   const Chosen hinted = chosen;
   for (int rank = of_sensor; rank < ranks; ++rank) {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -179,13 +191,15 @@ void choose(TestFile& file, const std::vector<Candidate>& candidates, const Read
   }
 }
 
+// How the user gives the factor of a load in volts.
 const char* volt_hint(const ReadOptions& options) {
   return options.alone ? "say what a volt is, as in --set columns.force_unit='500 N/V'"
                        : "say what a volt is in [specimen.columns], as in force_unit = \"500 N/V\"";
 }
 
-// A signal in volts is of use only where another signal tells its factor.
-// Where nothing at all was recognised, the numbers may tell.
+// A test needs a load. One in volts is of use only where the logger's force tells its factor (X19);
+// other signals in volts are dropped, with a warning. Where nothing at all was recognised the
+// refusal shows a guess from the numbers.
 void need_load(TestFile& file, const Table& table, const ReadOptions& options, Chosen& chosen) {
   const std::string where = at_line(file.file, table.first_line);
   const bool loaded = chosen.contains(Quantity::force) || chosen.contains(Quantity::stress);
@@ -208,6 +222,8 @@ void need_load(TestFile& file, const Table& table, const ReadOptions& options, C
                       : ""));
 }
 
+// A logger needs a time, to set its clock by, and something that runs along with the test: a
+// strain, volts, force or extension.
 void need_gauge(const TestFile& file, const std::string& where, const ReadOptions& options,
                 const Chosen& chosen) {
   for (const Column& column : file.columns)
@@ -229,6 +245,8 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < table.names.size(); ++i)
     file.columns.push_back({table.names[i], unit_of(table, i)});
+  // The user's units count as the file's, so they are there before columns are judged by them; the
+  // user's columns are set afterwards, over what the candidates say.
   take_units(file, where, options);
   std::ranges::transform(file.columns, std::back_inserter(candidates), classify);
   Chosen chosen = take_hints(file, where, options);
@@ -238,11 +256,13 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
     need_gauge(file, where, options, chosen);
   else
     need_load(file, table, options, chosen);
+  // (X2) The compliance of the machine is in such a strain, unless the user calls it a gauge's.
   if (const auto strain = chosen.find(Quantity::strain); strain != chosen.end()) {
     const Column& column = file.columns[strain->second];
     file.test.crosshead_strain = !options.columns.contains(Quantity::strain) &&
                                  is_crosshead_strain(column.name, dimension_of(column));
   }
+  // In the order of Quantity: time comes first where there is one.
   std::vector<Channel> channels;
   for (const auto& [quantity, column] : chosen)
     channels.push_back({quantity, table.first_column + column, column,

@@ -1,3 +1,5 @@
+// What the user says of columns is checked here: a column that is not there, or a unit of another
+// quantity, is refused rather than passed over.
 #include "io/machine/column_hints.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +22,7 @@ namespace {
 // The user's word for a column: its name in the file, or its number from 1.
 std::optional<std::size_t> hinted_column(const std::string& hint,
                                          const std::vector<Column>& columns) {
+  // The name first: a column may be called "2".
   const auto found = std::ranges::find(columns, hint, &Column::name);
   if (found != columns.end()) return static_cast<std::size_t>(found - columns.begin());
   const NameAndUnit written = split_unit(hint);  // "force_kN" was split as the file was read
@@ -55,6 +58,7 @@ Quantity in_volts(Quantity quantity) {
 }
 
 std::string list_of(const std::vector<Column>& columns) {
+  // A message stays a sentence, however many columns there are.
   constexpr std::size_t most = 20;
   std::string text;
   for (const Column& column : std::span(columns).first(std::min(columns.size(), most)))
@@ -93,6 +97,7 @@ std::string unit_hint_of(Quantity quantity, const ReadOptions& options) {
 void take_units(TestFile& file, const std::string& where, const ReadOptions& options) {
   for (const auto& [quantity, unit] : options.units) {
     if (!held_in(unit, quantity)) throw wrong_unit(where, unit, quantity);
+    // One column takes the unit whatever its own; of several those without one that is known.
     std::vector<Column*> named;
     for (Column& column : file.columns)
       if (quantity_of_name(column.name) == quantity) named.push_back(&column);
@@ -127,6 +132,8 @@ Chosen take_hints(TestFile& file, const std::string& where, const ReadOptions& o
     Column& column = file.columns[*found];
     if (!hint.unit.empty()) column.unit = hint.unit;
     const std::optional<Quantity> held = held_in(column.unit, quantity);
+    // The user's unit must be one of the quantity; the file's is refused only where it is known.
+    // One that is not known, or is not there, is for `find_channels` to judge.
     if (!held && !hint.unit.empty()) throw wrong_unit(where, hint.unit, quantity);
     if (!held && find_unit(column.unit))
       throw InputError(
@@ -134,6 +141,7 @@ Chosen take_hints(TestFile& file, const std::string& where, const ReadOptions& o
           fmt::format("column \"{}\" is in {}, which is no unit of {}", excerpt(column.name),
                       excerpt(column.unit), to_string(quantity)),
           "name another, or say " + column_setting(options, to_string(quantity) + "_unit", "..."));
+    // In volts the quantity is `volts` or `load_volts`.
     column.quantity = held.value_or(quantity);
     chosen[column.quantity] = *found;
   }

@@ -14,7 +14,7 @@ namespace havers::io {
 /// The column of each quantity, from 0.
 using Chosen = std::map<Quantity, std::size_t>;
 
-/// What a force or a strain is called while its factor is not known.
+/// What a force or a strain is called while its factor is not known: load_volts, volts.
 Quantity in_volts(Quantity quantity);
 
 /// The names and units of the columns, for a sentence.
@@ -31,8 +31,9 @@ std::string column_place(const ReadOptions& options);
 /// The key by which the user names a column of the quantity.
 Quantity key_of(Quantity quantity);
 
-/// The complaint about a unit that is not known, and the key that corrects it.
+/// The complaint about a unit that is not known.
 std::string unknown_unit(const Column& column);
+/// The key by which the user corrects a unit of the quantity, as the hint of a complaint.
 std::string unit_hint_of(Quantity quantity, const ReadOptions& options);
 
 /// Gives the columns that their names tell the user's units. @throws InputError when a unit is not

@@ -1,3 +1,5 @@
+// Each `name_` says one kind of doubt of a choice that was made, as a warning. What the user has
+// named is in no doubt.
 #include "io/machine/column_notes.hpp"
 
 #include <fmt/format.h>
@@ -66,6 +68,7 @@ void name_unread(TestFile& file, const ReadOptions& options, const Chosen& chose
 // A column whose unit is not known is not used: an error where the load is lost by it.
 void name_unknown_units(TestFile& file, const std::string& where, const ReadOptions& options,
                         const Chosen& chosen) {
+  // A logger needs no load.
   const bool loaded = options.logger || chosen.contains(Quantity::force) ||
                       chosen.contains(Quantity::stress) || chosen.contains(Quantity::load_volts);
   for (const Column& column : file.columns) {

@@ -1,3 +1,6 @@
+// libcsv cuts any text, letter by letter. Lines of numbers have plain quotes or none: such a line,
+// if it lies whole in the block, is cut here by the delimiter alone, which takes a fraction of the
+// time. The rows are the same, as tests/io/machine/csv_rows_test.cpp holds for random texts.
 #include "io/machine/csv_rows.hpp"
 
 #include <csv.h>
@@ -15,18 +18,19 @@ struct CsvRows::State {
   std::string text;                     // the row's cells, end to end
   std::vector<std::size_t> ends;        // where each ends in `text`
   std::vector<std::string_view> cells;  // reused, so that no row allocates
-  std::size_t line = 1;
+  std::size_t line = 1;                 // where the row begins
   char line_end = '\0';  // '\n' as soon as one was seen; '\r' in files that have only these
   bool wanted = true;
 };
 
 namespace {
 
-constexpr std::size_t longest_cell = 1U << 20U;
+constexpr std::size_t longest_cell = 1U << 20U;   // [byte]; beyond it a quote was not closed
 constexpr int between_rows = 0, inside_cell = 2;  // libcsv's states, which csv.h does not name
 
 template <typename State>
 void hand_on(State& state) {
+  // A blank line is counted by who calls, and given to nobody.
   const bool blank = state.cells.empty() || (state.cells.size() == 1 && state.cells[0].empty());
   if (state.wanted && !blank) state.wanted = state.take({state.line, state.cells});
 }
@@ -40,6 +44,7 @@ void hand_on_parsed(State& state) {
     begin = end;
   }
   hand_on(state);
+  // Lines inside a quote: the row's own end is counted by `on_row`.
   if (state.text.find(state.line_end) != std::string::npos)  // rarely: a quote spans lines
     state.line += static_cast<std::size_t>(std::ranges::count(state.text, state.line_end));
   state.text.clear();
@@ -57,6 +62,7 @@ template <typename State>
 void on_row(int end, void* data) {
   auto& state = *static_cast<State*>(data);
   if (!state.ends.empty()) hand_on_parsed(state);
+  // Of CR LF both are reported, and one of them counts.
   if (end == state.line_end) ++state.line;
 }
 
@@ -79,6 +85,7 @@ std::string_view trimmed(std::string_view cell) {
 template <typename State>
 bool cut_plain(State& state, std::string_view line) {
   while (line.ends_with('\r')) line.remove_suffix(1);
+  // A line end of the other kind inside the line would be one for libcsv.
   const char other_end = state.line_end == '\n' ? '\r' : '\n';
   if (line.find(other_end) != std::string_view::npos) return false;
   const bool quotes = line.find('"') != std::string_view::npos;
@@ -86,9 +93,11 @@ bool cut_plain(State& state, std::string_view line) {
   state.cells.clear();
   while (true) {
     const bool quoted = quotes && line.starts_with('"');
+    // Inside quotes a delimiter is text; an open quote takes the rest of the line.
     std::size_t end = quoted ? std::min(line.find('"', 1), line.size() - 1) + 1 : 0;
     while (end < line.size() && line[end] != delimiter) ++end;
     std::string_view cell = trimmed(line.substr(0, end));
+    // A quote that is not closed, or is followed by text, or stands inside: libcsv knows.
     if (quoted && (cell.size() < 2 || !cell.ends_with('"'))) return false;
     if (quoted) cell = cell.substr(1, cell.size() - 2);
     if (quotes && cell.find('"') != std::string_view::npos) return false;
@@ -103,6 +112,7 @@ bool cut_plain(State& state, std::string_view line) {
 CsvRows::CsvRows(char delimiter, std::function<bool(const Row&)> take)
     : state_(std::make_unique<State>()) {
   state_->take = std::move(take);
+  // With CSV_REPALL_NL blank lines are reported too, so that lines can be counted.
   if (csv_init(&state_->parser, CSV_REPALL_NL) != 0) throw std::bad_alloc();
   csv_set_delim(&state_->parser, static_cast<unsigned char>(delimiter));
 }
@@ -113,11 +123,13 @@ CsvRows::~CsvRows() {
 
 bool CsvRows::feed(std::string_view block) {
   State& state = *state_;
+  // The first block decides for the file.
   if (state.line_end == '\0')
     state.line_end = block.find('\n') == std::string_view::npos ? '\r' : '\n';
   while (!block.empty() && state.wanted && state.parser.entry_pos < longest_cell) {
     const std::size_t end = std::min(block.find(state.line_end), block.size());
     const std::size_t used = std::min(end + 1, block.size());
+    // Inside a quote, or without its end in this block, the line is libcsv's.
     const bool whole = end < used && state.parser.pstate == between_rows;
     if (whole && cut_plain(state, block.substr(0, end))) {
       hand_on(state);
@@ -137,12 +149,14 @@ void CsvRows::finish() {
 std::size_t CsvRows::open_quote_line() const {
   const State& state = *state_;
   if (state.parser.quoted == 0 || state.parser.pstate != inside_cell) return 0;
+  // The row's earlier cells may span lines too.
   return state.line + static_cast<std::size_t>(std::ranges::count(state.text, state.line_end));
 }
 
 std::function<bool(const Row&)> requoted(char delimiter, std::function<bool(const Row&)> take) {
   return [delimiter, take = std::move(take)](const Row& line) {
     bool wanted = true;
+    // A parser for each line counts lines from 1 again; its rows are given the line of the file.
     CsvRows inner(delimiter, [&](const Row& row) {
       wanted = take({line.line, row.cells});
       return wanted;

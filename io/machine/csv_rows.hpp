@@ -26,9 +26,10 @@ class CsvRows {
   CsvRows(CsvRows&&) = delete;
   CsvRows& operator=(CsvRows&&) = delete;
 
-  /// Takes the next block; false when no more is wanted.
+  /// Takes the next block, which may end anywhere; false when no more is wanted, or a quote has
+  /// swallowed more than a megabyte. The first block tells which line end the file has.
   bool feed(std::string_view block);
-  /// The last row, which may lack its line end.
+  /// Hands on the last row, which may lack its line end. To be called once, after the last block.
   void finish();
   /// Line of a quote that is still open, or has swallowed more than a megabyte; 0 where there is
   /// none.
@@ -42,6 +43,7 @@ class CsvRows {
 /// A `take` for lines that a spreadsheet has quoted as a whole, `"a,""1.0"",mm"`: cut them with
 /// `no_delimiter`, and this cuts them again.
 std::function<bool(const Row&)> requoted(char delimiter, std::function<bool(const Row&)> take);
+/// A control character, which files of text do not have.
 inline constexpr char no_delimiter = '\x1F';
 
 }  // namespace havers::io

@@ -7,6 +7,7 @@
 
 namespace havers::io {
 
+/// What must be known to read a text as UTF-8.
 struct Encoding {
   std::string
       name;  ///< As shown to the user; also iconv's name where `convert`. Empty: not a text.

@@ -7,6 +7,7 @@
 namespace havers::io {
 
 /// The beginning of a text from a file, short enough for a sentence: a cell may be megabytes long.
+/// Control characters become blanks; what is left out is shown by "...".
 std::string excerpt(std::string_view text);
 
 }  // namespace havers::io

@@ -20,11 +20,12 @@ enum class Fact {
   area
 };
 
-/// The fact a header's key names: "Specimen ID", "Geometry : Width", "Largeur", ...
+/// The fact a header's key names: "Specimen ID", "Geometry : Width", "Largeur", ... Upper and lower
+/// case, colons and blanks at the end do not count; nothing where no such fact is known.
 std::optional<Fact> fact_of_key(std::string_view key);
 
 /// The specimen's name in a heading: "4" of "Specimen 4" and "Probe Nr. 4"; empty where there is
-/// none.
+/// none. A name is a single word of two bytes at most, or one with a digit: "Test report" has none.
 std::string_view name_in_heading(std::string_view heading);
 
 }  // namespace havers::io

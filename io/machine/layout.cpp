@@ -1,3 +1,5 @@
+// The numbers are looked for first; what a table has of names, units and titles stands in the rows
+// above them, read upwards.
 #include "io/machine/layout.hpp"
 
 #include <algorithm>
@@ -11,7 +13,7 @@ namespace havers::io {
 namespace {
 
 // The first row of numbers from `begin` that is followed by another of the same length, or by
-// nothing.
+// nothing: a line of facts may hold two numbers as well.
 std::optional<std::size_t> first_number_row(const Preview& preview, std::size_t begin) {
   const auto& rows = preview.rows;
   for (std::size_t i = begin; i < rows.size(); ++i) {
@@ -37,12 +39,14 @@ bool is_unit_row(const PreviewRow& row) {
           std::ranges::count_if(row.cells, in_brackets) >= 2);
 }
 
+// Whether more than half of the columns have a name there that is no number.
 bool may_name(const PreviewRow& row, std::size_t columns, char decimal) {
   const auto named = std::ranges::count_if(
       row.cells, [&](const auto& cell) { return !cell.empty() && !is_number(cell, decimal); });
   return 2 * static_cast<std::size_t>(named) > columns;
 }
 
+// Names and units column by column; without a row of units each name is asked for its own.
 void take_names(Table& table, const PreviewRow& names, const PreviewRow* units) {
   for (std::string cell : names.cells) {
     std::ranges::replace_if(
@@ -75,6 +79,7 @@ Table table_at(const Preview& preview, std::size_t numbers) {
   table.first_line = rows[numbers].line;
   std::size_t above = numbers;
   const PreviewRow* units = nullptr;
+  // From below: units, where names stand above them; then names; then units above the names.
   if (above >= 2 && is_unit_row(rows[above - 1]) && may_name(rows[above - 2], columns, decimal))
     units = &rows[--above];
   if (above >= 1 && may_name(rows[above - 1], columns, decimal)) {
@@ -97,7 +102,8 @@ bool holds_results(const Table& table) {
   return times == 0 && std::ranges::count_if(table.names, is_result) >= 2;
 }
 
-// The smallest number of columns after which names and units repeat.
+// The smallest number of columns after which names and units repeat; all of them where they do not.
+// Two at least.
 std::size_t period_of(const Table& table, std::size_t columns) {
   for (std::size_t period = 2; period <= columns / 2; ++period) {
     bool repeats = columns % period == 0;
@@ -124,6 +130,7 @@ bool has_titles(const Table& table, std::size_t period) {
 
 std::vector<Table> side_by_side(const Table& table) {
   std::size_t columns = table.names.size();
+  // Delimiters at the end of the lines make empty columns.
   while (columns > 0 && table.names[columns - 1].empty()) --columns;
   const std::size_t period = period_of(table, columns);
   // A single specimen's title is all that stands above its names; else it is a line of facts.
@@ -149,6 +156,7 @@ std::vector<Table> side_by_side(const Table& table) {
 }
 
 std::optional<Table> recognise_table(const Preview& preview) {
+  // Results may stand above the raw data: the first other table counts.
   std::optional<Table> results;
   std::size_t begin = 0;
   while (const std::optional<std::size_t> numbers = first_number_row(preview, begin)) {

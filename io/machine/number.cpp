@@ -1,3 +1,6 @@
+// Almost every cell is a few digits and a mark, and is converted at once. What is not goes to
+// from_chars, scrubbed of what that does not take: thousands marks, a plus, a decimal comma, the
+// minus sign of typography.
 #include "io/machine/number.hpp"
 
 #include <algorithm>
@@ -9,7 +12,7 @@
 namespace havers::io {
 namespace {
 
-constexpr std::string_view minus_sign = "\xE2\x88\x92";
+constexpr std::string_view minus_sign = "\xE2\x88\x92";  // U+2212
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -20,12 +23,13 @@ std::size_t thousands_mark(std::string_view rest, char decimal) {
   if (is_digit(rest.front())) return 0;
   const char other = decimal == '.' ? ',' : '.';
   if (rest.front() == other || rest.front() == ' ' || rest.front() == '\'') return 1;
+  // No-break blank, narrow no-break blank, thin blank, typographic apostrophe.
   for (const std::string_view mark : {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89", "\xE2\x80\x99"})
     if (rest.starts_with(mark)) return mark.size();
   return 0;
 }
 
-// Three digits and no fourth.
+// Three digits and no fourth: "1,5" and "1,0000" group nothing.
 bool is_group(std::string_view rest) {
   return rest.size() >= 3 && std::all_of(rest.begin(), rest.begin() + 3, is_digit) &&
          (rest.size() == 3 || !is_digit(rest[3]));
@@ -77,12 +81,14 @@ class Scrubbed {
       const std::size_t mark = fraction || whole == 0 ? 0 : thousands_mark(cell, decimal);
       if (mark > 0) {
         const bool leading_zero = buffer_[length_ - whole] == '0';
+        // The first group has one to three digits and does not begin with 0.
         if ((!grouped && (whole > 3 || leading_zero)) || !is_group(cell.substr(mark))) return false;
         grouped = true;
         cell.remove_prefix(mark);
         continue;
       }
       const char c = cell.front();
+      // from_chars would take it for the decimal mark.
       if (c == '.' && decimal != '.') return false;
       if (is_digit(c) && !fraction) ++whole;
       if (c == decimal || c == 'e' || c == 'E') fraction = true;
@@ -126,6 +132,7 @@ Number parse_number(std::string_view cell, char decimal) {
   if (cell.empty()) return {0.0, NumberFault::empty};
   Number number;
   if (convert_short(cell, decimal, number.value)) return number;
+  // As it stands first: only what is text so may be a number once it is scrubbed.
   if (decimal == '.') {
     const Number plain = convert(cell);
     if (plain.fault != NumberFault::text) return plain;
@@ -137,6 +144,7 @@ Number parse_number(std::string_view cell, char decimal) {
 
 Number parse_lone_number(std::string_view cell) {
   const auto points = std::ranges::count(cell, '.'), commas = std::ranges::count(cell, ',');
+  // One mark is decimal; of both kinds the last is; several of one kind group.
   bool comma = commas == 1;
   if (points > 0 && commas > 0)
     comma = cell.rfind(',') > cell.rfind('.');
@@ -162,6 +170,7 @@ namespace {
 Number parse_time_of_day(std::string_view cell) {
   if (cell.ends_with('Z')) cell.remove_suffix(1);
   cell.remove_prefix(cell.find_last_of(" T") + 1);  // npos + 1 is 0
+  // One colon and decimals: "12:01.5"; without decimals it may be hours and minutes.
   const bool minutes =
       cell.find_first_of(".,") != std::string_view::npos && std::ranges::count(cell, ':') == 1;
   const int parts = minutes ? 2 : 3;  // hours, minutes, seconds
@@ -186,6 +195,7 @@ Number parse_clock(std::string_view cell) {
   if (const std::string_view hours = without_half_day(cell); hours.size() < cell.size()) {
     const bool afternoon = cell.find_first_of("Pp", hours.size()) != std::string_view::npos;
     Number time = parse_time_of_day(hours);
+    // From 1:00:00 to 12:59:59; twelve o'clock is hour 0 of its half.
     if (time.value >= half_day + 3600.0 || time.value < 3600.0) time.fault = NumberFault::text;
     time.value = std::fmod(time.value, half_day) + (afternoon ? half_day : 0.0);
     return time;

@@ -6,18 +6,21 @@
 
 namespace havers::io {
 
+/// What keeps a cell from being a number that can be used.
 enum class NumberFault { none, empty, text, not_finite, too_large };
 
 /// The fault in words, to follow the cell's text: "is not a number", ...
 std::string to_string(NumberFault fault);
 
+/// A number, or why there is none: the value counts only without a fault.
 struct Number {
   double value = 0.0;
   NumberFault fault = NumberFault::none;
 };
 
-/// Reads a number with the given decimal mark ('.' or ','). The other mark, blanks, no-break blanks
-/// and apostrophes may group thousands, three digits a group: `1,004.80328`, `1 000,34`, `1'000.5`.
+/// Reads a number with the given decimal mark ('.' or ','); one too small for a double is 0. The
+/// other mark, blanks, no-break blanks and apostrophes may group thousands, three digits a group:
+/// `1,004.80328`, `1 000,34`, `1'000.5`.
 Number parse_number(std::string_view cell, char decimal = '.');
 
 /// Reads a number that stands alone and tells its decimal mark itself: a single `.` or `,` is the

@@ -1,3 +1,5 @@
+// Rows come one by one and are not kept. What is wrong with a row is a problem, and the reading
+// goes on until there are enough of them.
 #include "io/machine/number_columns.hpp"
 
 #include <fmt/format.h>
@@ -13,13 +15,15 @@
 namespace havers::io {
 namespace {
 
+// Whether none of the specimen's channels has a cell in the row.
 bool has_ended(const Row& row, const SpecimenColumns& specimen) {
   return std::ranges::all_of(specimen.channels, [&](const Channel& channel) {
     return channel.column >= row.cells.size() || row.cells[channel.column].empty();
   });
 }
 
-// A clock that goes back by most of a day has passed midnight.
+// A clock that goes back by most of a day has passed midnight. The time before has its days
+// already, so those that the clock lacks are added; less than half a day back stays a fault.
 void check_time(const Row& row, SpecimenColumns& specimen, std::vector<Problem>& problems) {
   constexpr double day = 86400.0;
   for (std::size_t i = 0; i < specimen.channels.size(); ++i) {
@@ -50,6 +54,8 @@ void take_reading(SpecimenColumns& specimen, std::vector<Problem>& problems) {
   specimen.lost.reset();
 }
 
+// False where the row is not taken to its end: the channels then differ in length, and as there is
+// a problem the file is refused.
 bool take_cells(const Row& row, char decimal, SpecimenColumns& specimen,
                 std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < specimen.channels.size(); ++i) {
@@ -68,6 +74,8 @@ bool take_cells(const Row& row, char decimal, SpecimenColumns& specimen,
                       number.fault);
     };
     if (is_no_reading_of(channel, cell, number.fault)) {
+      // A gap is a fault only when a reading follows; the first cell of it is named. A second gauge
+      // may have any: `join_gauge_pair` looks.
       if (!specimen.lost && !channel.second_gauge) specimen.lost = complaint();
       specimen.values[i].push_back(std::numeric_limits<double>::quiet_NaN());
       continue;
@@ -112,6 +120,7 @@ void take_numbers(const Row& row, char decimal, std::span<SpecimenColumns> side_
                   std::vector<Problem>& problems) {
   check_width(row, side_by_side, problems);
   for (SpecimenColumns& specimen : side_by_side) {
+    // A single specimen has no neighbours: there an empty row is a fault of its cells.
     if (side_by_side.size() > 1 && has_ended(row, specimen)) {
       specimen.ended = true;
       continue;

@@ -22,11 +22,13 @@ struct SpecimenColumns {
   std::optional<Problem> lost{};            ///< The first cell since then where it has none.
 };
 
-/// A cell of the channel, in SI units; of a time, a clock's too.
+/// A cell of the channel, in SI units; of a time, a clock's too, which is in s whatever the
+/// column's unit. A number that its unit makes infinite is `too_large`.
 Number read_cell(std::string_view cell, char decimal, const Channel& channel);
 
 /// Appends a row to the specimens' values. A specimen that ended before its neighbours has empty
-/// cells. What is wrong with the row is added to `problems`.
+/// cells. What is wrong with the row is added to `problems`; the values are then of no use, as
+/// channels may differ in length.
 void take_numbers(const Row& row, char decimal, std::span<SpecimenColumns> side_by_side,
                   std::vector<Problem>& problems);
 

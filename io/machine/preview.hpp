@@ -18,18 +18,20 @@ struct Dialect {
   std::vector<std::size_t> text_columns{};  ///< Of text beside the numbers, in order; from 0.
 };
 
+/// Like `Row`, with cells of its own, which stay.
 struct PreviewRow {
   std::size_t line = 0;  ///< From 1.
   std::vector<std::string> cells;
 };
 
+/// What the layout of a file is found from.
 struct Preview {
   Dialect dialect;
   std::vector<PreviewRow> rows;     ///< Without the blank ones.
   std::size_t open_quote_line = 0;  ///< Of a quote that is never closed; 0 where there is none.
 };
 
-/// Rows as the dialect cuts them, handed to `take`.
+/// Rows as the dialect cuts them, handed to `take`; false from it ends the reading.
 CsvRows rows_of(const Dialect& dialect, std::function<bool(const Row&)> take);
 
 /// Cuts the first lines of `text` with the delimiter and decimal mark that make the most rows of

@@ -4,6 +4,7 @@
 
 namespace havers::io {
 
+// The rows are in the order of Quantity.
 const QuantityInfo& info_of(Quantity quantity) {
   using calib::RawTest;
   static constexpr std::array<QuantityInfo, 8> infos{{

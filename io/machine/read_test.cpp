@@ -1,3 +1,6 @@
+// The beginning of the file tells encoding, delimiter, decimal mark and table; then the whole is
+// read in one pass, block by block. Where no table of a test is found, `find_table` says what is
+// there instead.
 #include "io/machine/read_test.hpp"
 
 #include <fmt/format.h>
@@ -27,6 +30,7 @@ bool names_results(const PreviewRow& row) {
   return std::ranges::count_if(row.cells, is_result) >= 2;
 }
 
+// A row that is numbers but for a text is likelier a fault in the table than no table.
 void refuse_text_among_numbers(const std::string& name, const PreviewRow& row,
                                const Preview& preview) {
   if (const std::string* text = text_among_numbers(row, preview.dialect.decimal))
@@ -51,6 +55,7 @@ Table find_table(const std::string& name, const Preview& preview) {
   std::optional<Table> table = recognise_table(preview);
   if (table && table->layout != results_layout && !lists_specimens(*table, preview.dialect))
     return *table;
+  // What is there instead: results, an open quote, a text among numbers, or none of these.
   if (table || std::ranges::any_of(preview.rows, names_results))
     throw InputError(name, "is a table of results, a row for each specimen",
                      "export the raw data: time, force and extension row by row");
@@ -66,6 +71,7 @@ void name_columns(Table& table, const std::string& name, const Preview& preview,
                   const ReadOptions& options) {
   if (!table.names.empty()) return;
   const auto first = std::ranges::find(preview.rows, table.first_line, &PreviewRow::line);
+  // What stands above the numbers names no columns; it may be a row of them with a text in it.
   if (first != preview.rows.begin()) refuse_text_among_numbers(name, *std::prev(first), preview);
   if (options.columns.empty())
     throw InputError(at_line(name, table.first_line), "the columns have no names",
@@ -77,6 +83,7 @@ void name_columns(Table& table, const std::string& name, const Preview& preview,
   }
 }
 
+// The name in quotes behind a blank, to follow a number; empty without one.
 std::string name_of(const TestFile& test) {
   const std::string& name = test.test.specimen_id;
   return name.empty() ? "" : fmt::format(" \"{}\"", excerpt(name));
@@ -102,7 +109,8 @@ void name_numbered(TestFile& test) {
         test.number, name));
 }
 
-// The specimen of that name or number; a text is the number of one without a name only.
+// The specimen of that name or number; a text is the number of one without a name only. What could
+// mean two of them is refused, with the list of all.
 TestFile chosen_of(std::vector<TestFile> tests, const ReadOptions& options) {
   const bool numbered = options.specimen_number.has_value();
   const std::string wanted = numbered ? std::to_string(*options.specimen_number) : options.specimen;
@@ -134,6 +142,7 @@ TestFile chosen_of(std::vector<TestFile> tests, const ReadOptions& options) {
 
 std::vector<TestFile> read_tests(const std::filesystem::path& file, const ReadOptions& options) {
   TextSource source(file);
+  // A copy: the source's block is gone with the next one.
   const std::string beginning(source.next());
   const Preview preview = make_preview(beginning);
 

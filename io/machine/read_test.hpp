@@ -11,10 +11,11 @@
 
 namespace havers::io {
 
-/// What a column holds.
+/// What a column holds; `volts` of a gauge and `load_volts` of a load cell wait for their factor.
 enum class Quantity { time, force, extension, strain, stress, volts, load_volts, other };
 std::string to_string(Quantity quantity);
 
+/// A column of the file, read or not.
 struct Column {
   std::string name, unit;  ///< As in the file.
   Quantity quantity = Quantity::other;
@@ -28,10 +29,10 @@ struct TestFile {
   std::string delimiter;  ///< "," ";" or "\t".
   std::string decimal;    ///< "." or ",".
   std::vector<Column> columns;
-  std::size_t rows = 0;
+  std::size_t rows = 0;       ///< Of numbers, of this specimen.
   std::size_t number = 1;     ///< Of the specimen in the file, from 1.
   std::size_t specimens = 1;  ///< In the file.
-  calib::RawTest test;
+  calib::RawTest test;        ///< What was read, in SI units, with the warnings.
 };
 
 /// A column by its name in the file or its number from 1, and its unit where the file's is missing

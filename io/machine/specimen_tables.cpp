@@ -1,3 +1,6 @@
+// Rows are numbers until a text stands where the first channel should be. Then rows are held back
+// as a possible header; two rows of numbers end it, and what it is decides: a further specimen, a
+// page of the same, or a fault.
 #include "io/machine/specimen_tables.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +25,7 @@ namespace {
 
 // A file that is wrong in every row need not say so in every row.
 constexpr std::size_t enough_problems = 5;
-constexpr std::size_t longest_header = 500;
+constexpr std::size_t longest_header = 500;  // [row]; held back in memory
 
 // The machine's stress must be force over the area that the file states, or one of the three is
 // wrong.
@@ -57,7 +60,7 @@ std::vector<PreviewRow> header_of(const Table& part, std::span<const PreviewRow>
   return own;
 }
 
-// Sizes that are there before the header is read stay.
+// Sizes that are there before the header is read stay (`read_facts`).
 void take_given_sizes(const ReadOptions& options, calib::RawTest& test) {
   test.width = options.width;
   test.thickness = options.thickness;
@@ -96,6 +99,7 @@ void SpecimenTables::begin(const Table& table, std::span<const PreviewRow> heade
     specimen.file.layout = table.layout;
     take_given_sizes(options_, specimen.file.test);
     read_facts(header_of(part, header), specimen.file.test);
+    // A title above its columns is nearer than a line of the header.
     if (!part.title.empty()) specimen.file.test.specimen_id = part.title;
     specimen.channels = find_channels(specimen.file, part, options_);
     specimen.values.resize(specimen.channels.size());
@@ -110,6 +114,7 @@ void SpecimenTables::read(std::string_view beginning, TextSource& source) {
     const std::string_view block = source.next();
     wanted = !block.empty() && rows.feed(block);
   }
+  // A quote that swallows the rest hides its rows; other faults were found before it.
   if (const std::size_t line = rows.open_quote_line(); line > 0 && problems_.empty())
     throw open_quote(common_.file, line);
   rows.finish();
@@ -126,14 +131,17 @@ void SpecimenTables::make_room(double blocks) {
 }
 
 bool SpecimenTables::take_row(const Row& row) {
+  // The names and what stands above them were read from the preview.
   if (row.line < first_line_) return true;
   const bool empty = row.cells[0].empty() &&
                      std::ranges::all_of(row.cells, [](auto cell) { return cell.empty(); });
+  // Delimiters alone are a blank line.
   if (empty) return true;
   if (!header_.empty() || begins_header(row))
     take_header_row(row);
   else
     take_numbers(row, dialect_.decimal, current(), problems_);
+  // false ends the reading of the file.
   return problems_.size() < enough_problems;
 }
 
@@ -141,12 +149,14 @@ bool SpecimenTables::take_row(const Row& row) {
 bool SpecimenTables::begins_header(const Row& row) const {
   const std::size_t column = specimens_[current_].channels.front().column;
   const std::string_view cell = row.cells[std::min(column, row.cells.size() - 1)];
+  // A digit begins a clock's time, or a number with a fault, and is no header.
   if (cell.empty() || (cell.front() >= '0' && cell.front() <= '9')) return false;
   return parse_number(cell, dialect_.decimal).fault == NumberFault::text;
 }
 
 void SpecimenTables::take_header_row(const Row& row) {
   header_.push_back({row.line, {row.cells.begin(), row.cells.end()}});
+  // Two rows of numbers of one length begin a table, as for `recognise_table`.
   const auto is_numbers = [&](std::size_t from_end) {
     return header_.size() > from_end && is_number_row(header_[header_.size() - from_end], dialect_);
   };
@@ -200,6 +210,7 @@ bool SpecimenTables::goes_on(const Table& table, const Preview& preview) const {
 
 // A header that leads to no table of a specimen was a row of text among the numbers.
 void SpecimenTables::end_header() {
+  // What was held back is looked at as the beginning of a file is.
   const Preview preview{dialect_, std::exchange(header_, {})};
   const std::optional<Table> table = recognise_table(preview);
   if (!table || table->names.empty() || table->layout == results_layout ||
@@ -216,6 +227,7 @@ void SpecimenTables::end_header() {
   take_held_back_numbers(preview.rows, table->first_line);
 }
 
+// The rows of numbers by which the header was seen to end.
 void SpecimenTables::take_held_back_numbers(const std::vector<PreviewRow>& rows,
                                             std::size_t first_line) {
   for (const PreviewRow& row : rows) {
@@ -229,6 +241,7 @@ std::vector<TestFile> SpecimenTables::take() {
   std::vector<TestFile> files;
   for (SpecimenColumns& specimen : specimens_) {
     TestFile& file = specimen.file;
+    // `find_channels` puts a second gauge last.
     const bool pair = !specimen.channels.empty() && specimen.channels.back().second_gauge;
     for (std::size_t i = 0; i < specimen.channels.size(); ++i)
       if (!specimen.channels[i].second_gauge)
@@ -238,6 +251,7 @@ std::vector<TestFile> SpecimenTables::take() {
       throw InputError(file.file, problem, "give all rows a strain, or leave them out");
     file.rows = file.test.rows();
     file.specimens = specimens_.size();
+    // By other sizes than the file's the machine's stress is another.
     if (!options_.width && !options_.thickness) check_stress(file.test);
     files.push_back(std::move(file));
   }

@@ -67,11 +67,13 @@ NameAndUnit split_unit(std::string_view text) {
   if (text.empty()) return whole;
   if (text.back() == ')' || text.back() == ']') {
     const std::size_t open = text.rfind(text.back() == ')' ? '(' : '[');
+    // "(mm)" alone is a name.
     if (open == std::string_view::npos || open == 0) return whole;
     const std::string_view unit = without_brackets(text.substr(open));
     if (!unit.empty() && !find_unit(unit) && !looks_like_a_unit(unit)) return whole;
     return named_unit(text.substr(0, open), unit);
   }
+  // Without brackets only what the quantity can have is a unit: "Load_in" is none.
   for (const std::string_view mark : {"/", " in ", "_", ", ", " "}) {
     // Of "Stress/N/mm2" the first stroke, of "max_force_kN" the last underline.
     const std::size_t at = mark == "/" ? text.find(mark) : text.rfind(mark);

@@ -14,7 +14,7 @@
 namespace havers::io {
 namespace {
 
-constexpr std::size_t block_bytes = 1U << 18U;
+constexpr std::size_t block_bytes = 1U << 18U;          // [byte]
 constexpr std::uintmax_t largest_file = 1'000'000'000;  // [byte]
 
 void check_openable(const std::filesystem::path& file) {
@@ -47,6 +47,7 @@ TextSource::TextSource(const std::filesystem::path& file) : name_(file.string())
         name_, "is not a text file",
         block_.starts_with("PK") ? "a spreadsheet: save it as CSV" : "export the raw data as CSV");
   encoding_ = encoding.name;
+  // The first block is kept for the first call of `next`.
   block_.erase(0, encoding.mark_bytes);
   if (!encoding.convert) return;
   // NOLINTNEXTLINE(performance-no-int-to-ptr): iconv_open's own sign of failure
@@ -65,6 +66,7 @@ std::string_view TextSource::next() {
   if (!first_) read_block();
   first_ = false;
   if (converter_ == nullptr) {
+    // No copy: the block itself is handed on.
     text_.swap(block_);
     block_.clear();
   } else {
@@ -73,6 +75,7 @@ std::string_view TextSource::next() {
   return text_;
 }
 
+// Appends to what the last conversion left over.
 void TextSource::read_block() {
   const std::size_t kept = block_.size();
   block_.resize(kept + block_bytes);
@@ -86,6 +89,7 @@ void TextSource::convert_block() {
   text_.clear();
   char* in = block_.data();
   std::size_t in_left = block_.size();
+  // A full buffer, E2BIG, is no fault: the loop goes on.
   std::array<char, 1U << 14U> buffer{};
   while (in_left > 0) {
     char* out = buffer.data();

@@ -31,17 +31,19 @@ class TextSource {
   std::string_view next();
 
  private:
+  /// Appends the next bytes of the file to `block_`.
   void read_block();
+  /// Fills `text_` from `block_`, in which a character cut off at its end stays.
   void convert_block();
 
-  std::string name_;
+  std::string name_;  // of the file, for messages
   std::ifstream stream_;
   std::string encoding_;
   std::string block_;          // raw bytes; begins with what the last conversion left over
   std::string text_;           // converted
   void* converter_ = nullptr;  // iconv_t; null: the bytes are UTF-8 already
   double first_blocks_ = 0.0;
-  bool first_ = true;
+  bool first_ = true;  // the first block was read with the constructor
 };
 
 }  // namespace havers::io

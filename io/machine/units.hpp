@@ -6,8 +6,10 @@
 
 namespace havers::io {
 
+/// What a unit measures. A ratio of lengths is a strain.
 enum class Dimension { time, force, length, area, stress, strain, voltage };
 
+/// A known unit, or a factor per volt.
 struct Unit {
   Dimension dimension = Dimension::strain;
   double to_si = 1.0;  ///< Factor to s, N, m, m², Pa, 1 or V.

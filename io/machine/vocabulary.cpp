@@ -1,3 +1,5 @@
+// Words are looked for inside names, since names are put together: "Tensile strain (Strain 1)",
+// "Standardkraft". Words that are common inside others must stand alone.
 #include "io/machine/vocabulary.hpp"
 
 #include <algorithm>
@@ -102,15 +104,18 @@ constexpr std::array quantity_words{
     QuantityWord{"位移", extension},
 };
 
+// Across the load, in several languages; commands; peaks so far.
 constexpr std::array<std::string_view, 18> no_reading_words{
     "transvers", "trasvers", "querdehn", "lateral", "poprzeczn", "横向",
     "command",   "comando",  "consign",  "soll",    "setpoint",  "set point",
     "set-point", "target",   "zadan",    "指令",    "maximum",   "maximal"};
 constexpr std::array<std::string_view, 4> no_reading_alone{"peak", "demand", "quer", "trans"};
+// Sensors of their own: strain gauges, extensometers, load cells.
 constexpr std::array<std::string_view, 12> sensor_words{
     "gauge",    "gage",      "extenso",   "jauge",  "galga",     "feindehn",
     "estensim", "ekstensom", "tensometr", "引伸计", "load cell", "dehnungsmess"};
 constexpr std::array<std::string_view, 2> sensor_alone{"dms", "sg"};
+// Of strain and stress that are not engineering ones.
 constexpr std::array<std::string_view, 8> true_words{
     "true", "wahre", "vraie", "logarithm", "hencky", "verdader", "rzeczywist", "真"};
 
@@ -166,6 +171,8 @@ bool counts_compression(std::string_view name) {
   return contains_any(text, compression_words) && !contains_any(text, tension_words);
 }
 
+// A strain whose name speaks of travel too, unless it is an elongation in mm, which is a gauge's;
+// or a travel in the unit of a strain.
 bool is_crosshead_strain(std::string_view name, std::optional<Dimension> unit) {
   const std::string text = lower(name);
   const bool travels = std::ranges::any_of(quantity_words, [&](const QuantityWord& known) {

@@ -1,3 +1,5 @@
+// A test as INSTRON's Bluehill writes its raw data: key,"value",unit lines, a blank line, names,
+// units in round brackets, every number in quotes with grouped thousands.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,6 +32,7 @@ std::string quoted(const std::locale& locale, double value, int decimals) {
   return fmt::format(locale, "\"{:.{}Lf}\"", value, decimals);
 }
 
+// Sizes that are not known have no line.
 std::string header(const calib::RawTest& test, const std::locale& locale) {
   std::string text;
   const auto size = [&](const char* key, const std::optional<double>& value) {
@@ -42,7 +45,7 @@ std::string header(const calib::RawTest& test, const std::locale& locale) {
   return text + "\r\n";
 }
 
-// Five, and of a fast test so many that its rows keep times of their own.
+// Five, and of a fast test so many that its rows keep times of their own: two digits of a step.
 int decimals_of(const std::vector<double>& time) {
   constexpr int usual = 5, of_a_step = 2;
   if (time.size() < 2 || !(time[1] > time[0])) return usual;
@@ -65,6 +68,7 @@ std::vector<WrittenColumn> columns_of(const calib::RawTest& test) {
 }  // namespace
 
 void write_bluehill(const std::filesystem::path& file, const calib::RawTest& test) {
+  // The locale deletes its facet.
   const std::locale locale(std::locale::classic(), new Thousands);
   const std::vector<WrittenColumn> columns = columns_of(test);
   std::string text = header(test, locale);
@@ -84,6 +88,7 @@ void write_bluehill(const std::filesystem::path& file, const calib::RawTest& tes
 
   std::ofstream stream(file, std::ios::binary);
   stream << text;
+  // A full disk may show only as the rest is flushed.
   stream.close();
   if (!stream) throw InputError(file.string(), "cannot be written");
 }

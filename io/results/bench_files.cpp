@@ -1,3 +1,5 @@
+// What havers bench SCENE, --stability and --porosity leave. Rows are declared once, as keys, for
+// JSON and for CSV.
 #include "io/results/bench_files.hpp"
 
 #include <cmath>
@@ -12,6 +14,7 @@ namespace {
 // In the order of the columns; JSON and CSV have the same.
 template <class Table>
 void keys(Table& table, sim::BenchSetting& setting) {
+  // NaN, so that the column is there without a given step: empty in CSV, null in JSON.
   double step = setting.step.value_or(NAN);
   table.key("regime", setting.regime);
   table.key("contact", setting.contact);
@@ -65,6 +68,8 @@ void keys(Table& table, sim::StabilityResult& result) {
   table.key("reason", result.reason);
 }
 
+// An item with its name, as an object and as a row. `item` is a copy: keys() takes what can be read
+// into.
 template <class Item>
 nlohmann::json object_of(const char* title, const std::string& name, Item item) {
   nlohmann::json object{{title, name}};
@@ -80,6 +85,7 @@ CsvRow row_of(const char* title, const std::string& name, Item item) {
   return row;
 }
 
+// null where there is no such comparison.
 nlohmann::json omissions_json(const std::optional<sim::Omissions>& omissions) {
   if (!omissions) return nullptr;
   return {{"setting", to_string(omissions->setting)},
@@ -88,6 +94,7 @@ nlohmann::json omissions_json(const std::optional<sim::Omissions>& omissions) {
           {"until_strain", json_of(omissions->until_strain)}};
 }
 
+// In the order of PorosityMethod.
 nlohmann::json summaries_of(
     const std::array<calib::MethodSummary, calib::porosity_methods>& methods) {
   nlohmann::json all = nlohmann::json::array();
@@ -108,6 +115,7 @@ nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPreci
   for (const sim::BenchRow& row : study.rows)
     rows.push_back(object_of("text", to_string(row.setting), row));
   for (const sim::CheapestSetting& entry : study.cheapest)
+    // Without a row no setting reaches the target.
     cheapest.push_back(
         {{"quantity", entry.quantity},
          {"error_below", entry.target},
@@ -141,6 +149,7 @@ nlohmann::json stability_json(const sim::StabilityBench& bench,
 }
 
 std::string work_precision_csv(const sim::WorkPrecision& study) {
+  // By a row of no run, so that the names are there without rows.
   std::string text = row_of("setting", "", sim::BenchRow{}).names();
   for (const sim::BenchRow& row : study.rows)
     text += row_of("setting", to_string(row.setting), row).cells();
@@ -169,6 +178,7 @@ nlohmann::json methods_json(const calib::MethodComparison& comparison,
 std::string methods_csv(const calib::MethodComparison& comparison) {
   CsvTable table;
   for (const calib::PorosityTrial& trial : comparison.trials)
+    // A reading a method, in the order of PorosityMethod.
     for (std::size_t i = 0; i < trial.readings.size(); ++i) {
       const auto method = static_cast<calib::PorosityMethod>(i);
       CsvRow row("hardship", trial.hardship);
@@ -178,6 +188,7 @@ std::string methods_csv(const calib::MethodComparison& comparison) {
       row.key("method", to_string(method));
       row.key("porosity", trial.readings.at(i).porosity);
       row.key("cpu_s", trial.readings.at(i).cpu);
+      // The others give none.
       row.key("standard_error", method == calib::PorosityMethod::ours ? trial.standard_error : NAN);
       table.add(row);
     }

@@ -14,19 +14,29 @@
 
 namespace havers::io {
 
+/// result.json of a bench: what its table holds, and what follows from it. SI units, errors
+/// relative; `complete` is false where it was stopped, a number that is not known null.
+///
+/// `havers bench SCENE`: settings against the reference; `scene` can be run by simulate.
 nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPrecision& study,
                                    const calib::Provenance& provenance);
+/// `--stability`: scenes of known answer.
 nlohmann::json stability_json(const sim::StabilityBench& bench,
                               const calib::Provenance& provenance);
 
+/// `--porosity`: methods over all sections, and over those of each hardship.
 nlohmann::json methods_json(const calib::MethodComparison& comparison,
                             const calib::Provenance& provenance);
 
+/// `--calibration`: chains of optimisers, with the winner among them.
 nlohmann::json chains_json(const calib::ChainBenchmark& benchmark,
                            const calib::Provenance& provenance);
+/// `--coverage`: how often 95 % intervals hold the truth, by design and parameter.
 nlohmann::json coverage_json(const calib::Coverage& coverage, const calib::Provenance& provenance);
 
-/// One line a setting, a scene, a section by a method; a fit by a chain, an interval of a study.
+/// The tables beside them, one line a setting, a scene, a section by a method; a fit by a chain, an
+/// interval of a study. The first line has the names, which are those of result.json where that has
+/// the rows too. Of the last three an empty table has no line at all.
 std::string work_precision_csv(const sim::WorkPrecision& study);
 std::string stability_csv(const std::vector<sim::StabilityResult>& results);
 std::string methods_csv(const calib::MethodComparison& comparison);

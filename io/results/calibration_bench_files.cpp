@@ -7,6 +7,7 @@
 namespace havers::io {
 namespace {
 
+// The error of a chain against what it had cost until then; `cost` names the latter.
 nlohmann::json progress_json(const std::vector<calib::Progress>& progress, const char* cost) {
   nlohmann::json steps = nlohmann::json::array();
   for (const calib::Progress& step : progress)
@@ -44,6 +45,7 @@ nlohmann::json chains_json(const calib::ChainBenchmark& benchmark,
                       {"success_95", summary.success.interval_95},
                       {"by_simulations", progress_json(summary.by_simulations, "simulations")},
                       {"by_wall_s", progress_json(summary.by_seconds, "wall_s")}});
+  // A stopped bench has rows without summaries.
   return {{"complete", !chains.empty()},
           {"chains", chains},
           {"winner", chains.empty() ? "" : benchmark.winner().chain},

@@ -7,17 +7,19 @@
 
 namespace havers::io {
 
-/// The shortest text that reads back as the same number; empty for a number that is not finite.
+/// The shortest text that reads back as the same number; empty for a number that is not finite. A
+/// zero has no sign.
 std::string csv_number(double value);
 
-/// A header and rows of equal length, comma-separated.
+/// A header and rows, comma-separated; `columns` in the order of the header. Precondition: at least
+/// one column, all of equal length, and no name that needs quotes.
 std::string csv_text(const std::vector<std::string>& header,
                      const std::vector<std::vector<double>>& columns);
 
 /// The chosen columns of one row; an empty cell is NaN.
 struct CsvNumbers {
-  std::size_t line = 0;
-  std::vector<double> values;
+  std::size_t line = 0;        ///< Of the file, from 1.
+  std::vector<double> values;  ///< In the order of the names asked for.
 };
 
 /// Reads columns by the names in the header row; other columns may hold anything.

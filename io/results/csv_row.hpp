@@ -13,11 +13,15 @@
 
 namespace havers::io {
 
-/// Collects the keys of one row.
+/// Collects the keys of one row: a `Table` for the keys() of an item that have no unit, so that its
+/// columns have the names of its JSON.
 class CsvRow {
  public:
+  /// The first column: which item the row is of.
   CsvRow(const char* name, const std::string& value) : names_(name), cells_(quoted(value)) {}
 
+  /// One more column: a number as `csv_number` writes it, a text in quotes where it needs them, the
+  /// word of an enumeration, a whole number, or 1 and 0 for true and false.
   template <class T>
   void key(const char* name, const T& value) {
     names_ += fmt::format(",{}", name);
@@ -32,10 +36,12 @@ class CsvRow {
       cells_ += fmt::format("{:d}", value);
   }
 
+  /// The header and the row, each with its line end.
   [[nodiscard]] std::string names() const { return names_ + "\n"; }
   [[nodiscard]] std::string cells() const { return cells_ + "\n"; }
 
  private:
+  /// Quotes inside are doubled, as libcsv reads them.
   static std::string quoted(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::ostringstream result;
@@ -46,7 +52,7 @@ class CsvRow {
   std::string names_, cells_;
 };
 
-/// Rows below the names of the first.
+/// Rows below the names of the first; empty without rows. All rows must have the same keys.
 struct CsvTable {
   std::string text{};
 

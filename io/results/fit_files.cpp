@@ -1,3 +1,5 @@
+// The result of a fit and its curves, written and read back: result.json holds all but the curves,
+// which are in a CSV file for each specimen.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +19,7 @@ const std::vector<std::string> band_columns{
     "residual_Pa"};
 const std::vector<std::string> measured_columns{"strain", "stress_Pa"};
 
+// Column by column, in the order of the names.
 std::vector<std::vector<double>> read_columns(const std::filesystem::path& file,
                                               const std::vector<std::string>& names) {
   std::vector<std::vector<double>> columns(names.size());
@@ -25,6 +28,7 @@ std::vector<std::vector<double>> read_columns(const std::filesystem::path& file,
   return columns;
 }
 
+// Columns as in band_columns, whose order is not that of the band.
 calib::CurveBand read_band(const std::filesystem::path& file) {
   std::vector<std::vector<double>> columns = read_columns(file, band_columns);
   return {.strain = columns[0],
@@ -35,6 +39,7 @@ calib::CurveBand read_band(const std::filesystem::path& file) {
           .residual = columns[5]};
 }
 
+// Tells what the file is not from the outside in: not there, no JSON, not of a fit.
 nlohmann::json read_json(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream)
@@ -49,6 +54,7 @@ nlohmann::json read_json(const std::filesystem::path& file) {
   return json;
 }
 
+// What `calibration_json` wrote. A value of another type throws, an absent key does not.
 FitFolder fit_of(const nlohmann::json& json) {
   FitFolder fit;
   JsonReader table(json);
@@ -83,6 +89,7 @@ void read_curves(const std::filesystem::path& folder, calib::SpecimenResult& spe
 
 nlohmann::json calibration_json(const calib::Study& study, const calib::CalibrationResult& result,
                                 const calib::Provenance& provenance) {
+  // What the result holds, and what follows from it for users.
   nlohmann::json json = json_of(result);
   json["status_text"] = calib::explain(result.status);
   json["trusted"] = result.trusted();
@@ -121,10 +128,12 @@ FitFolder read_fit_folder(const std::filesystem::path& folder_or_result) {
     refuse_result(file);
   }
   if (!is_whole(fit.result)) refuse_result(file);
+  // Said once, not of each file in it.
   if (!fit.result.specimens.empty() && !std::filesystem::exists(folder / "curves"))
     throw InputError(file.string(), "has no curves beside it",
                      "leave it in the fit's folder, or copy curves with it");
   for (calib::SpecimenResult& specimen : fit.result.specimens) read_curves(folder, specimen);
+  // A test is written once, with the specimen's result; the study's specimen shares it.
   for (calib::Specimen& specimen : fit.study.specimens) {
     const auto found =
         std::ranges::find(fit.result.specimens, specimen.id, &calib::SpecimenResult::id);

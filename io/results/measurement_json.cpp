@@ -16,7 +16,8 @@ nlohmann::json column_json(const Column& column) {
 nlohmann::json import_json(const TestFile& file, const calib::Reduction& reduction) {
   nlohmann::json json =
       json_of(reduction.test);  // modulus_Pa, strength_Pa, ... , corrections and warnings
-  for (const auto& [key, value] : json.items())  // what is not known is null
+  // What is not known is null: a number that was left at 0, and without a strain all but the area.
+  for (const auto& [key, value] : json.items())
     if (value == 0.0 || (!value.is_array() && reduction.test.strain.empty() && key != "area_m2"))
       value = nullptr;
   json["file"] = file.file;
@@ -37,6 +38,7 @@ nlohmann::json import_json(const TestFile& file, const calib::Reduction& reducti
 
 nlohmann::json porosity_json(const calib::SectionPorosity& section, double scatter) {
   nlohmann::json json = json_of(section);
+  // (K5) Pores larger than a window take joints away, and have no scatter.
   const calib::SpecimenPorosity alone = calib::pool_sections({section});
   json["scatter"] = json_of(calib::removes_joints(alone) ? std::nan("") : scatter);
   json["missing_joints"] = calib::missing_joints(alone);

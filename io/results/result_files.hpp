@@ -23,7 +23,7 @@ std::string compiler_version();
 /// The `provenance` object of a result.json.
 nlohmann::json provenance_object(const calib::Provenance& provenance);
 
-/// The objects of result.json and of --json.
+/// The objects of result.json and of --json. SI units; a number that is not finite is null.
 nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& simulation,
                                const calib::Provenance& provenance);
 nlohmann::json calibration_json(const calib::Study& study, const calib::CalibrationResult& result,
@@ -47,8 +47,8 @@ void write_joints(const std::filesystem::path& file, const sim::Assembly& assemb
 
 /// What a file says of each joint.
 struct GivenThresholds {
-  std::vector<sim::Threshold> thresholds;
-  std::vector<double> lengths;  ///< Of the joints; NaN where it has none. [m]
+  std::vector<sim::Threshold> thresholds;  ///< By joint. [N/m]
+  std::vector<double> lengths;             ///< Of the joints; NaN where it has none. [m]
 };
 /// From columns joint,f_N,f_T of a CSV file, and length_m, which joints.csv has.
 /// @throws InputError.

@@ -7,9 +7,10 @@
 
 namespace havers::io {
 
-/// Of a file. @throws InputError when it cannot be read.
+/// Of a file. @throws InputError when it is a folder or cannot be read.
 std::string sha256(const std::filesystem::path& file);
 
+/// Of the bytes of a text.
 std::string sha256_of_text(std::string_view text);
 
 }  // namespace havers::io

@@ -1,3 +1,5 @@
+// What a simulation leaves. All numbers are in SI units as the simulation has them; their names say
+// so.
 #include <fmt/format.h>
 
 #include <cassert>
@@ -14,6 +16,7 @@ nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& sim
                                const calib::Provenance& provenance) {
   nlohmann::json scene = scene_json(file.scene);
   scene["output"]["snapshots"] = file.snapshots;
+  // A given step was never halved, so that its error is not known.
   const sim::StepError error = simulation.step_error.value_or(sim::StepError{NAN, NAN, NAN});
   return {
       {"status", sim::to_string(simulation.status)},
@@ -30,7 +33,7 @@ nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& sim
       {"strength_without_ringing_Pa", json_of(simulation.strength_without_ringing())},
       {"failure_strain",
        json_of(simulation.status == sim::SimulationStatus::broken ? simulation.failure_strain
-                                                                  : NAN)},  // not reached
+                                                                  : NAN)},  // not reached: null
       {"modulus_Pa", json_of(simulation.modulus)},
       {"first_break_strain", json_of(simulation.first_break_strain)},
       {"broken_joints", simulation.broken_joints},
@@ -66,6 +69,7 @@ void write_curve(const std::filesystem::path& file, const sim::Simulation& simul
 
 void write_joints(const std::filesystem::path& file, const sim::Assembly& assembly,
                   const sim::Simulation& simulation) {
+  // One row a joint, in the order of both: its number is its place.
   assert(assembly.joints.size() == simulation.joints.size());
   std::string text =
       "joint,kind,x_m,y_m,normal_x,normal_y,length_m,f_N,f_T,status,broken_at_strain,"

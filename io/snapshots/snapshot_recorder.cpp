@@ -3,6 +3,7 @@
 namespace havers::io {
 namespace {
 
+// Keeps the first, and with an odd number the last.
 void drop_every_second(std::vector<Snapshot>& held) {
   for (std::size_t i = 1; 2 * i < held.size(); ++i) held[i] = std::move(held[2 * i]);
   held.resize((held.size() + 1) / 2);
@@ -19,8 +20,10 @@ void SnapshotRecorder::record(const sim::Progress& progress) {
     held_.clear();
   }
   row_ = progress.row;
+  // Only a kept moment asks for displacements, in the limit a solve.
   if (count_ == 0 || shown_++ % stride_ != 0) return;
   held_.push_back({progress.row, progress.displacements(), progress.joints()});
+  // What stays is what the doubled stride would have kept from the beginning.
   if (held_.size() < 2 * count_ + 1) return;
   drop_every_second(held_);
   stride_ *= 2;
@@ -28,6 +31,7 @@ void SnapshotRecorder::record(const sim::Progress& progress) {
 
 void SnapshotRecorder::finish(const sim::Simulation& simulation) {
   if (count_ == 0 || simulation.displacements.size() == 0) return;
+  // The last row may have been recorded, or not have been shown.
   const std::size_t last = simulation.curve.size() - 1;
   if (!held_.empty() && held_.back().row == last) held_.pop_back();
   held_.push_back({last, simulation.displacements, simulation.joints});
@@ -36,6 +40,7 @@ void SnapshotRecorder::finish(const sim::Simulation& simulation) {
 std::vector<Snapshot> SnapshotRecorder::chosen() const {
   if (held_.size() <= count_) return held_;
   std::vector<Snapshot> spread;
+  // Evenly by their places, with the first; the last follows.
   for (std::size_t i = 0; i + 1 < count_; ++i)
     spread.push_back(held_[i * (held_.size() - 1) / (count_ - 1)]);
   spread.push_back(held_.back());

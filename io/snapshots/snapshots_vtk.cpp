@@ -23,6 +23,7 @@ void add_points(vtkUnstructuredGrid& grid, const sim::Assembly& assembly,
   shift->SetName("displacement");
   shift->SetNumberOfComponents(3);
   for (std::size_t i = 0; i < assembly.nodes.size(); ++i) {
+    // VTK has three coordinates; the model is plane.
     const auto at = 2 * static_cast<Eigen::Index>(i);
     points->InsertNextPoint(assembly.nodes[i].x(), assembly.nodes[i].y(), 0.0);
     shift->InsertNextTuple3(displacements(at), displacements(at + 1), 0.0);
@@ -72,6 +73,7 @@ void write_vtu(const std::filesystem::path& file, const sim::Assembly& assembly,
   add_points(*grid, assembly, displacements);
   add_cells(*grid, assembly, joints);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  // To a text first, so that the file is written whole or not at all.
   writer->WriteToOutputStringOn();
   writer->SetInputData(grid);
   writer->Write();

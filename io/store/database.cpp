@@ -22,6 +22,7 @@ Database::Database(const std::filesystem::path& file) : file_(file.string()) {
   sqlite3* handle = nullptr;
   const int code =
       sqlite3_open_v2(file_.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+  // A handle comes with a failure too: it has the message, and must be closed.
   handle_.reset(handle);
   if (code != SQLITE_OK) fail();
   sqlite3_busy_timeout(handle, patience);
@@ -32,6 +33,7 @@ void Database::run(const std::string& sql) {
 }
 
 void Database::insist(const std::string& sql) {
+  // [ms], as each turn sleeps for one.
   for (int waited = 0;; ++waited) {
     const int code = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
     if (code == SQLITE_OK) return;
@@ -47,6 +49,7 @@ int Database::ask(const std::string& sql) {
 
 void Database::fail() const {
   const int code = sqlite3_errcode(handle_.get());
+  // Of other failures, as a full disk, the store itself may be good.
   const bool damaged = code == SQLITE_CORRUPT || code == SQLITE_NOTADB;
   throw InputError(
       file_,
@@ -77,6 +80,7 @@ void Query::bind(int at, double value) {
 }
 
 void Query::bind(int at, const std::string& text) {
+  // SQLITE_TRANSIENT: SQLite keeps a copy, as the text may be gone before the step.
   check(sqlite3_bind_text64(statement_.get(), at, text.data(), text.size(), SQLITE_TRANSIENT,
                             SQLITE_UTF8));
 }
@@ -104,6 +108,7 @@ double Query::number(int column) const {
 }
 
 std::string Query::text(int column) const {
+  // Text before its length, which is that of the form asked for.
   const void* data = sqlite3_column_text(statement_.get(), column);
   const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column));
   return {static_cast<const char*>(data), size};
@@ -113,6 +118,7 @@ std::vector<double> Query::numbers(int column) const {
   const void* data = sqlite3_column_blob(statement_.get(), column);
   const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column));
   std::vector<double> numbers(size / sizeof(double));
+  // Copied, as a blob need not be aligned as doubles are.
   if (!numbers.empty()) std::memcpy(numbers.data(), data, numbers.size() * sizeof(double));
   return numbers;
 }

@@ -12,7 +12,8 @@ struct sqlite3_stmt;
 
 namespace havers::io {
 
-/// An open file. Every failure is an InputError that names the file.
+/// An open file. Every failure is an InputError that names the file. It must stay where it is, and
+/// live, as long as a Query uses it.
 class Database {
  public:
   /// Opens or creates the file. Waits up to a minute for other processes' transactions.
@@ -20,9 +21,10 @@ class Database {
 
   /// Runs statements that answer nothing.
   void run(const std::string& sql);
-  /// The same again as long as the file is busy, for what SQLite does not wait with itself.
+  /// The same again as long as the file is busy, a minute at most, for what SQLite does not wait
+  /// with itself.
   void insist(const std::string& sql);
-  /// The whole number that a statement answers.
+  /// The whole number that a statement answers; 0 where it has no row.
   int ask(const std::string& sql);
 
   /// Throws what SQLite says of its last failure.
@@ -30,10 +32,11 @@ class Database {
 
  private:
   friend class Query;
+  /// Closing rolls back what was not committed.
   struct Close {
     void operator()(sqlite3* handle) const;
   };
-  std::string file_;
+  std::string file_;  ///< For messages.
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
@@ -54,12 +57,14 @@ class Query {
   [[nodiscard]] std::string text(int column) const;
   [[nodiscard]] std::vector<double> numbers(int column) const;
 
+  /// Ready for the next use; what was bound is forgotten.
   void reset();
 
  private:
   struct Finish {
     void operator()(sqlite3_stmt* statement) const;
   };
+  /// Throws unless the code is SQLITE_OK.
   void check(int code) const;
 
   Database* database_;

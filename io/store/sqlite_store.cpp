@@ -27,6 +27,8 @@ void create_or_recognise(Database& database, const std::string& file) {
   const int owner = database.ask("PRAGMA application_id");
   const int version = database.ask("PRAGMA user_version");
   const bool empty = database.ask("SELECT count(*) FROM sqlite_master") == 0;
+  // An empty file is ours to make; anything else must be ours already. A throw leaves the
+  // transaction to be rolled back, and the file as it was.
   if (empty && owner == 0) {
     database.run(create_table);
     database.run(fmt::format("PRAGMA application_id = {}", application));
@@ -80,6 +82,7 @@ class SqliteStore : public calib::EvaluationStore {
     row->bind(1, sha256_of_text(key));
     if (!row->step()) return std::nullopt;
     const std::vector<double> curve = row->numbers(6);
+    // All strains, then all stresses.
     const auto half = curve.begin() + static_cast<std::ptrdiff_t>(curve.size() / 2);
     return calib::Response{.failed = row->flag(0),
                            .broke = row->flag(1),
@@ -111,8 +114,8 @@ class SqliteStore : public calib::EvaluationStore {
   }
 
  private:
-  std::mutex mutex_;  // one connection, many threads
-  Database database_;
+  std::mutex mutex_;   // one connection, many threads
+  Database database_;  // before its statements, which must be finished before it is closed
   Query select_, insert_;
 };
 

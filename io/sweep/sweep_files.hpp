@@ -12,10 +12,12 @@
 
 namespace havers::io {
 
-/// One row for each run; the keys of the sweep are columns.
+/// One row for each run; the keys of the sweep are columns, with the texts of the file. Measures
+/// that no run tells have none. `point` is the row's place in the points of result.json, from 0.
 std::string runs_csv(const calib::Sweep& sweep, const calib::SweepResult& result);
 
-/// One row for each point and measure: mean, standard deviation, n, standard error.
+/// One row for each point and measure: mean, standard deviation, n, standard error. Where no run of
+/// the point tells the measure there is no row.
 std::string summary_csv(const calib::Sweep& sweep, const calib::SweepResult& result);
 
 /// The laws alone: the phenomenological model, without fibres.

@@ -9,13 +9,14 @@
 
 namespace havers::sim {
 
+/// Where two fibres of a layer meet, n along the fibre, or two layers, n across it.
 enum class JointKind { head_tail, flank };
 
 /// A fibre or what the clipping leaves of it. Bodies share no nodes.
 struct Body {
-  int first_node = 0, nodes = 0;
-  int first_triangle = 0, triangles = 0;
-  int layer = 0;   ///< Of the running bond; 0 lies on the lower left corner.
+  int first_node = 0, nodes = 0;          ///< Nodes follow each other.
+  int first_triangle = 0, triangles = 0;  ///< Triangles likewise.
+  int layer = 0;                          ///< Of the running bond; 0 lies on the lower left corner.
   int column = 0;  ///< Of its first half fibre, also where the clipping left none of that.
 };
 

@@ -1,3 +1,5 @@
+// The running bond as a grid of corners that neighbours share, turned and clipped. What the sides
+// cut to a sliver is left out, and the grid is closed over it before all is clipped once more.
 #include "sim/assembly/half_fibres.hpp"
 
 #include <Eigen/Geometry>
@@ -12,7 +14,7 @@ using Eigen::Vector2d;
 
 constexpr double smallest_area = 1e-6;    // of a half fibre
 constexpr double smallest_closed = 1e-8;  // of one whose neighbours fill a sliver's place
-constexpr int most_passes = 5;
+constexpr int most_passes = 5;            // over the grid, until no sliver is left to close
 
 // Columns and layers of half fibres that can meet the rectangle.
 struct GridRange {
@@ -21,6 +23,7 @@ struct GridRange {
 
 GridRange grid_range(const AssemblyOptions& options) {
   const Eigen::Rotation2Dd to_fibres(-options.orientation);
+  // The specimen's corners, seen from the fibres.
   Eigen::AlignedBox2d box;
   for (const double x : {0.0, options.width()})
     for (const double y : {0.0, options.height()}) box.extend(to_fibres * Vector2d(x, y));
@@ -45,6 +48,7 @@ class Grid {
   // Those of which something is left.
   [[nodiscard]] HalfFibres half_fibres() const {
     HalfFibres halves;
+    // In the order of the map, which is that of bodies and joints.
     for (int layer = range_.first_layer; layer <= range_.last_layer; ++layer)
       for (int column = range_.first_column; column <= range_.last_column; ++column) {
         Polygon polygon = half_fibre(layer, column);
@@ -71,7 +75,9 @@ class Grid {
     if (longest < 0) return false;
     Vector2d &from = corners_[corner(layer, column, longest)],
              &to = corners_[corner(layer, column, (longest + 1) % 4)];
+    // The outline runs anticlockwise: inside is to the left.
     const Vector2d inward = Vector2d(from.y() - to.y(), to.x() - from.x()).normalized();
+    // How deep the sliver reaches is how far its edge is shifted.
     double depth = 0.0;
     for (const Vertex& vertex : sliver) depth = std::max(depth, inward.dot(vertex.position - from));
     from += depth * inward;
@@ -109,6 +115,8 @@ HalfFibres clipped_half_fibres(const AssemblyOptions& options, int& dropped) {
   Grid grid(options);
   const double whole = 0.5 * options.fibre_length * options.fibre_height;
   for (int pass = 1;; ++pass) {
+    // A sliver that is closed has no area left in later passes: it is left out again, and counted
+    // once.
     HalfFibres halves = grid.half_fibres();
     const double smallest = (pass == 1 ? smallest_area : smallest_closed) * whole;
     bool closed = false;

@@ -21,6 +21,7 @@ void add_joint(const HalfFibre& a, const HalfFibre& b, Joint joint, Assembly& as
   const bool head_tail = joint.kind == JointKind::head_tail;
   joint.edge_a = a.edge(head_tail ? EdgeOrigin::head : EdgeOrigin::upper);
   joint.edge_b = b.edge(head_tail ? EdgeOrigin::tail : EdgeOrigin::lower);
+  // The halves of a fibre are one body, bonded by their common nodes.
   if (a.body == b.body || joint.edge_a.empty() || joint.edge_b.empty()) return;
   const Vector2d& p = at(assembly, joint.edge_a.front());
   const Vector2d& q = at(assembly, joint.edge_a.back());
@@ -41,6 +42,7 @@ struct OuterEdge {
   double from, to;         // x [m]
 };
 
+// Those whose ends lie within the tolerance of that height, from left to right.
 std::vector<OuterEdge> outer_edges(const HalfFibres& halves, const Assembly& assembly, double y,
                                    double tolerance) {
   std::vector<OuterEdge> edges;
@@ -86,6 +88,7 @@ void add_joints(const AssemblyOptions& options, const HalfFibres& halves, Assemb
   flank.kind = JointKind::flank;
   flank.normal = {-axis.y(), axis.x()};
 
+  // Each looks ahead and above, so that every pair is found once.
   for (const auto& [place, half] : halves) {
     const auto [layer, column] = place;
     const auto ahead = halves.find({layer, column + 1});
@@ -99,6 +102,8 @@ void add_ties(const HalfFibres& halves, double tolerance, Assembly& assembly) {
   const std::vector<OuterEdge> top = outer_edges(halves, assembly, assembly.height, tolerance);
   const std::vector<OuterEdge> bottom = outer_edges(halves, assembly, 0.0, tolerance);
   const auto length = [](const OuterEdge& edge) { return edge.to - edge.from; };
+  // Both sides are walked at once from left to right; where two edges face each other, the middle
+  // of what they have in common is tied.
   for (std::size_t t = 0, b = 0; t < top.size() && b < bottom.size();) {
     const double from = std::max(top[t].from, bottom[b].from),
                  to = std::min(top[t].to, bottom[b].to);

@@ -1,3 +1,5 @@
+// Settings differ from the scene's own in few things, so that a bench shows what these cost and
+// change.
 #include "sim/bench/bench_setting.hpp"
 
 #include <fmt/format.h>
@@ -54,6 +56,7 @@ std::vector<BenchSetting> settings_in_time(const BenchSetting& own, double h) {
 }  // namespace
 
 std::string to_string(const BenchSetting& setting) {
+  // Ends in what all settings have: a mesh.
   const std::string rest =
       fmt::format("{}, {} triangles a fibre", setting.leave_out ? "" : ", nothing left out",
                   8 * setting.refinement * setting.refinement);

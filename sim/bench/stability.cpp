@@ -1,3 +1,5 @@
+// Judges runs by closed forms of the bonded specimen (M1). A run that says itself that it is not to
+// be trusted has failed; one that is trusted and misses the closed form is wrong.
 #include "sim/bench/stability.hpp"
 
 #include <fmt/format.h>
@@ -13,8 +15,8 @@
 namespace havers::sim {
 namespace {
 
-constexpr double largest_error = 1e-8;
-constexpr double largest_penetration = 1e-9;
+constexpr double largest_error = 1e-8;        // relative, of what closed forms say
+constexpr double largest_penetration = 1e-9;  // of the fibre length
 
 // Largest deviation of the loading curve from σ = E(ε + τε̇), relative to the largest stress until
 // the first break.
@@ -25,6 +27,7 @@ double stress_error(const Scene& scene, const Simulation& run) {
   double error = 0.0, largest = 0.0;
   for (const CurvePoint& point : run.curve) {
     if (point.broken_joints > 0) break;
+    // Nothing is computed yet in the row a run starts with.
     if (point.strain == 0.0) continue;
     const double expected = modulus * (point.strain + viscous);
     largest = std::max(largest, expected);
@@ -39,6 +42,7 @@ double first_break_error(const Scene& scene, const Simulation& run) {
   double expected = first_break_by_uniform_stress(scene);
   double lag = 0.0;
   if (run.regime == Regime::dynamic) {
+    // Viscous stress is there from the start, and breaks joints at less strain.
     expected = std::max(0.0, expected - scene.material.viscosity * scene.loading.strain_rate);
     lag = scene.loading.strain_rate * run.step;
   }
@@ -72,6 +76,7 @@ bool all_finite(const Simulation& run) {
          std::isfinite(run.worst_penetration);
 }
 
+// Empty where nothing is.
 std::string what_is_wrong(const StabilityResult& result, bool finite) {
   if (!finite) return "a number that is not finite left the run";
   if (result.error > largest_error)

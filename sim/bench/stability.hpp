@@ -20,6 +20,7 @@ struct StabilityScene {
 /// fibres in the quasi-static limit is also as strong as its weakest joint.
 std::vector<StabilityScene> stability_scenes();
 
+/// How a scene of known answer came out.
 enum class StabilityOutcome {
   solved,   ///< Trusted, and the known answer within the limits.
   refused,  ///< Not run, with a reason.
@@ -30,6 +31,7 @@ enum class StabilityOutcome {
 /// The outcome as one word.
 std::string to_string(StabilityOutcome outcome);
 
+/// What became of one scene; numbers are 0 where it was refused.
 struct StabilityResult {
   std::string name;
   StabilityOutcome outcome = StabilityOutcome::failed;
@@ -42,8 +44,10 @@ struct StabilityResult {
   double wall = 0.0;           ///< [s]
 };
 
+/// Refuses the scene, or runs it for a minute at most and judges it.
 StabilityResult run_stability_scene(const StabilityScene& scene, const StopAsked& stop_asked = {});
 
+/// All scenes that were run, in order.
 struct StabilityBench {
   std::vector<StabilityResult> scenes;
   bool complete = false;  ///< false: stopped before the last scene.

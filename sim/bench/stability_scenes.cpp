@@ -1,3 +1,5 @@
+// Each scene takes one thing of a small wall to the ends of what a scene may ask for: steps,
+// materials, geometry, strengths, loadings. The last ones have no answer at all.
 #include <fmt/format.h>
 
 #include <limits>
@@ -56,6 +58,7 @@ void add_both(Scenes& scenes, const std::string& name, const Scene& scene) {
 }
 
 void add_steps_and_materials(Scenes& scenes) {
+  // The joints' operator gets worse with the square of this (M10).
   for (const double size : {1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6})
     scenes.push_back({fmt::format("h c/L = {:g}", size), dynamic(size, wall())});
   for (const double young : {1e3, 1e12})
@@ -76,6 +79,7 @@ void add_steps_and_materials(Scenes& scenes) {
     scene.material.layer_contrast = contrast;
     add_both(scenes, fmt::format("every second layer {:g} as stiff", contrast), scene);
   }
+  // Across the load the closed form holds without lateral contraction only.
   Scene in_series = wall(4, 3, 90.0);
   in_series.material.layer_contrast = 1e-3;
   in_series.material.poisson = 0.0;
@@ -86,6 +90,7 @@ void add_steps_and_materials(Scenes& scenes) {
   for (const double viscosity : {1e-12, 1e-3}) {
     Scene scene = dynamic(1.0, wall());
     scene.material.viscosity = viscosity;
+    // So slow that viscous stress alone takes at most half of what breaks a joint.
     scene.loading.strain_rate =
         std::min(scene.loading.strain_rate, 0.5 * first_break_by_uniform_stress(scene) / viscosity);
     scene.solver.step = 0.05 * first_break_by_uniform_stress(scene) / scene.loading.strain_rate;
@@ -149,6 +154,7 @@ void add_loadings(Scenes& scenes) {
     scene.loading.strain_rate = rate;
     scenes.push_back({fmt::format("strain rate {:g} /s, regime and step chosen", rate), scene});
   }
+  // Short steps: above h c/L = 1 sweeps need very many (M10).
   for (const double size : {0.01, 0.1}) {
     Scene scene = dynamic(size, wall());
     scene.solver.contact = ContactMethod::gauss_seidel;
@@ -157,6 +163,7 @@ void add_loadings(Scenes& scenes) {
 }
 
 void add_refused(Scenes& scenes) {
+  // `spoil` makes of a scene one that has no answer.
   const auto refuse = [&](const std::string& name, const auto& spoil) {
     Scene scene = wall();
     spoil(scene);

@@ -38,6 +38,7 @@ class Watcher {
     row_ = progress.row;
     const double strain = progress.point.strain;
     const bool bonded = run_->bonded_forces.size() == 0 && broken_ == 0;  // before this row
+    // Joints are asked for only in the rows that need them.
     if (!bonded && progress.point.broken_joints == broken_) return;
     broken_ = progress.point.broken_joints;
     const std::vector<JointOutcome> joints = progress.joints();
@@ -49,6 +50,7 @@ class Watcher {
     }
     for (std::size_t j = 0; j < joints.size(); ++j) {
       const JointOutcome& joint = joints[j];
+      // Those of one row stand in the order of their index.
       if (!joint.broke() || !seen_.insert(j).second) continue;
       run_->order.push_back(static_cast<int>(j));
       if (run_->forces_at_break.size() * joints.size() < most_forces)
@@ -151,6 +153,7 @@ double bonded_modulus(const Scene& scene) {
   const double second = share_of_second_layers(scene.assembly), first = 1.0 - second;
   const double contrast = material.layer_contrast;
   const bool along = scene.assembly.orientation == 0.0;
+  // In parallel along the load, in series across it.
   const double mean = along ? first + second * contrast : 1.0 / (first + second / contrast);
   return mean * material.young * plane_stiffening(material);
 }
@@ -159,6 +162,7 @@ VectorXd bonded_forces_at(const Scene& scene, double strain) {
   const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
   VectorXd forces = uniform_stress_forces(assembly, strain * bonded_modulus(scene));
   if (scene.assembly.orientation != 0.0) return forces;
+  // Layers share the strain there, not the stress.
   for (std::size_t j = 0; j < assembly.joints.size(); ++j) {  // flanks bear nothing
     const int layer = assembly.bodies[static_cast<std::size_t>(assembly.joints[j].body_a)].layer;
     forces.segment<2>(static_cast<Index>(2 * j)) *= young_of_layer(scene.material, layer) *
@@ -172,6 +176,7 @@ double first_break_by_uniform_stress(const Scene& scene) {
   const VectorXd forces = bonded_forces_at(scene, 1.0);
   const std::vector<Threshold> thresholds =
       draw_thresholds(scene, build_assembly(scene.assembly, scene.loading.lateral));
+  // A joint that bears nothing but rounding never breaks.
   const double noise = forces.size() > 0 ? 1e-12 * forces.cwiseAbs().maxCoeff() : 0.0;
   double first = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < thresholds.size(); ++j) {

@@ -20,12 +20,15 @@ struct WatchedRun {
   bool out_of_time = false;                      ///< Stopped at the limit.
 };
 
+/// How a run is watched.
 struct WatchOptions {
   double bonded_strain = 0.0;  ///< Where `bonded_forces` are taken, on the line through the rows
                                ///< around it, which a run that leaps has before and after. [-]
   double time_limit = 60.0;    ///< Wall time. [s]
 };
 
+/// Simulates the scene until it ends, is stopped or has taken its time. Its joints are asked for
+/// until the bonded forces are known, and in rows with breaks.
 WatchedRun watch(const Scene& scene, const WatchOptions& options, const StopAsked& stop_asked);
 
 /// Joints that break in the reference's order before the two runs part.

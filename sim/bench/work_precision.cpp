@@ -1,3 +1,5 @@
+// Runs the settings in turn and measures them by a reference of the same seed. The direct solver's
+// steps come first, as the reference's step follows from the shortest that ends in time.
 #include "sim/bench/work_precision.hpp"
 
 #include <fmt/format.h>
@@ -64,6 +66,8 @@ double relative_error(const VectorXd& forces, const VectorXd& reference) {
 }
 
 double curve_error(const Simulation& run, const Simulation& reference) {
+  // By the midpoint rule up to the reference's failure; a curve that ends before counts as 0 from
+  // there on.
   constexpr int points = 200;
   double squares = 0.0;
   for (int i = 1; i <= points; ++i) {
@@ -75,6 +79,7 @@ double curve_error(const Simulation& run, const Simulation& reference) {
   return std::sqrt(squares / points) / reference.strength;
 }
 
+// Of those that are known; all NaN where none is.
 BenchSpread spread(std::vector<double> values) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty()) return {not_known, not_known, not_known};
@@ -171,7 +176,9 @@ std::optional<Omissions> omissions_of(const std::vector<BenchRow>& rows, Runs ru
                                       Runs runs_before) {
   const BenchRow &row = rows.back(), &before = rows[rows.size() - 2];
   if (row.setting == before.setting || without_omissions(row.setting) != before.setting) return {};
+  // One that was stopped is compared as far as it came; all others have to be trusted.
   if (row.trusted < row.runs || before.trusted + before.out_of_time < before.runs) return {};
+  // After a run that was stopped the seeds that follow are not run.
   const BenchErrors errors =
       errors_of(runs.first(std::min(runs.size(), runs_before.size())), runs_before);
   Omissions omissions{.setting = row.setting,
@@ -225,6 +232,7 @@ WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
                                const BenchObserver& observer) {
   WorkPrecision study{.bonded_strain = std::numeric_limits<double>::infinity(),
                       .time_limit = options.time_limit};
+  // Forces are compared at a strain at which no seed's specimen has broken yet.
   for (Scene seeded = scene; std::ssize(study.seeds) < options.seeds; ++seeded.joints.seed) {
     study.seeds.push_back(seeded.joints.seed);
     study.bonded_strain =
@@ -254,9 +262,11 @@ WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
   }
   std::vector<WatchedRun> references = bench.run(study.reference, no_limit);
   if (bench.stopped()) return study;
+  // The reference's own forces, for its row: what errors are measured by may be exact ones.
   std::vector<WatchedRun> before = references;
   study.closed_form = take_exact_forces(scene, study.bonded_strain, references);
   study.rows.push_back(row_of(study.reference, before, references));
+  // It leaps where one of its runs did.
   study.reference.leap = study.rows.front().setting.leap;
   for (auto& [setting, runs] : settings) {
     const bool of_reference = twice_its_step == setting;

@@ -50,6 +50,7 @@ std::vector<CheapestSetting> cheapest_settings(const WorkPrecision& study) {
       CheapestSetting cheapest{.quantity = quantity,
                                .target = target,
                                .reference_error = (study.reference_errors.*error).high};
+      // No row is said to reach a target that the reference itself may miss.
       for (std::size_t i = 1; i < study.rows.size(); ++i) {  // the first is the reference
         const BenchRow& row = study.rows[i];
         if (!is_judged(study, row, row.errors.*error)) continue;
@@ -69,6 +70,7 @@ std::optional<std::size_t> cheapest_for_failure(const WorkPrecision& study) {
 }
 
 std::string summary(const WorkPrecision& study) {
+  // What makes the comparison say nothing comes first.
   if (!study.complete) return "Stopped before every setting was run.";
   if (!reference_is_trusted(study))
     return fmt::format("The reference is not to be trusted: {} of {} runs ended well.",

@@ -1,3 +1,5 @@
+// Most joints hold, which is a linear condition and one solve. What may move is found by what this
+// overloads; the order of ways in `solve` is that of (C5).
 #include "sim/contact/active_set.hpp"
 
 #include <algorithm>
@@ -94,6 +96,8 @@ VectorXd ActiveSetSolver::jumps(const JointStep& step) const {
 // The loose joints among themselves.
 bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded_reactions,
                                    Effort effort, JointStepResult& result, VectorXd& y) const {
+  // Gaps count from where each joint is held. The step's force scale is a norm over all joints:
+  // here that of one. The trace stays below inertia, which has to be what holds pieces.
   LocalContact contact{loose_.stiffness(),
                        bonded_reactions(loose_.rows()),
                        (step.gaps - step.held_at)(loose_.rows()),
@@ -140,6 +144,7 @@ bool ActiveSetSolver::reattach_closed(const JointStepResult& result) {
       again.push_back(joint);
   if (again.empty()) return false;
   for (const int joint : again) held[static_cast<std::size_t>(joint)] = Held::fully;
+  // What was loose stays loose.
   again.insert(again.end(), loose_.joints().begin(), loose_.joints().end());
   rebuild(std::move(held));
   if (structure_.ok())
@@ -160,12 +165,17 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
   const auto loosening = [&](std::size_t joints) {
     return solve_loose(step, Effort::little, joints);
   };
+  // Several answers are possible: only one in which no joint leaves the bonded state is taken as it
+  // is. Where the first answer overloads few, sets are searched towards the nearest.
   if (few_bear && sweeps_are_quick_ && friction_is_strong(step)) {
     unless_solved([&] { return loosening(0); });
     if (leaving(step, result) < worth_searching) unless_solved([&] { return search(step, true); });
   }
+  // Few bear: among themselves. Then sets, whose sweeps see the neighbours of many.
   if (few_bear && may_search_) unless_solved([&] { return loosening(most_at_once); });
   if (may_search_) unless_solved([&] { return search(step, false); });
+  // What neither finds is looked for with all effort. Sweeps come after that where inertia is but a
+  // trace.
   unless_solved([&] { return solve_loose(step, Effort::all, step.laws.size()); });
   if (!may_search_) unless_solved([&] { return search(step, false); });
   result.iterations = iterations;
@@ -196,12 +206,14 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effor
     if (moves && !detached(joint) && !loose_.contains(joint)) loose_.add(joint);
   }
 
+  // Again where joints that were detached have closed.
   do {
     result.states = step.states;
     for (std::size_t j = 0; j < result.states.size(); ++j)
       if (detached(static_cast<int>(j))) result.states[j] = JointState::open;
     result.converged = false;
     if (!structure_.ok()) return result;
+    // What all would bear if the loose ones stayed where they are.
     const StructureLoads bonded{step.forces, step.prescribed, jumps(step), step.force_scale};
     StructureResponse bonded_response = structure_.solve(bonded), loose_response;
     StructureResponse* response = nullptr;
@@ -212,6 +224,7 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effor
       result.converged = settle_loose(step, bonded_response.reactions, effort, result, y);
       response = &bonded_response;
       if (!result.converged) break;
+      // Nothing to solve for where nothing has moved.
       if (y.size() > 0 && !y.isZero(0.0)) {
         StructureLoads loads = bonded;
         loads.jumps(loose_.rows()) += y;

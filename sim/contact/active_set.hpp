@@ -20,31 +20,40 @@ class ActiveSetSolver : public JointSolver {
   /// @param detach_open  false: broken joints stay in the factor for good (section 7, for
   /// comparison).
   explicit ActiveSetSolver(const Bodies& bodies, bool detach_open = true);
+  /// Several ways in turn, the cheap ones first, until one has an answer.
   JointStepResult solve(const JointStep& step) override;
+  /// Whether the factor of what is bonded has its pivots (S7).
   [[nodiscard]] bool determined() const override { return structure_.ok(); }
 
  private:
+  // A new factor without the joints that have opened, where they are many.
   void detach_opened(const JointStep& step);
+  // What was known of loose joints goes with the old factor.
   void rebuild(std::vector<Held> held);
   [[nodiscard]] bool detached(int joint) const {
     return structure_.held()[static_cast<std::size_t>(joint)] == Held::not_at_all;
   }
+  // By sets (C5); or their answer as a start, where joints are not to be detached.
   JointStepResult search(const JointStep& step, bool nearest);
+  // The loose joints among themselves (C1), and ever more of them.
   JointStepResult solve_loose(const JointStep& step, Effort effort, std::size_t most_leave);
+  // For StructureLoads: of every joint, beyond what is predicted. [m]
   [[nodiscard]] Eigen::VectorXd jumps(const JointStep& step) const;
+  // y are the loose joints' gaps beyond those of the last step. [m]
   bool settle_loose(const JointStep& step, const Eigen::VectorXd& bonded_reactions, Effort effort,
                     JointStepResult& result, Eigen::VectorXd& y) const;
   std::vector<int> violated(const JointStep& step, const Eigen::VectorXd& reactions,
                             JointStepResult& result) const;
+  // Whether some that are detached overlap; these are loose in a new factor then.
   bool reattach_closed(const JointStepResult& result);
 
   bool detach_open_;
-  bool sweeps_are_quick_;
-  bool may_search_;      // sweeps lead nowhere where inertia is but a trace
-  Structure structure_;  // holds all but the joints that have opened
+  bool sweeps_are_quick_;  // inertia is more than a small part of the stiffness
+  bool may_search_;        // sweeps lead nowhere where inertia is but a trace
+  Structure structure_;    // holds all but the joints that have opened
   LooseJoints loose_;
   SetSearch search_;
-  Eigen::VectorXd stiffness_;
+  Eigen::VectorXd stiffness_;  // of each joint, for residuals [N/m²]
 };
 
 }  // namespace havers::sim

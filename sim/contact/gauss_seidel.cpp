@@ -1,3 +1,5 @@
+// Sweeps until the residual of all joints is below the tolerance. States are read off the answer,
+// to within what the tolerance can tell.
 #include "sim/contact/gauss_seidel.hpp"
 
 #include <algorithm>
@@ -6,7 +8,7 @@ namespace havers::sim {
 
 namespace {
 
-constexpr int sweeps_between_checks = 10;
+constexpr int sweeps_between_checks = 10;  // of the residual, which looks at every joint too
 
 // On the cone to within what the tolerance can tell.
 JointState state_within(double tolerance, const Local& reaction, double slip, const JointLaw& law) {
@@ -35,6 +37,7 @@ JointStepResult GaussSeidelSolver::solve(const JointStep& step) {
                       sweeps_.tie_gap() * stiffness_.lpNorm<Eigen::Infinity>() / scale;
     result.converged = result.residual <= tolerance_;
   };
+  // No sweep where the last step's reactions are the answer.
   for (measure(); !result.converged && result.iterations < max_sweeps_; ++result.iterations) {
     sweeps_.sweep(step);
     if (result.iterations % sweeps_between_checks != sweeps_between_checks - 1) continue;

@@ -10,14 +10,17 @@ namespace havers::sim {
 /// above 1 (M10).
 class GaussSeidelSolver : public JointSolver {
  public:
+  /// @param tolerance  largest residual (M11) of an answer [-]
+  /// @param max_sweeps  in one step
   GaussSeidelSolver(const Bodies& bodies, double tolerance, int max_sweeps);
+  /// Starts from the last step's reactions. Not converged after that many sweeps.
   JointStepResult solve(const JointStep& step) override;
 
  private:
   double tolerance_;
   int max_sweeps_;
   JointSweeps sweeps_;
-  Eigen::VectorXd stiffness_;
+  Eigen::VectorXd stiffness_;  // of each joint, for residuals [N/m²]
 };
 
 }  // namespace havers::sim

@@ -1,3 +1,5 @@
+// Path following in λ (C4): branch by branch, each linear in λ, from where one joint's condition
+// ends to where the next one's does.
 #include "sim/contact/homotopy.hpp"
 
 #include <algorithm>
@@ -35,6 +37,8 @@ MatrixXd with_slope(const VectorXd& value, const VectorXd& slope) {
   return both;
 }
 
+// Of the system's states as they are; `known` is a solution for other states, from which
+// corrections are few, or empty.
 Branch solve_branch(StateSystem& system, StateSolution known, const Homotopy& added,
                     double nothing) {
   const LocalContact& p = system.problem();
@@ -54,6 +58,7 @@ struct Course {
   double direction = -1.0;
 };
 
+// Of one joint's state.
 struct Change {
   double at = -1.0;  // λ; negative: none
   std::size_t joint = 0;
@@ -104,6 +109,7 @@ Change next_change(const StateSystem& system, const Branch& branch, std::size_t 
   const auto slip = branch.u.row(static_cast<Index>(2 * joint) + 1);
   switch (system.states()[joint]) {
     case JointState::open:
+      // It closes, and slides the way of the slip that it has there.
       consider(JointState::slip_forward);
       if (slip(0) + first.at * slip(1) < 0.0) first.to = JointState::slip_backward;
       break;
@@ -151,6 +157,8 @@ VectorXd cohesion_to_stick(const VectorXd& reactions, const std::vector<JointLaw
 }
 
 std::optional<Homotopy> from_states(StateSystem& system) {
+  // Mirrored: overlap becomes a gap as wide, a pull a push as strong, a slip against its sign one
+  // along it.
   const LocalContact& p = system.problem();
   const StateSolution now = system.solve();
   if (!now.y.allFinite()) return std::nullopt;
@@ -171,6 +179,7 @@ std::optional<Homotopy> from_states(StateSystem& system) {
       added.reactions(row + 1) = -sign * law.friction * added.reactions(row);
       added.gaps(row + 1) = 2.0 * sign * std::max(0.0, -sign * (p.u0(row + 1) + now.y(row + 1, 0)));
     } else if (std::abs(shear) > limit) {
+      // Back to half of what the cone allows.
       added.reactions(row + 1) = 0.5 * std::copysign(limit, shear) - shear;
     }
   }
@@ -185,10 +194,12 @@ Homotopy from_sticking(StateSystem& system, int way) {
     if (p.is_apart(i))
       start[i] = JointState::open;
     else
+      // From 1 to 2: fractions of multiples of the golden ratio lie evenly, and never meet.
       e(static_cast<Index>(i)) =
           1.0 + std::fmod(std::numbers::phi * (static_cast<double>(i) + 7.0 * way * way), 1.0);
   system.set(std::move(start));
   const VectorXd reactions = system.solve().r;
+  // So much that the neediest joint sticks.
   return {.cohesion = cohesion_to_stick(reactions, p.laws).cwiseProduct(e).maxCoeff() * e};
 }
 
@@ -205,6 +216,7 @@ LocalContactResult follow_homotopy(StateSystem& system, const Homotopy& added, S
     result.y = branch.y.col(0);
     if (!branch.y.allFinite()) break;
     if (back && turns(system, branch, *back, course)) course.direction = -course.direction;
+    // The first change on the way, of all joints.
     Change next;
     for (std::size_t j = 0; j < system.states().size(); ++j) {
       const Change change = next_change(system, branch, j, course);

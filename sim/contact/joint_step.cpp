@@ -1,3 +1,4 @@
+// What the solvers of the joints' problem share: gaps, forces, and how an answer is judged (M11).
 #include "sim/contact/joint_step.hpp"
 
 #include <algorithm>
@@ -16,6 +17,7 @@ VectorXd joint_forces_on_nodes(const Bodies& bodies, const VectorXd& reactions) 
   return bodies.port_forces_on_nodes(bodies.forces_of_joints(reactions));
 }
 
+// Entries of Z's diagonal, the larger of both sides; what is beyond the joints' unknowns are ties.
 VectorXd joint_stiffness(const Bodies& bodies) {
   VectorXd stiffness = VectorXd::Zero(static_cast<Index>(bodies.assembly().joints.size()));
   for (const BodyClass& group : bodies.classes())
@@ -38,6 +40,7 @@ double joint_residual(const JointStep& step, const JointStepResult& result,
                             stiffness(static_cast<Index>(j)))
                    .squaredNorm();
   }
+  // Where nothing bears and nothing is missed, the residual is 0 and not 0/0.
   const double scale = std::max(step.force_scale, result.reactions.norm());
   return squared == 0.0 ? 0.0 : std::sqrt(squared) / std::max(scale, 1e-300);
 }

@@ -27,14 +27,15 @@ struct JointStep {
   StopAsked stop_asked{};          ///< A solver that is stopped has not converged.
 };
 
+/// An answer, or how far a solver came.
 struct JointStepResult {
   bool converged = false;
   Eigen::VectorXd displacements;  ///< δ. [m]
   Eigen::VectorXd reactions;      ///< r. [N/m]
-  Eigen::VectorXd tie_forces;     ///< [N/m]
+  Eigen::VectorXd tie_forces;     ///< Of every tie, pushing its top point up. [N/m]
   Eigen::VectorXd gaps;           ///< Total, at the end of the step. [m]
   std::vector<JointState> states;
-  long iterations = 0;
+  long iterations = 0;    ///< As the solver counts them: sets, branches, sweeps.
   double residual = 0.0;  ///< (M11). [-]
 };
 
@@ -45,6 +46,7 @@ class JointSolver {
   JointSolver(const JointSolver&) = delete;
   JointSolver& operator=(const JointSolver&) = delete;
   virtual ~JointSolver() = default;
+  /// Not converged: no answer was found, or the solver was stopped.
   virtual JointStepResult solve(const JointStep& step) = 0;
   /// Whether there is but one set of reactions, as far as the method tells.
   [[nodiscard]] virtual bool determined() const { return true; }

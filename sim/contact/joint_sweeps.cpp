@@ -1,3 +1,6 @@
+// Non-smooth Gauss-Seidel [Jean99] on the displacements of the ports, which are kept up to date: a
+// joint costs two columns of its bodies' answers, whatever the mesh. All nodes are found at the
+// end.
 #include "sim/contact/joint_sweeps.hpp"
 
 #include <Eigen/Cholesky>
@@ -18,6 +21,7 @@ namespace {
 constexpr std::array<double, 4> tie_signs{1.0, -1.0, -1.0,
                                           1.0};  // top, bottom, next top, next bottom
 
+// Ā⁻¹, zero in the rows and columns that the boundary holds.
 MatrixXd inverse_of_free_part(const BodyOperator& op) {
   MatrixXd inverse = MatrixXd::Zero(op.shifted.rows(), op.shifted.rows());
   const MatrixXd A = op.shifted(op.free, op.free);
@@ -55,6 +59,7 @@ void JointSweeps::find_contacts() {
     contact.ports_b = {normal[1], tangential[1]};
     contact.body_a = joints[j].body_a;
     contact.body_b = joints[j].body_b;
+    // The gap by a unit of each reaction, through both bodies.
     Eigen::Matrix2d W;
     for (const std::size_t r : {0U, 1U})
       for (const std::size_t c : {0U, 1U})
@@ -67,6 +72,7 @@ void JointSweeps::find_contacts() {
 
 void JointSweeps::pair_ties() {
   const std::vector<Tie>& ties = bodies_->assembly().ties;
+  // Equation i holds the next tie at the height of tie i.
   for (std::size_t i = 0; i + 1 < ties.size(); ++i) {
     const Tie &tie = ties[i], &next = ties[i + 1];
     const auto &ends = bodies_->ends()[2 * contacts_.size() + i],
@@ -74,6 +80,7 @@ void JointSweeps::pair_ties() {
     TieEquation equation{{ends[1], ends[0], next_ends[1], next_ends[0]},
                          {tie.body_top, tie.body_bottom, next.body_top, next.body_bottom},
                          0.0};
+    // Its force acts on four ports, some of which may be of one body.
     for (std::size_t a = 0; a < 4; ++a)
       for (std::size_t b = 0; b < 4; ++b)
         if (equation.bodies[a] == equation.bodies[b])
@@ -93,6 +100,7 @@ void JointSweeps::start(const JointStep& step, VectorXd reactions, const VectorX
   double sum = 0.0;  // an equation's force acts on its own tie and, the other way, on the next
   for (Index i = 0; i < between_ties_.size() && tie_forces.size() > 0; ++i)
     between_ties_(i) = sum += tie_forces(i);
+  // All that the forces so far do; each sweep adds what it changes.
   p_ = bodies_->port_displacements(displacements(step));
 }
 
@@ -120,6 +128,7 @@ double JointSweeps::opening(const TieEquation& tie) const {
 }
 
 bool JointSweeps::sweep(const JointStep& step, double relaxation, double negligible) {
+  // Bodies that have felt enough since their joints were solved; these start to count anew.
   for (std::size_t body = 0; body < moves_.size(); ++body) {
     double& unrest = unrest_(static_cast<Index>(body));
     moves_[body] = unrest > negligible ? 1 : 0;
@@ -134,8 +143,10 @@ bool JointSweeps::sweep(const JointStep& step, double relaxation, double negligi
     const Local gap = step.predicted.segment<2>(row) - step.held_at.segment<2>(row) +
                       p_(contact.ports_b) - p_(contact.ports_a);
     const Local old = reactions_.segment<2>(row);
+    // What it would bear with no gap, its two bodies' other forces staying as they are.
     const Local free = old - contact.stiffness * gap;
     const SingleJoint found = solve_single_joint(contact.stiffness, free, step.laws[j]);
+    // Over-relaxed reactions may lie outside their cones while sweeps go on.
     const Local now = old + relaxation * (found.reaction - old);
     push(contact.body_a, contact.ports_a, old - now);
     push(contact.body_b, contact.ports_b, now - old);
@@ -143,6 +154,7 @@ bool JointSweeps::sweep(const JointStep& step, double relaxation, double negligi
     changed = changed || found.state != states_[j];
     states_[j] = found.state;
   }
+  // Ties hold both ways: what closes them is their force.
   for (std::size_t i = 0; i < ties_.size(); ++i) {
     const double force = -opening(ties_[i]) / ties_[i].compliance;
     for (std::size_t k = 0; k < 4; ++k)
@@ -171,6 +183,7 @@ VectorXd JointSweeps::port_forces() const {
 }
 
 VectorXd JointSweeps::displacements(const JointStep& step) const {
+  // What the sides prescribe is a load on all else.
   const VectorXd load = step.forces + bodies_->port_forces_on_nodes(port_forces()) -
                         bodies_->shifted_times(step.prescribed);
   VectorXd d = step.prescribed;

@@ -9,6 +9,7 @@
 
 namespace havers::sim {
 
+/// What one joint bears and does.
 struct SingleJoint {
   Local reaction;  ///< [N/m]
   JointState state;
@@ -17,9 +18,12 @@ struct SingleJoint {
 /// (C3) One joint alone, exactly: r = `free` + S u and the law for the gap u.
 inline SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& free,
                                       const JointLaw& law) {
+  // Without a gap it stays inside its cone.
   if (cone_margin(free, law) >= 0.0) return {free, JointState::stick};
   const double n = free.x() + law.cohesion, t = free.y();
+  // With r at the tip, S u = (−n, −t): open where this gap is not negative.
   if (S(0, 1) * t >= S(1, 1) * n) return {{-law.cohesion, 0.0}, JointState::open};
+  // Closed and on the cone, r_T = −slope (r_N + c), with the slip that has the sign of its way.
   SingleJoint slipped{};
   for (const JointState way : {JointState::slip_forward, JointState::slip_backward}) {
     const double slope = slip_sign(way) * law.friction;
@@ -66,11 +70,16 @@ class JointSweeps {
     double compliance = 0.0;  ///< [m²/N]
   };
 
+  // Once for all steps:
   void find_contacts();
   void pair_ties();
+  // What a unit force at one port of a body moves another by; both counted over all bodies. [m²/N]
   [[nodiscard]] double answer(int body, Eigen::Index row, Eigen::Index column) const;
+  // Two forces on a body, and what they move at all of its ports.
   void push(int body, std::array<Eigen::Index, 2> ports, const Local& force);
+  // Height of a tie less that of the next one. [m]
   [[nodiscard]] double opening(const TieEquation& tie) const;
+  // Of joints and ties, at all ports. [N/m]
   [[nodiscard]] Eigen::VectorXd port_forces() const;
 
   const Bodies* bodies_;

@@ -1,3 +1,5 @@
+// Tries what is quick first: a few sets (C2), a short path from the last states, ever longer ones
+// from all joints sticking (C4), and all of these once more with springs (C7).
 #include "sim/contact/local_contact.hpp"
 
 #include <algorithm>
@@ -29,6 +31,7 @@ constexpr int changes_in_all = 30'000;
 constexpr std::array<double, 5> springs{1e-11, 1e-10, 1e-9, 1e-8, 1e-7};
 constexpr int times_moved = 8;
 
+// The states that the law gives joints with the gaps y, compared as forces.
 States states_of(const LocalContact& p, const VectorXd& y, const States& now) {
   const VectorXd r = p.r0 + p.S * y, u = p.u0 + y;
   const double scale =
@@ -64,6 +67,7 @@ double law_residual_of(const LocalContact& p, const VectorXd& y) {
 
 JointState state_of(const Local& reaction, const Local& gap, JointState now, const JointLaw& law,
                     double scale) {
+  // A state is left only where its own condition fails by more than rounding.
   const double tolerance = rounding * scale;
   if (now == JointState::open) return gap.x() < -tolerance ? JointState::stick : JointState::open;
   if (reaction.x() + law.cohesion < -tolerance) return JointState::open;
@@ -108,6 +112,7 @@ LocalContactResult solve_as_it_is(const LocalContact& problem, const States& sta
     result = follow_homotopy(system, path, {}, std::min(changes, left_for_each));
     spent += result.iterations;
   };
+  // First the short path, which arrives where the last states are nearly the answer's.
   if (const std::optional<Homotopy> near = from_states(system)) follow(*near, 1);
   for (int way = 0; way < most_ways && goes_on(); ++way)
     follow(from_sticking(system, way), changes_of_first_way << way);
@@ -128,6 +133,7 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
     const double stiffness = part * problem.S.diagonal().maxCoeff();
     LocalContact held = problem;
     held.S.diagonal().array() += stiffness;
+    // Every stiffness starts from the same states, whatever softer springs led to.
     LocalContactResult result{.states = nearest};
     for (int i = 0; i < times_moved && least > well_met && spent < changes_in_all &&
                     !stop_is_asked(problem.stop_asked);
@@ -136,6 +142,7 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
       spent += result.iterations;
       if (!result.converged) break;
       const double residual = law_residual_of(problem, result.y);
+      // From here on springs bear what the next answer moves beyond this one.
       held.r0 = problem.r0 - stiffness * result.y;
       if (!(residual <= least)) continue;
       least = residual;

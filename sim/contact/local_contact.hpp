@@ -50,6 +50,7 @@ struct LocalContact {
   }
 };
 
+/// An answer where it is converged; else what was looked at last.
 struct LocalContactResult {
   bool converged = false;
   Eigen::VectorXd y;               ///< 2n. [m]

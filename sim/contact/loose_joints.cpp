@@ -1,3 +1,4 @@
+// S grows with the joints that come loose (S8): nothing of it is solved for twice.
 #include "sim/contact/loose_joints.hpp"
 
 #include <algorithm>
@@ -25,6 +26,7 @@ void LooseJoints::add(int joint) {
     const Index size = std::max<Index>(16, 2 * stiffness_.cols());
     stiffness_.conservativeResize(size, size);
   }
+  // The second call costs nothing, as what was last asked for is kept.
   stiffness_.block(first, 0, 2, first) = reactions_of(joint);
   stiffness_.block(0, first, first, 2) = reactions_of(joint).transpose();
   stiffness_.block<2, 2>(first, first) = structure_->reactions_of(*held_, {held_});
@@ -34,6 +36,7 @@ void LooseJoints::add(int joint) {
   jumps_.push_back(std::move(held_));
 }
 
+// What was last asked for is kept: of the joints that are looked at one comes loose next.
 const Eigen::Matrix2Xd& LooseJoints::reactions_of(int joint) {
   if (held_ && held_->joint == joint) return of_held_;
   held_ = source_(joint);

@@ -20,14 +20,18 @@ class LooseJoints {
   explicit LooseJoints(const Structure& structure);
 
   [[nodiscard]] std::size_t size() const { return joints_.size(); }
+  /// In the order in which they came loose, which is that of all rows and columns here.
   [[nodiscard]] const std::vector<int>& joints() const { return joints_; }
   /// Their rows in a vector over all joints, normal and tangential of each.
   [[nodiscard]] const std::vector<Eigen::Index>& rows() const { return rows_; }
+  /// Unit jumps at them, solved for half way (S8).
   [[nodiscard]] const std::vector<SharedJump>& jumps() const { return jumps_; }
   [[nodiscard]] bool contains(int joint) const {
     return is_loose_[static_cast<std::size_t>(joint)] != 0;
   }
 
+  /// Lets a joint come loose that is held fully by the structure: half a solve, and a product with
+  /// each of those before.
   void add(int joint);
 
   /// Reactions of a joint that holds to unit gaps of the loose ones, a column each. [N/m²]

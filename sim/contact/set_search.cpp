@@ -61,6 +61,8 @@ void SetSearch::answer(const JointStep& step, double accuracy, JointStepResult& 
                        VectorXd::Zero(joints),
                        accuracy,
                        last_.residual < useful ? &last_ : nullptr};
+  // An open joint bears −c, a sliding one μ(R_N + c) against its slip, R_N being found with all
+  // else.
   for (Index j = 0; j < joints; ++j) {
     const JointState state = result.states[static_cast<std::size_t>(j)];
     const JointLaw& law = step.laws[static_cast<std::size_t>(j)];
@@ -157,6 +159,7 @@ JointStepResult SetSearch::solve(const JointStep& step, bool nearest) {
   sweeps_.start(step, step.reactions, step.tie_forces);
   int patience = nearest ? patience_for_nearest : 1;
   const int most_sets = sets_from_answers + (nearest ? 0 : sets_from_sweeps);
+  // Sweeps, a set and its answer, and on from there.
   for (int set = 0; set < most_sets && !stop_is_asked(step.stop_asked); ++set) {
     const bool by_sweeps_alone = set < sets_by_sweeps_alone;
     const bool far = by_sweeps_alone && !nearest;

@@ -21,12 +21,19 @@ class SetSearch {
   JointStepResult solve(const JointStep& step, bool nearest);
 
  private:
+  // Lets the structure hold what a set of states holds.
   void take(const std::vector<JointState>& states);
+  // The set's own answer, to part of the forces; converged where it keeps every joint's law.
   void answer(const JointStep& step, double accuracy, JointStepResult& result);
+  // Whether the result's states are an answer, which is then in the result with all else.
   bool settles(const JointStep& step, JointStepResult& result);
+  // @param most  changes that an answer may ask for
   bool settles_nearby(const JointStep& step, std::size_t most, JointStepResult& result);
+  // What the law makes of an answer.
   [[nodiscard]] std::vector<JointState> lawful(const JointStep& step, const JointStepResult& result,
                                                double accuracy) const;
+  // Sweeps until states rest or it has taken too long, `patience` times as long as usual; `far`:
+  // over-relaxed, and past joints that hardly feel a change.
   int look_for_states(const JointStep& step, int patience, bool far,
                       std::vector<JointState>& states);
 
@@ -35,8 +42,8 @@ class SetSearch {
   std::optional<Structure> structure_;       // of the last set
   StructureResponse last_{.residual = 1.0};  // answer, where the next one starts
   std::vector<JointState> lawful_;           // by the last answer
-  Eigen::VectorXd stiffness_;
-  std::ptrdiff_t broken_ = 0;  // joints, when its set was last tried
+  Eigen::VectorXd stiffness_;                // of each joint, for residuals [N/m²]
+  std::ptrdiff_t broken_ = 0;                // joints, when its set was last tried
 };
 
 }  // namespace havers::sim

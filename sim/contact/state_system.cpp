@@ -1,3 +1,5 @@
+// Equations of a set of states (C2), for paths on which one state changes at a time: the factor of
+// some states serves their neighbours by a border (C6), and each solution starts from the last.
 #include "sim/contact/state_system.hpp"
 
 #include <algorithm>
@@ -51,6 +53,7 @@ double StateSystem::scale() const {
   return problem_->S.diagonal().maxCoeff();
 }
 
+// Of r_N + c for a normal gap, of r_T + slope (r_N + c) for a slip.
 double StateSystem::coefficient(const Equation& equation, Index unknown) const {
   double value = problem_->S(unknown, equation.row);
   if (equation.slope != 0.0) value += equation.slope * problem_->S(unknown, equation.row - 1);
@@ -61,6 +64,7 @@ std::vector<StateSystem::Equation> StateSystem::equations_of_states() const {
   std::vector<Equation> equations;
   equations.reserve(2 * states_.size());
   for (std::size_t i = 0; i < states_.size(); ++i) {
+    // A joint that sticks has none: both of its gaps are given.
     const auto row = static_cast<Index>(2 * i);
     if (states_[i] == JointState::open) equations.push_back({row, 0.0});
     if (states_[i] != JointState::stick)
@@ -69,6 +73,7 @@ std::vector<StateSystem::Equation> StateSystem::equations_of_states() const {
   return equations;
 }
 
+// O(n³) of n free gaps. Not symmetric where joints slide.
 void StateSystem::factorise() {
   factorised_ = equations_;
   const auto n = static_cast<Index>(factorised_.size());
@@ -108,13 +113,17 @@ const VectorXd& StateSystem::column(Index row) {
 // (C6). Whether the states are near enough to those of the factor.
 bool StateSystem::border_factor() {
   std::vector<std::optional<double>> slopes(place_.size());
+  // By row; none where the states have no equation.
   for (const Equation& equation : equations_)
     slopes[static_cast<std::size_t>(equation.row)] = equation.slope;
   borders_.clear();
+  // What the factor has and the states have not, or in another way: an unknown force frees its
+  // equation.
   for (const Equation& old : factorised_) {
     const std::optional<double>& now = slopes[static_cast<std::size_t>(old.row)];
     if (now != old.slope) borders_.push_back({old.row, false, now});
   }
+  // And what the states alone have: a gap more, and its equation.
   for (const Equation& equation : equations_)
     if (place_[static_cast<std::size_t>(equation.row)] < 0)
       borders_.push_back({equation.row, true, equation.slope});
@@ -128,6 +137,7 @@ bool StateSystem::border_factor() {
   for (Index i = 0; i < k; ++i) {
     const Border& border = borders_[static_cast<std::size_t>(i)];
     border_columns_.col(i) = column(border.row);
+    // The joint holds: its gap does not change, and that is the equation.
     if (!border.slope) {
       border_rows_(i, place_[static_cast<std::size_t>(border.row)]) = 1.0;
       continue;
@@ -138,6 +148,7 @@ bool StateSystem::border_factor() {
     for (Index j = 0; j < k; ++j)
       if (borders_[static_cast<std::size_t>(j)].has_unknown)
         corner(i, j) = coefficient(equation, borders_[static_cast<std::size_t>(j)].row);
+    // The trace, as in the factor.
     const double hold = problem_->trace * scale();
     if (border.has_unknown)
       corner(i, i) += hold;
@@ -156,11 +167,13 @@ VectorXd StateSystem::corrected_by(const VectorXd& lack) {
   for (Index j = 0; j < n; ++j) load(j) = lack(factorised_[static_cast<std::size_t>(j)].row);
   for (Index i = 0; i < k; ++i) {
     const Border& border = borders_[static_cast<std::size_t>(i)];
+    // What is freed asks for nothing itself; its place is taken by the border's own equation.
     border_load(i) = border.slope ? lack(border.row) : 0.0;
     if (!border.has_unknown) load(place_[static_cast<std::size_t>(border.row)]) = 0.0;
   }
   VectorXd known = from_factor(load), change = VectorXd::Zero(lack.size());
   VectorXd added;
+  // W − VA⁻¹U first, then what it changes of the factor's answer.
   if (k > 0) {
     added = complement_.solve(border_load - border_rows_ * known);
     known -= border_columns_ * added;
@@ -195,10 +208,12 @@ StateSolution StateSystem::solve_from(StateSolution known, const MatrixXd& r0, c
                                       const MatrixXd& cohesion, double accuracy) {
   equations_ = equations_of_states();
   if (!border_factor()) factorise();
+  // Without gaps: what an accuracy is a part of.
   const double load = lacking(r0, cohesion).norm();
   StateSolution found = known;
   correct(found, held, cohesion, load, accuracy);
   if (borders_.empty()) return found;
+  // The border is given up only where it lacks digits that a factor would have.
   const double lacks = lacking(found.r, cohesion).norm(),
                rounding = rounding_of_gaps * std::sqrt(static_cast<double>(found.y.rows()));
   if (lacks <= tolerated * found.r.norm() + rounding * scale() * found.y.norm() ||
@@ -217,6 +232,7 @@ VectorXd StateSystem::forces_of(const VectorXd& change) const {
 // Gaps that the states hold are set, the others found.
 void StateSystem::correct(StateSolution& solution, const MatrixXd& held, const MatrixXd& cohesion,
                           double load, double accuracy) {
+  // Gaps that are given act on all reactions at once.
   std::vector<char> free(place_.size(), 0);
   for (const Equation& equation : equations_) free[static_cast<std::size_t>(equation.row)] = 1;
   for (Index row = 0; row < held.rows(); ++row) {
@@ -226,6 +242,7 @@ void StateSystem::correct(StateSolution& solution, const MatrixXd& held, const M
   }
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= corrections && !equations_.empty(); ++i) {
+    // Corrections with what the reactions lack, as long as each leaves half of it or less.
     const MatrixXd b = lacking(solution.r, cohesion);
     const double size = b.norm();
     if (size <= accuracy * load || size > shrinkage * before) break;

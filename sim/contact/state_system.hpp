@@ -34,6 +34,7 @@ class StateSystem {
 
   /// Takes note of joints that the problem has got; they stick.
   void grow();
+  /// The next solution takes states up.
   void set(std::size_t joint, JointState state) { states_[joint] = state; }
   void set(std::vector<JointState> states) { states_ = std::move(states); }
 
@@ -62,13 +63,18 @@ class StateSystem {
 
   [[nodiscard]] std::vector<Equation> equations_of_states() const;
   void factorise();
+  // False where so much has changed that a new factor costs less.
   bool border_factor();
   [[nodiscard]] Eigen::VectorXd from_factor(const Eigen::VectorXd& load) const;
+  // The largest stiffness. [N/m²]
   [[nodiscard]] double scale() const;
   [[nodiscard]] Eigen::VectorXd forces_of(const Eigen::VectorXd& change) const;
+  // By how much the gap of a row changes what an equation asks to be zero. [N/m²]
   [[nodiscard]] double coefficient(const Equation& equation, Eigen::Index unknown) const;
+  // Of a border, solved for with the factor; kept as long as that is.
   [[nodiscard]] const Eigen::VectorXd& column(Eigen::Index row);
   [[nodiscard]] Eigen::VectorXd corrected_by(const Eigen::VectorXd& lack);
+  // One load a column. [N/m]
   [[nodiscard]] Eigen::MatrixXd lacking(const Eigen::MatrixXd& r,
                                         const Eigen::MatrixXd& cohesion) const;
   void correct(StateSolution& solution, const Eigen::MatrixXd& held,

@@ -1,3 +1,5 @@
+// Implicit Euler (M3), with the joints' problem of a step left to a solver: this prepares it, takes
+// its answer over and keeps the account of energies.
 #include "sim/dynamics/dynamic_run.hpp"
 
 #include <algorithm>
@@ -35,6 +37,7 @@ DynamicRun::DynamicRun(const Scene& scene, const Assembly& assembly, double step
       solver_(make_solver(scene.solver, bodies_)) {
   const auto rows = static_cast<Index>(2 * assembly_.joints.size());
   motion_.q = motion_.v = VectorXd::Zero(bodies_.dofs());
+  // The velocity of uniform strain (section 5); the corner that is held in y has none.
   if (scene_.loading.start == Start::uniform) {
     const double rate = scene_.loading.strain_rate, nu = lateral_contraction(scene_.material);
     const double y0 = assembly_.nodes[static_cast<std::size_t>(assembly_.corner)].y();
@@ -52,6 +55,7 @@ DynamicRun::DynamicRun(const Scene& scene, const Assembly& assembly, double step
   step_.states.assign(joints_.size(), JointState::stick);
   step_.broken.assign(joints_.size(), 0);
   step_.laws.reserve(joints_.size());
+  // What is missing bears pressure and friction only, from the first step on.
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const bool missing = joints_[j].broken;
     step_.broken[j] = missing ? 1 : 0;
@@ -62,10 +66,12 @@ DynamicRun::DynamicRun(const Scene& scene, const Assembly& assembly, double step
 
 // Loads and predicted gaps of the coming step (M3), for δ = h (v⁺ − v).
 void DynamicRun::prepare() {
+  // (M3) divided by h: Ā δ = F − K(q + hv) − τKv + Hᵀr⁺, F on the held nodes alone.
   const VectorXd Kv = (h_ + scene_.material.viscosity) * motion_.Kv;
   step_.forces = -(motion_.Kq + Kv);
   step_.predicted = step_.gaps + h_ * joint_gaps(bodies_, motion_.v);
   step_.prescribed = VectorXd::Zero(bodies_.dofs());
+  // Held nodes have the machine's velocity at the end of the step, whatever they had before.
   for (const int node : assembly_.left) step_.prescribed(2 * node) = -h_ * motion_.v(2 * node);
   for (const int node : assembly_.right)
     step_.prescribed(2 * node) =
@@ -94,6 +100,7 @@ double DynamicRun::work_of_ties(const VectorXd& tie_forces) const {
 void DynamicRun::account(const JointStepResult& result, const Motion& before) {
   const VectorXd inertia = bodies_.mass().cwiseProduct(motion_.v - before.v) / h_;
   acceleration_force_ = inertia.norm();
+  // Zero at all nodes but those that are held, where it is what the machine adds.
   const VectorXd reaction = inertia + motion_.Kq + scene_.material.viscosity * motion_.Kv -
                             joint_forces_on_nodes(bodies_, result.reactions);
   const auto along_x = [](const VectorXd& forces, const std::vector<int>& nodes) {
@@ -129,6 +136,7 @@ void DynamicRun::break_joints(const JointStepResult& result) {
     joints_[j].reaction_tangent = result.reactions(row + 1);
     joints_[j].gap = result.gaps(row);
     worst_penetration_ = std::max(worst_penetration_, -result.gaps(row));
+    // A broken joint sticks where it is: friction acts against the slip of a step.
     if (joints_[j].broken) step_.held_at(row + 1) = result.gaps(row + 1);
   }
   step_.states = result.states;
@@ -143,12 +151,14 @@ bool DynamicRun::advance() {
   const JointStepResult result = solver_->solve(step_);
   iterations_ += result.iterations;
   worst_residual_ = worse(worst_residual_, result.residual);
+  // Numbers that are not finite are taken over, so that the run says what it ends of.
   if (!result.converged && result.displacements.allFinite()) return false;
   const Motion before = motion_;
   move(result);
   if (!finite()) return true;  // the joints stay as they are in the last row
   account(result, before);
   ++steps_;
+  // For a leap, should the motion be uniform.
   slope_ = result.reactions - step_.reactions;
   step_.reactions = result.reactions;
   step_.tie_forces = result.tie_forces;
@@ -160,6 +170,7 @@ bool DynamicRun::advance() {
 // Margins of the cones, μ (R_N + c) ∓ R_T, change linearly: when the first is used up. [s]
 double DynamicRun::time_to_first_break() const {
   const double noise = 1e-9 * slope_.lpNorm<Eigen::Infinity>();
+  // No leap goes beyond the strain limit.
   double first = (scene_.loading.max_strain / scene_.loading.strain_rate) - time();
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const Local r = of_joint(step_.reactions, j), change = of_joint(slope_, j);
@@ -175,16 +186,19 @@ double DynamicRun::time_to_first_break() const {
 
 double DynamicRun::leap() {
   constexpr double uniform = 1e-9, beyond = 1.0 + 1e-9;  // so that the step then breaks the joint
+  // Only where all accelerations are rounding, and nothing has broken: then all is linear in time.
   if (std::ranges::any_of(joints_, &JointOutcome::broken) ||
       acceleration_force_ > uniform * motion_.Kq.norm())
     return 0.0;
   const double time = beyond * time_to_first_break() - h_;
   if (!(time > h_)) return 0.0;
+  // Viscous stress is constant on the way, and so is its power.
   energy_.viscous += scene_.material.viscosity * time * motion_.v.dot(motion_.Kv);
   motion_.q += time * motion_.v;
   motion_.Kq += time * motion_.Kv;
   step_.reactions += time / h_ * slope_;
   step_.force_scale = std::max(step_.force_scale, step_.reactions.norm());
+  // The account goes on from here, as no step tells what the leap cost.
   energy_.start(motion_, bodies_.mass());
   leapt_ += time;
   return scene_.loading.strain_rate * time;

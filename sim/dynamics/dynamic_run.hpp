@@ -13,6 +13,7 @@ namespace havers::sim {
 /// The specimen in motion, at the end of a step of constant length (M3).
 class DynamicRun {
  public:
+  /// @param assembly  of the scene, kept by the caller as long as the run is
   /// @param step  h [s]
   DynamicRun(const Scene& scene, const Assembly& assembly, double step,
              const StopAsked& stop_asked = {});
@@ -25,23 +26,32 @@ class DynamicRun {
   /// before the first break. Returns the strain leapt over. [-]
   double leap();
 
+  /// The row of the last step; before the first, the start. Stresses are the machine's forces over
+  /// the specimen's height.
   [[nodiscard]] CurvePoint point() const;
+  /// The joints as they are after the last step.
   [[nodiscard]] const std::vector<JointOutcome>& outcomes() const { return joints_; }
+  /// q, x and y of every node. [m]
   [[nodiscard]] const Eigen::VectorXd& displacements() const { return motion_.q; }
+  /// Steps taken: what was leapt over has none.
   [[nodiscard]] int steps() const { return steps_; }
+  /// Whether somebody asked to stop.
   [[nodiscard]] bool is_stopped() const { return stop_is_asked(step_.stop_asked); }
   /// Whether the first step had but one answer, as far as the solver tells.
   [[nodiscard]] bool determined() const { return steps_ > 0 || solver_->determined(); }
+  /// Whether all of the motion is still a number.
   [[nodiscard]] bool finite() const { return motion_.q.allFinite() && motion_.v.allFinite(); }
   /// Fills in the last row's joints and displacements, and the checks.
   void finish(Simulation& simulation) const;
 
  private:
+  // Of one step, in this order: what acts on it, its motion, forces and energies, what breaks.
   void prepare();
   void move(const JointStepResult& result);
   [[nodiscard]] double work_of_ties(const Eigen::VectorXd& tie_forces) const;
   void account(const JointStepResult& result, const Motion& before);
   void break_joints(const JointStepResult& result);
+  // Products, not sums over the steps, which would add up rounding. [s], [-]
   [[nodiscard]] double time() const { return leapt_ + steps_ * h_; }
   [[nodiscard]] double strain() const {
     const double rate = scene_.loading.strain_rate;
@@ -51,12 +61,12 @@ class DynamicRun {
 
   const Scene& scene_;
   const Assembly& assembly_;
-  double h_;
-  Bodies bodies_;
+  double h_;       // of every step [s]
+  Bodies bodies_;  // with Ā of this step (S1)
   std::unique_ptr<JointSolver> solver_;
-  Motion motion_;
+  Motion motion_;  // at the end of the last step, as are the next two
   std::vector<JointOutcome> joints_;
-  JointStep step_;
+  JointStep step_;  // the joints' problem: what it starts from, and the next one's loads
   EnergyBalance energy_;
   Eigen::VectorXd slope_;                        // change of the reactions in the last step [N/m]
   double acceleration_force_ = 0.0;              // norm of M dv/h in the last step [N/m]

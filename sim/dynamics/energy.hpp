@@ -36,11 +36,12 @@ struct EnergyBalance {
     double external_work = 0.0;      ///< [J/m]
     double joint_dissipation = 0.0;  ///< −r·Δgap. [J/m]
   };
+  /// Adds a step between two states, and its defect in (M4).
   void add(const Step& step, const Motion& before, const Motion& after,
            const Eigen::VectorXd& mass);
 
  private:
-  double largest_ = 0.0;
+  double largest_ = 0.0;  // energy so far, that defects are compared with [J/m]
 };
 
 }  // namespace havers::sim

@@ -1,3 +1,6 @@
+// Halves the step until the answer stands (section 8). Implicit Euler damps waves by the step, and
+// these decide what breaks next, so no a-priori step fits all scenes; the change by halving is what
+// can be known of the error.
 #include "sim/dynamics/step_control.hpp"
 
 #include <fmt/format.h>
@@ -41,7 +44,7 @@ std::string ground_of(const Simulation& run, double accuracy, const std::string&
                      finer_failed);
 }
 
-// Half a run tells nothing.
+// Relative changes; none are known of a run that did not end, as half a run tells nothing.
 StepError error_of(const Simulation& finer, const Simulation& coarser) {
   if (!has_ended(finer)) return never_compared;
   const auto change = [](double now, double before) { return std::abs(now - before) / now; };
@@ -125,6 +128,7 @@ Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer,
     run = std::move(finer);
     without_answer = 0;
     run.step_error = larger_of(change, before);
+    // Two halvings in turn: waves may let two steps agree by chance.
     agreed = change.largest() < 0.5 * scene.solver.step_accuracy ? agreed + 1 : 0;
     if (!has_ended(run) || agreed == 2) break;
     if (!first && 2.0 * run.steps > most_steps(run)) break;

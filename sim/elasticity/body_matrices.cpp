@@ -1,3 +1,5 @@
+// Assembles T3 triangles into a body's dense matrices; a third of a triangle's mass at each of its
+// corners is the row sum of its consistent mass.
 #include "sim/elasticity/body_matrices.hpp"
 
 #include "sim/elasticity/triangle.hpp"
@@ -19,6 +21,7 @@ Eigen::MatrixX3d own_motions(const Assembly& assembly, const Body& body) {
     motions.row(2 * i) << 1.0, 0.0, -arm.y();
     motions.row(2 * i + 1) << 0.0, 1.0, arm.x();
   }
+  // About the mean the turn is orthogonal to the translations already.
   motions.colwise().normalize();
   return motions;
 }

@@ -14,6 +14,8 @@ struct BodyMatrices {
   Eigen::MatrixX3d motions;   ///< Orthonormal: of the body as a whole, without strain. [-]
 };
 
+/// The sums over the body's triangles, with the modulus of its layer. Dense: bodies are small, and
+/// equal ones share what is made of them.
 BodyMatrices body_matrices(const Assembly& assembly, const Body& body, const Material& material);
 
 }  // namespace havers::sim

@@ -2,6 +2,7 @@
 
 namespace havers::sim {
 
+// Plane strain is plane stress with other constants (scene.hpp).
 Eigen::Matrix3d plane_elasticity(const Material& material) {
   const double nu = lateral_contraction(material);
   Eigen::Matrix3d D;
@@ -20,6 +21,7 @@ Eigen::Matrix<double, 6, 6> triangle_stiffness(const Corners& c, const Eigen::Ma
   for (Eigen::Index i = 0; i < 3; ++i) {
     const Eigen::Vector2d &next = c[static_cast<std::size_t>((i + 1) % 3)],
                           &last = c[static_cast<std::size_t>((i + 2) % 3)];
+    // Shape functions are linear: their gradients, and so B, are constant over the triangle.
     const double dx = (next.y() - last.y()) / (2.0 * area);  // ∂N_i/∂x
     const double dy = (last.x() - next.x()) / (2.0 * area);  // ∂N_i/∂y
     B(0, 2 * i) = dx;

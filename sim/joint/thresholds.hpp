@@ -16,7 +16,9 @@ double open_uniform(std::uint64_t bits);
 /// parameters stretch the draw but never reshuffle it. [-]
 class ThresholdFactors {
  public:
+  /// @param scatter  d, in [0, 2); 0: all factors are 1. [-]
   ThresholdFactors(std::uint64_t seed, double scatter, Distribution distribution);
+  /// w of the joint of that index.
   [[nodiscard]] double operator()(std::uint64_t joint) const;
 
  private:

@@ -14,6 +14,7 @@ using Eigen::VectorXd;
 // ½qᵀKq = ½ (F W ε + r·u).
 CurvePoint BreakingRun::point() const {
   const Assembly& assembly = intact_->assembly();
+  // In equilibrium: both ends bear the same.
   const double stress = scene_.material.young * force_ * strain_ / assembly.height;
   return {.time = strain_ / scene_.loading.strain_rate,
           .strain = strain_,
@@ -63,6 +64,7 @@ void BreakingRun::take_note_of_strength(const Event& event) {
 double BreakingRun::missed_at_strength(const UnitAnswer& exact) const {
   if (strongest_.gaps.size() == 0 || strongest_.force == 0.0) return 0.0;  // known
   double missed = std::abs(strongest_.force / exact.force - 1.0);
+  // The strain as well: that at which the whole structure would have broken the next joints.
   for (const std::size_t j : strongest_.next.joints) {
     const double strain =
         strain_at_cone(of_joint(exact.reactions, j), intact_law(joints_[j].threshold),
@@ -83,6 +85,7 @@ double BreakingRun::energy_defect(const UnitAnswer& exact, const VectorXd& y) co
 void BreakingRun::finish(Simulation& simulation) {
   const UnitAnswer& intact = intact_->answer();
   const double scale = intact.reactions.norm(), force = force_;
+  // The force stays that of the last row: how far refining changes it is a check below.
   if (!unsolved_) {
     refine();
     if (y_ != y_at_reference_) take_reference();

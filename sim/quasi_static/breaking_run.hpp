@@ -26,6 +26,7 @@ enum class Care : char {
 /// is known from ε = 1.
 class BreakingRun {
  public:
+  /// The intact specimen, at strain 0.
   BreakingRun(const Scene& scene, std::shared_ptr<const IntactStructure> intact, Care care,
               const StopAsked& stop_asked = {});
   BreakingRun(const BreakingRun&) = delete;  // its parts know each other
@@ -40,6 +41,8 @@ class BreakingRun {
     double strain;  ///< It may be less than the present one; infinite when no joint ever will.
     std::vector<std::size_t> joints;
   };
+  /// By what all joints bear now: seen in single precision, and exactly of those that may be next
+  /// (S8).
   [[nodiscard]] Event next_event();
   /// Stretches on to a strain, never back; joints that slide rub while it grows.
   void stretch(double strain);
@@ -49,9 +52,11 @@ class BreakingRun {
 
   /// Whether it takes a force to stretch it.
   [[nodiscard]] bool bears() const { return force_ != 0.0; }
+  /// The row at the strain there is.
   [[nodiscard]] CurvePoint point() const;
   /// The joints, with what they bear and how far they are open by now.
   [[nodiscard]] std::vector<JointOutcome> outcomes() const;
+  /// Of every node, x and y. A solve of the whole structure. [m]
   [[nodiscard]] Eigen::VectorXd displacements() const;
   /// Events so far whose contact found no solution.
   [[nodiscard]] int without_contact() const { return without_contact_; }
@@ -61,12 +66,15 @@ class BreakingRun {
   void finish(Simulation& simulation);
 
  private:
+  // Results: what is found of them on the way, and the checks at the end.
   void take_note_of_penetration();
   [[nodiscard]] double missed_at_strength(const UnitAnswer& exact) const;
   [[nodiscard]] double energy_defect(const UnitAnswer& exact, const Eigen::VectorXd& y) const;
   [[nodiscard]] double meets_cone_at(std::size_t joint, const Local& reaction) const {
     return strain_at_cone(reaction, laws_[joint], scene_.material.young, noise_);
   }
+  // The search for the next event. What joints bear, for E = 1 and ε = 1, and by how much that is
+  // seen to be wrong. [N/m]
   struct Glance {
     Eigen::VectorXd reactions;
     double missed;  // as far as it is seen
@@ -79,28 +87,36 @@ class BreakingRun {
   [[nodiscard]] std::vector<Candidate> may_be_next(const Eigen::VectorXd& reactions,
                                                    double missed) const;
   [[nodiscard]] Event first_of(std::vector<Candidate> candidates);
+  // Exactly, for E = 1 and ε = 1. [N/m]
   [[nodiscard]] Local borne_at(std::size_t joint);
+  // An event: joints come loose, holding at first; then all of these settle among themselves.
   void loosen(const std::vector<std::size_t>& breaking);
   bool settle();
+  // With more digits, or back to what was before.
   bool settle_with_care(const std::vector<JointState>& states_before,
                         const Eigen::VectorXd& gaps_before);
   void go_back_to(const Eigen::VectorXd& gaps_before);
   void take_back(const std::vector<std::size_t>& breaking, const Eigen::VectorXd& gaps_before);
+  // What hangs together, and what carries nothing as it hangs on no end.
   [[nodiscard]] DisjointSets pieces() const;
   [[nodiscard]] bool has_detour(const Joint& broken) const;
   [[nodiscard]] std::vector<char> apart();
   [[nodiscard]] bool is_adrift(int joint) const;  // at a body that hangs on nothing
   [[nodiscard]] bool severed() const;
   [[nodiscard]] bool bears_nothing() const;
+  // Of all joints: gaps, and what they bear; between these, what the loose joints' own problem
+  // lacks of the whole structure's answer.
   [[nodiscard]] Eigen::VectorXd gaps(const Eigen::VectorXd& of_loose) const;
   [[nodiscard]] Eigen::VectorXd lacking() const;
   [[nodiscard]] Eigen::VectorXd all_reactions() const;
   [[nodiscard]] bool may_lose_digits() const;
+  // Size of the terms in the loose joints' reactions: rounding grows with it. [N/m]
   [[nodiscard]] double summed() const;
   void follow_gaps();
   void see_all();
   void take_reference();
   void refine();
+  // The contact of the loose joints, by a path or in any other way.
   LocalContactResult release(const StateSolution& known);
   LocalContactResult or_better(LocalContactResult result);
 
@@ -110,8 +126,9 @@ class BreakingRun {
   std::shared_ptr<const IntactStructure> intact_;
   std::vector<JointOutcome> joints_;
   std::vector<JointLaw> laws_;  // of each while it is bonded; what has broken breaks no more
-  double strain_ = 0.0;
-  double dissipated_ = 0.0;  // [J/m]
+  double strain_ = 0.0;         // ε, at which the next event is looked for [-]
+  double dissipated_ = 0.0;     // [J/m]
+  // As it was in the row of the largest stress, to be checked at the end.
   struct Strongest {
     Event next;
     double force = 0.0;
@@ -121,7 +138,7 @@ class BreakingRun {
   int broken_ = 0;
   bool unsolved_ = false;  // the last event was taken back
   int without_contact_ = 0;
-  long iterations_ = 0;
+  long iterations_ = 0;  // of the contact, in all events
 
   LooseJoints loose_;
   std::vector<IntactStructure::SharedColumn> columns_;  // of these, or of the first of them

@@ -51,10 +51,13 @@ BreakingRun::Event BreakingRun::next_event() {
 // In single precision, from what was last seen of all.
 BreakingRun::Glance BreakingRun::glance() const {
   const VectorXd moved = y_ - y_seen_;
+  // Columns are added up where each loose joint has one.
   const NearReactions change = columns_.size() < loose_.size()
                                    ? intact_->nearly_reactions_to(loose_.jumps(), moved)
                                    : sum_of(columns_, moved.cast<float>());
   Glance found{reactions_ + change.reactions.cast<double>(), change.off_balance};
+  // What it misses shows where the sides of a joint differ, and at loose joints, which bear what is
+  // known (S8).
   found.missed =
       std::max(found.missed, (found.reactions(loose_.rows()) - borne_).lpNorm<Eigen::Infinity>());
   if (!found.reactions.allFinite()) found.missed = never;
@@ -68,6 +71,7 @@ std::vector<BreakingRun::Candidate> BreakingRun::may_be_next(const VectorXd& rea
   std::vector<Candidate> candidates;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const Local r = of_joint(reactions, j);
+    // At the earliest and, below, at the latest.
     const double may = meets_cone_at(j, {r.x() - missed, std::abs(r.y()) + missed});
     if (!(may < never) || may > last * (1.0 + together)) continue;
     candidates.push_back({may, j});
@@ -86,6 +90,8 @@ BreakingRun::Event BreakingRun::first_of(std::vector<Candidate> candidates) {
   const auto is_later = [&](const Candidate& one) {
     return one.strain > event.strain * (1.0 + together);
   };
+  // From the one that may be the earliest on, until none of the rest can come before one that is
+  // known.
   auto next = candidates.begin();
   for (; next != candidates.end() && !is_later(*next); ++next) {
     next->strain = meets_cone_at(next->joint, borne_at(next->joint));

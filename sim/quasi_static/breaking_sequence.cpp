@@ -1,3 +1,5 @@
+// Follows events to the end of a run, and does a run again with more care where its answer is not
+// good enough.
 #include "sim/quasi_static/breaking_sequence.hpp"
 
 #include <fmt/format.h>
@@ -13,6 +15,7 @@ namespace havers::sim {
 
 double end_fraction_used(const Scene& scene) {
   const JointOptions& joints = scene.joints;
+  // What the rule was found with (section 6): other walls are followed all the way.
   const bool as_drawn = joints.thresholds.empty() && !joints.head_tail_shear &&
                         !joints.flank_tension && scene.material.layer_contrast == 1.0;
   const bool brittle = as_drawn && joints.distribution == Distribution::uniform &&
@@ -34,6 +37,8 @@ constexpr double accurate = 1e-9;
 // Breaks at a given strain release energy. What they add up to the strength belongs to it.
 double energy_gain(const std::vector<CurvePoint>& curve) {
   std::size_t strongest = 0;
+  // Rows before and after a break have the same strain; what loading stores between breaks is no
+  // gain.
   double gain = 0.0, gain_to_strength = 0.0;
   for (std::size_t i = 1; i < curve.size(); ++i) {
     if (curve[i].strain == curve[i - 1].strain)
@@ -56,6 +61,8 @@ SimulationStatus follow_events(const Scene& scene, BreakingRun& run, const Obser
     simulation.curve.push_back(run.point());
     const double stress = simulation.curve.back().stress_right;
     if (!std::isfinite(stress)) return SimulationStatus::not_finite;
+    // The event to come belongs to the strongest row: its strain is checked at the end like its
+    // force.
     take_note_of_strength(simulation);
     if (stress >= simulation.strength) {
       simulation.without_contact_to_strength = run.without_contact();
@@ -110,6 +117,7 @@ Simulation break_event_by_event(const Scene& scene,
   simulation.tolerance = scene.solver.tolerance;
   simulation.end_fraction_used = end_fraction_used(scene);
   simulation.dropped = intact->assembly().dropped;
+  // Joints would have forces that no load asks for (S7).
   if (!intact->structure().ok()) {
     simulation.status = SimulationStatus::not_determined;
     return simulation;
@@ -131,6 +139,8 @@ bool is_enough(const Simulation& run) {
   return run.trusted() && run.rounding_error <= accurate && run.worst_residual <= run.tolerance;
 }
 
+// What ended is better than what did not, and of the latter the longer; then what is trusted; then
+// what misses least.
 bool is_no_worse(const Simulation& a, const Simulation& b) {
   if (has_ended(a) != has_ended(b)) return has_ended(a);
   if (!has_ended(a)) return a.curve.size() >= b.curve.size();  // it came as far

@@ -1,3 +1,5 @@
+// A modulus of 1, a density of 1 and a strain of 1: what depends on the scene's modulus, thresholds
+// and seed is a factor or a change of few joints, so that runs share what is computed here.
 #include "sim/quasi_static/intact_structure.hpp"
 
 #include <algorithm>
@@ -12,7 +14,7 @@
 namespace havers::sim {
 namespace {
 
-constexpr std::size_t kept = 8;
+constexpr std::size_t kept = 8;  // structures
 // Part of the forces by which the solved ones may miss those of the uniform stress, which then
 // stand in for them. Where they miss by more, self-stress is not determined (M10).
 constexpr double known = 1e-6;
@@ -39,6 +41,7 @@ Shift quasi_static_shift(const Assembly& assembly) {
   return {1e-13 / (size * size), 1.0};
 }
 
+// The modulus is a factor of all answers; with these c is 1.
 Material unit_material(const Material& material) {
   Material unit = material;
   unit.young = 1.0;
@@ -52,6 +55,7 @@ Eigen::VectorXd uniform_stress_forces(const Assembly& assembly, double stress) {
   Eigen::VectorXd forces(2 * static_cast<Eigen::Index>(assembly.joints.size()));
   for (std::size_t j = 0; j < assembly.joints.size(); ++j) {
     const Joint& joint = assembly.joints[j];
+    // Traction times s. A pull is negative, as reactions count what presses.
     const double pull = stress * joint.length * joint.normal.x();
     forces.segment<2>(static_cast<Eigen::Index>(2 * j)) << -pull * joint.normal.x(),
         -pull * joint.tangent().x();
@@ -70,11 +74,13 @@ IntactStructure::IntactStructure(const Scene& scene)
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(2 * structure_.joints());
   lost_ = none;
   answer_ = stretch(none);
+  // Layers that are unlike have no uniform stress to be compared with.
   if (structure_.joints() == 0 || scene.material.layer_contrast != 1.0) return;
   const double stress = plane_stiffening(scene.material), force = stress * assembly_.height;
   const Eigen::VectorXd exact = uniform_stress_forces(assembly_, stress);
   const double missed = std::max((exact - answer_.reactions).norm() / exact.norm(),
                                  std::abs(answer_.force / force - 1.0));
+  // Every later answer contains this one, and gets what a solve misses of it.
   stress_is_known_ = scene.solver.leave_out && missed <= known;
   if (stress_is_known_) {
     lost_ = exact - answer_.reactions;
@@ -94,6 +100,7 @@ UnitAnswer IntactStructure::stretch(const Eigen::VectorXd& gaps) const {
 
   UnitAnswer answer{response.displacements, response.reactions + lost_, lost_force_,
                     response.residual};
+  // What the held nodes need beyond what joints do, in the balance of all forces.
   const Eigen::VectorXd forces = bodies_.shifted_times(answer.displacements) -
                                  joint_forces_on_nodes(bodies_, response.reactions);
   for (const int node : assembly_.right) answer.force += forces(2 * node);
@@ -110,6 +117,7 @@ SharedJump IntactStructure::jump(int joint) const {
     const auto found = jumps_.find(joint);
     if (found != jumps_.end()) return found->second;
   }
+  // Without the lock, so that threads do not wait: two may find the same, and one of both is kept.
   auto jump = std::make_shared<const Jump>(structure_.jump(joint));
   const std::scoped_lock lock(mutex_);
   if (remembered + bytes(*jump) <= most_remembered && jumps_.emplace(joint, jump).second)
@@ -120,6 +128,7 @@ SharedJump IntactStructure::jump(int joint) const {
 IntactStructure::SharedColumn IntactStructure::column(const SharedJump& jump, bool make) const {
   {
     const std::scoped_lock lock(mutex_);
+    // Asked for once is not worth a column; that it was asked for is remembered.
     const auto [place, is_new] = columns_.try_emplace(jump->joint);
     if (is_new || place->second || !make) return place->second;
   }
@@ -140,6 +149,7 @@ std::size_t IntactStructure::columns_of_a_glance() const {
 }
 
 IntactStructure::~IntactStructure() {
+  // The limit is one for all structures: what this one had is free again.
   for (const auto& [joint, jump] : jumps_) remembered -= bytes(*jump);
   for (const auto& [joint, column] : columns_)
     if (column) remembered -= bytes(*column);
@@ -147,6 +157,7 @@ IntactStructure::~IntactStructure() {
 
 std::shared_ptr<const IntactStructure> intact_structure(const Scene& scene) {
   const AssemblyOptions& a = scene.assembly;
+  // What the factor depends on, and nothing else.
   using Key =
       std::tuple<int, int, int, double, double, double, Lateral, double, Plane, double, bool>;
   const Key key{a.layers,
@@ -174,6 +185,7 @@ std::shared_ptr<const IntactStructure> intact_structure(const Scene& scene) {
     const auto found = std::ranges::find_if(
         recent, [&](const std::shared_ptr<Entry>& one) { return one->key == key; });
     if (found == recent.end())
+      // The last one used comes first; the one not used for longest goes.
       recent.emplace_front(std::make_shared<Entry>())->key = key;
     else
       recent.splice(recent.begin(), recent, found);

@@ -27,6 +27,7 @@ Eigen::VectorXd uniform_stress_forces(const Assembly& assembly, double stress);
 /// they are asked for.
 class IntactStructure {
  public:
+  /// Factorises. Not solvable, and without an answer, where the structure is not ok().
   explicit IntactStructure(const Scene& scene);
   IntactStructure(const IntactStructure&) = delete;
   IntactStructure& operator=(const IntactStructure&) = delete;
@@ -43,6 +44,7 @@ class IntactStructure {
   [[nodiscard]] UnitAnswer stretch(const Eigen::VectorXd& gaps) const;
   /// ½ qᵀKq. [J/m]
   [[nodiscard]] double energy(const Eigen::VectorXd& q) const;
+  /// Joints that a body is part of, in the order of their index.
   [[nodiscard]] const std::vector<int>& joints_of(int body) const {
     return joints_of_bodies_[static_cast<std::size_t>(body)];
   }

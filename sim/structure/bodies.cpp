@@ -1,3 +1,5 @@
+// Products with the matrices of all bodies, class by class: one dense matrix times as many columns
+// as there are bodies of that kind. Ports of a class lie together, so that nothing is copied.
 #include "sim/structure/bodies.hpp"
 
 #include <algorithm>
@@ -27,6 +29,7 @@ std::vector<std::vector<PortRow>> ports_of_bodies(const Assembly& assembly) {
   const auto of = [&](int body) -> std::vector<PortRow>& {
     return rows[static_cast<std::size_t>(body)];
   };
+  // Joints first, normal and tangential, then ties: the numbers of `Port::unknown`.
   int unknown = 0;
   for (const Joint& joint : assembly.joints) {
     const std::vector<double> mean = mean_weights(joint.edge_a.size());
@@ -59,6 +62,7 @@ std::vector<char> held_dofs(const Assembly& assembly) {
   return held;
 }
 
+// B of one body, a row a port.
 MatrixXd port_matrix(const std::vector<PortRow>& rows, const Body& body) {
   MatrixXd B = MatrixXd::Zero(static_cast<Index>(rows.size()), 2 * body.nodes);
   for (std::size_t r = 0; r < rows.size(); ++r)
@@ -85,11 +89,13 @@ Signature signature(const Assembly& assembly, const Body& body, const MatrixXd& 
   // Powers of two, so that rounding in `size` does not part equal bodies.
   const double unit = 1e-9 * std::exp2(std::round(std::log2(size)));
   Signature key{body.nodes, body.triangles, ports.rows(), std::llround(std::log2(unit))};
+  // Relative to the first node: where a body lies does not matter.
   for (int i = 1; i < body.nodes; ++i) {
     const Eigen::Vector2d p = (node(i) - node(0)) / unit;
     key.push_back(std::llround(p.x()));
     key.push_back(std::llround(p.y()));
   }
+  // Entries of B are weights times directions, of the size of 1.
   for (const double value : ports.reshaped()) key.push_back(std::llround(value * 1e12));
   key.insert(key.end(), held.begin(), held.end());
   return key;
@@ -110,10 +116,12 @@ Bodies::Bodies(const Assembly& assembly, const Material& material, const Shift& 
   std::map<Signature, std::size_t> known;
   for (std::size_t b = 0; b < assembly.bodies.size(); ++b) {
     const Body& body = assembly.bodies[b];
+    // An operator is made once for each signature.
     MatrixXd B = port_matrix(rows[b], body);
     const auto first = held_.begin() + 2 * body.first_node;
     const std::vector<char> held(first, first + 2 * body.nodes);
     Signature key = signature(assembly, body, B, held);
+    // Alike in shape, not in stiffness.
     if (material.layer_contrast != 1.0) key.push_back(body.layer & 1);
     if (!share) key.push_back(static_cast<std::int64_t>(b));
     const auto [place, is_new] = known.try_emplace(std::move(key), classes_.size());
@@ -125,6 +133,7 @@ Bodies::Bodies(const Assembly& assembly, const Material& material, const Shift& 
     found.bodies.push_back(static_cast<int>(b));
     mass_.segment(2 * body.first_node, 2 * body.nodes) = found.op.matrices.mass;
   }
+  // Ports are numbered class by class, as classes are known only when all bodies are.
   for (const BodyClass& group : classes_)
     for (const int body : group.bodies) {
       const auto b = static_cast<std::size_t>(body);
@@ -163,6 +172,7 @@ VectorXd Bodies::stiffness_times(const VectorXd& q) const {
   VectorXd y(dofs());
   for (const BodyClass& group : classes_) {
     MatrixXd moved = gather(q, group);
+    // From the last row on, as the first node's own rows become 0.
     for (Index row = moved.rows() - 1; row >= 0; --row) moved.row(row) -= moved.row(row % 2);
     const auto& [stiffness, mass, motions] = group.op.matrices;
     MatrixXd forces = stiffness * moved;
@@ -193,6 +203,7 @@ VectorXd Bodies::port_forces_on_nodes(const VectorXd& t) const {
 
 VectorXd Bodies::gaps(const VectorXd& p) const {
   VectorXd gaps(2 * static_cast<Index>(assembly_->joints.size()));
+  // Ends are those of joints first: ties are left out here.
   for (Index unknown = 0; unknown < gaps.size(); ++unknown) {
     const auto& [a, b] = ends_[static_cast<std::size_t>(unknown)];
     gaps(unknown) = p(b) - p(a);
@@ -231,6 +242,7 @@ VectorXd Bodies::port_forces(const VectorXd& p, const Eigen::Ref<const VectorXd>
     const BodyOperator& op = group.op;
     auto forces = ports_in(y, group);
     const auto moved = ports_in(p, group);
+    // (S4): what moves the body as a whole meets inertia alone.
     if (op.rigid.cols() > 0) {
       const MatrixXd rigidly = op.rigid.transpose() * moved;
       forces.noalias() = op.impedance * (moved - op.rigid * rigidly);
@@ -246,6 +258,7 @@ VectorXd Bodies::port_forces(const VectorXd& p, const Eigen::Ref<const VectorXd>
 VectorXf Bodies::near_port_forces(const VectorXf& p, const Eigen::Ref<const VectorXf>& a) const {
   VectorXf y(p.size());
   for (const BodyClass& group : classes_) {
+    // One product, which takes that part in.
     const Eigen::MatrixXf& nearly = group.op.nearly;
     auto forces = ports_in(y, group);
     forces.noalias() = nearly.leftCols(forces.rows()) * ports_in(p, group);

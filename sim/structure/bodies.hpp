@@ -22,7 +22,7 @@ struct Port {
 /// Bodies with the same operator.
 struct BodyClass {
   BodyOperator op;
-  std::vector<int> bodies;
+  std::vector<int> bodies;  ///< Rising.
 };
 
 /// Vectors over the degrees of freedom have x and y of every node of the assembly; vectors over the
@@ -32,14 +32,22 @@ class Bodies {
   /// @param share  false: one operator per body, for comparison (section 7).
   Bodies(const Assembly& assembly, const Material& material, const Shift& shift, bool share = true);
 
+  /// That it was made of, which has to outlive it.
   [[nodiscard]] const Assembly& assembly() const { return *assembly_; }
+  /// Whether equal bodies share one operator.
   [[nodiscard]] bool shared() const { return shared_; }
+  /// In the order of their first bodies.
   [[nodiscard]] const std::vector<BodyClass>& classes() const { return classes_; }
+  /// Of all bodies, in the order of vectors over the ports.
   [[nodiscard]] const std::vector<Port>& ports() const { return ports_; }
   /// The ports of each unknown, side a and side b.
   [[nodiscard]] const std::vector<std::array<Eigen::Index, 2>>& ends() const { return ends_; }
+  /// 1 for a degree of freedom that the boundary prescribes.
   [[nodiscard]] const std::vector<char>& held() const { return held_; }
+  /// Two a node.
   [[nodiscard]] Eigen::Index dofs() const { return static_cast<Eigen::Index>(held_.size()); }
+  /// Where those of a body begin, in vectors over the degrees of freedom, over the ports, and over
+  /// the rows of all N.
   [[nodiscard]] Eigen::Index first_dof(int body) const;
   [[nodiscard]] Eigen::Index first_port(int body) const {
     return first_port_[static_cast<std::size_t>(body)];
@@ -88,6 +96,8 @@ class Bodies {
   }
 
  private:
+  // Bodies of a class follow each other in these vectors: a matrix of a column each, without a
+  // copy.
   template <class Values>
   [[nodiscard]] static auto part(Values& values, const BodyClass& group,
                                  const std::vector<Eigen::Index>& first, Eigen::Index rows) {
@@ -99,15 +109,15 @@ class Bodies {
 
   const Assembly* assembly_;
   bool shared_;
-  Shift shift_;
+  Shift shift_;  // α and β (S1)
   std::vector<BodyClass> classes_;
-  std::vector<Port> ports_;
-  std::vector<std::array<Eigen::Index, 2>> ends_;
+  std::vector<Port> ports_;                        // class by class, in a class body by body
+  std::vector<std::array<Eigen::Index, 2>> ends_;  // of each unknown
   std::vector<Eigen::Index> first_port_;           // of each body
   std::vector<Eigen::Index> first_compatibility_;  // of each body
   Eigen::Index compatibilities_ = 0;
-  std::vector<char> held_;
-  Eigen::VectorXd mass_;
+  std::vector<char> held_;  // of each degree of freedom
+  Eigen::VectorXd mass_;    // of each degree of freedom [kg/m]
 };
 
 }  // namespace havers::sim

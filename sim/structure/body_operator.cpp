@@ -71,6 +71,7 @@ BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
   body.free = dofs_of(held, false);
   const std::vector<Index>& free = body.free;
   const Index n = ports.cols(), p = ports.rows();
+  // Ā (S1).
   body.shifted = shift.beta * matrices.stiffness;
   body.shifted.diagonal() += shift.alpha * matrices.mass;
 
@@ -94,6 +95,7 @@ BodyOperator make_body_operator(BodyMatrices matrices, MatrixXd ports,
   body.rigid = body.inertia = MatrixXd(p, 0);
   body.inertia_part = shift.alpha * matrices.mass.maxCoeff() / A.diagonal().maxCoeff();
   const MatrixXd motions = motions_left(matrices.motions, held);
+  // (S4): motions as a whole are taken apart only where rounding in K would hide their inertia.
   if (body.at_rest() && motions.cols() > 0) {
     const Eigen::ColPivHouseholderQR<MatrixXd> at_ports(ports * motions);
     body.rigid = MatrixXd(at_ports.householderQ()).leftCols(at_ports.rank());

@@ -29,6 +29,7 @@ int cells_cut_off(int count) {
   }
 }
 
+// Cuts pieces in two, over and over, and numbers what is cut by when it is eliminated.
 class Halves {
  public:
   Halves(const Assembly& assembly, const std::vector<std::array<int, 2>>& bodies_of)

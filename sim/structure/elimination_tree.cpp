@@ -1,3 +1,5 @@
+// The graph of supervariables is analysed by CHOLMOD; panels are then counted in rows, get their
+// elements, and are compared with each other, in the order of elimination.
 #include "sim/structure/elimination_tree.hpp"
 
 #include <cholmod.h>
@@ -19,6 +21,7 @@ class Analysis {
     assert(graph.isCompressed());
     cholmod_start(&common_);
     common_.nmethods = 1;
+    // The order is given; rows that do not feel each other may still change places.
     common_.method[0].ordering = CHOLMOD_GIVEN;
     common_.supernodal = CHOLMOD_SUPERNODAL;
     common_.print = 0;
@@ -31,7 +34,7 @@ class Analysis {
     view_.nzmax = static_cast<std::size_t>(graph.nonZeros());
     view_.p = const_cast<int*>(graph.outerIndexPtr());  // NOLINT
     view_.i = const_cast<int*>(graph.innerIndexPtr());  // NOLINT
-    view_.stype = -1;
+    view_.stype = -1;                                   // lower triangle
     view_.itype = CHOLMOD_INT;
     view_.xtype = CHOLMOD_PATTERN;
     view_.dtype = CHOLMOD_DOUBLE;
@@ -77,6 +80,7 @@ std::vector<int> least_degree_order(const Graph& graph, std::vector<int> parts) 
 
 Cost cost_of(const Graph& graph, std::vector<int> order, std::span<const int> sizes) {
   const EliminationTree tree = elimination_tree(graph, std::move(order));
+  // Counted in rows: a supervariable has several columns, each a row shorter than the one before.
   std::vector<int> size_at(tree.place.size());
   for (std::size_t row = 0; row < size_at.size(); ++row)
     size_at[static_cast<std::size_t>(tree.place[row])] = sizes[row];
@@ -108,6 +112,7 @@ EliminationTree elimination_tree(const Graph& graph, std::vector<int> order) {
     const auto begin = static_cast<std::size_t>(at[p]), end = static_cast<std::size_t>(at[p + 1]);
     tree.panels.push_back({first[p], first[p + 1] - first[p], begin, end - begin, 0});
   }
+  // From the last on, so that children come in rising order.
   for (int p = static_cast<int>(L.nsuper) - 1; p >= 0; --p) {
     Panel& panel = tree.panels[static_cast<std::size_t>(p)];
     panel.like = p;
@@ -152,6 +157,7 @@ EliminationTree in_rows(EliminationTree tree, const Supervariables& groups) {
   return tree;
 }
 
+// Each element goes to the panel of the first of its rows, which reaches all others.
 void hand_out_elements(EliminationTree& tree, const ElementMatrices& sum) {
   std::vector<std::size_t> of_element;
   for (const ElementMatrices::Element& element : sum.elements) {
@@ -161,6 +167,7 @@ void hand_out_elements(EliminationTree& tree, const ElementMatrices& sum) {
     of_element.push_back(static_cast<std::size_t>(&tree.panel_of(first) - tree.panels.data()));
     ++tree.panels[of_element.back()].element_count;
   }
+  // Counted first, then put down one panel after the other.
   std::size_t next = 0;
   for (Panel& panel : tree.panels) {
     panel.elements = next;
@@ -185,6 +192,7 @@ EliminationTree elimination_tree(const ElementMatrices& sum, const Supervariable
 // What a panel's values follow from, as numbers: its size, its elements' matrices and which panels
 // its children are like, each with where their rows are in it.
 void share_values(EliminationTree& tree, const ElementMatrices& sum) {
+  // The row of the matrix at each place, and where a place is in the panel that is looked at.
   std::vector<int> row_at(tree.place.size()), where(tree.place.size());
   for (std::size_t row = 0; row < row_at.size(); ++row)
     row_at[static_cast<std::size_t>(tree.place[row])] = static_cast<int>(row);
@@ -192,8 +200,10 @@ void share_values(EliminationTree& tree, const ElementMatrices& sum) {
   std::vector<int> key;
   const auto add_place = [&](int place) { key.push_back(where[static_cast<std::size_t>(place)]); };
   tree.values = 0;
+  // Children come first, so that what they are like is known.
   for (std::size_t p = 0; p < tree.panels.size(); ++p) {
     Panel& panel = tree.panels[p];
+    // Rows below, in an order that does not depend on when they are eliminated.
     std::ranges::sort(std::span(tree.rows)
                           .subspan(panel.at, panel.height)
                           .subspan(static_cast<std::size_t>(panel.columns)),
@@ -201,6 +211,7 @@ void share_values(EliminationTree& tree, const ElementMatrices& sum) {
     int height = 0;
     for (const int row : tree.rows_of(panel)) where[static_cast<std::size_t>(row)] = height++;
     key.assign({panel.columns, height, static_cast<int>(panel.element_count)});
+    // Pivots of multipliers have another sign, and other limits.
     for (int place = panel.first; place < panel.first + panel.columns; ++place)
       key.push_back(row_at[static_cast<std::size_t>(place)] < sum.size - sum.multipliers ? 0 : 1);
     for (const int e : tree.elements_of(panel)) {
@@ -215,6 +226,7 @@ void share_values(EliminationTree& tree, const ElementMatrices& sum) {
     }
     panel.like = known.try_emplace(key, static_cast<int>(p)).first->second;
     const Panel& first = tree.panels[static_cast<std::size_t>(panel.like)];
+    // Values are numbered anew, as fewer panels have some.
     panel.values = &first == &panel ? tree.values : first.values;
     if (&first == &panel) tree.values += panel.height * static_cast<std::size_t>(panel.columns);
   }

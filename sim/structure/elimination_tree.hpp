@@ -43,12 +43,14 @@ struct EliminationTree {
   std::size_t values = 0;     ///< Of all panels, once of those that share them.
   std::vector<int> elements;  ///< Of all panels: each in that of the first of its rows.
 
+  /// Its own rows, then those below, by their places.
   [[nodiscard]] std::span<const int> rows_of(const Panel& panel) const {
     return std::span(rows).subspan(panel.at, panel.height);
   }
   [[nodiscard]] std::span<const int> below(const Panel& panel) const {
     return rows_of(panel).subspan(static_cast<std::size_t>(panel.columns));
   }
+  /// Elements that are added to it, by their index in the sum.
   [[nodiscard]] std::span<const int> elements_of(const Panel& panel) const {
     return std::span(elements).subspan(panel.elements, panel.element_count);
   }
@@ -59,6 +61,7 @@ struct EliminationTree {
   [[nodiscard]] const Panel* at(int panel) const {
     return panel < 0 ? nullptr : &panels[static_cast<std::size_t>(panel)];
   }
+  /// The panel that has a column; O(log of the panels).
   [[nodiscard]] const Panel& panel_of(int column) const;
 };
 

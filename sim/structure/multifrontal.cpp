@@ -1,3 +1,5 @@
+// Panel by panel in the order of elimination [DR83]: assemble, factorise, and hand on to the parent
+// what is taken from the rows below. Only these fronts are kept besides the factor.
 #include "sim/structure/multifrontal.hpp"
 
 #include <algorithm>
@@ -28,6 +30,7 @@ class Fronts {
         where_(tree.place.size()),
         fronts_(tree.panels.size()),
         awaited_(tree.panels.size(), 0) {
+    // A front is added once by each parent that is itself found.
     for (const Panel& panel : tree.panels)
       if (const Panel* parent = tree.parent_of(panel); parent != nullptr && tree.is_first(*parent))
         ++awaited_[static_cast<std::size_t>(panel.like)];
@@ -66,6 +69,7 @@ class Fronts {
   }
   // A matrix of which the lower triangle counts, its rows at these places.
   void add(const auto& part, Eigen::Ref<Matrix> own, Matrix& below) {
+    // In the order of the panel, only the lower triangle is added to.
     std::ranges::sort(places_);
     for (auto place = places_.begin(); place != places_.end(); ++place) {
       const auto [column, j] = *place;
@@ -92,6 +96,7 @@ template <class Scalar>
 VectorXd factorise(const ElementMatrices& A, const EliminationTree& tree, const Pivots& asked,
                    const PanelStore<Scalar>& store) {
   const auto multipliers = std::span(tree.place).last(static_cast<std::size_t>(A.multipliers));
+  // Multipliers have negative pivots: K is positive definite, and N K⁻¹Nᵀ is taken away from 0.
   VectorXd sign = VectorXd::Ones(A.size), inverse_pivots(A.size);
   VectorXd least = VectorXd::Constant(A.size, asked.least_stiffness);
   sign(multipliers).setConstant(-1.0);
@@ -104,6 +109,7 @@ VectorXd factorise(const ElementMatrices& A, const EliminationTree& tree, const 
     if (tree.is_first(panel)) {
       auto own = store.zeros(panel);
       auto below = fronts.assemble(panel, own);
+      // To rows of K alone.
       own.diagonal().array() += (asked.added * signs.max(0.0)).template cast<Scalar>();
       factorise_panel<Scalar>(own);
       take_panel_from<Scalar>(below, own);
@@ -114,6 +120,7 @@ VectorXd factorise(const ElementMatrices& A, const EliminationTree& tree, const 
       inverse = inverse_pivots.segment(tree.panels[static_cast<std::size_t>(panel.like)].first,
                                        panel.columns);
     }
+    // A pivot that is no number is too small as well.
     const auto pivots = inverse.inverse();
     if (!(pivots * signs > of_panel(least)).all()) return {};
   }

@@ -1,3 +1,5 @@
+// Dense kernels of the panels. Widths are known at compile time, so that sums may stay in
+// registers; a block of columns acts on those behind it as one product.
 #include "sim/structure/panel.hpp"
 
 #include <algorithm>
@@ -12,6 +14,8 @@ namespace {
 
 constexpr Index in_block = 32;  // columns that are taken from those behind them as one product
 
+// x ← L⁻¹ x by the columns from `first` on: in their own rows first, then in all rows below at
+// once.
 template <Index columns>
 void eliminate(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd>& x) {
   const Index below = panel.rows() - first - columns;
@@ -58,6 +62,7 @@ void substitute(const Ref<const MatrixXd>& panel, Index first, Index load, Ref<M
   known.template middleRows<columns>(first) = left;
 }
 
+// Two loads at a time share what is read of the panel.
 template <Index columns>
 void substitute_all(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd>& x) {
   Index c = 0;
@@ -71,6 +76,7 @@ template <class Scalar>
 void factorise_panel(Ref<Eigen::MatrixX<Scalar>> panel) {
   Eigen::MatrixX<Scalar> scaled;
   for (Index begin = 0; begin < panel.cols(); begin += in_block) {
+    // Within the block column by column,
     const Index end = std::min(begin + in_block, panel.cols());
     for (Index j = begin; j < end; ++j) {
       const Scalar pivot = panel(j, j);
@@ -79,6 +85,7 @@ void factorise_panel(Ref<Eigen::MatrixX<Scalar>> panel) {
             panel(k, j) / pivot * panel.col(j).tail(panel.rows() - k);
       panel.col(j).tail(panel.rows() - j - 1) /= pivot;
     }
+    // then the block from all columns behind it.
     const auto block = panel.bottomRows(panel.rows() - end).middleCols(begin, end - begin);
     const Index left = panel.cols() - end;
     scaled.noalias() =
@@ -106,6 +113,7 @@ void eliminate_panel(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd
 }
 
 void substitute_panel(const Ref<const MatrixXd>& panel, Ref<MatrixXd> x) {
+  // From the last column on: first those that do not fill a group.
   Index first = panel.cols();
   for (; first % 4 != 0; --first) substitute_all<1>(panel, first - 1, x);
   for (; first > 0; first -= 4) substitute_all<4>(panel, first - 4, x);

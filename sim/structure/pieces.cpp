@@ -5,6 +5,7 @@
 namespace havers::sim {
 
 std::size_t body_of(const Assembly& assembly, int node) {
+  // Bodies have their nodes one after the other: O(log of the bodies).
   const auto next = std::ranges::upper_bound(assembly.bodies, node, {}, &Body::first_node);
   return static_cast<std::size_t>(next - assembly.bodies.begin()) - 1;
 }
@@ -18,6 +19,7 @@ std::vector<std::vector<int>> joints_of_bodies(const Assembly& assembly) {
 }
 
 bool ends_hang_together(const Assembly& assembly, DisjointSets& pieces) {
+  // The ends follow the bodies: left, then right.
   const std::size_t left = assembly.bodies.size();
   return pieces.find(left) == pieces.find(left + 1);
 }

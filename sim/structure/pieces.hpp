@@ -8,13 +8,15 @@
 
 namespace havers::sim {
 
-/// The body that a node belongs to.
+/// The body that a node belongs to. O(log of the bodies).
 std::size_t body_of(const Assembly& assembly, int node);
 
-/// Joints of each body.
+/// Joints of each body, those at its a and at its b sides, in the order of their index.
 std::vector<std::vector<int>> joints_of_bodies(const Assembly& assembly);
 
-/// Bodies that bonded joints connect to each other, and after them the left and the right end.
+/// Bodies that bonded joints connect to each other, and after them the left and the right end, as
+/// members of their own: bodies that the machine holds are one piece with its end. Ties hold
+/// nothing together here. O(joints).
 /// @param is_bonded  whether a joint is, by its index
 template <class IsBonded>
 DisjointSets pieces_of(const Assembly& assembly, const IsBonded& is_bonded) {

@@ -1,3 +1,5 @@
+// Gauss's elimination of one row at a time, kept sparse by maps. Pivots are the largest entries of
+// what is left of a row.
 #include "sim/structure/row_echelon.hpp"
 
 #include <algorithm>

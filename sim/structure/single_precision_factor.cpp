@@ -1,3 +1,6 @@
+// A solve reads all values once: half the bytes of doubles, in one direction. The inverse of a
+// strip's own square takes the place of a substitution, in which each column waits for the one
+// before.
 #include "sim/structure/single_precision_factor.hpp"
 
 #include <algorithm>
@@ -17,7 +20,7 @@ using Eigen::VectorXf;
 
 namespace {
 
-constexpr int widest = 16;
+constexpr int widest = 16;  // columns of a strip
 
 constexpr int width_of(int columns) {
   return columns > 8 ? widest : columns > 4 ? 8 : 4;
@@ -72,6 +75,7 @@ SinglePrecisionFactor::SinglePrecisionFactor(const ElementMatrices& A,
     : tree_(std::move(tree)) {
   lay_out();
   using Panels = PanelStore<float>::Panels;
+  // One panel at a time is found here, and copied to its strips.
   Eigen::MatrixXf at_work;
   inverse_pivots_ =
       factorise<float>(A, *tree_, pivots,
@@ -94,6 +98,7 @@ void SinglePrecisionFactor::lay_out() {
     if (is_first) values[like] = size;
     std::size_t at = values[like];
     for (int first = 0, columns = 0; first < panel.columns; first += columns) {
+      // Up to twelve as 8 and 4, which takes less filling up than 16.
       const int left = panel.columns - first;
       columns = left > 12 ? std::min(left, widest) : std::min(left, 8);
       const auto before = static_cast<std::size_t>(first);
@@ -116,8 +121,10 @@ void SinglePrecisionFactor::copy(const Panel& panel,
   for (Index first = 0; first < from.cols(); ++next) {
     const Strip& strip = strips_[next];
     const Index columns = strip.columns;
+    // By rows; what fills a strip up stays zero.
     Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> to(
         values_.data() + strip.values, strip.height, width_of(strip.columns));
+    // The inverse of the strip's own square, in the precision of what it is made of.
     to.topLeftCorner(columns, columns) =
         from.block(first, first, columns, columns)
             .template triangularView<Eigen::UnitLower>()
@@ -139,8 +146,10 @@ void SinglePrecisionFactor::eliminate(const Strip& strip, VectorXf& x) const {
     const int* const rows = tree_->rows.data() + strip.rows;
     const auto all = x.segment<width>(*rows).array();
     Row<width> known = all;
+    // Its own rows at once, by the inverse of its square,
     for (int i = 0; i < strip.columns; ++i) x(*rows + i) = (row<width>(values, i) * known).sum();
     known = all;
+    // then what these take from the rows below.
     for (int i = strip.columns; i < strip.height; ++i)
       x(rows[i]) -= (row<width>(values, i) * known).sum();
   });
@@ -166,6 +175,7 @@ void SinglePrecisionFactor::substitute(VectorXf& x) const {
 
 VectorXf SinglePrecisionFactor::halve(const VectorXd& b) const {
   assert(ok());
+  // Strips at the end may read beyond it, by the widest one at most.
   VectorXf x(b.size() + widest);
   x.tail<widest>().setZero();
   x(tree_->place) = b.cast<float>();
@@ -185,6 +195,7 @@ VectorXf SinglePrecisionFactor::complete(const Eigen::Ref<const VectorXd>& half)
 Eliminated SinglePrecisionFactor::eliminate(std::vector<int> rows,
                                             const Eigen::MatrixX2d& values) const {
   assert(ok());
+  // A vector for each load, as strips work on one.
   std::array<VectorXf, 2> x;
   for (int& row : rows) row = tree_->place[static_cast<std::size_t>(row)];
   for (const std::size_t load : {0U, 1U}) {
@@ -193,6 +204,7 @@ Eliminated SinglePrecisionFactor::eliminate(std::vector<int> rows,
   }
   Eliminated half;
   const int first = *std::ranges::min_element(rows);
+  // Only the path from the first of the rows to the root is looked at, as in SparseFactor.
   for (const Panel* panel = &tree_->panel_of(first); panel != nullptr;
        panel = tree_->parent_of(*panel)) {
     const auto p = static_cast<std::size_t>(panel - tree_->panels.data());

@@ -21,6 +21,7 @@ class SinglePrecisionFactor {
   SinglePrecisionFactor(const ElementMatrices& A, std::shared_ptr<const EliminationTree> tree,
                         const Pivots& pivots);
 
+  /// Whether pivots were large enough; only then may anything be solved.
   [[nodiscard]] bool ok() const {
     return static_cast<std::size_t>(inverse_pivots_.size()) == tree_->place.size();
   }
@@ -35,14 +36,17 @@ class SinglePrecisionFactor {
   [[nodiscard]] Eliminated over_pivots(Eliminated half) const;
 
  private:
+  // Columns of a panel, with what is below them.
   struct Strip {
     std::size_t rows;     // in the tree, from its own first one on
     int height, columns;  // of its own
-    std::size_t values;
+    std::size_t values;   // where they begin
   };
+  // Where strips and their values are, all zero; the rest fills them in.
   void lay_out();
   template <class Scalar>
   void copy(const Panel& panel, const Eigen::Map<const Eigen::MatrixX<Scalar>>& from);
+  // Half a solve each, x being longer than the matrix by the widest strip.
   void substitute(Eigen::VectorXf& x) const;
   void eliminate(const Strip& strip, Eigen::VectorXf& x) const;
 

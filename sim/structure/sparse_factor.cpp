@@ -1,3 +1,5 @@
+// Solves with the panels of a factor, which read each panel once: asked for ahead of its turn, used
+// for all loads at once, and left out where no load reaches it.
 #include "sim/structure/sparse_factor.hpp"
 
 #include <algorithm>
@@ -53,6 +55,7 @@ void substitute_panels(const EliminationTree& tree, const std::vector<double>& v
 SparseFactor::SparseFactor(const ElementMatrices& A, std::shared_ptr<const EliminationTree> tree,
                            const Pivots& pivots, std::vector<double> memory)
     : tree_(std::move(tree)), values_(std::move(memory)) {
+  // Memory that was used before has its pages already.
   values_.clear();
   values_.reserve(tree_->values);
   ask_for_large_pages(values_.data(), tree_->values * sizeof(double));
@@ -72,6 +75,7 @@ MatrixXd SparseFactor::solve(const Eigen::Ref<const MatrixXd>& b) const {
   MatrixXd x(b.rows(), b.cols()), work(b.rows(), b.cols());
   x(tree_->place, Eigen::all) = b;
   for (const Panel& panel : tree_->panels) {
+    // A panel that the load has not reached changes nothing.
     if (x.middleRows(panel.first, panel.columns).isZero(0.0)) continue;
     auto part = work.topRows(static_cast<Index>(panel.height));
     const Panel* const next = &panel == &tree_->panels.back() ? nullptr : &panel + 1;
@@ -91,6 +95,7 @@ MatrixXd SparseFactor::complete(MatrixXd x) const {
 Eliminated SparseFactor::eliminate(std::vector<int> rows, const Eigen::MatrixX2d& values) const {
   assert(ok());
   thread_local MatrixXd x;  // zero between calls
+  // As long as the longest so far: to clear it anew would cost more than the path.
   if (x.rows() < this->rows()) x.setZero(this->rows(), 2);
   for (int& row : rows) row = tree_->place[static_cast<std::size_t>(row)];
   x(rows, Eigen::all) = values;
@@ -103,6 +108,7 @@ Eliminated SparseFactor::eliminate(std::vector<int> rows, const Eigen::MatrixX2d
     next = tree_->parent_of(*panel);
     auto part = work.topRows(static_cast<Index>(panel->height));
     gather(tree_->rows_of(*panel), soon_needed(next, values_), x, part);
+    // Columns before the first of the rows see zeros.
     const int begin = std::max(panel->first, first);
     eliminate_panel(values_of(*panel, values_), begin - panel->first, part);
     x(tree_->rows_of(*panel), Eigen::all) = part;
@@ -112,6 +118,7 @@ Eliminated SparseFactor::eliminate(std::vector<int> rows, const Eigen::MatrixX2d
     return std::binary_search(half.rows.begin(), half.rows.end(), row);
   }));
   half.values = x(half.rows, Eigen::all).transpose();
+  // Zero again for the next call.
   x(half.rows, Eigen::all).setZero();
   return half;
 }
@@ -123,6 +130,7 @@ Eliminated SparseFactor::over_pivots(Eliminated half) const {
 
 // Two paths that have met go on as one, and before that there is nothing to multiply.
 Eigen::Matrix2d product(const Eliminated& a, const Eliminated& b) {
+  // From the root back they are alike: by bisection, how far.
   std::size_t common = 0, beyond = std::min(a.rows.size(), b.rows.size()) + 1;
   while (beyond - common > 1) {
     const std::size_t middle = (common + beyond) / 2;

@@ -1,3 +1,5 @@
+// Solves by corrections: with a factor of (S7), which may be in single precision, hold mechanisms
+// or know no friction, and with residuals of (S6) itself, which says what is solved for.
 #include "sim/structure/structure.hpp"
 
 #include <algorithm>
@@ -44,6 +46,8 @@ Structure::Layout Structure::laid_out(std::vector<Held> held) const {
   assert(held.size() == assembly.joints.size());
   const int joint_unknowns = 2 * static_cast<int>(assembly.joints.size());
   int next = joint_unknowns + static_cast<int>(assembly.ties.size());
+  // Joints and ties first, by the numbers of `Port`; then the b sides of what is loose; last the
+  // distance common to all ties.
   Layout layout{std::move(held), {}, 0};
   for (const Port& port : bodies_->ports()) {
     const bool b = port.side == PortSide::b;
@@ -115,6 +119,7 @@ VectorXd Structure::in_forces(const VectorXd& forces, const VectorXd& gap) const
 Structure::Correction Structure::correct(const VectorXd& missing, const VectorXd& friction) const {
   VectorXd load = -missing;
   auto gap = load.tail(bodies_->compatibilities());
+  // The factor has kNᵀN in it: a gap that is asked for is also a force.
   if (gap.lpNorm<1>() != 0.0) add_to_unknowns(bodies_->compatibility_forces(gap), load);
   gap /= stiffness_;
   Correction change{single_ ? solve_nearby(load) : VectorXd(factor_->solve(load)), {}, {}, {}};
@@ -159,6 +164,7 @@ void Structure::refine_with_friction(const StructureLoads& loads, VectorXd missi
     Correction change = correct(missing, loads.friction);
     ++state.solves;
     const double lacked = missing.norm(), correction = change.forces.norm();
+    // What it does is made orthogonal to what earlier ones did.
     for (const Correction& old : past) {
       const double part = change.effect.dot(old.effect) / old.effect_squared;
       change.answer -= part * old.answer;
@@ -203,6 +209,7 @@ Structure::PortState Structure::solve_ports(const StructureLoads& loads, const V
     refine(loads, std::move(missing), state);
   } else {
     refine_with_friction(loads, std::move(missing), state);
+    // Corrections were of displacements and multipliers: forces follow from these.
     state.forces = forces();
     const double scale = std::max(loads.force_scale, state.forces.norm());
     missing = in_forces(state.forces, bodies_->incompatibility(state.displacements));
@@ -236,6 +243,7 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
     bodies_->ports_in(on_ports, group).noalias() = op.recovery.transpose() * on_class;
   }
   const VectorXd prescribed = offsets;
+  // A jump moves side b beyond its unknown; where nothing holds, given forces are loads.
   for (int unknown = 0; unknown < 2 * static_cast<int>(joints()); ++unknown) {
     const auto& [a, b] = bodies_->ends()[static_cast<std::size_t>(unknown)];
     if (holds(unknown)) {
@@ -247,6 +255,7 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
   }
 
   PortState start{std::move(offsets), {}, VectorXd::Zero(bodies_->compatibilities()), 0, 0.0};
+  // The answer nearby: its ports as they are held here, without what is imposed.
   if (loads.near != nullptr) {
     start.displacements += as_held(bodies_->port_displacements(loads.near->displacements) -
                                    (start.displacements - prescribed));
@@ -265,6 +274,7 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
     }
     bodies_->scatter(moved, group, displacements);
   }
+  // Where a joint is not held its reaction is what was given, with friction on top where it slides.
   VectorXd reactions = reactions_of(state.forces);
   for (int unknown = 0; unknown < reactions.size() && loads.given.size() > 0; ++unknown)
     if (!holds(unknown)) reactions(unknown) = loads.given(unknown);

@@ -31,6 +31,7 @@ enum class Precision : char { single_where_enough, full };
 /// Port forces that err by less than this part of their norm are solved for as well as can be.
 constexpr double accuracy_of_forces = 1e-12;
 
+/// What a structure answers, beside how well that is known.
 struct StructureResponse {
   Eigen::VectorXd displacements;  ///< δ. [m]
   Eigen::VectorXd reactions;      ///< r of every joint: R_N, R_T. [N/m]
@@ -64,6 +65,7 @@ struct Jump {
 };
 using SharedJump = std::shared_ptr<const Jump>;
 
+/// What joints bear, as far as single precision tells.
 struct NearReactions {
   Eigen::MatrixXf reactions;  ///< Of all joints, R_N, R_T; one answer a column. [N/m]
   /// Largest difference between what the two sides of a joint bear. Reactions err by not much
@@ -71,9 +73,9 @@ struct NearReactions {
   float off_balance = 0.0F;
 };
 
-/// Factor of the structure in which the joints hold as given (S5)-(S9),
-/// sim/README.md. Unknowns are the joints' own displacements; what an even ring of ports
-/// cannot do is imposed by multipliers, so that no digits are lost at large steps (M10).
+/// Factor of the structure in which the joints hold as given (S5)-(S9), sim/README.md. Unknowns are
+/// the joints' own displacements; what an even ring of ports cannot do is imposed by multipliers,
+/// so that no digits are lost at large steps (M10).
 class Structure {
  public:
   /// @param held  One per joint; empty: all hold fully.
@@ -91,19 +93,24 @@ class Structure {
   /// by them (S9). False, and nothing done, where joints are many or the factor is not in single
   /// precision: where none slides in it, or inertia is next to nothing.
   [[nodiscard]] bool hold_nearby(const std::vector<Held>& held);
+  /// Whether what holds differs from the factor.
   [[nodiscard]] bool is_corrected() const { return !changes_.empty(); }
 
   /// Whether it can be solved; bodies without ports need no factor.
   [[nodiscard]] bool ok() const {
     return factor_ ? factor_->ok() : single_ || layout_.unknowns == 0;
   }
+  /// How each joint holds, in the factor or by changes to it.
   [[nodiscard]] const std::vector<Held>& held() const { return layout_.held; }
   [[nodiscard]] Eigen::Index joints() const {
     return static_cast<Eigen::Index>(layout_.held.size());
   }
+  /// Precondition: ok(). As well as accuracy asks for, or as corrections get; `residual` says how
+  /// well.
   [[nodiscard]] StructureResponse solve(const StructureLoads& loads) const;
 
   // Only where no joint slides:
+  /// Of the mixed form (S7).
   [[nodiscard]] const SparseFactor& factor() const {
     assert(factor_);
     return *factor_;
@@ -124,6 +131,8 @@ class Structure {
                                                   const SinglePrecisionFactor& factor) const;
 
  private:
+  // The state of a solve, a correction of it, and a joint as a branch of the network of
+  // multipliers.
   struct PortState;
   struct Correction;
   struct Branch;
@@ -131,50 +140,59 @@ class Structure {
   /// the others that is -1.
   struct Layout {
     std::vector<Held> held;
-    std::vector<std::array<int, 2>> of_port;
-    Eigen::Index unknowns = 0;
+    std::vector<std::array<int, 2>> of_port;  // unknowns that it moves with
+    Eigen::Index unknowns = 0;                // of joints, ties and loose sides
   };
   /// A joint that holds in another way than in the factor, and what couples the components that do
   /// to the unknowns, half solved: its jump where it has let go, else what moves its sides.
   struct Change {
     int joint;
-    bool holds_more;
-    std::vector<std::size_t> components;
+    bool holds_more;                      // than in the factor; else it has let go
+    std::vector<std::size_t> components;  // 0 normal, 1 tangential: those that differ
     std::vector<Eliminated> halves, over_pivots;
   };
   /// Rows of the unknowns and multipliers that unit jumps act on.
   struct LoadOfJump {
     std::vector<int> rows;
-    Eigen::MatrixX2d load;
+    Eigen::MatrixX2d load;  // by a normal and a tangential one
   };
   /// Of a joint, whose side b has an unknown of its own as it holds, or in the factor; where it has
   /// none, that is the joint's.
   struct LooseComponent {
     int joint_unknown, own, in_the_factor;
   };
+  // (S8), (S9): loads of jumps and what changes do to each other.
   [[nodiscard]] LoadOfJump load_of_jump(int joint) const;
   [[nodiscard]] Layout laid_out(std::vector<Held> held) const;
   [[nodiscard]] Change change_of(int joint) const;
   [[nodiscard]] Eigen::MatrixXd coupling(const Change& of, const Change& to) const;
   [[nodiscard]] Eigen::Matrix2d stiffness_between(int joint, int other) const;
   void find_loose_components();
+  // With the factor in single precision, corrected by the changes. [m], multipliers [N/m]
   [[nodiscard]] Eigen::VectorXd solve_nearby(const Eigen::VectorXd& load) const;
+  // L⁻¹P of the load of jumps y, an answer a column.
   [[nodiscard]] Eigen::MatrixXd half_solved(const std::vector<SharedJump>& jumps,
                                             const Eigen::MatrixXd& y) const;
   template <class Vector>
   [[nodiscard]] Vector port_displacements(const Eigen::Ref<const Vector>& unknowns,
                                           const std::vector<SharedJump>& jumps,
                                           const Eigen::Ref<const Vector>& y) const;
+  // (S6) by corrections with (S7), from a state to start from.
   [[nodiscard]] PortState solve_ports(const StructureLoads& loads, const Eigen::VectorXd& on_ports,
                                       PortState state) const;
+  // What one solve adds where forces and gaps are missing, and what that does.
   [[nodiscard]] Correction correct(const Eigen::VectorXd& missing,
                                    const Eigen::VectorXd& friction) const;
+  // One correction after the other until the forces stand, or they shrink no more; with friction
+  // they are conjugate residuals [EES83].
   void refine(const StructureLoads& loads, Eigen::VectorXd missing, PortState& state) const;
   void refine_with_friction(const StructureLoads& loads, Eigen::VectorXd missing,
                             PortState& state) const;
+  // What the equations lack, all as forces: a gap times the largest stiffness. [N/m]
   [[nodiscard]] Eigen::VectorXd in_forces(const Eigen::VectorXd& forces,
                                           const Eigen::VectorXd& gap) const;
   void rub(const Eigen::VectorXd& friction, Eigen::VectorXd& port_forces) const;
+  // Whether the two sides of a joint's component have one displacement.
   [[nodiscard]] static bool holds(int unknown, const Layout& layout);
   [[nodiscard]] bool holds(int unknown) const { return holds(unknown, layout_); }
   [[nodiscard]] Eigen::Index ports() const {
@@ -185,10 +203,13 @@ class Structure {
     const auto& both = factorised_.of_port[static_cast<std::size_t>(port)];
     return {both.data(), both[1] < 0 ? 1U : 2U};
   }
+  // The port at which a component jumps.
   [[nodiscard]] Eigen::Index port_b(int joint, std::size_t component) const {
     return bodies_->ends()[2 * static_cast<std::size_t>(joint) + component][1];
   }
+  // Z + kNᵀN (S7). [N/m²]
   [[nodiscard]] Eigen::MatrixXd stiffened(const BodyOperator& op) const;
+  // Rx; the tops of ties move by what is common to all of them beside that.
   template <class Vector>
   [[nodiscard]] Vector unknowns_to_ports(const Eigen::Ref<const Vector>& unknowns,
                                          const Layout& layout) const {
@@ -198,12 +219,17 @@ class Structure {
     for (const Eigen::Index top : tops_of_ties_) p(top) += unknowns(layout.unknowns - 1);
     return p;
   }
+  // Of another answer's ports, for a start from it.
   [[nodiscard]] Eigen::VectorXd as_held(const Eigen::VectorXd& displacements) const;
+  // Adds Rᵀ t.
   void add_to_unknowns(const Eigen::VectorXd& port_forces, Eigen::VectorXd& all) const;
   [[nodiscard]] Eigen::VectorXd reactions_of(const Eigen::VectorXd& port_forces) const;
+  // The factor of (S7): its matrix, and the order of its elimination.
   [[nodiscard]] ElementMatrices mixed_form() const;
   [[nodiscard]] Eigen::MatrixXd add_rows(int body, std::vector<int>& rows) const;
   void factorise(Precision precision);
+  // (S7): the network of multipliers, which says where each body's pivots come from, and where
+  // those of cut bodies do.
   [[nodiscard]] std::vector<char> conducting() const;
   [[nodiscard]] std::vector<Branch> network(const std::vector<int>& place,
                                             const std::vector<char>& conducts) const;
@@ -212,18 +238,20 @@ class Structure {
   [[nodiscard]] Eigen::Index first_multiplier(std::size_t body) const {
     return factorised_.unknowns + bodies_->first_compatibility(static_cast<int>(body));
   }
+  // Of unknowns alone; then with each body's multipliers behind what determines them.
   [[nodiscard]] std::vector<int> order_of_unknowns(const Supervariables& groups) const;
   [[nodiscard]] std::vector<int> elimination_order(const Supervariables& groups) const;
 
-  const Bodies* bodies_;
-  Layout layout_, factorised_;              // as the joints hold, and of the factor
-  std::vector<Eigen::Index> tops_of_ties_;  // their ports
-  double stiffness_ = 0.0;                  // the largest of Z [N/m²]
-  std::vector<const BodyOperator*> op_of_body_;
+  const Bodies* bodies_;                         // outlive this
+  Layout layout_, factorised_;                   // as the joints hold, and of the factor
+  std::vector<Eigen::Index> tops_of_ties_;       // their ports
+  double stiffness_ = 0.0;                       // the largest of Z [N/m²]
+  std::vector<const BodyOperator*> op_of_body_;  // of each body
   std::optional<SparseFactor> factor_;           // or,
   std::optional<SinglePrecisionFactor> single_;  // for the many corrections of friction, this one
   std::vector<LooseComponent> loose_components_;
   std::vector<Change> changes_;  // since
+  // What is left between their jumps and forces:
   Eigen::PartialPivLU<Eigen::MatrixXd> between_changes_;
 };
 

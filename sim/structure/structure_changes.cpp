@@ -33,6 +33,8 @@ bool Structure::hold_nearby(const std::vector<Held>& held) {
     first.push_back(size);
     size += std::ssize(changes_.back().components);
   }
+  // What is left between jumps and forces when all unknowns are eliminated: products of paths, no
+  // solve.
   MatrixXd between(size, size);
   for (std::size_t i = 0; i < changes_.size(); ++i)
     for (std::size_t j = 0; j <= i; ++j) {
@@ -51,6 +53,7 @@ Structure::Change Structure::change_of(int joint) const {
     if (const int unknown = 2 * joint + component; holds(unknown, factorised_) != holds(unknown))
       change.components.push_back(static_cast<std::size_t>(component));
   if (change.holds_more) {
+    // What holds again has forces on both sides, each on the path of its own side's unknowns.
     for (const std::size_t side : {0U, 1U}) {
       const auto row = [&](std::size_t component) {
         return unknowns_of_port(bodies_->ends()[2 * j + component][side])[0];
@@ -90,15 +93,19 @@ void Structure::find_loose_components() {
 
 // What has let go bears no force, what holds has no jump.
 VectorXd Structure::solve_nearby(const VectorXd& load) const {
+  // Joints, ties and multipliers have the same place in both layouts, at the two ends; what is
+  // loose differs.
   const Index shared = 2 * joints() + std::ssize(tops_of_ties_);
   const Index last = load.size() - layout_.unknowns + (tops_of_ties_.empty() ? 0 : 1);
   VectorXd in_factor(factorised_.unknowns + load.size() - layout_.unknowns);
   in_factor.head(shared) = load.head(shared);
   in_factor.tail(last) = load.tail(last);
   for (const auto& [joint_unknown, own, in_the_factor] : loose_components_)
+    // Loose in the factor: its own row, without a load where it holds by now.
     if (in_the_factor != joint_unknown)
       in_factor(in_the_factor) = own == joint_unknown ? 0.0 : load(own);
     else
+      // Held in the factor: both sides' loads are on one row.
       in_factor(joint_unknown) += load(own);
   // Single precision has but so many powers of ten.
   const double largest = in_factor.lpNorm<Eigen::Infinity>(), size = largest > 0.0 ? largest : 1.0;
@@ -111,6 +118,7 @@ VectorXd Structure::solve_nearby(const VectorXd& load) const {
         visit(change, static_cast<Index>(component), row++,
               Index{layout_.of_port[static_cast<std::size_t>(port_b(change.joint, component))][0]});
   };
+  // Changes first, from what the half solve gives at them; then their part in it.
   if (is_corrected()) {
     for_each_change([&](const Change& change, Index component, Index row, Index own) {
       by(row) = change.holds_more ? 0.0 : load(own) / size;

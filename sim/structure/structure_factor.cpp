@@ -1,3 +1,4 @@
+// The factor of the mixed form (S7), and which precision and what hold on mechanisms it needs.
 #include <algorithm>
 #include <iterator>
 #include <memory>

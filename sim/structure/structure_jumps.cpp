@@ -1,3 +1,5 @@
+// Jumps (S8): what gaps at some joints do to these and to all others, from half solves of the
+// joints' own few rows.
 #include <algorithm>
 #include <utility>
 
@@ -12,10 +14,12 @@ using Eigen::VectorXf;
 
 // The load of unit jumps: forces at the ports of body b, and what they ask of its ring.
 Structure::LoadOfJump Structure::load_of_jump(int joint) const {
+  // Side b jumps, side a stays: only body b has a load, and its rows are one path.
   const int body = bodies_->assembly().joints[static_cast<std::size_t>(joint)].body_b;
   const BodyOperator& op = *op_of_body_[static_cast<std::size_t>(body)];
   const Index first = bodies_->first_port(body);
   const std::array<Index, 2> jumping{port_b(joint, 0) - first, port_b(joint, 1) - first};
+  // −(RᵀZJ; NJ), with kNᵀN added to Z as in the factor.
   MatrixXd load(op.impedance.rows() + op.compatibility.rows(), 2);
   load << -stiffened(op)(Eigen::all, jumping), -op.compatibility(Eigen::all, jumping);
   std::vector<int> rows;
@@ -32,6 +36,7 @@ Jump Structure::jump(int joint) const {
 Eigen::Matrix2Xd Structure::reactions_of(const Jump& jump,
                                          const std::vector<SharedJump>& to) const {
   const Eliminated half = factor().over_pivots(jump.half);
+  // JᵀZJ less (L⁻¹b)ᵀD⁻¹(L⁻¹b) over the rows that both paths have.
   Eigen::Matrix2Xd reactions(2, 2 * static_cast<Index>(to.size()));
   for (std::size_t k = 0; k < to.size(); ++k)
     reactions.middleCols<2>(2 * static_cast<Index>(k)) =
@@ -73,6 +78,7 @@ template <class Vector>
 Vector Structure::port_displacements(const Eigen::Ref<const Vector>& unknowns,
                                      const std::vector<SharedJump>& jumps,
                                      const Eigen::Ref<const Vector>& y) const {
+  // p = Rx + Jg.
   auto displacements = unknowns_to_ports<Vector>(unknowns, factorised_);
   for (std::size_t i = 0; i < jumps.size(); ++i)
     for (const std::size_t k : {0U, 1U})
@@ -81,6 +87,7 @@ Vector Structure::port_displacements(const Eigen::Ref<const Vector>& unknowns,
 }
 
 MatrixXd Structure::reactions_to(const std::vector<SharedJump>& jumps, const MatrixXd& y) const {
+  // The second half of a solve reaches all joints, whatever jumps.
   const MatrixXd unknowns = factor().complete(half_solved(jumps, y));
   MatrixXd reactions(2 * joints(), y.cols());
   for (Index c = 0; c < y.cols(); ++c) {
@@ -102,6 +109,7 @@ NearReactions Structure::nearly_reactions_to(const std::vector<SharedJump>& jump
     const VectorXf forces = bodies_->near_port_forces(
         port_displacements<VectorXf>(unknowns, jumps, y.col(c).cast<float>()),
         unknowns.tail(bodies_->compatibilities()));
+    // What a joint's two sides bear differently shows what single precision misses.
     VectorXf off_balance = VectorXf::Zero(found.reactions.rows());
     for (int unknown = 0; unknown < off_balance.size(); ++unknown) {
       if (!holds(unknown)) continue;

@@ -1,3 +1,5 @@
+// The order of elimination (S7): unknowns by their graph, each body's multipliers behind what
+// determines them, so that no pivot is small though none is searched for.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
@@ -126,6 +128,7 @@ std::vector<int> Structure::order_of_unknowns(const Supervariables& groups) cons
     }
   }
   if (!tops_of_ties_.empty()) bodies_of.pop_back();  // all feel it: it comes last
+  // Parts are of supervariables; rows of one are in the same bodies, and so in one part.
   const std::vector<int> part_of_row = dissection(bodies_->assembly(), bodies_of);
   std::vector<int> parts(static_cast<std::size_t>(unknowns), unknowns - 1);
   for (std::size_t row = 0; row < part_of_row.size(); ++row)
@@ -150,6 +153,7 @@ std::vector<int> Structure::elimination_order(const Supervariables& groups) cons
   const auto rows = [&](std::size_t body) {
     return body == ground ? Index{0} : op_of_body_[body]->compatibility.rows();
   };
+  // What needs no multipliers is the ground, on which a part may hang.
   DisjointSets parts(ground + 1);
   for (std::size_t body = 0; body < ground; ++body)
     if (rows(body) == 0) parts.unite(ground, body);
@@ -157,6 +161,8 @@ std::vector<int> Structure::elimination_order(const Supervariables& groups) cons
   for (const int group : groups.of_rows())
     place_of_row.push_back(place[static_cast<std::size_t>(group)]);
   const std::vector<char> conducts = conducting();
+  // Branches in the order in which they are eliminated: each that joins two parts gives one of them
+  // its pivot.
   for (const Branch& branch : network(place_of_row, conducts)) {
     std::size_t stays = parts.find(branch.a), goes = parts.find(branch.b), through = branch.b;
     if (stays == goes) continue;
