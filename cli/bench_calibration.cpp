@@ -1,6 +1,8 @@
 // havers bench --calibration and --coverage: fits of studies whose truth is known.
 #include <fmt/core.h>
 
+#include <array>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "calib/count.hpp"

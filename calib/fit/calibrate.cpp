@@ -156,8 +156,10 @@ void assess_answer(Trail& trail, Answer& answer) {
   if (trail.stopped() || answer.active.empty() || answer.best.failed) return;
   trail.lift_budget();
   trail.enter("uncertainty");
-  answer.slopes = differentiate(trail, answer.best, answer.active, slope_step);
-  // A point beside the answer may have turned out better.
+  do {  // a point of the differences may be the best so far, and has slopes of its own
+    answer.best = trail.best();
+    answer.slopes = differentiate(trail, answer.best, answer.active, slope_step);
+  } while (!answer.slopes.failed && trail.best().cost < answer.best.cost);
   answer.best = trail.best();
   if (answer.slopes.failed) return;
   answer.asked_slopes = with_left_out(trail, answer, answer.slopes);

@@ -1,5 +1,6 @@
 // The simulator of havers::sim, as calibrations use it.
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "calib/fit/calibrate.hpp"

@@ -34,8 +34,9 @@ Column split(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& variance, E
   column.noise = variance.col(k).sum();
   if (others.empty()) return column;
   const Eigen::MatrixXd matrix = jacobian(Eigen::all, others);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix);
-  qr.setThreshold(1e-10);
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr;
+  qr.setThreshold(1e-10);  // others that do the same share what they explain
+  qr.compute(matrix);
   column.coefficients = qr.solve(jacobian.col(k));
   column.rest -= matrix * column.coefficients;
   // The noise of the others comes with what they explain.

@@ -1,5 +1,6 @@
 #include "calib/fit/prediction.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>

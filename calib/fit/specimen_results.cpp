@@ -1,5 +1,6 @@
 // Each specimen at the answer: what was measured, what was simulated, what every term costs.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 

@@ -141,12 +141,12 @@ void show(const Comparison& comparison, const FindingRequest& request, Finding& 
 // The runs that say nothing of the response, and why; those that did not break are told apart.
 std::string without_value(const Evidence& evidence, const PointGroup& group) {
   const Measure response = evidence.request.response;
-  long failed = 0, of_a_shock = 0;
+  long failed = 0, without = 0;
   for (const SweepRun& run : evidence.runs) {
     if (std::ranges::find(group.points, run.point) == group.points.end()) continue;
     const bool open = run.unbroken() && needs_break(response);
     failed += run.failed ? 1 : 0;
-    of_a_shock += !run.failed && !open && std::isnan(run[response]) ? 1 : 0;
+    without += !run.failed && !open && std::isnan(run[response]) ? 1 : 0;
   }
   std::string text;
   const auto say = [&text](long runs, const char* what) {
@@ -155,7 +155,8 @@ std::string without_value(const Evidence& evidence, const PointGroup& group) {
                           runs == 1 ? "does" : "do");
   };
   say(failed, "failed");
-  say(of_a_shock, "had the modulus of a shock");
+  say(without, response == Measure::crack_linked ? "broke no head-tail joint"
+                                                 : "had the modulus of a shock");
   return text;
 }
 

@@ -110,7 +110,8 @@ double number_in(const std::string& value) {
   double number = 0.0;
   const char* const end = value.data() + value.size();
   // A number with anything behind it is none.
-  return std::from_chars(value.data(), end, number).ptr == end ? number : std::nan("");
+  const auto [read_until, error] = std::from_chars(value.data(), end, number);
+  return read_until == end && error == std::errc() ? number : std::nan("");
 }
 
 std::vector<SweepPlan::Problem> SweepPlan::problems() const {

@@ -3,6 +3,7 @@
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "calib/fit/calibration.hpp"

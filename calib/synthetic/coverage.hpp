@@ -1,6 +1,7 @@
 // Whether 95 % intervals hold the truth in 95 % of studies.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <string>

@@ -3,6 +3,7 @@
 #include <Random123/philox.h>
 
 #include <Random123/boxmuller.hpp>
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 

@@ -1,4 +1,5 @@
 // Porosity as it is commonly measured, to compare with.
+#include <array>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>

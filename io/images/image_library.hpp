@@ -2,6 +2,8 @@
 // first image, so that a run without images starts without OpenCV.
 #pragma once
 
+#include <array>
+
 #include "io/images/measure_section.hpp"
 
 namespace havers::images {

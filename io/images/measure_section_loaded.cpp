@@ -1,6 +1,8 @@
 // Passes on to libhavers_images, loaded with the first image.
 #include <dlfcn.h>
 
+#include <array>
+
 #include "io/images/image_library.hpp"
 #include "io/input_error.hpp"
 

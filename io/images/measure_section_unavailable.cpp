@@ -1,4 +1,6 @@
 // Takes the place of the image sources in a build without OpenCV.
+#include <array>
+
 #include "io/images/measure_section.hpp"
 #include "io/input_error.hpp"
 

@@ -1,5 +1,6 @@
 #include "io/images/two_levels.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>

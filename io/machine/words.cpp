@@ -10,15 +10,30 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || static_cast<signed char>(c) < 0;
 }
 
+// Of a letter of Latin-1 (U+00C0 on), which has its small one 32 places on, or of Latin Extended-A
+// (to U+017F), where the two stand side by side, capitals first at even numbers or, in two ranges,
+// at odd ones. A multiplication sign is no letter, and the small one of U+0130 is no single letter.
+unsigned small_letter(unsigned letter) {
+  if (letter < 0x100)
+    return letter >= 0xC0 && letter <= 0xDE && letter != 0xD7 ? letter + 0x20 : letter;
+  if (letter == 0x130 || letter == 0x138 || letter == 0x149 || letter >= 0x17F) return letter;
+  if (letter == 0x178) return 0xFF;
+  const bool at_odd = (letter > 0x138 && letter < 0x149) || letter > 0x178;
+  return (letter % 2 == 1) == at_odd ? letter + 1 : letter;
+}
+
 }  // namespace
 
 std::string lower(std::string_view text) {
   std::string result(text);
   for (std::size_t i = 0; i < result.size(); ++i) {
     const auto byte = static_cast<unsigned char>(result[i]);
-    // U+00C0 to U+00DE are 0xC3 and a byte that is 0x20 below that of its lower case.
-    const bool accented = i > 0 && result[i - 1] == '\xC3' && byte >= 0x80 && byte <= 0x9E;
-    if ((byte >= 'A' && byte <= 'Z') || accented) result[i] = static_cast<char>(byte + 0x20);
+    if (byte >= 'A' && byte <= 'Z') result[i] = static_cast<char>(byte + 0x20);
+    if (byte < 0xC3 || byte > 0xC5 || i + 1 == result.size()) continue;
+    const auto second = static_cast<unsigned char>(result[i + 1]);
+    const unsigned small = small_letter((byte & 0x1FU) << 6U | (second & 0x3FU));
+    result[i] = static_cast<char>(0xC0U | small >> 6U);
+    result[++i] = static_cast<char>(0x80U | (small & 0x3FU));
   }
   return result;
 }

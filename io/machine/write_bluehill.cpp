@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <locale>
+#include <optional>
 #include <vector>
 
 #include "io/input_error.hpp"

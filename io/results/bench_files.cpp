@@ -2,8 +2,10 @@
 // JSON and for CSV.
 #include "io/results/bench_files.hpp"
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "io/results/csv_row.hpp"
 #include "io/results/json_table.hpp"

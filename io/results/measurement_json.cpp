@@ -16,10 +16,15 @@ nlohmann::json column_json(const Column& column) {
 nlohmann::json import_json(const TestFile& file, const calib::Reduction& reduction) {
   nlohmann::json json =
       json_of(reduction.test);  // modulus_Pa, strength_Pa, ... , corrections and warnings
-  // What is not known is null: a number that was left at 0, and without a strain all but the area.
-  for (const auto& [key, value] : json.items())
-    if (value == 0.0 || (!value.is_array() && reduction.test.strain.empty() && key != "area_m2"))
+  // What is not known is null: without a strain all but the area, of a test that was not reduced
+  // what was left at 0, and of any what follows from a channel or a size that it lacks.
+  const bool curve = !reduction.test.strain.empty(), reduced = curve && reduction.problems.empty();
+  for (const auto& [key, value] : json.items()) {
+    const bool area = key == "area_m2";
+    const bool may_lack = area || key == "max_force_N" || key == "strain_rate_per_s";
+    if ((value == 0.0 && (may_lack || !reduced)) || (!value.is_array() && !curve && !area))
       value = nullptr;
+  }
   json["file"] = file.file;
   json["layout"] = file.layout;
   json["encoding"] = file.encoding;

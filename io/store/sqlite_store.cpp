@@ -4,6 +4,7 @@
 
 #include <cassert>
 #include <mutex>
+#include <optional>
 
 #include "io/input_error.hpp"
 #include "io/results/sha256.hpp"

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "reports/figures/figures.hpp"
 #include "reports/text/format.hpp"

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <optional>
 
 #include "reports/figures/figures.hpp"
 #include "reports/pages/page.hpp"

@@ -1,5 +1,6 @@
 // Where bodies meet each other, and where top and bottom face each other.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sim/assembly/half_fibres.hpp"

@@ -2,6 +2,7 @@
 // materials, geometry, strengths, loadings. The last ones have no answer at all.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 

@@ -2,6 +2,8 @@
 // corners is the row sum of its consistent mass.
 #include "sim/elasticity/body_matrices.hpp"
 
+#include <array>
+
 #include "sim/elasticity/triangle.hpp"
 
 namespace havers::sim {

@@ -1,6 +1,7 @@
 // Jumps (S8): what gaps at some joints do to these and to all others, from half solves of the
 // joints' own few rows.
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "sim/structure/structure.hpp"

@@ -279,6 +279,15 @@ TEST(Finding, SaysWhichRunsHadTheModulusOfAShock) {
               testing::EndsWith("; 20 runs had the modulus of a shock and do not count"));
 }
 
+TEST(Finding, SaysWhichRunsBrokeNoHeadTailJoint) {
+  KnownSweep known({{"x", {"0", "1"}}}, 20,
+                   [](const SweepPoint&, int k) { return 0.5 + 0.01 * deviation(k); });
+  for (std::size_t i = 20; i < 40; ++i)
+    known.runs[i].measures[static_cast<std::size_t>(Measure::crack_linked)] = std::nan("");
+  EXPECT_THAT(judged({.response = Measure::crack_linked, .keys = {"x"}}, known).ground,
+              testing::EndsWith("; 20 runs broke no head-tail joint and do not count"));
+}
+
 TEST(Finding, OfTheModulusNeedsNoBreak) {
   const Finding finding = judged_with_an_unbroken_run(Measure::modulus);
   EXPECT_EQ(finding.outcome, FindingOutcome::agrees);

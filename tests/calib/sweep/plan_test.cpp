@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace havers::calib {
 namespace {
@@ -65,6 +66,12 @@ TEST(Plan, BoundsFarApartAreSampledByTheirLogarithm) {
 auto Complains(const std::string& key, const std::string& words) {
   return testing::AllOf(testing::Field(&SweepPlan::Problem::key, key),
                         testing::Field(&SweepPlan::Problem::what, HasSubstr(words)));
+}
+
+TEST(Plan, TextsAreNumbersOnlyAsAWhole) {
+  EXPECT_EQ(number_in("1e3"), 1000.0);
+  for (const char* const text : {"", "1e999", "3 mm", "free"})
+    EXPECT_TRUE(std::isnan(number_in(text))) << text;
 }
 
 TEST(Plan, EveryComplaintIsMade) {

@@ -5,9 +5,17 @@
 #include "io/machine/fact_names.hpp"
 #include "io/machine/split_unit.hpp"
 #include "io/machine/units.hpp"
+#include "io/machine/words.hpp"
 
 namespace havers::io {
 namespace {
+
+TEST(Words, AreLowerInAllLettersOfEurope) {
+  EXPECT_EQ(lower("SIŁA ŻÓŁTA ĆĘŃŚŹ Ÿ ÉÄÞ"), "siła żółta ćęńśź ÿ éäþ");
+  EXPECT_EQ(lower("ČĎĽŇŘŠŤŮŽŐŰ"), "čďľňřšťůžőű");
+  for (const char* const same : {"2×3", "試験力", "żółw ÿ ß ĸ ſ", "\xC5"})
+    EXPECT_EQ(lower(same), same);
+}
 
 TEST(Units, AreThoseOfTheirDefinition) {
   EXPECT_DOUBLE_EQ(find_unit("kN")->to_si, 1000.0);
@@ -52,6 +60,8 @@ TEST(Vocabulary, KnowsTheColumnsOfEightLanguages) {
       {"Carga", force},
       {"Forza", force},
       {"Siła", force},
+      {"OBCIĄŻENIE", force},
+      {"WYDŁUŻENIE", extension},
       {"Força", force},
       {"力", force},
       {"Extension", extension},

@@ -200,6 +200,18 @@ TEST(ImportJson, HoldsTheKeysOfTheContract) {
   EXPECT_TRUE(import_json(file, reduction)["width_m"].is_null());
 }
 
+TEST(ImportJson, TellsAZeroFromWhatIsNotKnown) {
+  calib::Reduction reduction{.test = test::measured_test(13e9, 40e6, 1)};
+  reduction.test.modulus_standard_error = reduction.test.window_low = 0.0;
+  reduction.test.strain_rate = 0.0;  // without time
+  const nlohmann::json json = import_json(TestFile{}, reduction);
+  EXPECT_EQ(json["modulus_standard_error_Pa"], 0.0);
+  EXPECT_EQ(json["window_low"], 0.0);
+  EXPECT_TRUE(json["strain_rate_per_s"].is_null());
+  reduction.problems = {"no modulus"};
+  EXPECT_TRUE(import_json(TestFile{}, reduction)["modulus_standard_error_Pa"].is_null());
+}
+
 TEST(PorosityJson, HoldsTheKeysOfTheContract) {
   const nlohmann::json json = porosity_json(test::section_sample("s.png"), 0.4);
   const nlohmann::json contract{{"file", "s.png"},
