@@ -7,8 +7,8 @@
 
 namespace havers::io {
 
-/// Lower case of ASCII and of the accented letters of western and central European languages (U+00C0
-/// to U+017F), of a text in UTF-8; as many bytes as before. Other letters stay as they are.
+/// Lower case of ASCII and of the accented letters of western and central European languages
+/// (U+00C0 to U+017F), of a text in UTF-8; as many bytes as before. Other letters stay as they are.
 std::string lower(std::string_view text);
 
 /// A word that is common inside others ("last" in "plastic") must stand alone.
