@@ -10,6 +10,7 @@
 
 namespace havers::cli {
 
+/// What the modes are told; each looks at the few that it uses.
 struct BenchArguments {
   std::filesystem::path scene;  ///< Empty in modes that need none.
   std::filesystem::path folder;
@@ -27,9 +28,11 @@ struct BenchFiles {
   std::string csv_name, csv;
   std::string page;  ///< Empty: none.
 };
+/// Stages result.json, the CSV and the page, publishes them and prints.
 void leave(const BenchFiles& files, const CommonOptions& common, OutputFolder& output,
            const std::function<void()>& print);
 
+/// The modes. All return 0 only where the bench was finished and came out as it should.
 int bench_scene(const BenchArguments& arguments, const CommonOptions& common);
 int bench_stability(const BenchArguments& arguments, const CommonOptions& common);
 int bench_porosity(const BenchArguments& arguments, const CommonOptions& common);

@@ -36,6 +36,7 @@ class FitCounter {
   std::size_t fits_, next_ = 1;
 };
 
+// Median, and 10 and 90 % where they differ, in `unit`.
 std::string spread(const std::array<double, 3>& quantiles, double unit, int digits) {
   if (quantiles[0] == quantiles[2]) return fmt::format("{:.{}g}", quantiles[1] / unit, digits);
   return fmt::format("{:.{}g} ({:.{}g} to {:.{}g})", quantiles[1] / unit, digits,
@@ -90,6 +91,7 @@ int bench_calibration(const BenchArguments& arguments, const CommonOptions& comm
   const auto costly =
       arguments.costly == 2 ? calib::CostlyUnknowns::two : calib::CostlyUnknowns::one;
   const auto fits = static_cast<std::size_t>(studies) * calib::all_chains(costly).size();
+  // Every chain fits every study.
   FitCounter counter(common, fits);
   const calib::ChainBenchmark benchmark =
       calib::benchmark_chains(costly, studies, common.threads, std::ref(counter));
@@ -101,6 +103,7 @@ int bench_calibration(const BenchArguments& arguments, const CommonOptions& comm
          .page =
              reports::available() && summed_up ? reports::chains_page(benchmark, provenance) : ""},
         common, output, [&] { print_chains(benchmark); });
+  // The first chain is the one that fits take by themselves.
   const bool usual_wins =
       summed_up && benchmark.winner().chain == benchmark.summaries.front().chain;
   return usual_wins ? done : answer_is_no;

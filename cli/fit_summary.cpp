@@ -15,6 +15,7 @@
 namespace havers::cli {
 namespace {
 
+// Value and interval in the parameter's own unit, which its name holds.
 void print_parameter(const calib::CalibratedParameter& parameter) {
   if (!parameter.identifiable) {
     fmt::print("  {:<22}{:>10.5g}  not determined: {}\n", parameter.name, parameter.value,
@@ -26,6 +27,7 @@ void print_parameter(const calib::CalibratedParameter& parameter) {
              parameter.at_bound ? "  AT ITS BOUND" : "");
 }
 
+// Measured before simulated, each in the unit of the heading.
 void print_specimen(const calib::SpecimenResult& specimen) {
   fmt::print("  {:<12}{:>9}{:>11}{:>12}{:>12}{:>11}{:>11}{}\n", specimen.id,
              cell(1e-9 * specimen.measured.modulus, 2), cell(1e-9 * specimen.modulus.mean, 2),

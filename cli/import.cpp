@@ -54,6 +54,7 @@ struct ImportFindings {
   nlohmann::json entries = nlohmann::json::array();  // an object a test, or a file's error
 };
 
+// An option beats the file; without one the file's own stays.
 void give_size(std::optional<double>& size, const std::optional<double>& given_mm) {
   if (given_mm) size = io::to_si(*given_mm, io::millimetre);
 }
@@ -77,6 +78,8 @@ std::vector<Imported> import_tests(const std::filesystem::path& path,
   return tests;
 }
 
+// One test from two recorders. If their clocks cannot be joined, why not is the reduction's
+// problem, and the record is shown as it is.
 Imported import_joined(io::ImportSettings settings, const ImportArguments& arguments) {
   settings.columns.has_logger = true;
   io::TestFile file = io::read_test(arguments.files.front(), settings.columns);
@@ -106,6 +109,7 @@ std::string title_of(const io::TestFile& file) {
 void collect(const std::vector<Imported>& tests, std::vector<io::Problem>& problems) {
   for (const Imported& test : tests) {
     const calib::RawTest& raw = test.file.test;
+    // Sizes would help only where one is missing.
     const bool sized = raw.area || (raw.width && raw.thickness) || !raw.stress.empty();
     const bool strained = raw.gauge_length || !raw.strain.empty() || raw.extension.empty();
     const std::string where = tests.size() == 1 ? test.file.file : title_of(test.file);
@@ -118,6 +122,8 @@ void collect(const std::vector<Imported>& tests, std::vector<io::Problem>& probl
   }
 }
 
+// Machine time = offset_s + rate · logger time. The fit is about a time of reference; offset_s is
+// that at logger time 0.
 nlohmann::json clocks_json(const calib::ClockFit& clocks) {
   return {{"offset_s", clocks.offset - clocks.rate * clocks.reference},
           {"rate", clocks.rate},
@@ -193,6 +199,7 @@ void print_test(const Imported& imported) {
 
 // One figure per file; per specimen, with its number, where a file holds several.
 std::string figure_name(const std::vector<Imported>& tests, std::size_t i) {
+  // Tests of the same file before this one, and all of it.
   std::size_t before = 0, all = 0;
   for (std::size_t k = 0; k < tests.size(); ++k) {
     if (tests[k].file.file != tests[i].file.file) continue;
@@ -210,6 +217,7 @@ void write_figures(const OutputFolder& output, const std::vector<Imported>& test
   for (const Imported& test : tests)
     pages.push_back({test.file.file, test.file.test, test.reduction.test, test.reduction.problems,
                      test.clocks ? &*test.clocks : nullptr});
+  // Files in different folders may share a name.
   std::set<std::string> used;
   const auto write = [&](const std::string& name, const std::string& svg) {
     output.write(name_of_its_own(name, used) + ".svg", svg);
@@ -242,12 +250,15 @@ int run_import(const ImportArguments& arguments, const CommonOptions& common) {
   if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force);
   ImportFindings found = import_all(arguments, settings);
   const nlohmann::json json = json_of_files("files", found.entries, arguments.files.size());
+  // No test, no folder.
   if (found.tests.empty()) output.reset();
   if (output) output->write("import.json", io::json_text(json));
   if (output) write_results(*output, arguments, found, common, watch);
   answer(common, output ? &*output : nullptr, json, page_or("import.json"), [&] {
     for (const Imported& test : found.tests) print_test(test);
   });
+  // Last, so that what could be read is shown all the same; `main` says the problems and exits with
+  // 2.
   if (!found.problems.empty()) throw io::InputError(std::move(found.problems));
   return done;
 }

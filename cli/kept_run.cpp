@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 constexpr const char* store_name = "evaluations.sqlite";
 constexpr const char* run_name = ".run";  // whose simulations are kept
 
+// Of whole paths, so that a run is known from wherever it is started again.
 std::string name_of_run(const char* command, const std::vector<fs::path>& inputs) {
   std::vector<std::string> files;
   files.reserve(inputs.size());
@@ -23,6 +24,7 @@ std::string name_of_run(const char* command, const std::vector<fs::path>& inputs
   return fmt::format("{} of {}", command, fmt::join(files, ", "));
 }
 
+// Whether `run` is the one that was stopped; so it is too where no name was left.
 bool goes_on(const fs::path& folder, const std::string& run, bool force) {
   if (!was_stopped(folder)) return false;
   const fs::path file = folder / run_name;
@@ -46,8 +48,10 @@ KeptRun::KeptRun(const char* command, const std::vector<fs::path>& inputs, const
       resumes_(goes_on(folder, name_, common.force)),
       output_(folder, common.force || resumes_) {
   if (resumes_) note(common, "going on with the simulations kept in " + folder.string());
+  // In the target, not staged: from here on every simulation survives a kill.
   store_ = io::open_store(output_.keep(store_name));
   io::write_file(output_.keep(run_name), name_);
+  // So that a later run may replace it.
   take_note(output_.folder(), run_name);
 }
 

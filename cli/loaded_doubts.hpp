@@ -7,7 +7,8 @@
 
 namespace havers::cli {
 
-/// Sections that count twice, angles that are not said.
+/// Sections that count twice, angles that are not said. Of a study that may not be sound: looks at
+/// what it names, at no measurement.
 void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStudy& loaded);
 
 /// Angles that hardly differ, scatter, pores, rate and search, once all specimens are taken.

@@ -18,14 +18,16 @@ class ProgressLine {
   ProgressLine(ProgressLine&&) = delete;
   ProgressLine& operator=(ProgressLine&&) = delete;
 
-  /// Whether it is time to show something new: ten times a second at most.
+  /// Whether it is time to show something new: ten times a second at most. Asked before a text is
+  /// made, which would cost for nothing otherwise.
   bool due();
+  /// In place of what it showed before; cut at 79 characters.
   void show(const std::string& text);
 
  private:
-  bool visible_;
-  bool shown_ = false;
-  std::chrono::steady_clock::time_point next_;
+  bool visible_;        ///< stderr is a terminal that can wipe a line, and nobody asked for quiet.
+  bool shown_ = false;  ///< Whether there is a line to wipe.
+  std::chrono::steady_clock::time_point next_;  ///< From when on it is due.
 };
 
 }  // namespace havers::cli

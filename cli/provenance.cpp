@@ -1,3 +1,4 @@
+// What a result must carry to be made again, and to show what its files were.
 #include "cli/provenance.hpp"
 
 #include <utility>

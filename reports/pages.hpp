@@ -16,14 +16,16 @@ namespace havers::reports {
 /// Whether this build can make pages.
 bool available();
 
+/// What the page of one run shows. Reports refer to results and must not outlive them.
 struct SimulationReport {
   const sim::Scene& scene;
-  const sim::Assembly& assembly;
+  const sim::Assembly& assembly;  ///< Of the scene, as the run had it.
   const sim::Simulation& simulation;
   calib::Provenance provenance;
   std::string file{};  ///< Of the scene; empty: the page does without its name.
 };
 
+/// What the page of a fit shows, or one part of a comparison.
 struct FitReport {
   const calib::Study& study;
   const calib::CalibrationResult& result;
@@ -33,6 +35,7 @@ struct FitReport {
   std::map<std::string, std::vector<std::string>> tests{};
 };
 
+/// A test as read and as used; `test` has no curve where it could not be reduced.
 struct ImportReport {
   std::string file;
   const calib::RawTest& raw;
@@ -41,6 +44,7 @@ struct ImportReport {
   const calib::ClockFit* clocks = nullptr;  ///< Of a second logger, where there is one.
 };
 
+/// Sections of one bone; all lists are in the order of `sections`.
 struct PorosityReport {
   std::vector<calib::SectionPorosity> sections;
   std::vector<std::vector<std::uint8_t>> overlays;  ///< PNG, one per section.
@@ -63,8 +67,11 @@ std::string test_svg(const ImportReport& report, const std::string& id = "test")
 /// The clocks of machine and logger: both signals as recorded, aligned, and what is left. SVG.
 std::string clocks_svg(const calib::ClockFit& clocks, const std::string& id = "clocks");
 
+/// The pages: whole HTML that needs nothing beside it. A figure that cannot be drawn is a sentence
+/// in its place.
 std::string simulation_page(const SimulationReport& report);
 std::string fit_page(const FitReport& report);
+/// A test each, in their order.
 std::string import_page(const std::vector<ImportReport>& reports,
                         const calib::Provenance& provenance);
 std::string porosity_page(const PorosityReport& report);

@@ -1,3 +1,5 @@
+// (I5) A sawn bar is told by its outline alone: by how well a rectangle holds it and whether its
+// sides are straight.
 #include "io/images/bars.hpp"
 
 #include <algorithm>
@@ -18,13 +20,16 @@ bool has_straight_sides(const Contour& border) {
   cv::convexHull(border, hull);
   const cv::RotatedRect rectangle = cv::minAreaRect(hull);
   const double longest = std::max(rectangle.size.width, rectangle.size.height);
+  // What lies no deeper below the hull than this is on a side of it. [px]
   const double near = std::max(2.0, 0.005 * longest);
   const double c = std::cos(rectangle.angle * CV_PI / 180.0);
   const double s = std::sin(rectangle.angle * CV_PI / 180.0);
   const cv::Point2d middle = rectangle.center;
+  // Pixels of the outline on the sides at −u, +u, −v and +v.
   std::array<double, 4> on_side{};
   for (const cv::Point& at : border) {
     if (cv::pointPolygonTest(hull, at, true) > near) continue;
+    // In the rectangle's own axes: u along its width, v along its height.
     const double u = c * (at.x - middle.x) + s * (at.y - middle.y);
     const double v = c * (at.y - middle.y) - s * (at.x - middle.x);
     const double to_u = 0.5 * rectangle.size.width - std::abs(u);

@@ -1,4 +1,5 @@
-// Porosity as it is commonly measured, to compare with.
+// Porosity as it is commonly measured, to compare with: a threshold of the whole grey scale, and
+// Otsu's, outside of the bone too or within the outline that ours finds.
 #include <array>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -41,6 +42,7 @@ double by_otsu_in_bone(const cv::Mat& grey) {
   return by_otsu(cv::Mat(inside));
 }
 
+// CPU time with the reading of the file, as ours has it in it too.
 calib::PorosityReading timed(const std::filesystem::path& image,
                              double (*measure)(const cv::Mat&)) {
   const sim::Stopwatch stopwatch;

@@ -1,3 +1,5 @@
+// Formats state in several places how much should follow; that is compared with the file's length,
+// and no pixel is decoded.
 #include "io/images/cut_off.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +27,9 @@ std::size_t pages_of_tiff(const std::filesystem::path& file) {
   const Offset version = bytes.number(2, 2);
   if ((order != "MM" && order != "II") || (version != 42 && version != 43)) return 0;
   const bool large = version == 43;  // BigTIFF
+  // Bytes of a place, of the number of tags and of a tag.
   const std::size_t place = large ? 8 : 4, count = large ? 8 : 2, tag = large ? 20 : 12;
+  // Zero ends the list; so does a directory met before, as damaged files may go round in circles.
   std::set<Offset> passed{0};
   for (Offset at = bytes.number(place, place); passed.insert(at).second;)
     at = bytes.number(at + count + tag * bytes.number(at, count), place);
@@ -47,6 +51,7 @@ bool is_cut_off_bmp(const std::filesystem::path& file) {
   FileBytes bytes(file);
   if (bytes.text(0, 2) != "BM") return false;
   bytes.set_big_endian(false);
+  // Headers older than that have no field for compression.
   if (bytes.number(14, 4) < 40 || bytes.number(30, 4) != 0) return false;
   const Offset row = (bytes.number(18, 4) * bytes.number(28, 2) + 31) / 32 * 4;
   const std::int64_t height = static_cast<std::int32_t>(bytes.number(22, 4));
@@ -69,6 +74,7 @@ bool is_damaged_png(const std::filesystem::path& file) {
   for (std::size_t at = 8; at + 12 <= bytes.size();) {
     const std::size_t length = number_at(at), sum = at + 8 + length;
     if (sum + 4 > bytes.size()) return true;
+    // Bit 5 of a letter tells small from capital.
     const bool needed = (static_cast<unsigned char>(bytes[at + 4]) & 0x20U) == 0;
     if (needed && libdeflate_crc32(0, &bytes[at + 4], length + 4) != number_at(sum)) return true;
     if (bytes.compare(at + 4, 4, "IEND") == 0) return false;

@@ -20,15 +20,18 @@ struct Levels {
   double usual = 1.0;                ///< Contrast in the median, where it was fitted.
   double noise = 0.0;                ///< SD of a pixel. [grey levels]
 
+  /// C, at least a thousandth of its mean once it is fitted, so that no depth is infinite.
   [[nodiscard]] double contrast(double bone_level) const {
     return std::max(offset + slope * bone_level, least);
   }
+  /// (I6) 0 at the bone's level and 1 at the pores', whichever side these are on.
   [[nodiscard]] double depth(double bone_level, double grey) const {
     return sign * (bone_level - grey) / contrast(bone_level);
   }
 };
 
-/// Sets `levels`' contrast from pixels known to be pores or background.
+/// Sets `levels`' contrast from pixels known to be pores or background; without any it stays. It is
+/// negative where these lie on the other side of bone than `levels.sign` says.
 void fit_contrast(const cv::Mat& grey, const cv::Mat& pores, Levels& levels);
 
 /// What depths are read from.
@@ -36,11 +39,11 @@ struct Depth {
   cv::Mat grey;        ///< The image under less noise: 8 bit become 16, 16 become float.
   double unit = 1.0;   ///< A grey level in steps of `grey`.
   double sigma = 0.0;  ///< Of the smoothing. [px]
-  Levels levels;
+  Levels levels;       ///< In grey levels, not in steps of `grey`.
 };
 
-/// Makes `depth.grey` of the image, unless it is that already. Where `within` is not set, as if
-/// bone went on.
+/// Makes `depth.grey` of the image, unless it is that already, which `sigma` alone tells. Where
+/// `within` is not set, as if bone went on. A `sigma` of 0 shares the image's memory.
 void smooth(const cv::Mat& image, double sigma, Depth& depth, const cv::Mat& within = {});
 
 /// 255 in `within` where depth is more, or less, than `threshold`.

@@ -11,9 +11,10 @@
 
 namespace havers::images {
 
+/// Sentences for the user: what was seen, and what to do about it.
 using Warnings = std::vector<std::string>;
 
-/// A pixel size that is not known, or coarse.
+/// A pixel size that is not known, or coarse; of a file, before its pages are looked at.
 void warn_of_scale(const io::SectionOptions& options, Warnings& warnings);
 
 /// What was found in an image.

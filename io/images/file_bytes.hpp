@@ -9,17 +9,21 @@
 
 namespace havers::images {
 
+/// From the file's start. [byte]
 using Offset = std::uint64_t;
 
-/// Beyond the file's end numbers are zero and text is none.
+/// Beyond the file's end numbers are zero and text is none, so that walks along a damaged file's
+/// places end by themselves. Not for use by two threads at once.
 class FileBytes {
  public:
   explicit FileBytes(const std::filesystem::path& file) : in_(file, std::ios::binary) {}
+  /// Order of bytes from here on; big endian at first, as PNG has it.
   void set_big_endian(bool big) { big_endian_ = big; }
 
-  /// At most 4096 bytes.
+  /// At most 4096 bytes: a length read from a damaged file may be anything.
   std::string text(Offset at, std::size_t length) {
     std::string found(std::min<std::size_t>(length, 4096), '\0');
+    // A read that met the end of the file leaves a state in which no other one works.
     in_.clear();
     in_.seekg(static_cast<std::streamoff>(at));
     in_.read(found.data(), static_cast<std::streamsize>(found.size()));

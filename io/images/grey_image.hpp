@@ -8,11 +8,12 @@
 
 namespace havers::images {
 
-/// Reads PNG, TIFF, JPEG, BMP or DICOM, a TIFF with all its pages.
+/// Reads PNG, TIFF, JPEG, BMP or DICOM, a TIFF with all its pages. Pages keep their 8 or 16 bits;
+/// anything else is float, and finite.
 /// @throws io::InputError when it is missing or not an image.
 std::vector<cv::Mat> read_pages(const std::filesystem::path& file);
 
-/// One channel: 8 bit, 16 bit (kept so) or, from colour, 16 bit along the image's main axis of
+/// One channel: 8 bit, 16 bit or float as it is, or, from colour, 16 bit along the main axis of
 /// colour (I1). What is transparent becomes background. `name` is for complaints.
 /// @throws io::InputError when it is of one grey level only.
 cv::Mat to_grey(const cv::Mat& image, const std::string& name);

@@ -1,3 +1,4 @@
+// The door of the library: C's name is found by dlsym, all behind it is typed.
 #include "io/images/image_library.hpp"
 
 extern "C" const havers::images::ImageLibrary* havers_images() {

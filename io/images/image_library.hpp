@@ -18,6 +18,7 @@ calib::SectionPorosity draw_section(const std::filesystem::path& image,
 std::array<calib::PorosityReading, 3> measure_by_common_practice(
     const std::filesystem::path& image);
 
+/// Its functions, by type: one name to look up, and the compiler checks the rest.
 struct ImageLibrary {
   decltype(&images::measure_sections) measure_sections;
   decltype(&images::draw_section) draw_section;

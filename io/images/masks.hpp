@@ -9,6 +9,7 @@
 
 namespace havers::images {
 
+/// The pixels of a border in their order; every one of them where a mask was followed. [px]
 using Contour = std::vector<cv::Point>;
 
 /// Calls `use(x)` for every set pixel of a row. Most pixels of a mask are not set: eight at a time
@@ -26,7 +27,8 @@ void for_each_set(const cv::Mat& mask, int y, Use use) {
   }
 }
 
-/// With a square of `side` pixels, odd.
+/// With a square of `side` pixels, odd: by (side − 1)/2 pixels all around. Beyond the image nothing
+/// takes away or adds.
 cv::Mat eroded(const cv::Mat& mask, int side);
 cv::Mat dilated(const cv::Mat& mask, int side);
 
@@ -57,12 +59,13 @@ struct Blob {
   /// Smooth length of its borders [Cauchy-Crofton]. [px]
   [[nodiscard]] double perimeter() const;
 };
+/// The connected parts (of eight neighbours) with their holes. O(pixels).
 std::vector<Blob> blobs_of(const cv::Mat& mask);
 
 /// Length over greatest width of a blob; 1 when it is plainly no crack.
 double slenderness(const Blob& blob);
 
-/// Of the circle of an area.
+/// Of the circle of an area; in the unit whose square the area has.
 double diameter_of(double area);
 
 /// Sets what a border encloses to `value`.

@@ -1,3 +1,6 @@
+// The whole chain, page by page: grey, regions, levels, bone, pores, quantities, doubts. What
+// follows from a step is kept to the box of the bone, as images may be large and bones small in
+// them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +22,7 @@
 namespace havers::images {
 namespace {
 
+// Takes the rim off all surfaces of the bone, the marrow's too; the image's edge is none.
 void leave_out_rim(const io::SectionOptions& options, const std::string& name, cv::Mat& bone) {
   if (options.rim == 0.0) return;
   if (!options.pixel_size)
@@ -46,6 +50,7 @@ std::string method_of(io::Threshold threshold) {
   return "half-maximum after flat field, corrected for blur";
 }
 
+// The user's mask, the whole image, or what is found, in that order of precedence.
 Regions regions_of(const cv::Mat& whole, const io::SectionOptions& options, Warnings& warnings) {
   if (options.mask)
     return divide(whole, read_mask(*options.mask, whole.size(), warnings), options.pores);
@@ -79,9 +84,11 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
   const cv::Mat whole = to_grey(image, name);
   refuse_levels_of_colour(image, name, options.density);
   const cv::Mat colours = colourfulness(image);
+  // The image's own memory, before what is made of it adds up.
   image.release();
   Warnings doubts;
   Regions regions = regions_of(whole, options, doubts);
+  // A view, not a copy: what follows sees the box only.
   const cv::Mat grey = whole(regions.box);
   Depth depth{.levels = bone_levels(grey, regions)};
   cv::Mat bone = find_bone(grey, regions, depth);
@@ -96,6 +103,7 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
                                  depth);
   refuse_nothing(map, regions, name, options);
 
+  // Bone and pores are known; doubts come last, as they look at what is stated of both.
   io::SectionMeasurement measured{.porosity = section_quantities(map, regions.outlined, options)};
   measured.porosity.file = name;
   measured.porosity.method = method_of(options.threshold);
@@ -113,6 +121,7 @@ std::vector<io::SectionMeasurement> measure_sections(const std::filesystem::path
                                                      const io::SectionOptions& given) {
   io::SectionOptions options = given;
   Warnings warnings;
+  // The file's scale is the same for all of its pages, and so is what is said of it.
   options.pixel_size = pixel_size_of(image, given, warnings);
   warn_of_scale(options, warnings);
   std::vector<cv::Mat> pages = read_pages(image);

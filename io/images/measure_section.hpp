@@ -28,6 +28,7 @@ struct DensityReference {
   double density = 0.0;  ///< [kg/m³]
 };
 
+/// How a section is measured; the defaults find all that they can from the file itself.
 struct SectionOptions {
   std::optional<double> pixel_size = std::nullopt;  ///< Default: the file's own tag. [m]
   bool any_pixel_size = false;    ///< Whether sizes outside 0.1 to 200 µm are meant.
@@ -44,6 +45,7 @@ struct SectionOptions {
   bool pictures = true;                        ///< Whether to draw overlay and histogram.
 };
 
+/// One section: its numbers, and what there is to look at.
 struct SectionMeasurement {
   calib::SectionPorosity porosity;
   std::vector<std::uint8_t>

@@ -18,6 +18,7 @@ const images::ImageLibrary* load() {
 }
 
 const images::ImageLibrary& library() {
+  // Once, whichever thread is first; it stays loaded to the end.
   static const images::ImageLibrary* const loaded = load();
   return *loaded;
 }

@@ -9,6 +9,7 @@
 namespace havers::images {
 namespace {
 
+// Cells more than half of whose pixels are set.
 cv::Mat cells_of(const cv::Mat& mask, int factor) {
   return averaged(mask, factor, cv::BORDER_CONSTANT) > 127.0;
 }
@@ -38,6 +39,7 @@ std::vector<std::uint8_t> draw_overlay(const cv::Mat& grey, const PoreMap& map,
   inside.setTo(cv::Scalar(48, 48, 224), aligned(map.pores));
   if (!map.cracks.empty()) inside.setTo(cv::Scalar(32, 208, 240), aligned(map.cracks));
   std::vector<Contour> outlines;
+  // With its holes, so that the marrow's border is drawn too.
   cv::findContours(bone, outlines, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
   cv::drawContours(inside, outlines, -1, cv::Scalar(224, 128, 0), 1);
   std::vector<std::uint8_t> png;
@@ -47,6 +49,7 @@ std::vector<std::uint8_t> draw_overlay(const cv::Mat& grey, const PoreMap& map,
 
 calib::DepthHistogram histogram_of(const Depth& depth, const PoreMap& map) {
   constexpr int bins = 80;
+  // From half a contrast short of bone to half of one beyond pores; the rest is in the last bins.
   constexpr double from = -0.5, width = 2.0 / bins;
   calib::DepthHistogram histogram{.share = std::vector<double>(bins, 0.0),
                                   .threshold = map.threshold};

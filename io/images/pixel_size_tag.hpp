@@ -15,7 +15,9 @@ namespace havers::images {
 /// count as none, as do pixels that are not square. [m]
 std::optional<double> tagged_pixel_size(const std::filesystem::path& file);
 
-/// Given or the file's own; the given one counts, but must be plausible (io::InputError). [m]
+/// Given or the file's own; nullopt where neither is known or usable. The given one counts. Adds
+/// to `warnings` which one is used where the file states one that is not simply taken. [m]
+/// @throws io::InputError when the given one is not plausible and nobody said that it is meant.
 std::optional<double> pixel_size_of(const std::filesystem::path& image,
                                     const io::SectionOptions& options,
                                     std::vector<std::string>& warnings);

@@ -1,3 +1,5 @@
+// What is bone is decided on a small copy (I2, I3), where noise is averaged away and all images
+// cost the same; on the image itself, only where a border runs.
 #include "io/images/regions.hpp"
 
 #include <algorithm>

@@ -12,14 +12,15 @@ namespace havers::io {
 
 /// A section to draw, and what makes it hard to measure.
 struct SectionCase {
-  std::string hardship;
+  std::string hardship;  ///< What the summary calls it; cases of one hardship follow each other.
   SectionDrawing drawing;
 };
 
 /// Ring and bar of 0, 1, 5 and 20 % porosity under every hardship, `seeds` of each.
 std::vector<SectionCase> section_cases(int seeds);
 
-/// Draws the section into `image` and measures it in every way.
+/// Draws the section into `image`, which stays there, and measures it in every way. CPU times are
+/// those of the whole process, so that nothing else should run in it.
 /// @throws InputError as measure_sections does.
 calib::PorosityTrial try_section(const SectionCase& section, const std::filesystem::path& image);
 

@@ -9,7 +9,8 @@
 namespace havers::images {
 
 /// While one lives, what is written to stderr is lost: OpenCV and libpng say there what is wrong
-/// with a file, and a caller's answer says it again. One at a time; others wait.
+/// with a file, and a caller's answer says it again. One at a time; others wait. The descriptor is
+/// turned, not a stream, for libraries in C write past std::cerr.
 class Silence {
  public:
   Silence() : kept_(dup(STDERR_FILENO)) {
@@ -28,8 +29,9 @@ class Silence {
 
  private:
   static inline std::mutex only_one;
+  /// Declared before `kept_`: held before stderr is put aside, and until it is back.
   std::lock_guard<std::mutex> alone_{only_one};
-  int kept_;
+  int kept_;  ///< stderr as it was; negative where there is none.
 };
 
 }  // namespace havers::images

@@ -9,7 +9,7 @@
 
 namespace havers::images {
 
-/// How many pixels are how deep, where a mask is set.
+/// How many pixels are how deep, where a mask is set: counted once, in O(pixels), asked often.
 class DepthCount {
  public:
   DepthCount(const Depth& depth, const cv::Mat& mask);
@@ -26,10 +26,11 @@ class DepthCount {
   double sum_ = 0.0;
 };
 
-/// Otsu's threshold of the depths where `mask` is set.
+/// Otsu's threshold of the depths where `mask` is set (I11); from a sample of them. [-]
 double otsu_threshold(const Depth& depth, const cv::Mat& mask);
 
-/// 255 in `within` where depth is beyond Sauvola's local threshold (I11).
+/// 255 in `within` where depth is beyond Sauvola's local threshold (I11). What lies outside
+/// `within` counts in the windows too.
 cv::Mat below_sauvola(const Depth& source, const cv::Mat& within);
 
 }  // namespace havers::images

@@ -1,3 +1,5 @@
+// (I9) and (I10). Windows are counted from sums along columns, O(1) a window once the rows that it
+// covers are summed up; no integral image of the whole section is kept.
 #include "io/images/windows.hpp"
 
 #include <algorithm>
@@ -13,11 +15,13 @@ namespace {
 
 constexpr int parts = 4;  // Along each side of the grid of blocks.
 
+// Of windows: how many, Σ q and Σ q² of their porosities q.
 struct Sums {
   double n = 0.0, q = 0.0, qq = 0.0;
 };
 using Blocks = std::array<Sums, static_cast<std::size_t>(parts) * parts>;
 
+// Which part of the 4 × 4 grid a pixel lies in.
 std::size_t block_of(int x, int y, cv::Size size) {
   const int row = y * parts / size.height, column = x * parts / size.width;
   const int block = row * parts + column;
@@ -104,6 +108,7 @@ WindowSpread window_spread(const cv::Mat& bone, const cv::Mat& pores, double len
   const double mean = all.q / all.n;
   const double variance = std::max(0.0, all.qq / all.n - mean * mean);
   double squares = 0.0, used = 0.0;
+  // A part's own variance about the mean of all, by its share of the windows.
   for (const Sums& block : blocks) {
     if (block.n == 0.0) continue;
     const double own = (block.qq - 2.0 * mean * block.q) / block.n + mean * mean;
@@ -112,6 +117,7 @@ WindowSpread window_spread(const cv::Mat& bone, const cv::Mat& pores, double len
   }
   WindowSpread spread{.sd = std::sqrt(variance)};
   if (used > 1.0 && spread.sd > 0.0)
+    // From the variance's error to that of its root.
     spread.standard_error = std::sqrt(used / (used - 1.0) * squares) / (2.0 * spread.sd);
   return spread;
 }
@@ -125,6 +131,7 @@ double porosity_standard_error(const cv::Mat& bone, const cv::Mat& pores) {
     const cv::Rect block(
         cv::Point(box.x + box.width * i / parts, box.y + box.height * j / parts),
         cv::Point(box.x + box.width * (i + 1) / parts, box.y + box.height * (j + 1) / parts));
+    // w (p_i − p) of the part, w its share of the bone.
     const double area = cv::countNonZero(bone(block));
     squares += std::pow((cv::countNonZero(pores(block)) - mean * area) / all, 2);
     used += area > 0.0 ? 1.0 : 0.0;

@@ -1,3 +1,5 @@
+// A figure is a script for gnuplot on its standard input and an SVG on its standard output, made
+// fit to stand inside a page. Whatever goes wrong on the way becomes a sentence in its place.
 #include "reports/figures/gnuplot.hpp"
 
 #include <fmt/format.h>
@@ -35,6 +37,7 @@ dark = '#222222'
 grey = '#888888'
 )";
 
+// For HTML and SVG, by the rules of the pages' own templates.
 std::string escaped(const std::string& text) {
   return mstch::render("{{text}}", mstch::map{{"text", text}});
 }
@@ -134,6 +137,7 @@ std::string x_range(std::initializer_list<std::span<const double>> values, doubl
         high = std::max(high, value * scale);
       }
   if (low > high) return {};
+  // A single value needs a range too.
   const double margin = high > low ? 0.02 * (high - low) : 1.0;
   return fmt::format("set xrange [{:.6g}:{:.6g}]\n", low - margin, high + margin);
 }

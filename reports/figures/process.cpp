@@ -1,3 +1,4 @@
+// By posix_spawn and without a shell, whose rules for quotes would be one more thing to get wrong.
 #include "reports/figures/process.hpp"
 
 #include <fcntl.h>
@@ -71,6 +72,7 @@ int status_of(pid_t pid) {
   for (int status = 0;;) {
     const pid_t ended = waitpid(pid, &status, WNOHANG);
     if (ended != 0) return ended == pid && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    // The whole group, with what the program may have started.
     if (std::chrono::steady_clock::now() - begin > patience) kill(-pid, SIGKILL);
     std::this_thread::sleep_for(1ms);
   }
@@ -100,6 +102,7 @@ ProcessResult run_process(std::vector<std::string> command, const std::string& i
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), write, 0600);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), write, 0600);
 
+  // As exec wants them: writable, and ended by a null.
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);
   for (std::string& argument : command) arguments.push_back(argument.data());

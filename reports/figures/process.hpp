@@ -6,9 +6,10 @@
 
 namespace havers::reports {
 
+/// How a program ended, and all that it wrote.
 struct ProcessResult {
-  bool started = false;
-  int status = -1;  ///< Exit status; -1 when it did not end by itself.
+  bool started = false;  ///< False too where there is no folder for its streams.
+  int status = -1;       ///< Exit status; -1 when it did not end by itself.
   std::string output, errors;
 };
 

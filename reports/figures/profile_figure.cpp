@@ -1,3 +1,4 @@
+// How the cost rises off its minimum along each parameter, and from which starts it was found.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 namespace havers::reports {
 namespace {
 
+// The dashed line is where the 95 % interval ends.
 std::string profile_panel(const calib::Profile& profile, std::size_t number) {
   return data_block(fmt::format("profile{}", number), {profile.value, profile.rise}) +
          fmt::format(
@@ -21,6 +23,7 @@ std::string profile_panel(const calib::Profile& profile, std::size_t number) {
 }  // namespace
 
 Figure profile_figure(const std::vector<calib::Profile>& profiles, const std::string& id) {
+  // In pixels; the figure grows by one of each a parameter.
   constexpr double panel_height = 170.0, axis = 62.0;
   const double height = static_cast<double>(profiles.size()) * (panel_height + axis);
   Figure figure{.id = id,

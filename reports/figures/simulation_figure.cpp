@@ -1,3 +1,5 @@
+// Three panels over one strain axis: stress, broken joints by kind, energies. Rows are not equally
+// far apart: what lies between them is drawn as it is known to go, not as a straight line.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +11,7 @@
 namespace havers::reports {
 namespace {
 
-constexpr std::size_t most_points = 2000;
+constexpr std::size_t most_points = 2000;  // Rows of a curve; those at breaks stay beside them.
 
 constexpr std::string_view simulation_commands = R"gnuplot(
 set multiplot
@@ -47,6 +49,7 @@ std::vector<sim::CurvePoint> with_parabolas(const sim::Simulation& simulation) {
   const bool dynamic = simulation.regime == sim::Regime::dynamic;
   if (dynamic && simulation.leapt_strain == 0.0) return simulation.curve;
   constexpr int parts = 60;
+  // Pieces are as long all along the axis, whatever rows lie on it.
   const double piece = simulation.curve.back().strain / parts;
   std::vector<sim::CurvePoint> curve;
   for (const sim::CurvePoint& end : simulation.curve) {
@@ -62,6 +65,7 @@ std::vector<sim::CurvePoint> with_parabolas(const sim::Simulation& simulation) {
       point.strain = strain;
       point.stress_right = std::lerp(begin.stress_right, end.stress_right, part);
       point.stress_left = std::lerp(begin.stress_left, end.stress_left, part);
+      // From zero at no strain, by its square; the row at the end fixes the factor.
       point.elastic = end.elastic * (strain * strain) / (end.strain * end.strain);
       const double grown =
           dynamic ? part : part * (strain + begin.strain) / (end.strain + begin.strain);

@@ -1,3 +1,5 @@
+// A specimen's curve measured and simulated, with the band of its replicates; below, the
+// difference.
 #include <fmt/format.h>
 
 #include "reports/figures/figures.hpp"

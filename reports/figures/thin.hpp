@@ -6,6 +6,7 @@
 
 namespace havers::reports {
 
+/// Of a curve, x and y equally many.
 struct Points {
   std::vector<double> x, y;
 };

@@ -1,3 +1,5 @@
+// Two benches of fits on studies of known truth: which chain of optimisers is the cheapest, and
+// whether 95 % intervals hold the truth as often as they say.
 #include <fmt/format.h>
 
 #include <array>
@@ -27,6 +29,7 @@ std::string rate_text(const calib::Rate& rate) {
 }
 
 mstch::map chain_row(const calib::ChainSummary& chain, bool usual) {
+  // Whole numbers: no part of a simulation is told.
   const auto& [low, median, high] = chain.simulations;
   const std::string range = low == high ? "" : fmt::format(" ({:.0f} to {:.0f})", low, high);
   return {{"chain", text(chain.chain + (usual ? " (default)" : ""))},

@@ -1,3 +1,5 @@
+// Fits side by side. A comparison is worth something only if it says in what fits differ: each is
+// compared with the first of the page.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -124,6 +126,7 @@ std::string program_of(const FitReport& fit) {
 // In what a fit differs from the first of the page, but for its outcome.
 std::string differs_in(const FitReport& fit, const FitReport& first) {
   std::vector<std::string> parts;
+  // By what is shown of each, so that a difference is one that a reader sees.
   const auto compare = [&](const char* what, std::string (*of)(const FitReport&)) {
     if (of(fit) != of(first)) parts.push_back(fmt::format("{}: {}", what, of(fit)));
   };
@@ -172,6 +175,7 @@ std::string comparison_page(const std::vector<FitReport>& reports) {
   Footer footer;
   for (const FitReport& fit : reports) {
     fits.emplace_back(fit_content(fit, reports.front()));
+    // Each fit's origin under its name, as files may be called alike.
     footer.add(fit.provenance, fit.study.name + ": ");
   }
   mstch::map content = verdict_of_fits(reports);

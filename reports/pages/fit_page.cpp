@@ -1,3 +1,5 @@
+// The page of a fit: verdict and checks, parameters, specimens, then how well all of it is known
+// and what the search took.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,6 +31,7 @@ std::vector<std::string> asked_for(const calib::CalibrationResult& result) {
   return names;
 }
 
+// A parameter that was left out is held at its value, and shows why.
 mstch::map parameter_row(const calib::CalibratedParameter& p,
                          const std::vector<std::string>& parameters) {
   const bool held = !p.left_out_because.empty();
@@ -85,6 +88,7 @@ bool has_bootstrap(const calib::CalibrationResult& result) {
   });
 }
 
+// By how many standard errors each fitted parameter would move without the specimen.
 mstch::array influence_rows(const calib::CalibrationResult& result) {
   mstch::array rows;
   for (const calib::SpecimenResult& specimen : result.specimens) {
@@ -97,6 +101,7 @@ mstch::array influence_rows(const calib::CalibrationResult& result) {
   return rows;
 }
 
+// What the tests determine, best first, a sentence each.
 mstch::array directions(const calib::CalibrationResult& result) {
   return list_of(result.directions, [&](const std::string& sentence) {
     return text(typeset(with_symbols(sentence, asked_for(result))));

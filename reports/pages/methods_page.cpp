@@ -1,3 +1,4 @@
+// Ways to measure porosity side by side, over all sections and by hardship; ours is the last.
 #include <fmt/format.h>
 
 #include "calib/count.hpp"

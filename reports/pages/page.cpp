@@ -1,3 +1,4 @@
+// Pieces that pages share. Templates know no logic: what is shown, and whether, is decided here.
 #include "reports/pages/page.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 namespace havers::reports {
 namespace {
 
+// In the order of calib::Outcome; a check that was not done has no outcome.
 std::string mark_of(const calib::Check& check) {
   constexpr std::array marks{"✓", "△", "✗"};
   return check.done ? marks.at(static_cast<std::size_t>(check.outcome)) : "–";
@@ -29,6 +31,7 @@ mstch::array fact_list(const Facts& facts) {
   });
 }
 
+// A template leaves out what is false, heading and all.
 mstch::node section(mstch::array items) {
   if (items.empty()) return mstch::node{false};
   return mstch::map{{"items", std::move(items)}};
@@ -59,6 +62,7 @@ mstch::node check_section(const std::vector<calib::Check>& checks) {
   }));
 }
 
+// One of one is not counted.
 std::string how_many_can(const std::string& verb, const std::string& noun, std::size_t all,
                          const std::vector<std::string>& cannot) {
   if (all == 1) return fmt::format("The {} can{} {}", noun, cannot.empty() ? "" : "not", verb);
@@ -129,6 +133,7 @@ void Footer::add(const calib::Provenance& provenance, const std::string& whose) 
   const auto add_fact = [&](const char* name, const std::string& value) {
     facts.emplace_back(whose + name, value);
   };
+  // Results that were read back may know less of themselves.
   if (!provenance.command.empty()) add_fact("Command", provenance.command);
   if (!provenance.havers.empty())
     add_fact("Program", fmt::format("havers {}, {}", provenance.havers, provenance.compiler));
@@ -141,6 +146,7 @@ void Footer::add(const calib::Provenance& provenance, const std::string& whose) 
 
 std::string render_page(const std::string& title, const std::string& name, mstch::map content,
                         const Footer& footer) {
+  // The body first, on its own, then the frame around it.
   const std::string body = mstch::render(templates().at(name), content, templates());
   return mstch::render(
       templates().at("page"),

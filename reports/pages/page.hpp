@@ -38,6 +38,8 @@ mstch::array fact_list(const Facts& facts);
 /// A list for a section of a template that vanishes with it: {items}, or nothing when it is empty.
 mstch::node section(mstch::array items);
 
+/// Sections of what most results carry: simplifications with their reasons, checks with their
+/// outcomes, sentences, corrections. Each vanishes when it is empty.
 mstch::node left_out_section(const std::vector<sim::LeftOut>& left_out);
 mstch::node check_section(const std::vector<calib::Check>& checks);
 mstch::node text_section(const std::vector<std::string>& sentences);
@@ -71,7 +73,7 @@ std::string base_name(const std::string& path);
 
 /// The foot of a page: where its results come from, and the digests of the files they were made of.
 struct Footer {
-  Facts facts, digests;
+  Facts facts, digests;  ///< In the order in which they were added.
 
   /// @param whose  Stands before each name, where a page has several results.
   void add(const calib::Provenance& provenance, const std::string& whose = "");

@@ -1,3 +1,5 @@
+// Sections in one table, then each with its overlay and histogram, so that a reader sees what was
+// taken for a pore before believing its porosity.
 #include <fmt/format.h>
 
 #include <algorithm>

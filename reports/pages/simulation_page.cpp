@@ -1,3 +1,5 @@
+// Every number of a run stands with what is to be said of it: its step error, that it is a bound,
+// or what was left out on the way to it.
 #include <fmt/format.h>
 
 #include <array>
@@ -13,6 +15,8 @@ namespace {
 
 using Status = sim::SimulationStatus;
 
+// Behind a value: its relative error by the time step; nothing where that is no more than asked
+// for.
 std::string by_step(double error) {
   return error > 0.0
              ? fmt::format(" (±\u00a0{} of it by the step)", quantity(error / in::percent, "%", 2))
@@ -121,6 +125,7 @@ Facts key_numbers(const SimulationReport& report) {
               {dynamic ? "Time steps" : "Events", steps_of(s)},
               {"Contact iterations", std::to_string(s.iterations)}};
   if (!std::isnan(s.strength_over_a_wave))
+    // Beside the strength, which it explains.
     facts.insert(facts.begin() + 1, {"Strength without waves that ring",
                                      quantity(s.strength_without_ringing() / in::MPa, "MPa") +
                                          by_step(s.error_beyond_accuracy().over_a_wave)});
@@ -146,6 +151,7 @@ std::string gaps_of(const sim::Simulation& s) {
   return s.missing_joints() > 0 ? " Joints that are missing from the start leave gaps." : "";
 }
 
+// How far down the run went after its strength.
 std::string followed_to(const SimulationReport& report) {
   const std::string part = setting(report.simulation.end_fraction_used, "", 3);
   return ends_early(report) ? fmt::format("{} of the strength ({} where nothing is left out)", part,
@@ -153,6 +159,7 @@ std::string followed_to(const SimulationReport& report) {
                             : part + " of the strength";
 }
 
+// In the order of sim::Distribution.
 std::string to_string(sim::Distribution distribution) {
   constexpr std::array words{"uniform", "Weibull", "log-normal"};
   return words.at(static_cast<std::size_t>(distribution));
@@ -177,6 +184,8 @@ std::string unusual(const sim::JointOptions& joints) {
   return words;
 }
 
+// The whole scene in a few lines; a key that nearly all scenes leave alone shows only where it is
+// set.
 Facts scene_facts(const SimulationReport& report) {
   const auto& [assembly, material, joints, loading, solver] = report.scene;
   return {

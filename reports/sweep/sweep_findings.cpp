@@ -1,3 +1,5 @@
+// Findings are claims that a sweep was asked about. One claim may have rows of several sweeps and
+// places: the sentence counts claims, the table shows rows.
 #include "reports/sweep/sweep_findings.hpp"
 
 #include <fmt/format.h>
@@ -16,6 +18,7 @@ namespace {
 
 using calib::FindingOutcome;
 
+// What was judged: a mean in its unit, or anything else in percent.
 std::string value_of(const calib::Finding& finding) {
   const calib::MeasureWords words = calib::words_of(finding.response);
   const bool absolute = judges_means(finding.test);
@@ -31,6 +34,7 @@ std::string value_of(const calib::Finding& finding) {
                     absolute ? words.unit : "%", calib::extra_digits(finding, scale)));
 }
 
+// The inertia numbers of the runs that it rests on.
 std::string inertia_of(const calib::Finding& finding) {
   const std::string low = number(finding.inertia_low, 2), high = number(finding.inertia_high, 2);
   return "I = " + (low == high ? low : fmt::format("{} to {}", low, high));
@@ -51,6 +55,7 @@ std::string place_of(const calib::Sweep& sweep, const calib::Finding& finding) {
                              : fmt::format("{}: {}", sweep.name, place(finding.per, finding.at));
 }
 
+// "θ = 45° against 0°, d = 0.4": what was compared, and where.
 std::string words_for(const std::vector<calib::ComparedKey>& keys) {
   std::string text;
   for (const auto& [name, value, against] : keys) {
@@ -67,6 +72,7 @@ std::vector<FindingRow> findings_of(const std::vector<SweepReport>& sweeps) {
   for (const SweepReport& report : sweeps)
     for (const calib::Finding& finding : report.result.findings)
       rows.push_back({&finding, &report.sweep});
+  // Within an id the order of the sweeps stays.
   std::ranges::stable_sort(rows, {}, [](const FindingRow& row) { return row.finding->id; });
   return rows;
 }
@@ -96,6 +102,7 @@ std::string findings_sentence(const std::vector<FindingRow>& rows) {
   std::array<std::string, 4> names;  // agree, disagree, undecided, one row so and another so
   std::array<int, 4> counts{};
   for (const auto& [id, set] : outcomes) {
+    // Outcomes are numbered as `names` is.
     const std::size_t kind = set.size() == 1 ? static_cast<std::size_t>(*set.begin()) : 3;
     names.at(kind) += (names.at(kind).empty() ? "" : ", ") + id;
     ++counts.at(kind);

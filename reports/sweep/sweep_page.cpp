@@ -1,3 +1,4 @@
+// The verdict over all sweeps, the table of findings, and a part for each sweep.
 #include "reports/sweep/sweep_page.hpp"
 
 #include <fmt/format.h>
@@ -39,6 +40,7 @@ std::string law_text(const calib::Law& law) {
                      terms.substr(0, terms.size() - 2));
 }
 
+// Each with its 95 % interval, in the unit of what the law is of.
 std::string coefficients_of(const calib::Law& law) {
   if (law.status != calib::LawStatus::fitted) return explain(law.status);
   const double scale = words_of(law.request.response).scale;
@@ -51,6 +53,7 @@ std::string coefficients_of(const calib::Law& law) {
     all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", name,
                        with_interval(value, value - half, value + half));
   }
+  // Of calling a law wrong that fits.
   constexpr double risk = 0.05;
   if (law.lack_of_fit_p < risk)
     all +=
@@ -58,6 +61,7 @@ std::string coefficients_of(const calib::Law& law) {
   return all;
 }
 
+// The ratio, and how likely chance alone makes it as large.
 std::string lack_of_fit(const calib::Law& law) {
   const std::string ratio = number(law.lack_of_fit, 3);
   return std::isfinite(law.lack_of_fit) ? fmt::format("{} ({})", ratio, chance(law.lack_of_fit_p))
@@ -77,6 +81,7 @@ bool has_reservations(const SweepReport& report) {
   return !report.result.most_reserved_because.empty();
 }
 
+// Columns are those of `point_row`, in its order.
 mstch::array point_heads(const SweepReport& report) {
   mstch::array heads;
   const auto head = [&heads](const std::string& name) {
@@ -96,6 +101,7 @@ mstch::array point_heads(const SweepReport& report) {
   return heads;
 }
 
+// One point of the plan over its seeds.
 mstch::node point_row(const SweepReport& report, std::size_t i) {
   const calib::SweepPoint& point = report.result.points[i];
   const calib::PointSummary& summary = report.result.summaries[i];
@@ -124,6 +130,7 @@ std::string ended(const std::string& text) {
   return text.empty() ? "" : typeset(text) + (text.ends_with('.') ? " " : ". ");
 }
 
+// Every figure with its caption, and what its bars or curves are.
 mstch::array figures_of(const SweepReport& report) {
   mstch::array figures;
   for (const calib::SweepFigure& wanted : report.sweep.figures) {
@@ -145,6 +152,7 @@ mstch::array figures_of(const SweepReport& report) {
   return figures;
 }
 
+// The user's words, how many runs, and why most of those with something to say did.
 std::string about(const SweepReport& report) {
   const std::string& why = report.result.most_failed_because;
   const std::string& but_for = report.result.most_reserved_because;

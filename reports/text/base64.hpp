@@ -7,7 +7,7 @@
 
 namespace havers::reports {
 
-/// Base64 with padding (RFC 4648).
+/// Base64 with padding (RFC 4648), without line breaks.
 std::string base64(const std::vector<std::uint8_t>& bytes);
 
 }  // namespace havers::reports
