@@ -91,6 +91,13 @@ cv::Mat without_alpha(const cv::Mat& image) {
   return colour;
 }
 
+// Grey and alpha as four channels.
+cv::Mat grey_with_alpha(const cv::Mat& image) {
+  cv::Mat colour(image.size(), CV_MAKETYPE(image.depth(), 4));
+  cv::mixChannels({image}, {colour}, {0, 0, 0, 1, 0, 2, 1, 3});
+  return colour;
+}
+
 // (I1): projection on the first principal axis of the colours, which is grey itself for a grey
 // image and the stain's colour for a stained one. Its sign follows brightness.
 cv::Mat along_main_colour(cv::Mat colour) {
@@ -184,13 +191,11 @@ cv::Mat to_grey(const cv::Mat& image, const std::string& name) {
   if (lowest == highest)
     throw io::InputError(name, fmt::format("every pixel has the same value ({:g})", lowest),
                          "this image is empty");
-  cv::Mat grey;
   switch (image.channels()) {
     case 1:
       return image;
     case 2:
-      cv::extractChannel(image, grey, 0);
-      return grey;
+      return along_main_colour(without_alpha(grey_with_alpha(image)));
     case 3:
       return along_main_colour(image);
     default:

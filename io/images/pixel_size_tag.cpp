@@ -152,7 +152,8 @@ std::optional<double> tagged_pixel_size(const std::filesystem::path& file) {
   const std::string head = bytes.text(0, 132);
   double size = 0.0;
   if (head.starts_with("\x89PNG")) size = png_pixel(bytes);
-  if (head.starts_with("II*") || head.starts_with("MM")) size = tiff_pixel(bytes);
+  if (head.starts_with("II*") || head.starts_with(std::string_view("MM\0*", 4)))
+    size = tiff_pixel(bytes);
   if (head.ends_with("DICM")) size = dicom_pixel(bytes);
   if (!(size > 0.0) || !std::isfinite(size) || is_for_paper(size)) return std::nullopt;
   return size;

@@ -58,7 +58,7 @@ Split refine(const cv::Mat& image, const cv::Mat& mask, cv::Mat bright) {
   const int all = cv::countNonZero(mask), fewest = all / 200, few = fewest / 10;
   for (int round = 0; round < 20; ++round) {
     const int count = cv::countNonZero(bright & mask);
-    if (count < fewest || all - count < fewest) return split;
+    if (count < fewest || all - count < fewest) return {};
     const cv::Mat upper = values_of(fit_where(image, bright & mask));
     const cv::Mat lower = values_of(fit_where(image, ~bright & mask));
     const cv::Mat to_upper = cv::abs(image - upper), to_lower = cv::abs(image - lower);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <vector>
 
 #include "calib/sweep/measure_words.hpp"
 #include "reports/figures/thin.hpp"
@@ -165,12 +166,12 @@ std::string mean_commands(const Panel& panel) {
   std::string data, bands, marks;
   std::vector<Line> lines;
   const bool sample = is_sample(panel.sweep.plan.sampling);
-  for (const PointGroup& series : series_of(panel)) {
-    const Line line = line_of(panel, series.points);
+  const std::vector<PointGroup> all = series_of(panel);
+  for (std::size_t i = 0; i < all.size(); ++i) {  // alike in all panels, whatever these lack
+    const Line line = line_of(panel, all[i].points);
     if (line.x.empty()) continue;
     // Points of a sample are neighbours by chance.
     const bool joined = line.joined && !sample;
-    const std::size_t i = lines.size();
     const std::string_view colour = colours.at(i % colours.size());
     data += data_block(fmt::format("s{}", i), {line.x, line.mean, line.low, line.high});
     if (joined)
@@ -183,7 +184,7 @@ std::string mean_commands(const Panel& panel) {
         "{0}$s{1} using 1:($3 == $3 ? $2 : NaN):3:4 with yerrorbars {2} lw 1.2 lc rgb {3} notitle, "
         "$s{1} using 1:2 with {4} lw 1.6 dt {5} {2} lc rgb {3} title '{6}'",
         marks.empty() ? "" : ", ", i, symbol, colour, joined ? "linespoints" : "points", 1 + i % 5,
-        title_of(panel, series.value));
+        title_of(panel, all[i].value));
     lines.push_back(line);
   }
   if (lines.empty()) return {};
@@ -199,11 +200,11 @@ std::string mean_commands(const Panel& panel) {
 // Stress against strain of the first seed of each series that has not failed.
 std::string curve_commands(const Panel& panel) {
   std::string data, plots;
-  std::size_t i = 0;
-  for (const PointGroup& series : series_of(panel)) {
-    if (series.points.empty()) continue;
+  const std::vector<PointGroup> all = series_of(panel);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].points.empty()) continue;
     const auto run = std::ranges::find_if(panel.result.runs, [&](const calib::SweepRun& one) {
-      return one.point == series.points.front() && !one.failed && !one.strain.empty();
+      return one.point == all[i].points.front() && !one.failed && !one.strain.empty();
     });
     if (run == panel.result.runs.end()) continue;
     const Points points = thin(run->strain, run->stress);
@@ -211,8 +212,7 @@ std::string curve_commands(const Panel& panel) {
     plots +=
         fmt::format("{}$s{} using ($1*100):($2*1e-6) with lines lw 1.6 dt {} lc rgb {} title '{}'",
                     plots.empty() ? "" : ", ", i, 1 + i % 5, colours.at(i % colours.size()),
-                    title_of(panel, series.value));
-    ++i;
+                    title_of(panel, all[i].value));
   }
   if (plots.empty()) return {};
   return data + key_of(panel) +

@@ -194,6 +194,17 @@ TEST(SweepFigures, HaveAPanelForEveryValueOfPer) {
   EXPECT_THAT(panels[0].figure.commands, HasSubstr("Strength (MPa)"));
 }
 
+TEST(SweepFigures, DrawASeriesAlikeInAllPanels) {
+  Case known;
+  const calib::SweepFigure wanted{
+      .caption = "c", .x = "joints.scatter", .series = "joints.scatter", .per = "joints.ratio"};
+  known.result.summaries.front() = {};  // the first series has no value in the first panel
+  const auto panels = sweep_figures(known.sweep, known.result, wanted, "f");
+  for (const SweepPanel& panel : panels)
+    EXPECT_THAT(panel.figure.commands, HasSubstr("dt 2 pt 7 ps 0.7 lc rgb red title '0.8'"));
+  EXPECT_THAT(panels[0].figure.commands, Not(HasSubstr("lc rgb blue")));
+}
+
 TEST(SweepFigures, WriteSmallNumbersAsPowersOfTen) {
   Case known;
   const calib::SweepFigure wanted{.caption = "c", .x = "joints.scatter"};

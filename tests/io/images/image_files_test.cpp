@@ -4,6 +4,7 @@
 #include <fstream>
 #include <limits>
 
+#include "io/images/grey_image.hpp"
 #include "io/images/measure_section.hpp"
 #include "io/input_error.hpp"
 #include "tests/support/sections.hpp"
@@ -83,6 +84,16 @@ TEST(ImageFile, WithTransparentBackgroundHasNoBoneThere) {
       measure_sections(test::write(colour, "alpha.png"), {.pixel_size = 1e-6}).front().porosity;
   EXPECT_NEAR(100.0 * measured.porosity, 100.0 * drawn.porosity, 0.2);
   EXPECT_NEAR(measured.bone_area * 1e12, cv::sum(drawn.bone)[0], 0.01 * cv::sum(drawn.bone)[0]);
+}
+
+TEST(ImageFile, OfGreyAndAlphaIsThatOfColoursAndAlpha) {
+  const auto drawn = test::draw({.background = 0.8, .blur = 0.7});
+  cv::Mat alpha, two, four;
+  drawn.bone.convertTo(alpha, CV_8U, 255.0);
+  cv::merge(std::vector<cv::Mat>{drawn.image, alpha}, two);
+  cv::merge(std::vector<cv::Mat>{drawn.image, drawn.image, drawn.image, alpha}, four);
+  EXPECT_EQ(cv::norm(to_grey(two, ""), to_grey(four, ""), cv::NORM_INF), 0.0);
+  EXPECT_GT(cv::norm(to_grey(two, ""), drawn.image, cv::NORM_INF), 0.0);  // what is hidden
 }
 
 TEST(ImageFile, OfSeveralPagesIsASectionAPage) {
