@@ -1,4 +1,4 @@
-// Numbers with their nouns, in the sentences of corrections, warnings and pages: in all folders
+// Numbers with their nouns, for sentences in corrections, warnings and pages; used in all folders
 // above sim.
 #pragma once
 

@@ -13,7 +13,7 @@ std::string at_line(const std::string& file, std::size_t line) {
 std::string to_string(const Problem& problem) {
   std::string text = problem.where + ": " + problem.what;
   if (!problem.hint.empty()) text += " (" + problem.hint + ")";
-  // A name of a file or a cell may hold a line end or an escape of the terminal.
+  // A file's name or a cell may hold a line end or an escape sequence for the terminal.
   std::ranges::replace_if(
       text, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
   return text;
@@ -22,7 +22,8 @@ std::string to_string(const Problem& problem) {
 InputError::InputError(std::vector<Problem> problems) {
   std::set<std::string> told;
   for (Problem& problem : problems) {
-    // What the user reads decides what is the same; the order is that of finding.
+    // Two problems are the same where their sentences are; the order stays that in which they were
+    // found.
     const std::string sentence = to_string(problem);
     if (!told.insert(sentence).second) continue;
     text_ += (text_.empty() ? "" : "\n") + sentence;

@@ -17,7 +17,7 @@ struct Problem {
 /// "file:line", for a problem's `where`.
 std::string at_line(const std::string& file, std::size_t line);
 
-/// "where: what (hint)", in one line: characters of control, of a file as well, become blanks.
+/// "where: what (hint)", in one line: control characters become blanks.
 std::string to_string(const Problem& problem);
 
 /// All problems of an input together, each once, for one mistake may stand in the way of many keys

@@ -11,7 +11,7 @@
 namespace havers::io {
 
 std::string read_text(const std::filesystem::path& file, const std::string& hint) {
-  // Only what surely cannot be read is refused beforehand: a pipe is neither, and is read.
+  // Only a missing file and a folder are refused beforehand; anything else, as a pipe, is read.
   std::error_code error;
   const std::filesystem::file_type type = std::filesystem::status(file, error).type();
   if (type == std::filesystem::file_type::not_found)

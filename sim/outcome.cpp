@@ -32,7 +32,7 @@ void take_note_of_strength(Simulation& simulation) {
 
 bool has_failed(const Simulation& simulation, double end_fraction) {
   const CurvePoint& last = simulation.curve.back();
-  // An end fraction of 0 ends a run as well, where nothing but rounding is borne.
+  // With an end fraction of 0 a run ends where it bears nothing but rounding.
   constexpr double nothing = 1e-9;  // of the strength
   const double limit = std::max(end_fraction, nothing) * simulation.strength;
   return last.broken_joints > 0 && last.stress_right < limit && last.stress_left < limit;
@@ -129,7 +129,7 @@ double slope_up_to(double end, const std::vector<CurvePoint>& curve) {
 }  // namespace
 
 double strain_of_modulus(const Simulation& simulation) {
-  // Passes over the strain of a first break that never came, which is no number.
+  // fmin passes over the strain of a first break that never came, which is NaN.
   return std::fmin(simulation.first_break_strain, simulation.curve.back().strain);
 }
 
@@ -141,7 +141,7 @@ void summarise(Simulation& simulation) {
   simulation.failure_strain = strongest->strain;
   simulation.broken_joints = curve.back().broken_joints;
   simulation.first_break_strain = std::numeric_limits<double>::quiet_NaN();
-  // Any strain is less than one that is no number.
+  // Written such that any strain takes the place of NaN.
   for (const JointOutcome& joint : simulation.joints)
     if (joint.broke() && !(simulation.first_break_strain <= joint.broken_at_strain))
       simulation.first_break_strain = joint.broken_at_strain;

@@ -70,8 +70,8 @@ bool is_not_negative(double value) {
   return value == 0.0 || is_positive(value);
 }
 
-// Collects complaints; a value is shown in the unit of its key. Comparisons are such that what is
-// no number does not hold.
+// Collects complaints; a value is shown in the unit of its key. Rules are written such that NaN
+// breaks them.
 class Checker {
  public:
   void require(bool holds, std::string_view key, double value, std::string_view rule,
@@ -98,7 +98,8 @@ class Checker {
 };
 
 void check_assembly(const AssemblyOptions& assembly, Checker& checker) {
-  // Of fibres, of the grid around a turned specimen, and of length to height.
+  // Limits of the fibres, of the cells of the grid around a turned specimen, and of length to
+  // height.
   constexpr double most_fibres = 1e6, most_cells = 1e7, most_slender = 1e6;
   const double fibres = static_cast<double>(assembly.layers) * assembly.fibres;
   checker.require(assembly.layers >= 1, "assembly.layers", assembly.layers, "at least 1");
@@ -133,7 +134,7 @@ void check_assembly(const AssemblyOptions& assembly, Checker& checker) {
                s = std::abs(std::sin(assembly.orientation));
   const double cells = (assembly.width() * c + assembly.height() * s) / assembly.fibre_length *
                        (assembly.width() * s + assembly.height() * c) / assembly.fibre_height;
-  // Too many fibres are said already.
+  // Where there are too many fibres, that has been said already.
   if (fibres <= most_fibres && cells > most_cells)
     checker.say("assembly.orientation_deg",
                 fmt::format("needs a grid of {:.2g} fibres around so long and narrow a specimen, "
@@ -169,7 +170,7 @@ void check_joints(const JointOptions& joints, Checker& checker) {
   checker.positive("joints.flank_MPa", joints.flank / 1e6);
   if (joints.head_tail_shear)
     checker.not_negative("joints.head_tail_shear_MPa", *joints.head_tail_shear / 1e6);
-  // f_T may be 0 and f_N not, as μ_c is their ratio (M5).
+  // f_T may be 0, but f_N may not, as μ_c is f_T/f_N (M5).
   if (joints.flank_tension)
     checker.positive("joints.flank_tension_MPa", *joints.flank_tension / 1e6);
   checker.require(joints.scatter >= 0.0 && joints.scatter < 2.0, "joints.scatter", joints.scatter,
@@ -181,7 +182,7 @@ void check_joints(const JointOptions& joints, Checker& checker) {
 
 void check_loading(const Loading& loading, Checker& checker) {
   checker.positive("loading.strain_rate_per_s", loading.strain_rate);
-  // A rate that is not above 0 is said already.
+  // A rate that is not above 0 has been complained about already.
   checker.require(
       !(loading.strain_rate > 0.0) || std::isfinite(loading.max_strain / loading.strain_rate),
       "loading.strain_rate_per_s", loading.strain_rate,
@@ -264,7 +265,8 @@ bool some_are_missing(const JointOptions& joints) {
 }
 
 std::vector<Scene::Problem> Scene::problems() const {
-  // What needs an assembly or a regime is asked only of what has passed the other checks.
+  // Thresholds are checked only where the assembly can be laid, which they need, and steps, which
+  // need a regime, only where all else is right.
   Checker checker;
   check_assembly(assembly, checker);
   const bool can_be_laid = checker.found().empty();

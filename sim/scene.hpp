@@ -22,7 +22,7 @@ struct AssemblyOptions {
   [[nodiscard]] double height() const { return layers * fibre_height; }  ///< H. [m]
 };
 
-/// Which of the two is zero out of the plane.
+/// Whether stress or strain is zero out of the plane.
 enum class Plane { stress, strain };
 
 /// The material of every fibre. Section 2.

@@ -16,7 +16,7 @@ std::vector<std::string> Scene::doubts() const {
   constexpr double largest_strain = 0.2;  // the model is of small strains
   // Of head-tail joints and of flanks, which a large ratio makes weak: far below any bone's.
   constexpr double least_strain = 1e-5, least_of_flanks = 2e-6;
-  // In another unit it makes nonsense of all that is compared to it below.
+  // A modulus in another unit makes nonsense of all that is compared with it below.
   if (material.young > stiffest)
     return {fmt::format("material.young_GPa is {:.4g}, stiffer than any material: is it in GPa?",
                         material.young / 1e9)};

@@ -27,7 +27,7 @@ RegimeChoice choose_regime(const Scene& scene) {
   RegimeChoice choice;
   choice.inertia_number = scene.loading.strain_rate * time_across(scene) * scene.material.young /
                           head_tail_strength(scene);
-  // Its inertia number is said all the same.
+  // The inertia number is told all the same.
   if (scene.solver.regime != Regime::automatic) {
     choice.regime = scene.solver.regime;
     choice.ground = fmt::format(
@@ -110,7 +110,7 @@ Simulation simulate(const Scene& scene, const Observer& observer, const StopAske
     choice.ground +=
         ", but missing joints leave nothing that bears a load, and the limit says so at once";
   }
-  // The regime's own run adds to the ground which step it took.
+  // A run in time adds to the ground which step it took.
   Simulation simulation = choice.regime == Regime::quasi_static
                               ? simulate_quasi_static(scene, observer, stop_asked)
                               : simulate_dynamic(scene, observer, stop_asked);
@@ -118,7 +118,7 @@ Simulation simulate(const Scene& scene, const Observer& observer, const StopAske
   simulation.tolerance = scene.solver.tolerance;
   simulation.contact = scene.solver.contact;
   simulation.step_accuracy = scene.solver.step_accuracy;
-  // Ended without having borne anything: it was in pieces from the start.
+  // A run that ended without having borne anything was in pieces from the start.
   if (simulation.strength == 0.0 && has_ended(simulation) && some_are_missing(scene.joints))
     simulation.status = SimulationStatus::severed;
   if (!has_ended(simulation) && simulation.curve.size() < 2)  // nothing has an answer

@@ -17,8 +17,8 @@ struct RegimeChoice {
 /// Below this inertia number `automatic` takes the quasi-static limit.
 inline constexpr double quasi_static_below = 2e-4;
 
-/// The scene's regime or, where that is automatic, the one by (M12). Lays an assembly where the
-/// scene gives thresholds, as σ₁ follows from these.
+/// The scene's regime or, where that is automatic, the one that (M12) gives. Lays an assembly where
+/// the scene gives thresholds, as σ₁ follows from these.
 RegimeChoice choose_regime(const Scene& scene);
 
 /// W/c of the softer layers: how long a wave takes from end to end (M12). [s]

@@ -55,7 +55,7 @@ std::string explain(const Simulation& simulation) {
 }
 
 std::string step_in_words(double step) {
-  // What three digits would round to 1000 of a unit is said in the next one.
+  // What would be rounded to 1000 of a unit is given in the next larger one.
   for (const auto& [unit, symbol] : {std::pair(1.0, "s"), {1e-3, "ms"}, {1e-6, "µs"}, {1e-9, "ns"}})
     if (step >= 0.9995 * unit) return fmt::format("{:.3g} {}", step / unit, symbol);
   return fmt::format("{:.3g} ps", step / 1e-12);
@@ -91,7 +91,7 @@ bool steps_over_failure(const Simulation& run) {
 }  // namespace
 
 // The first check that does not hold: from what kept the run from its end to what its numbers lack.
-// !(a <= b) also holds where a number is none.
+// !(a <= b) also holds where one of them is NaN.
 std::string Simulation::why_not_trusted() const {
   const bool given = regime == Regime::dynamic && !step_error;
   const bool unsolved = status == SimulationStatus::not_converged;

@@ -9,7 +9,7 @@ namespace havers::sim {
 /// true it stays so. Empty: never.
 using StopAsked = std::function<bool()>;
 
-/// False where nobody was given to ask.
+/// False where `stop_asked` is empty.
 inline bool stop_is_asked(const StopAsked& stop_asked) {
   return stop_asked && stop_asked();
 }

@@ -7,7 +7,7 @@
 namespace havers::sim {
 
 /// Runs from when it is made. CPU time is that of the process, so that runs side by side count each
-/// other's.
+/// other's time too.
 class Stopwatch {
  public:
   [[nodiscard]] double wall_seconds() const {  ///< [s]

@@ -1,5 +1,5 @@
-// Noise by second differences, in which the smooth signal cancels, and rates by steps of strain: of
-// both the median, to which a few breaks, jumps and holds do not matter.
+// Noise is found from second differences, in which a smooth signal cancels, and the strain rate
+// from steps of strain. Both are medians, so that a few breaks, jumps and holds do not matter.
 #include "calib/experiment/channel_noise.hpp"
 
 #include <gsl/gsl_statistics_double.h>
@@ -20,16 +20,16 @@ double noise_of(std::span<const double> values, std::size_t lag) {
   std::vector<double> differences;
   for (std::size_t i = lag; i + lag < values.size(); i += stride) {
     const double difference = std::abs(values[i - lag] - 2.0 * values[i] + values[i + lag]);
-    // Spikes are sought before numbers that are not finite are refused.
+    // Spikes are sought before a record with numbers that are not finite is refused.
     if (std::isfinite(difference)) differences.push_back(difference);
   }
-  // Of a normal law: standard deviation over the median of the absolute values.
+  // Standard deviation of a normal law over the median of its absolute values.
   constexpr double normal_sd_per_median = 1.4826;
   return normal_sd_per_median * median(std::move(differences)) / std::sqrt(6.0);
 }
 
-// (X7) Neighbours that err alike differ by less than their noise; rows farther apart show it. What
-// a median of so few rows scatters is no growth.
+// (X7) Neighbours that err alike differ by less than their noise; rows farther apart show all of
+// it. Growth that the scatter of a median of so few rows explains does not count.
 double settled_noise_of(std::span<const double> values) {
   constexpr std::size_t fewest_lags = 40;  // in the record: over more of it the signal itself bends
   const double growth = 1.0 + 3.0 / std::sqrt(static_cast<double>(values.size()));
@@ -39,9 +39,9 @@ double settled_noise_of(std::span<const double> values) {
   return noise;
 }
 
-// (X7) Backwards from the strength, with the lowest strain on the way: a row before it that lies
-// higher in strain and stress shows that the specimen went back there. Noise of one channel is not
-// that of the other: together only the specimen goes back.
+// (X7) Goes backwards from the strength and keeps the row of the lowest strain so far. A row before
+// that one with more strain and more stress shows that the specimen was unloaded in between. Noise
+// does not move both channels together.
 std::size_t last_loading(std::span<const double> strain, std::span<const double> stress) {
   assert(strain.size() == stress.size());
   constexpr std::size_t fewest = 20;
@@ -60,8 +60,8 @@ std::size_t last_loading(std::span<const double> strain, std::span<const double>
   return 0;
 }
 
-// (X8) The strain's levels from the top down, each where it was last crossed: waiting and cycles
-// before that are passed over.
+// (X8) Goes through the levels of strain from the top down, each where it was last crossed: waiting
+// and cycles before that are passed over.
 double loading_rate(std::span<const double> strain, std::span<const double> time) {
   assert(strain.size() == time.size());
   if (strain.empty() || strain.back() <= 0.0) return 0.0;
@@ -76,7 +76,7 @@ double loading_rate(std::span<const double> strain, std::span<const double> time
     if (strain[i] >= at) break;  // the record begins above it
     const double part = (at - strain[i]) / (strain[i + 1] - strain[i]);
     const double passed = std::lerp(time[i], time[i + 1], part);
-    // A level that is crossed at the time of the next has no rate.
+    // Two levels that are crossed at one time have no rate between them.
     if (above > passed) rates.push_back(step / (above - passed));
     above = passed;
   }
@@ -92,7 +92,7 @@ double rows_per_independent(std::span<const double> residuals) {
     double products = 0.0;
     for (std::size_t i = lag; i < residuals.size(); ++i)
       products += residuals[i] * residuals[i - lag];
-    // r(k) = products / squares; within 2/√rows of zero it is chance, and the sum ends.
+    // r(k) = products / squares; below 2/√rows it is chance, and the sum ends.
     if (products * std::sqrt(static_cast<double>(residuals.size())) < 2.0 * squares) break;
     rows += 2.0 * products / squares;
   }

@@ -17,7 +17,7 @@ namespace {
 // ends.
 bool is_spike(const double* y, double threshold) {
   const double distance = std::abs(y[0] - 0.5 * (y[-1] + y[1]));
-  // So written, what is not a number is no spike.
+  // Written so that a distance that is NaN makes no spike.
   if (!(distance > threshold)) return false;
   const double wander =
       std::max({std::abs(y[-1] - y[-2]), std::abs(y[1] - y[-1]), std::abs(y[2] - y[1])});
@@ -43,7 +43,7 @@ std::size_t remove_spikes(std::vector<double>& values) {
   const double threshold = std::max(10.0 * noise_of(values), 0.01 * (high - low));
   std::size_t removed = 0;
   for (std::size_t i = 2; i + 2 < values.size(); ++i) {
-    // In place, so that a spike is no neighbour of the rows after it.
+    // Replaced in place, so that the rows after a spike are not compared with it.
     if (!is_spike(&values[i], threshold)) continue;
     values[i] = 0.5 * (values[i - 1] + values[i + 1]);
     ++removed;
@@ -69,7 +69,7 @@ std::size_t spread_repeated_times(std::vector<double>& time) {
 }
 
 void clean_channels(RawTest& test, const ReductionOptions& options) {
-  // First: else all rows would be listed as spread, though nothing is there to spread them over.
+  // First, as the step below would list all rows of a time that stands still as spread.
   drop_standing_time(test);
   if (options.spread_repeated_times)
     if (const std::size_t rows = spread_repeated_times(test.time); rows > 0)

@@ -35,15 +35,15 @@ Jump largest_jump(const Signal& signal, const BreakSearch& search) {
 std::optional<SeenBreak> find_break(const Signal& signal, const BreakSearch& search) {
   Jump jump = largest_jump(signal, search);
   if (!(jump.size > search.least)) return std::nullopt;
-  // The window holds more rows than the break itself. Less than a tenth of it is not yet the break,
-  // nine tenths are all of it.
+  // The window may hold more rows than the break itself. Rows with less than a tenth of the jump
+  // are still before the break, rows with more than nine tenths are after it.
   const auto jumped = [&, start = signal.value[jump.first]](std::size_t row) {
     return std::abs(signal.value[row] - start) / jump.size;
   };
   while (jump.first + 1 < jump.last && jumped(jump.first + 1) < 0.1) ++jump.first;
   while (jump.last > jump.first + 1 && jumped(jump.last - 1) > 0.9) --jump.last;
   const double before = signal.time[jump.first], after = signal.time[jump.last];
-  // Any instant between the two rows is as likely: the standard error is that of a uniform law.
+  // All instants between the two rows are equally likely: the standard error of a uniform law.
   return SeenBreak{.time = 0.5 * (before + after),
                    .standard_error = (after - before) / std::sqrt(12.0),
                    .rows_before = jump.first + 1,
@@ -62,7 +62,7 @@ std::optional<SeenBreak> find_plain_break(const Signal& signal, double window) {
   const bool for_good = std::ranges::all_of(
       signal.value.subspan(seen->first_after),
       [&](double value) { return std::abs(value - before) > 0.5 * most_of_it * extent; });
-  // Sought only where no window reaches the break that was found.
+  // Another jump is sought only where no window reaches the break that was found.
   const double end = signal.time[seen->rows_before - 1] - 2.0 * window;
   const bool only =
       !find_break(signal, {.window = window, .from = start, .to = end, .least = another * extent});

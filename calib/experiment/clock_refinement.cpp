@@ -1,5 +1,6 @@
-// Gauss and Newton over a spline, linear in its coefficients, and the two clocks: each step
-// eliminates the spline from the normal equations, solves for the clocks, and then for the spline.
+// The method of Gauss and Newton for the coefficients of a spline, in which the model is linear,
+// and the offset and rate of the clocks. Each step eliminates the spline from the normal equations,
+// solves for the clocks, and then for the spline.
 #include "calib/experiment/clock_refinement.hpp"
 
 #include <gsl/gsl_bspline.h>
@@ -54,7 +55,7 @@ class Splines {
       gsl_bspline_alloc(order, knots), gsl_bspline_free};
 };
 
-// A signal as parts of its range: 0 at its lowest value, 1 at its largest.
+// Maps the values of a signal to parts of its range: 0 at the lowest, 1 at the largest.
 struct ValueRange {
   double low, extent;
   explicit ValueRange(std::span<const double> values) {
@@ -87,14 +88,14 @@ class Refinement {
   explicit Refinement(const ClockEvidence& evidence)
       : evidence_(evidence), machine_(evidence.machine.value), logger_(evidence.logger.value) {
     const double noise = noise_of(evidence.logger.value) / logger_.extent;
-    // (X17) Of two readings over the time between them.
+    // (X17) Variance of the difference of two readings over the time between them.
     slope_variance_ = 2.0 * std::pow(noise / (slope_steps * evidence.step), 2);
   }
 
   // `clocks`: 0 the spline alone, 1 the offset too, 2 the rate too.
   void refine(ClockFit& fit, int clocks) {
-    // So many whatever is reached: a step moves the offset by one step of the grid at most, and the
-    // first guess is as near.
+    // A fixed number, without a test of convergence; each moves the offset by one step of the grid
+    // at most.
     constexpr int steps = 15;
     for (int i = 0; i < steps; ++i) take_step(fit, clocks);
   }
@@ -105,8 +106,8 @@ class Refinement {
   }
   [[nodiscard]] double of_gauge(double g) { return splines_.at(g).dot(coefficients_); }
 
-  // Whether a row of the machine, time and value, is one the clocks can be told from; `at` is its
-  // time on the logger's clock, where a slope needs readings on both sides.
+  // Whether the clocks can be told from a row of the machine, given by time and value. `at` is its
+  // time on the logger's clock, around which the slope needs readings on both sides.
   [[nodiscard]] bool counts(double time, double value, double at) const {
     const Signal& logger = evidence_.logger;
     return time <= evidence_.machine.time.back() && at > logger.time.front() + evidence_.step &&
@@ -158,7 +159,8 @@ double Refinement::add_rows(const ClockFit& fit, RowSums& sums) {
     squares += residual * residual;
   }
   const auto surplus = static_cast<double>(residuals.size()) - static_cast<double>(spline) - 2.0;
-  // Fewer rows than unknowns say nothing: over an infinite variance their sums vanish.
+  // Rows that are no more than the unknowns say nothing: divided by an infinite variance, their
+  // sums vanish.
   if (surplus <= 0.0) return std::numeric_limits<double>::infinity();
   constexpr double finest = 1e-6;  // of the range: no recorder resolves less
   return std::max(finest * finest, squares / surplus * rows_per_independent(residuals));
@@ -173,8 +175,8 @@ Eigen::Matrix2d positive_part(const Eigen::Matrix2d& matrix) {
 }
 
 // What the rows say of the clocks beyond what the spline could: the Schur complement of the normal
-// equations, `shared` being the solution of splines by (offset, rate). Noise in the slopes is none
-// of it: where there is not more than that, they say nothing.
+// equations, with `shared` the solution of splines by (offset, rate). What noise in the slopes adds
+// is taken off; where no more than as much again remains, the rows say nothing (X17).
 ClockSums beyond_noise(const RowSums& sums, const Eigen::MatrixXd& shared, double variance) {
   const Eigen::Matrix2d rows = sums.clocks - sums.mixed.transpose() * shared;
   const Eigen::Matrix2d told = positive_part(rows - sums.of_noise);
@@ -191,7 +193,7 @@ Eigen::Vector2d Refinement::move_clocks(ClockSums sums, int clocks, ClockFit& fi
     sums.told += information;
     sums.right += residual / (error * error) * row;
   };
-  // Weak bounds: the offset by the length of the record, the rate by 1.
+  // Weak bounds, as standard errors: of the offset the length of the record, of the rate 1.
   add({1.0, 0.0}, 0.0, evidence_.machine.time.back() - evidence_.machine.time.front());
   add({0.0, 1.0}, 0.0, 1.0);
   if (evidence_.broke) {
@@ -200,11 +202,11 @@ Eigen::Vector2d Refinement::move_clocks(ClockSums sums, int clocks, ClockFit& fi
         evidence_.broke->standard_error);
   }
   if (clocks == 1) {
-    // So the rate has an equation of its own, without a right-hand side, and stays.
+    // The rate is left with an equation of its own without a right-hand side, and so stays.
     sums.told(0, 1) = sums.told(1, 0) = sums.right[1] = 0.0;
   }
   const Eigen::Matrix2d told = sums.told.inverse();
-  // (X17) H⁻¹ G H⁻¹, H being what the signals tell and G that with the noise of the slopes.
+  // (X17) H⁻¹ G H⁻¹: H is the matrix without the noise of the slopes, G the one with it.
   const Eigen::Matrix2d covariance = told * sums.rows * told;
   Eigen::Vector2d change = told * sums.right;
   // The equations are linear in the clocks only near where the slopes were taken.
@@ -234,8 +236,8 @@ void Refinement::take_step(ClockFit& fit, int clocks) {
 
 }  // namespace
 
-// The offset first, by equal rates; the rate is tried from there, and kept only where the signals
-// tell it and it is near 1.
+// The offset is fitted first, the rate held. The rate is then tried from there, and kept only where
+// the signals tell it and it is near 1.
 ClockFit refine_clocks(const ClockEvidence& evidence, ClockFit fit) {
   constexpr double largest_rate_error = 0.01;  // beyond it the clocks' rates are taken as equal
   Refinement refinement(evidence);
@@ -249,7 +251,7 @@ ClockFit refine_clocks(const ClockEvidence& evidence, ClockFit fit) {
 
 void draw_clocks(ClockEvidence evidence, const Signal& machine, const Signal& logger,
                  ClockFit& fit) {
-  // The figure shows the toe too, so that its spline has all rows. The clocks stay.
+  // The figure shows the toe too: its spline is fitted to all rows, the clocks being held.
   evidence.lowest = -std::numeric_limits<double>::infinity();
   Refinement refinement(evidence);
   refinement.refine(fit, 0);

@@ -1,5 +1,6 @@
-// (X17), (X18) A first guess by the correlation of the signals' rates, then the break where both
-// saw one, then least squares; each stage may refuse.
+// (X17), (X18) The first guess comes from the correlation of the signals' rates or, where that is
+// refused, from a break that is plain in both records; least squares over the rows and the break
+// follow. What leaves the offset too uncertain is refused.
 #include "calib/experiment/clocks.hpp"
 
 #include <fmt/format.h>
@@ -45,8 +46,8 @@ double extent_of(std::span<const double> values) {
   return high - low;
 }
 
-// The correlation at every lag, in steps, from `first`; at lag k the first of b meets a[k]. In
-// O(n²) of the grid's points, of which `telling_step` allows some 4000.
+// The correlation at every lag, in steps, from `first`; at lag k the first of b meets a[k]. Cost
+// O(n²) for a grid of n steps; `telling_step` allows no more than 4000.
 struct Correlogram {
   std::ptrdiff_t first = 0;
   std::vector<double> value;
@@ -119,8 +120,8 @@ double least_jump(const Signal& logger, const SignalRates& rates, double step) {
       std::max(noises * noise_of(logger.value), changes * step * std::ranges::max(rates.value)));
 }
 
-// Keeps the rows up to the break in both records; nothing, and all rows, where too few would be
-// left.
+// Keeps the rows up to the break in both records. Where too few would be left, all rows stay and
+// nothing is returned.
 std::optional<CommonBreak> cut_at(const SeenBreak& seen, const SeenBreak& logged,
                                   ClockEvidence& evidence) {
   if (std::min(seen.rows_before, logged.rows_before) < fewest_rows) return std::nullopt;
@@ -239,7 +240,8 @@ std::string match_rates(const ClockRecords& whole, ClockEvidence evidence, Clock
 std::string match(const Signal& machine, const Signal& logger, ClockFit& fit) {
   if (machine.time.size() < fewest_rows || logger.time.size() < fewest_rows)
     return "there are too few rows";
-  // The coarser of the two: in less the other shows noise, or what lies between its rows.
+  // The coarser of the two steps: in a finer one the other signal shows noise, or only what is
+  // interpolated between its rows.
   const double step = std::max(telling_step(machine), telling_step(logger));
   if (!(step > 0.0)) return "the time is the same in all rows of both";
   const ClockRecords whole{machine, logger, step};
@@ -247,8 +249,8 @@ std::string match(const Signal& machine, const Signal& logger, ClockFit& fit) {
     return "one of the records is too short for the steps of the other";
   ClockEvidence evidence{
       .machine = machine, .logger = logger, .broke = {}, .step = whole.step, .lowest = above_toe};
-  // Without a match by the rates the break alone may do, where it is plain; else the user hears
-  // what the rates lack.
+  // Where the rates do not match, a plain break may do alone; without one the user is told what the
+  // rates lack.
   std::string why = match_rates(whole, evidence, fit);
   if (!why.empty()) {
     const auto broke = evidence.broke = cut_at_plain_break(evidence);

@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
 
-// In fewer rows no wave is sought; more than the most are fitted by their means.
+// With fewer rows no wave is sought; more than the most are fitted by their means.
 constexpr std::size_t fewest_wave_points = 24, most_wave_points = 512;
 // The grid from which the fit starts, in periods along the points.
 constexpr double fewest_periods = 0.75, most_periods = 8.0, period_step = 0.25;
@@ -36,7 +36,8 @@ struct LineAndWave {
   [[nodiscard]] int NumResiduals() const { return static_cast<int>(x.size()); }
   [[nodiscard]] static int NumParameters() { return 6; }
 
-  // The first four columns are linear in a, b, c, s; the last two are the derivatives by ω and g.
+  // The columns are the derivatives by the parameters. The model is linear in the first four, so
+  // that these columns serve to evaluate it too.
   bool operator()(const double* parameters, double* residuals, double* jacobian) const {
     const Eigen::Map<const VectorXd> p(parameters, NumParameters());
     MatrixXd columns(x.size(), p.size());
@@ -61,8 +62,8 @@ struct LineAndWave {
   }
 };
 
-// Means of successive rows, mapped to [0, 1]; rows at the end that fill no mean are left out.
-// Stress and strain differ by many orders of magnitude.
+// Means of successive rows, mapped to [0, 1], as stress and strain differ by many orders of
+// magnitude. Rows at the end that do not fill a block are left out.
 struct Mapped {
   double low = 0.0, extent = 0.0;
   VectorXd points;
@@ -80,7 +81,7 @@ Mapped mapped(std::span<const double> values) {
   return {low, extent, points};
 }
 
-// Sum of squares that a bend without waves leaves: a cubic has a toe and yielding.
+// Sum of squares that a bend without waves leaves: a cubic can follow a toe and yielding.
 double squares_of_bend(const LineAndWave& points) {
   MatrixXd columns(points.x.size(), 4);
   for (int power = 0; power < 4; ++power) columns.col(power) = points.x.array().pow(power);
@@ -88,8 +89,9 @@ double squares_of_bend(const LineAndWave& points) {
   return (columns * answer - points.y).squaredNorm();
 }
 
-// The sum of squares may have many minima over the frequency: at each point of a grid of frequency
-// and fading the other four are linear, and the solver starts from the best.
+// The sum of squares may have many minima over the frequency. So a grid of frequency and fading is
+// searched, at each point of which the other four parameters are found by linear least squares; the
+// solver starts from the best.
 VectorXd best_wave(const LineAndWave& points) {
   VectorXd best(LineAndWave::NumParameters());
   double least = std::numeric_limits<double>::infinity();
@@ -118,9 +120,9 @@ std::optional<CarriedWave> find_damped_wave(std::span<const double> x, std::span
   const double noise = noise_of(std::span(my.points.data(), my.points.data() + my.points.size()));
   const double of_noise = count * noise * noise;
   const double of_bend = squares_of_bend(points);
-  // The F test of two parameters more than the four of a cubic.
+  // What the F test asks of a wave, which has two parameters more than the four of a cubic.
   const double certain = 1.0 + 2.0 * least_f / count;
-  // The bend leaves no more than noise does, and a wave could explain nothing.
+  // A bend that leaves hardly more than noise leaves a wave nothing to explain.
   if (of_bend < certain * of_noise) return {};
 
   const VectorXd wave = best_wave(points);
@@ -128,15 +130,15 @@ std::optional<CarriedWave> find_damped_wave(std::span<const double> x, std::span
   MatrixXd columns(points.x.size(), wave.size());
   points(wave.data(), left.data(), columns.data());
   const double squares = Eigen::Map<VectorXd>(left.data(), points.x.size()).squaredNorm();
-  // (X24) Long enough, hardly growing nor gone at once, better than a bend by the F test, and by
-  // far better beyond what noise leaves of both.
+  // (X24) A wave is long enough, hardly grows and does not fade at once. It is better than a bend
+  // by the F test, and leaves, beyond the noise, a small part of what the bend leaves.
   const bool is_wave =
       wave[4] >= shortest_told * turn && wave[5] >= least_fading && wave[5] <= most_fading;
   if (!is_wave || of_bend < certain * squares ||
       squares - of_noise > most_unexplained * (of_bend - of_noise))
     return {};
 
-  // (X4) As a robust line has it: rows that err alike are fewer, and Student's t is wider.
+  // (X4) As for a robust line: rows that err alike count as fewer, and Student's t is wider.
   const MatrixXd normal = columns.transpose() * columns;
   const double variance = normal.ldlt().solve(VectorXd::Unit(normal.rows(), 1))[1];
   const double freedom = std::max(count / rows_per_independent(left) - 6.0, 3.0);

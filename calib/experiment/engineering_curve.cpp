@@ -13,10 +13,10 @@
 namespace havers::calib {
 namespace {
 
-// Of fewer rows no curve is made.
+// A record of fewer rows is refused.
 constexpr std::size_t fewest_readings = 10;
 
-// Measured sides before an area that the file gives. 0 where neither is known. [m²]
+// Width and thickness count before an area that the file gives. 0 where neither is known. [m²]
 double area_of(const RawTest& raw) {
   if (raw.width && raw.thickness) return *raw.width * *raw.thickness;
   return raw.area.value_or(0.0);
@@ -78,7 +78,7 @@ void take_crosshead(const RawTest& raw, double machine_compliance, EngineeringCu
         "which contains the compliance of the machine; the modulus is too low by it");
 }
 
-// A gauge's strain as it is; what comes of the crosshead is corrected or warned of.
+// A gauge's strain is taken as it is; one that comes from the crosshead is corrected or warned of.
 void take_strain(const RawTest& raw, double machine_compliance, EngineeringCurve& curve) {
   const bool recorded = !raw.strain.empty();
   if (recorded && !is_of_crosshead(raw))
@@ -119,7 +119,8 @@ void turn_negative_load(RawTest& raw, bool stretched) {
   const char* turned = nullptr;
   for (const auto& [load, name] : {std::pair(&raw.stress, "stress"), {&raw.force, "force"}}) {
     if (load->empty() || !is_compressed(*load)) continue;
-    // A specimen that gets shorter is compressed: its load stays negative, and is refused later.
+    // A specimen that does not get longer is compressed: its load stays negative, and is refused
+    // later.
     if (!stretched && !gets_longer(elongation, *load)) continue;
     for (double& value : *load) value = -value;
     turned = name;
@@ -140,8 +141,8 @@ EngineeringCurve engineering_curve(const RawTest& raw, double machine_compliance
   take_stress(raw, curve);
   take_strain(raw, machine_compliance, curve);
   if (!curve.problems.empty()) return curve;
-  // The first complaint only. Tension that was written negative has been turned before: what is
-  // negative here is compression.
+  // Only the first complaint is made. Tension that was written negative has been turned before:
+  // what is negative here is compression.
   if (raw.rows() < fewest_readings)
     curve.problems.push_back(
         fmt::format("{} {} too few", count(raw.rows(), "row"), raw.rows() == 1 ? "is" : "are"));

@@ -18,7 +18,7 @@ struct GaugeGrowth {
   // A gauge that stands still, fell off or jumps.
   [[nodiscard]] bool failed() const {
     constexpr double most = 5.0;
-    // Below 0 where it goes back, not a number where it does not move at all.
+    // Below 0 where the gauge goes back, NaN where it does not move at all: both have failed.
     const double part = late / early;
     return !whole || !(part >= 1.0 / most && part <= most);
   }
@@ -64,7 +64,7 @@ std::string join_gauge_pair(RawTest& raw, const std::vector<double>& other, cons
     return fmt::format(R"("{}" has gaps, stands still or jumps, and "{}" alone is used)",
                        first.failed() ? a : b, first.failed() ? b : a);
   }
-  // (X23) Beyond [0, 1) where a gauge shrinks, as one across the load does.
+  // (X23) Outside [0, 1) where a gauge shrinks, as one across the load does.
   const double bending = std::abs(first.early - second.early) / (first.early + second.early);
   if (first.failed() || !(bending >= 0.0 && bending < 1.0))
     return fmt::format(R"(they do not both stretch, and "{}" is used)", a);

@@ -18,8 +18,8 @@ constexpr std::size_t part_before = 5;     // or a fifth of all before
 constexpr double falling = 0.02;           // of the strength: load that a row may lose by noise
 constexpr double following = 0.2;          // of the strain to be expected that a sound gauge shows
 
-// A record with what its jumps are judged by. The strain is mended in place: a row is judged by the
-// mended rows before it.
+// A record, with the limits that its jumps are judged by. The strain is mended in place, so that a
+// row is judged by the mended rows before it.
 struct Record {
   std::vector<double>& strain;
   std::span<const double> stress;
@@ -122,7 +122,7 @@ void continue_with_crosshead(Record& record, std::span<const double> extension, 
 }
 
 void take_back(Record& record, std::size_t before, std::size_t after, SlipRepair& repair) {
-  // The specimen's own part, by the rise of the stress, stays.
+  // The part that the specimen itself was strained by, as the rise of the stress tells, stays.
   const double jump = record.strain[before] - record.strain[after] + record.expected(before, after);
   for (std::size_t i = after; i < record.strain.size(); ++i) record.strain[i] += jump;
   if (after == record.peak) {  // a row later the load has gone too
@@ -169,7 +169,7 @@ SlipRepair mend_slips(std::vector<double>& strain, std::span<const double> stres
                       std::span<const double> extension) {
   SlipRepair repair;
   Record record = record_of(strain, stress);
-  // Jump by jump upwards: whether the gauge fell off at one shows in what follows it.
+  // From the first jump on: whether the gauge fell off at one shows in the rows that follow it.
   for (std::size_t row = 0; row < record.peak; ++row) {
     if (!record.jumps(row)) continue;
     std::size_t after = row + 1;  // a jump may take several rows
@@ -183,7 +183,7 @@ SlipRepair mend_slips(std::vector<double>& strain, std::span<const double> stres
     row = after;
   }
   warn_of_slips(repair);
-  // Last, as a slip that is not taken back could look like the end of the strain.
+  // Last, as after a slip that is not taken back the strain could seem to stand still.
   if (const std::size_t row = standstill(record); row < record.peak)
     continue_with_crosshead(record, extension, row, "stood still", repair);
   return repair;

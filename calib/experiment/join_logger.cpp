@@ -28,8 +28,8 @@ struct Calibration {
   double scale;  // SI to unit
 };
 
-// Keeps the rows of the machine whose time the logger saw: outside, its signal would only be its
-// last value.
+// Keeps the rows of the machine whose time the logger saw: outside of it the logger's signal would
+// only be its first or last value.
 void keep_common_rows(RawTest& test, const ClockFit& clocks, const std::vector<double>& logged) {
   std::vector<bool> seen;
   for (const double time : test.time) {
@@ -51,7 +51,7 @@ std::vector<double> calibrated(const std::vector<double>& volts, const std::vect
                                const Calibration& calibration, JoinedTest& joined) {
   constexpr double largest_error = 0.05;  // of the factor
   const bool recorded = known.size() == volts.size();
-  // (X4) With the error of rows that err alike, as those of a known strain do.
+  // (X4) The error counts rows that err alike as fewer.
   const Line line =
       recorded ? with_true_error(fit_robust_line(volts, known), volts, known) : Line{};
   if (!(line.slope_standard_error < largest_error * std::abs(line.slope))) {
@@ -91,7 +91,6 @@ constexpr Calibration load_cell{"load cell factor",
                                 "N",
                                 1.0};
 
-// The strain of the test is the elongation over the gauge length.
 void take_elongation(std::vector<double> elongation, JoinedTest& joined) {
   if (!joined.test.gauge_length) {
     joined.problems.emplace_back(
@@ -104,8 +103,8 @@ void take_elongation(std::vector<double> elongation, JoinedTest& joined) {
   joined.test.crosshead_strain = false;
 }
 
-// The known before the unknown: a strain, an elongation, and volts only where there is neither.
-// Volts are fitted to the test's own strain, which they then replace.
+// A logger's strain counts first, then an elongation, and volts only where there is neither. Volts
+// are fitted to the test's own strain, which they then replace.
 void take_channels(const RawTest& logger, JoinedTest& joined) {
   RawTest& test = joined.test;
   if (test.force.empty() && !test.load_volts.empty())
@@ -151,7 +150,7 @@ bool only_logger_stretches(const RawTest& machine, const RawTest& logger) {
   return sum > signal.front() * static_cast<double>(signal.size());
 }
 
-// Both records are mended alike: the reader is told which of them a repair was in.
+// Both records are mended alike, so the user is told that these repairs were in the logger's.
 void list_repairs(const RawTest& logger, RawTest& test) {
   const std::string whose = "in the logger's record: ";
   for (const Correction& correction : logger.corrections)
@@ -168,7 +167,8 @@ JoinedTest join_logger(const RawTest& machine, const RawTest& recorded,
   const RawTest logger = cleaned(recorded, options);
   if (only_logger_stretches(test, logger)) turn_negative_load(test, true);
   list_repairs(logger, test);
-  // The load of both records, where both have it: the rest only rises and falls with it.
+  // Each record is compared by its load where it has one; its other channels only rise and fall
+  // with the load.
   const auto& load = first_of({&test.force, &test.load_volts, &test.stress, &test.extension});
   const auto& signal = first_of(
       {&logger.force, &logger.load_volts, &logger.strain, &logger.volts, &logger.extension});

@@ -30,14 +30,14 @@ bool is_after_peak(const RawTest& raw, std::size_t row) {
   return std::ranges::max_element(load, larger) - load.begin() < std::ptrdiff_t(row);
 }
 
-// Strain over the crosshead, both as recorded; not fitted where no crosshead was.
+// Strain over the crosshead's extension; not fitted where no extension was recorded.
 Line line_beside(const RawTest& raw, RowRange beside) {
   if (raw.extension.empty()) return {};
   return fit_robust_line(std::span(raw.extension).subspan(beside.first, beside.rows()),
                          std::span(raw.strain).subspan(beside.first, beside.rows()));
 }
 
-// Lists what was done; a range at the record's beginning is that of a gauge that came late.
+// Lists what was done, with a warning. Rows lost from the first on are of a gauge that came late.
 void tell(RawTest& raw, RowRange lost, const Line& line) {
   const bool late = lost.first == 0;
   const std::string part =
@@ -52,8 +52,8 @@ void tell(RawTest& raw, RowRange lost, const Line& line) {
                                      late ? "strains there rest" : "the failure strain rests"));
 }
 
-// (X14) Fills the rows `lost` at one end of the record by the line of those `beside` them; says why
-// it cannot.
+// (X14) Fills the rows `lost` at one end of the record by the line through those `beside` them.
+// Returns why that is impossible; empty when it was done.
 std::string extend(RawTest& raw, RowRange lost, RowRange beside) {
   const Line line = line_beside(raw, beside);
   const bool broken = is_after_peak(raw, lost.first);
@@ -64,12 +64,13 @@ std::string extend(RawTest& raw, RowRange lost, RowRange beside) {
   for (std::size_t i = lost.first; i < lost.last; ++i)
     raw.strain[i] =
         line.fitted ? line.intercept + line.slope * raw.extension[i] : raw.strain[lost.first - 1];
-  // What is lost after the largest load leaves the failure strain as it is: nothing to tell.
+  // Readings lost after the largest load do not change the failure strain: there is nothing to
+  // tell.
   if (!broken) tell(raw, lost, line);
   return {};
 }
 
-// Of a record without a load, a logger's: a row without a reading of its gauge says nothing.
+// For a logger's record, which has no load: rows without a reading of its gauge say nothing.
 void cut(RawTest& raw, RowRange kept) {
   for (std::vector<double>* channel : {&raw.time, &raw.extension, &raw.strain, &raw.volts}) {
     if (channel->empty()) continue;
@@ -90,7 +91,7 @@ std::string mend_lost_gauge(RawTest& raw) {
     return {};
   }
   const auto first = static_cast<std::size_t>(from - strain.begin());
-  // Only the ends are mended: a gap on the way is refused in the reduction, as not finite.
+  // Only the ends are mended: a gap between readings is refused as the file is read.
   const auto behind = std::find_if(strain.rbegin(), strain.rend(), tells).base();
   const auto end = static_cast<std::size_t>(behind - strain.begin());
   if (raw.load().empty()) {

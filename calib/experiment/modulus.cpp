@@ -1,5 +1,5 @@
-// The window is found first, by slopes of its parts: where the curve is straight. The line is
-// fitted in what is left, or by a convention where nothing is straight.
+// The window where the curve is straight is found first, by the slopes of its parts. The line is
+// then fitted in it, or by a convention where nothing is straight.
 #include "calib/experiment/modulus.hpp"
 
 #include <fmt/format.h>
@@ -93,7 +93,8 @@ int swings_along(const Curve& curve, RowRange rows) {
     return curve.robust(
         {rows.first + k * rows.rows() / parts, rows.first + (k + 1) * rows.rows() / parts});
   };
-  // A slope is compared with the extreme of the swing that goes on, so that noise about it is none.
+  // Each slope is compared with the extreme of the swing that goes on, so that noise about that
+  // extreme does not count as a swing.
   int swings = 0;
   double direction = 0.0;
   Line extreme;  // of the swing that goes on
@@ -197,7 +198,7 @@ bool fit_standard(const Curve& curve, ModulusFit& fit) {
 // (X4) Noise of the strain flattens the slope by its part of the strain's variance, of which means
 // of rows keep less.
 void steepen(const Curve& curve, RowRange window, Line& line) {
-  // Of the variance: a strain that is mostly noise is not steepened without end.
+  // Part of the variance that may count as noise: it keeps the factor below finite.
   constexpr double most = 0.5;
   const auto strain = curve.strain.subspan(window.first, window.rows());
   if (!line.fitted || strain.size() < 2) return;
@@ -273,7 +274,8 @@ ModulusFit fit_modulus(std::span<const double> strain, std::span<const double> s
     fit.window = between(stress, window.low, window.high);
     fit.line = curve.robust(fit.window);
   }
-  // (X5) The curvature that is accepted is an error too. Of waves no bend is known, and it is 0.
+  // (X5) The curvature that was accepted is an error too. It is 0 for waves, whose bend is not
+  // known.
   if (window.straight) {
     steepen(curve, fit.window, fit.line);
     fit.line.slope_standard_error =

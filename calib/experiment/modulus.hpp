@@ -15,11 +15,10 @@ namespace havers::calib {
 struct RowRange {
   std::size_t first = 0, last = 0;
 
-  /// 0 of a range that ends before it begins.
+  /// 0 where the range ends before it begins.
   [[nodiscard]] std::size_t rows() const { return last > first ? last - first : 0; }
 };
 
-/// The modulus, and what it rests on.
 struct ModulusFit {
   Line line;        ///< Stress over strain. `fitted` false: no modulus can be had.
   RowRange window;  ///< Rows that the line was fitted to.
@@ -28,7 +27,8 @@ struct ModulusFit {
 };
 
 /// Fits the modulus to a curve up to its largest stress (X3)-(X6), (X24). Strain [-], stress [Pa],
-/// strength [Pa]. Rows too few, or of one strain, leave the line unfitted, the window being theirs.
+/// strength [Pa]. Where the window's rows are too few, or all of one strain, the line is not
+/// fitted.
 ModulusFit fit_modulus(std::span<const double> strain, std::span<const double> stress,
                        double strength, const ReductionOptions& options);
 

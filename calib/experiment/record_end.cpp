@@ -28,7 +28,7 @@ std::size_t largest_row(std::span<const double> values) {
 }
 
 // Whether a channel goes back between two rows, by more than its noise and a part of what it had
-// grown by. False of one that was not recorded.
+// grown by. False where it was not recorded.
 bool goes_back(std::span<const double> values, std::size_t from, std::size_t to) {
   constexpr double part = 0.02;
   if (values.empty()) return false;
@@ -36,8 +36,8 @@ bool goes_back(std::span<const double> values, std::size_t from, std::size_t to)
   return values[from] - values[to] > least;
 }
 
-// A load that may fall: stress [Pa], time [s] or nothing, and the part of the stress reached below
-// which the specimen has parted (X20).
+// A record in which the load may fall: stress [Pa]; time [s], which may be empty; and the part of
+// the stress reached below which the specimen has parted (X20).
 struct Fall {
   std::span<const double> stress, time;
   double part;
@@ -60,7 +60,7 @@ struct Fall {
   // (X20) Whether the stress loses more than a quarter of `held` within a moment around a row, or
   // from one row to the next where rows are farther apart.
   [[nodiscard]] bool is_sudden(std::size_t row, double held) const {
-    // A part of the loading's time, so that neither speed nor sampling matters.
+    // A part of the time that the loading took, so that neither speed nor sampling matters.
     const double window = moment * rise_to(held);
     std::size_t before = row - 1, after = row + 1;
     while (before > 0 && at(row) - at(before - 1) <= window) --before;
@@ -69,7 +69,7 @@ struct Fall {
     return stress[before] - lowest > sudden * held;
   }
 
-  // Rows from `row` on with a stress that a specimen which has parted cannot have.
+  // How many rows from `row` on have a stress that a specimen which has parted cannot have.
   [[nodiscard]] std::size_t rows_again(std::size_t row, double held) const {
     return static_cast<std::size_t>(
         std::ranges::count_if(stress.subspan(row), [&](double s) { return s >= part * held; }));
@@ -78,22 +78,23 @@ struct Fall {
   // The first row of a sudden fall for good, or the end of a record that ends in one. What is
   // compared is the largest stress that a few rows before it hold.
   [[nodiscard]] std::optional<std::size_t> parting() const {
-    // The least of a few rows: a glitch among them does not hold.
+    // The least of the few rows before, so that a glitch among them does not count.
     const auto held_before = [&](std::size_t row) {
       return std::ranges::min(stress.subspan(row - held_rows, held_rows));
     };
     double largest = 0.0, held = 0.0;
     for (std::size_t row = held_rows; row <= stress.size(); ++row)
       largest = std::max(largest, held_before(row));
-    // Only the row that crosses the part can be the break; one that too many rows rise above again
-    // is a loss of signal or a cycle.
+    // Only a row that crosses `part` of the stress held can be the break. Where too many later rows
+    // reach that stress again, the fall was a loss of signal or a cycle.
     for (std::size_t row = held_rows; row < stress.size(); ++row) {
       held = std::max(held, held_before(row));
       if (held < least_held * largest || stress[row] >= part * held) continue;
       if (stress[row - 1] < part * held || !is_sudden(row, held)) continue;
       if (rows_again(row, held) <= std::max(fewest_again, row / rows_per_again)) return row;
     }
-    // Machines end a record where some of the load is lost, before it comes to `part`.
+    // Machines may end a record as soon as some of the load is lost, before it has fallen to
+    // `part`.
     if (is_sudden(stress.size() - 1, held)) return stress.size();
     return std::nullopt;
   }
@@ -108,7 +109,7 @@ std::string offset_after(const Fall& fall, std::size_t row, double strength) {
   if (rest.size() < least_rows) return {};
   const auto [low, high] = std::ranges::minmax(rest);
   const double middle = 0.5 * (low + high);
-  // In few rows the offset has to be plainer.
+  // The fewer the rows, the larger the offset has to be.
   const double least = rest.size() < enough_rows ? 0.03 : 0.025;  // of the strength
   if (high - low > steady * strength || std::abs(middle) < least * strength) return {};
   return fmt::format(
@@ -217,11 +218,11 @@ RecordEnd stopped(const Fall& fall) {
 RecordEnd end_of_record(const MeasuredTest& test, std::span<const double> crosshead,
                         double break_part) {
   const Fall fall{test.stress, test.time, break_part};
-  // The end of a range first: what follows it may well fall as a break does, below the strength
-  // that the cell did not show.
+  // The end of the load cell's range first: the record may well go on to a break, whose strength
+  // the cell did not show.
   if (const std::size_t rows = rows_at_range_end(test.stress, test.strain); rows > 0)
     return beyond_range(fall, rows);
-  // (X20) A sudden fall; but a crosshead that returns as fast does the same.
+  // (X20) A sudden fall is a break, unless the crosshead went back with it.
   if (const std::optional<std::size_t> row = fall.parting()) {
     const std::size_t peak = largest_row(fall.stress.first(*row));
     const std::size_t fallen = std::min(*row, fall.stress.size() - 1);
@@ -230,7 +231,8 @@ RecordEnd end_of_record(const MeasuredTest& test, std::span<const double> crossh
   }
   const std::size_t peak = largest_row(fall.stress);
   std::size_t row = peak;
-  // (X20) No sudden one: a slow fall, where there is one, is a failure unless something goes back.
+  // (X20) Without a sudden fall: a slow one is a break too, unless the strain or the crosshead goes
+  // back; with none at all the test was stopped.
   while (row < fall.stress.size() && fall.stress[row] >= break_part * fall.stress[peak]) ++row;
   if (row == fall.stress.size()) return stopped(fall);
   const bool returned = goes_back(test.strain, peak, row) || goes_back(crosshead, peak, row);
@@ -243,7 +245,7 @@ std::string jump_of_stress(const MeasuredTest& test) {
   const std::size_t stride = 1 + loading.size() / enough_for_median;
   std::vector<double> some;
   std::size_t steepest = 1;
-  // The steepest rise, and the steps of some rows for the median.
+  // Finds the steepest rise, and collects the steps of some rows for the median.
   for (std::size_t i = 1; i < loading.size(); ++i) {
     if (i % stride == 0) some.push_back(std::abs(loading[i] - loading[i - 1]));
     if (loading[i] - loading[i - 1] > loading[steepest] - loading[steepest - 1]) steepest = i;
@@ -265,7 +267,8 @@ std::string drop_of_stress(const MeasuredTest& test) {
   const double least = std::max(smallest * test.stress[peak], 10.0 * test.strength_standard_error);
   std::size_t top = 0, deepest = 0;
   double drop = least;
-  // The deepest fall below what was reached before, as far as a few rows hold it, without a glitch.
+  // Finds the deepest fall below what was reached before. A few rows have to stay below: a glitch
+  // does not count.
   for (std::size_t row = 1; row + held_rows <= peak; ++row) {
     if (test.stress[row] > test.stress[top]) top = row;
     const double held = std::ranges::max(std::span(test.stress).subspan(row, held_rows));

@@ -1,6 +1,6 @@
-// The order of the steps: each needs what those before it have put right. Channels are cleaned
-// before their ranges are used, the end is found before the strength, slips are taken back before
-// the modulus, and the toe is shifted by its line.
+// Each step needs what those before it have put right: channels are cleaned before their ranges are
+// used, the end is found before the strength, slips are taken back before the modulus is fitted,
+// and the toe is removed by the line of the modulus.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ std::size_t row_of_strength(const MeasuredTest& test) {
 
 // (X20) Whether the specimen broke, and the rows that tell of it.
 void find_end(const RawTest& raw, const ReductionOptions& options, MeasuredTest& test) {
-  // Beside a gauge only: alone the crosshead is the strain already.
+  // The crosshead is asked only beside a gauge: without one it is the strain already.
   const auto crosshead = raw.strain.empty() ? std::span<const double>{} : std::span(raw.extension);
   const RecordEnd end = end_of_record(test, crosshead, options.break_part);
   test.broke = end.broke;
@@ -91,8 +91,8 @@ std::string without_line(const MeasuredTest& test, RowRange window,
       low, high, options.window_low, options.window_high);
 }
 
-// (X3) In the last loading, but from the first row where that begins within the window. Says why
-// there is none.
+// (X3) In the rows of the last loading; in all rows where it begins within the window. Returns why
+// there is no modulus; empty when there is one.
 std::string take_modulus(MeasuredTest& test, const ReductionOptions& options, ModulusFit& fit) {
   const std::size_t loading = row_of_strength(test) + 1;
   const auto strain = std::span(test.strain).first(loading);
@@ -140,7 +140,7 @@ double energy_to(const MeasuredTest& test, std::size_t peak) {
   return energy;
 }
 
-// What raw channels and curve say together; the time is moved out of `raw`.
+// The curve with what the raw record says of it; the time is moved out of `raw`.
 MeasuredTest uncorrected(RawTest& raw, EngineeringCurve curve) {
   MeasuredTest test;
   test.strain = std::move(curve.strain);
@@ -186,8 +186,8 @@ void doubt_strain(MeasuredTest& test) {
                   100.0 * (1.0 - 1.0 / test.linearity)));
 }
 
-// What is measured at the strength, once no correction is to come. The noise is that of the last
-// loading: cycles of preload are none of it (X7).
+// What is measured at the strength, after all corrections. The noise is that of the last loading:
+// cycles of preload are no noise (X7).
 void take_failure(MeasuredTest& test) {
   const std::size_t peak = row_of_strength(test);
   const auto strain = std::span(test.strain).first(peak + 1);
@@ -214,11 +214,10 @@ Reduction reduce_test(const RawTest& recorded, const ReductionOptions& options) 
   MeasuredTest test = uncorrected(raw, std::move(curve));
   if (!problems.empty()) return unreduced(test, problems);
   test.load_turned = raw.load_turned;
-  // A first measure, by which preload, jumps and drops are judged; that of the strength replaces
-  // it.
+  // A first estimate, by which preload, jumps and drops are judged; `take_failure` replaces it.
   test.strength_standard_error = noise_of(test.stress);
   note_preload(test);
-  // The end before the strength: what rises after the break is none.
+  // The end before the strength: a stress that rises after the break is no strength.
   find_end(raw, options, test);
   find_strength(raw, test);
   // Slips before the modulus, as they bend its window.
@@ -227,7 +226,7 @@ Reduction reduce_test(const RawTest& recorded, const ReductionOptions& options) 
   ModulusFit fit;
   if (std::string problem = take_modulus(test, options, fit); !problem.empty())
     return unreduced(test, {std::move(problem)});
-  // What is told of strains comes after this shift.
+  // Before failure strain and energy are taken, as it shifts the strain.
   if (options.remove_toe) remove_toe(test, fit.line);
   take_failure(test);
   test.unit_doubt = doubt_of_units(raw, test);

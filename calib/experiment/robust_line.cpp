@@ -27,7 +27,8 @@ Range range_of(std::span<const double> values) {
 // (X4) A line of means is the line of the rows, and no more points are needed for it.
 constexpr std::size_t most_points = 2048;
 
-// Of blocks of successive rows; the last may be of fewer. The rows themselves where they are few.
+// Means of blocks of successive rows, of which the last may be shorter. Where rows are few, a block
+// is one row.
 std::vector<double> means(std::span<const double> values) {
   const std::size_t rows = rows_per_point(values.size());
   std::vector<double> result;
@@ -38,14 +39,14 @@ std::vector<double> means(std::span<const double> values) {
   return result;
 }
 
-// Every point by GSL, whose `weighting` is the bisquare or none.
+// The line by GSL through all points, as they are. `weighting` is the bisquare or none.
 Line fit_all(std::span<const double> x, std::span<const double> y,
              const gsl_multifit_robust_type* weighting) {
   assert(x.size() == y.size());
   if (x.size() < 3) return {};
   const Range rx = range_of(x), ry = range_of(y);
   if (rx.extent <= 0.0) return {};
-  // All of one y: a level line, with no range to map.
+  // All points have one y: the line is level, and there is no range to map.
   if (ry.extent <= 0.0) return {.intercept = ry.low, .fitted = true};
 
   // A fit that stops at its last iteration is still an answer. Once, as threads are here.
@@ -102,7 +103,7 @@ std::vector<double> residuals_of(const Line& line, std::span<const double> x,
 }
 
 Line with_true_error(Line line, std::span<const double> x, std::span<const double> y) {
-  // (X4) Of fewer, ν/(ν − 2) would have no bound.
+  // (X4) With fewer, ν/(ν − 2) would grow without bound.
   constexpr double fewest_freedom = 3.0;
   if (!line.fitted) return line;
   const std::vector<double> residuals = residuals_of(line, x, y);

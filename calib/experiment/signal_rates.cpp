@@ -9,8 +9,8 @@
 namespace havers::calib {
 namespace {
 
-// The rate at which half of the way up is made: that of the loading, whatever the idle rows. 0 of a
-// signal that never rises. [unit / s]
+// The rate at which half of the way up is made: that of the loading, however many rows are idle. 0
+// where the signal never rises. [unit / s]
 double loading_rate(std::vector<double> rates) {
   std::erase_if(rates, [](double rate) { return rate <= 0.0; });
   std::ranges::sort(rates, std::greater{});
@@ -32,7 +32,7 @@ double SignalRates::at(double time) const {
 }
 
 double value_at(const Signal& signal, double time) {
-  // Beyond all rows of an equal time, so that the two rows around it differ in time.
+  // The first row later than `time`, so that the two rows around it differ in time.
   const auto after = std::ranges::upper_bound(signal.time, time);
   if (after == signal.time.begin()) return signal.value.front();
   if (after == signal.time.end()) return signal.value.back();
@@ -47,11 +47,11 @@ double telling_step(const Signal& signal) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < signal.time.size(); ++i)
     steps.push_back(signal.time[i] - signal.time[i - 1]);
-  // So no grid has more than 4000 steps.
+  // A grid has 4000 steps at most.
   const double sampling = std::max(median(std::move(steps)), span / 4000.0);
   if (high <= low) return sampling;
-  // Steady loading moves the signal by so many times its noise in a step, if that leaves a hundred
-  // steps.
+  // In one step steady loading moves the signal by so many times its noise, where that leaves a
+  // hundred steps or more.
   constexpr double above_noise = 14.0;
   const double noise = noise_of(signal.value);
   return std::clamp(above_noise * noise * span / (high - low), sampling,
@@ -66,7 +66,7 @@ SignalRates rates_of(const Signal& signal, double step) {
     rates.value.push_back((now - before) / step);
     before = now;
   }
-  // Else a break would be nearly all there is in a correlation.
+  // Without the clip a break would be nearly all that a correlation sees.
   const double clip = 2.0 * loading_rate(rates.value);
   if (clip > 0.0)
     for (double& rate : rates.value) rate = std::clamp(rate, -clip, clip);

@@ -13,7 +13,7 @@ namespace havers::calib {
 /// The best point, with everything known about it.
 struct Answer {
   CalibrationStatus status = CalibrationStatus::all_failed;
-  /// The trail's best by `weights`; failed where its simulations did.
+  /// The trail's best by `weights`; failed where no point has an answer.
   Evaluation best;
   Weights weights;
   Active active;                  ///< Unknowns that were fitted.
@@ -31,8 +31,8 @@ struct Answer {
   std::vector<Profile> profiles;  ///< In the order of `active` (F15); empty where not asked for.
 };
 
-/// Values, errors and intervals by the slopes of all unknowns, in their order; those by profile and
-/// bootstrap are for add_hindsight.
+/// Values of all unknowns in their order, with errors and intervals by the slopes; add_hindsight
+/// sets the intervals by profile and bootstrap.
 std::vector<CalibratedParameter> parameters_of(const FitProblem& problem, const Answer& answer);
 
 /// Every specimen simulated at the answer, those kept for validation too, in the study's order.
@@ -45,7 +45,8 @@ double cost_of(const std::vector<SpecimenResult>& specimens, double otherwise);
 
 /// Correlations of the fitted parameters, what is determined in words, intervals by other means,
 /// and what a further test would tell: all that follows from the slopes at the answer; where these
-/// failed, the costs of the starts alone. Precondition: `result` has its parameters and specimens.
+/// failed, only the costs of the starts and of their ends. Precondition: `result` has its
+/// parameters and specimens.
 void add_hindsight(const FitProblem& problem, SimulationBatch& batch, const Answer& answer,
                    CalibrationResult& result);
 

@@ -68,7 +68,7 @@ Check check_randomness(const CalibrationResult& result) {
   if (!std::isfinite(r.fresh_shift))
     return {name, Outcome::warn,
             "Simulations with fresh seeds failed: the answer rests on its own."};
-  // Of an infinite gain, where common seeds cancel altogether, nothing is said.
+  // Where common seeds cancel altogether the gain is infinite, and nothing is said of it.
   const std::string gain =
       std::isfinite(r.common_gain) && r.common_gain < 1.5
           ? " Common random numbers bring nothing here: replicates answer a change each in its own "
@@ -167,7 +167,8 @@ Check check_correlation(const CalibrationResult& result) {
                                     result.correlation[i][j]));
   if (pairs.empty())
     return {name, Outcome::pass, "No two parameters are correlated by more than 0.9."};
-  // The first of the directions is their number, the second the one that is known best.
+  // The first sentence of the directions tells their number, the second the direction that is known
+  // best.
   std::string text = fmt::format("Correlated by more than 0.9: {}. {}", fmt::join(pairs, ", "),
                                  result.directions.size() > 1 ? result.directions[1] : "");
   if (result.next_tests.empty()) return {name, Outcome::warn, text};
@@ -248,7 +249,7 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
       problem.study.laws.empty() || law.laws_compared
           ? ""
           : "; the sweep's laws are not compared, as they have none for some orientation");
-  if (better < -6.0)  // chance alone rarely gets there
+  if (better < -6.0)
     return {name, Outcome::fail,
             numbers + ": the law without fibres says it better, the model is rejected."};
   if (better < 0.0) return {name, Outcome::warn, numbers + ": these tests do not need the fibres."};
@@ -273,7 +274,7 @@ std::string weibull_sentence(const CalibrationResult& result, const std::set<dou
   std::string text;
   for (const auto& [orientation, strengths] : by_orientation) {
     if (strengths.measured.size() < 5 || strengths.simulated.size() < 5) continue;
-    // weibull() needs values that differ; replicates of joints without scatter do not.
+    // weibull() needs values that differ, and replicates of joints without scatter have one value.
     const auto scatter = [](const std::vector<double>& ratios) {
       const auto [least, most] = std::ranges::minmax(ratios);
       return most - least > 1e-9;

@@ -11,7 +11,7 @@ namespace {
 
 // log Φ(z).
 double log_chance(double z) {
-  // 1 − Q keeps the digits of a chance near 1, log erfc those of one near 0.
+  // log(1 − Q) keeps the digits of a chance near 1, log erfc those of one near 0.
   return z > 0.0 ? std::log1p(-gsl_cdf_ugaussian_Q(z))
                  : gsl_sf_log_erfc(-z / std::numbers::sqrt2) - std::numbers::ln2;
 }

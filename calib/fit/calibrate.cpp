@@ -20,7 +20,7 @@ namespace {
 constexpr double screening_step = 0.2;
 // Replicates that are enough to find the neighbourhood of the answer.
 constexpr int scouting_replicates = 3;
-constexpr int most_rounds = 8;  // of search and weights, which are then said not to agree
+constexpr int most_rounds = 8;  // of search and weights; after so many they are said not to agree
 // Cost that a search may leave on the table: a fifth of a standard deviation (½·0.2²).
 constexpr double close_enough = 0.02;
 
@@ -34,8 +34,9 @@ std::vector<Landmarks> porosity_errors(Trail& trail, const Evaluation& at) {
   return errors;
 }
 
-// The first of the study's start and the middle of the bounds where the simulations answer: the
-// trail begins there, with weights as if specimens were alike. False where neither does.
+// The trail begins at the study's start or, where the simulations have no answer there, at the
+// middle of the bounds, with weights as if specimens were alike. False where they have none at
+// either.
 bool find_a_start(Trail& trail, int replicates) {
   const FitProblem& problem = trail.problem();
   trail.set_replicates(replicates);
@@ -126,7 +127,8 @@ bool alternate_search_and_weights(Trail& trail, Answer& answer) {
     polished = polished || rough;
     const auto slopes = differentiate(trail, trail.best(), answer.active, slope_step);
     if (slopes.failed) continue;
-    // What the screening thought informed may not be so here (F10): the others are searched on.
+    // Unknowns that the screening found to be informed may not be so here (F10): the search goes on
+    // with the others.
     auto left = uninformed(trail.problem(), trail.best().point, answer.active, slopes);
     if (!left.empty()) {
       leave_out(trail, std::move(left), answer);
@@ -142,7 +144,7 @@ bool alternate_search_and_weights(Trail& trail, Answer& answer) {
     rough = error.distance >= close_enough && !polished;
     // Weights agree with the answer where the specimen effect stays, to 5 % of it and 1e-4.
     const bool agree = ((effect - before).abs() <= 0.05 * effect + 1e-4).all();
-    // Last, as it walks along each of those left out, which takes simulations.
+    // mend_left_out comes last, as it walks along each unknown left out, which takes simulations.
     if (!rough && agree && !mend_left_out(trail, slopes.jacobian, answer)) return true;
   }
   return false;
@@ -170,7 +172,7 @@ void assess_answer(Trail& trail, Answer& answer) {
     std::ranges::move(walk_along(trail, unknown, answer.active, answer.slopes.jacobian),
                       std::back_inserter(answer.elsewhere));
   }
-  // Before the profiles, whose ends are no nearer than these.
+  // Before the profiles, whose ends may be no nearer than those of these intervals.
   if (!answer.elsewhere.empty())
     widen_intervals(answer.best, answer.elsewhere, answer.active, answer.uncertainty);
   trail.enter("profiles");
@@ -194,7 +196,7 @@ Answer solve(Trail& trail) {
     answer.status = CalibrationStatus::nothing_to_fit;
     return answer;
   }
-  // A specimen of few replicates may fail where it has answers enough of all.
+  // With few replicates a specimen may fail that with all of them has answers enough.
   if (!find_a_start(trail, std::min(scouting_replicates, all)) && !find_a_start(trail, all))
     return answer;
 
@@ -202,7 +204,7 @@ Answer solve(Trail& trail) {
     answer.active.push_back(static_cast<Eigen::Index>(k));
   answer.left = screen(trail, answer.active);
   answer.active = without(answer.active, answer.left);
-  // The trail's best may be beside the start or the middle of the bounds by now.
+  // By now the trail's best may be one of the points beside the start or the middle of the bounds.
   if (!answer.left.empty()) put_back(trail, answer.left);
   if (!answer.active.empty()) {
     auto [starts, ends, logs] = search_globally(trail, answer.active);
@@ -231,12 +233,12 @@ CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
   result.parameters = parameters_of(problem, answer);
   result.specimens = specimens_of(problem, batch, answer);
   if (!problem.fitted.empty()) {
-    // The first by the order of the study; `fitted` is by ids.
+    // The first in the order of the study; `fitted` is ordered by ids.
     const std::size_t first = std::ranges::min(problem.fitted);
     result.scene = replicate_scenes(problem, answer.best.point, first, 1).front();
     result.scene_of = study.specimens[first].id;
   }
-  // Where no point has an answer, the few replicates that have one make no cost.
+  // Where no point has an answer, the few replicates that have one do not make a cost.
   if (answer.status != CalibrationStatus::all_failed)
     result.cost = cost_of(result.specimens, answer.best.cost);
   std::ranges::copy(answer.weights.specimen, result.specimen_effect.begin());

@@ -7,8 +7,8 @@
 namespace havers::calib {
 
 /// As calibrate(), with the simulator given. Its answers must depend on the scene alone, as equal
-/// scenes in normal form are one simulation (F3). An exception of the simulator is a simulation
-/// that failed; one of the store ends the fit.
+/// scenes in normal form are one simulation (F3). An exception that the simulator throws counts as
+/// a failed simulation; one that the store throws goes on to the caller.
 CalibrationResult calibrate_with(const Simulator& simulator, const Study& study,
                                  EvaluationStore* store = nullptr,
                                  const CalibrationObserver& observer = {});

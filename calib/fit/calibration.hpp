@@ -182,7 +182,7 @@ struct NextTest {
   std::vector<double> width{};  ///< Standard error of each fitted parameter, after over before. [-]
 };
 
-/// All that a fit says. What it did not get to is empty or as it is here.
+/// All that a fit says. What it did not get to is empty or has its default.
 struct CalibrationResult {
   CalibrationStatus status = CalibrationStatus::all_failed;
   std::vector<Check> verdict{};

@@ -16,7 +16,8 @@ struct RunPair {
   sim::Scene still, moving;
 };
 
-// Spread evenly over the fitted specimens; one that is taken again gives its next replicate.
+// Pairs are spread evenly over the fitted specimens; one that is taken again gives its next
+// replicate.
 std::vector<RunPair> pairs_of(const FitProblem& problem, const Answer& answer) {
   std::vector<RunPair> pairs;
   std::map<std::size_t, int> taken;
@@ -28,11 +29,12 @@ std::vector<RunPair> pairs_of(const FitProblem& problem, const Answer& answer) {
     const auto choice = sim::choose_regime(pair.still);
     if (choice.regime != sim::Regime::quasi_static) continue;  // it was simulated in time
     pair.moving = pair.still;
-    // The inertia number (M12) goes with the rate: this is the fastest that counts as quasi-static.
+    // The inertia number (M12) is proportional to the rate: this is the fastest that counts as
+    // quasi-static.
     pair.moving.loading.strain_rate *= sim::quasi_static_below / choice.inertia_number;
     pair.moving.solver.regime = sim::Regime::dynamic;
-    // As the study has it: a fall that is followed (F4) leaves nothing out in the limit; in time
-    // that would take long, and is not needed.
+    // As the study has it: where the fall is followed (F4) the replicate in the limit leaves
+    // nothing out, which in time would take long and is not needed.
     pair.moving.solver.leave_out = problem.study.model.solver.leave_out;
     pair.names = {.specimen = problem.study.specimens[s].id,
                   .seed = pair.still.joints.seed,

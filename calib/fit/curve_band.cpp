@@ -41,7 +41,8 @@ CurveBand band_of(std::span<const Response> replicates, const MeasuredTest& meas
   for (int i = 0; i < grid_points; ++i) {
     const double strain = end * i / (grid_points - 1);
     std::vector<double> stresses;
-    // What broke bears nothing any more; of what did not, nothing is known beyond its end.
+    // Beyond its end a replicate that broke bears nothing; of one that did not, nothing is known
+    // there.
     for (const auto& response : replicates)
       if (!response.failed && !response.strain.empty())
         stresses.push_back(

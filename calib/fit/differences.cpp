@@ -1,5 +1,6 @@
 // (F8) Central differences of all active unknowns in one batch. Replicates of two points have the
-// same seeds, so that most of their chance cancels, and what is left shows in their differences.
+// same seeds, so that most of their chance cancels; how much is left shows in the scatter of their
+// differences.
 #include "calib/fit/differences.hpp"
 
 #include <cassert>
@@ -46,7 +47,7 @@ void set_column(const FitProblem& problem, const Weights& weights, const Move& m
          (span * sd))
             .square();
     const Landmarks paired = variance_of_difference(other, one) * squared;
-    // With seeds of their own the variances of the two means would add.
+    // If both points had seeds of their own, the variances of the two means would add.
     const Landmarks independent =
         (one.sd.square() / one.usable + other.sd.square() / other.usable) * squared;
     result.variance.col(column).segment<landmark_count>(first_row(f)) = paired;
@@ -81,7 +82,8 @@ Differences differentiate(Trail& trail, Evaluation at, const Active& active, dou
   result.jacobian = Eigen::MatrixXd::Zero(at.residuals.size(), columns);
   result.variance = result.jacobian;
   for (std::size_t i = 0; i < active.size(); ++i) {
-    // One-sided beside a point that failed; none where both did, or where bounds leave no room.
+    // One-sided beside a point that failed; where both did, or where bounds leave no room, there
+    // are no slopes at all.
     const auto& low = evaluations[2 * i].failed ? at : evaluations[2 * i];
     const auto& high = evaluations[2 * i + 1].failed ? at : evaluations[2 * i + 1];
     if (low.failed || high.failed || low.point == high.point) return result;

@@ -24,7 +24,7 @@ std::optional<Response> response_of(const sim::Simulation& run) {
   const bool severed = run.status == sim::SimulationStatus::severed;
   response.failed = severed || !run.trusted();
   response.broke = run.status == sim::SimulationStatus::broken;
-  // What helps stands behind the semicolon, where the verdict looks for it.
+  // What helps stands behind a semicolon, which the verdict looks for.
   response.why = severed ? sim::explain(run.status) +
                                "; with fewer of them or more fibres a chain is left that bears"
                  : response.failed ? run.why_not_trusted()
@@ -35,7 +35,7 @@ std::optional<Response> response_of(const sim::Simulation& run) {
   const std::size_t stride = run.curve.size() / rows_kept + 1;
   for (std::size_t i = 0; i < run.curve.size(); ++i) {
     const auto& row = run.curve[i];
-    // The strength and the end are kept whatever the stride.
+    // The rows of the strength and of the end are kept whatever the stride.
     const bool last = i + 1 == run.curve.size();
     if (i % stride != 0 && !last && row.strain != run.failure_strain) continue;
     response.strain.push_back(row.strain);
@@ -59,7 +59,7 @@ std::size_t costly_unknowns(const Study& study) {
   const FitProblem problem = make_problem(study);
   Active all(problem.unknowns.size());
   std::iota(all.begin(), all.end(), Eigen::Index{0});
-  // Asked for the keys of scenes only: nothing is simulated.
+  // This batch is asked only for the keys of scenes: nothing is simulated.
   const SimulationBatch batch(fibre_model(), nullptr, 1);
   return split_by_cost(problem, batch, start_point(problem.unknowns), all).costly.size();
 }
@@ -67,7 +67,7 @@ std::size_t costly_unknowns(const Study& study) {
 CalibrationResult calibrate(const Study& study, EvaluationStore* store,
                             const CalibrationObserver& observer, const sim::StopAsked& stop_asked) {
   Simulator model = fibre_model(stop_asked);
-  // A shock has a strength, which is enough for a sweep; a fit compares the modulus too.
+  // A run that is a shock has a strength, which is enough for a sweep; a fit needs the modulus too.
   model.run = [run = std::move(model.run)](const sim::Scene& scene) {
     std::optional<Response> response = run(scene);
     if (response && !response->failed && response->modulus == 0.0) {

@@ -34,7 +34,8 @@ void follow_fall(const std::vector<std::string>& terms, sim::Scene& scene) {
   if (in_limit) scene.solver.leave_out = false;
 }
 
-// Laws of porosity may be searched too: scatter and modulus then change with the point.
+// Laws of porosity may be searched too: the specimen's scatter and modulus then change with the
+// point.
 SpecimenModel model_at(const FitProblem& problem, const Point& point, std::size_t specimen) {
   PorosityOptions laws = problem.study.porosity;
   for (const auto& info : all_parameters())
@@ -43,7 +44,8 @@ SpecimenModel model_at(const FitProblem& problem, const Point& point, std::size_
   return model_of(problem.study, specimen, laws);
 }
 
-// Parameters in the order of their table, as some keep what others set (calib/study).
+// Parameters are applied in the order of their table, as some keep what others have set
+// (calib/study).
 sim::Scene scene_at(const FitProblem& problem, const Point& point, std::size_t specimen) {
   const SpecimenModel model = model_at(problem, point, specimen);
   sim::Scene scene = model.scene;
@@ -126,7 +128,7 @@ Landmarks difference(const Prediction& prediction, const Target& target) {
   Landmarks result = prediction.mean - target.value;
   // What did not break gives a bound on the strength, and no landmark of a break.
   if (prediction.censored) {
-    // Of two lower bounds neither contradicts the other.
+    // Where both are lower bounds, neither contradicts the other.
     result[strength] = target.censored ? 0.0 : std::max(result[strength], 0.0);
     result.tail<4>() = 0.0;
   }
@@ -150,7 +152,8 @@ Landmarks slopes_of_residuals(const Prediction& prediction, const Target& target
 Eigen::Array<bool, landmark_count, 1> tells(const Prediction& prediction, const Target& target) {
   Eigen::Array<bool, landmark_count, 1> told = target.present;
   if (prediction.censored) {
-    // A strength that simulations did not reach tells something where it is too high already.
+    // Simulations that did not break give a lower bound, which tells something only where it is
+    // above the measured strength.
     told[strength] = told[strength] && difference(prediction, target)[strength] > 0.0;
     told.tail<4>() = false;
   }
@@ -223,7 +226,7 @@ Landmarks variance_if_alike(const Weights& weights, std::size_t specimen) {
 }
 
 int all_replicates(const CalibrateOptions& options) {
-  constexpr int before_need = 8;  // until the need is told (F17)
+  constexpr int before_need = 8;  // until it is known how many are needed (F17)
   return options.replicates == replicates_by_need ? before_need : options.replicates;
 }
 

@@ -33,7 +33,7 @@ std::string product(const FitProblem& problem, const Answer& answer,
     const Unknown& unknown = unknown_of(problem, answer, k);
     const bool plain = std::abs(direction[k] - 1.0) < 0.005;
     if (!text.empty()) text += " × ";
-    // What is searched as it is (F1) is a power of e.
+    // A parameter that is searched as it is (F1) enters as a power of e.
     if (unknown.info->scale != Scale::logarithmic)
       text += fmt::format("exp({:.2g} {})", direction[k], unknown.label);
     else
@@ -83,8 +83,8 @@ void set_correlation(const Answer& answer, CalibrationResult& result) {
   }
 }
 
-// (F15) The profile's ends become the parameter's interval, the bound where the cost does not show
-// one; the bootstrap (F16) is told beside it.
+// (F15) The profile's ends become the parameter's interval, with the bound in place of an end that
+// the cost does not show; the bootstrap (F16) is told beside it.
 void set_intervals(const FitProblem& problem, const Answer& answer, const Resampling& resampling,
                    CalibrationResult& result) {
   for (std::size_t i = 0; i < answer.active.size(); ++i) {
@@ -107,7 +107,7 @@ void set_intervals(const FitProblem& problem, const Answer& answer, const Resamp
     }
     parameter.bootstrap_missing = resampling.missing;
     if (!resampling.missing.empty()) continue;
-    // One step from the answer knows no bounds.
+    // The step of a draw knows no bounds: ends are moved inside them.
     const auto end = [&](double shift) {
       const double at = answer.best.point[answer.active[i]] + shift;
       return value_in_unit(unknown, std::clamp(at, unknown.lower, unknown.upper));

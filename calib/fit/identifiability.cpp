@@ -27,7 +27,8 @@ struct Column {
   double noise = 0.0;              // expected |rest|² if it were only noise
 };
 
-// By least squares over `others`, indices of columns; none of them: the column itself.
+// By least squares over `others`, indices of columns; where there are none, the rest is the column
+// itself.
 Column split(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& variance, Eigen::Index k,
              const std::vector<Eigen::Index>& others) {
   Column column{.rest = jacobian.col(k)};
@@ -39,7 +40,7 @@ Column split(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& variance, E
   qr.compute(matrix);
   column.coefficients = qr.solve(jacobian.col(k));
   column.rest -= matrix * column.coefficients;
-  // The noise of the others comes with what they explain.
+  // What the others explain brings their noise with it.
   for (std::size_t j = 0; j < others.size(); ++j)
     column.noise += std::pow(column.coefficients[static_cast<Eigen::Index>(j)], 2) *
                     variance.col(others[j]).sum();
@@ -67,7 +68,7 @@ std::string no_effect(const FitProblem& problem, const Unknown& unknown, const C
   const std::string specimens =
       n == 1 ? "the fitted specimen" : fmt::format("the {}", count(n, "fitted specimen"));
   const Eigen::VectorXd& slope = column.rest;
-  // Standard deviations of a residual for each unit of z.
+  // `slope`: standard deviations of a residual for each unit of z.
   if (slope.cwiseAbs().maxCoeff() < 1e-3)
     return fmt::format("structurally unidentifiable: nothing that {} {} changes with it", specimens,
                        n == 1 ? "shows" : "show");
@@ -93,7 +94,8 @@ std::string combination(const Unknown& unknown, const Unknown& partner, double c
   if (partner.info->scale != Scale::logarithmic)
     return fmt::format("only a combination of {} is determined", pair);
   if (unknown.info->name == "scatter") {
-    // Strength goes as σ₁ (1 − d/2), (M8): here in logarithms, for each unit of d.
+    // Of a uniform draw the weakest joints bear σ₁ (1 − d/2) (M8). Where strength follows them,
+    // this is the change of its logarithm for each unit of d.
     const double law = -0.5 / (1.0 - 0.5 * position);
     if (std::abs(coefficient / law - 1.0) < 0.15)
       return fmt::format("only {} × (1 − {}/2) is determined", partner.label, unknown.label);
@@ -179,7 +181,7 @@ std::vector<LeftUnknown> uninformed(const FitProblem& problem, const Point& at, 
   std::vector<LeftUnknown> left;
   for (Eigen::Index k = 0; (k = last_uninformed(problem, active, rest)) >= 0;) {
     left.push_back(left_unknown(problem, at, active, rest, k));
-    // The others are judged anew: beside one less, some may be informed.
+    // The others are judged anew: with one unknown less, some may be informed.
     active.erase(active.begin() + k);
     erase_column(rest.jacobian, k);
     erase_column(rest.variance, k);

@@ -1,5 +1,5 @@
-// (F4) The landmarks that need a whole curve: of its rows up to the peak, averaged in blocks and as
-// parts of stress and strain there, so that noise and scales do not matter.
+// (F4) The landmarks that need a whole curve. Up to the peak its rows are averaged in blocks,
+// against noise, and taken as parts of stress and strain at the peak, so that scales do not matter.
 #include "calib/fit/landmarks.hpp"
 
 #include <algorithm>
@@ -87,7 +87,7 @@ Landmarks shape_of(std::span<const double> strain, std::span<const double> stres
   Landmarks shape = Landmarks::Zero();
   if (stress.empty() || strain.size() != stress.size()) return shape;
   const auto peak = static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin());
-  // A peak at no strain, or of no stress, has no parts.
+  // Nothing can be taken as a part of a peak without strain or stress.
   if (!(strain[peak] > 0.0 && stress[peak] > 0.0)) return shape;
   const Normalised curve = normalised(strain, stress, peak);
   shape[pre_peak] = mean_height(curve);

@@ -18,7 +18,8 @@ VectorXd inside(const LeastSquares& problem, const VectorXd& point) {
 }
 
 // Ceres' own numeric derivatives leave the bounds and run one point at a time; these do neither.
-// The best point tried is kept here. Members are mutable, as Ceres evaluates a constant function.
+// The best point tried is kept here. Members are mutable, as Ceres calls Evaluate of a const
+// object.
 class Residuals final : public ceres::CostFunction {
  public:
   Residuals(const LeastSquares& problem, const LeastSquaresOptions& options, VectorXd start,
@@ -32,7 +33,7 @@ class Residuals final : public ceres::CostFunction {
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
     move_to(Eigen::Map<const VectorXd>(parameters[0], at_.size()));
-    // A point that failed: Ceres tries a shorter step.
+    // The point failed: Ceres then tries a shorter step.
     if (here_.size() == 0) return false;
     std::ranges::copy(here_, residuals);
     if (!jacobians || !jacobians[0]) return true;
@@ -99,7 +100,7 @@ Eigen::MatrixXd difference_jacobian(const LeastSquares& problem, const VectorXd&
   }
   const auto values = problem.residuals(points);
 
-  // By one side where the other failed; 0 where both did, or at bounds that leave no room.
+  // One-sided where the other side failed; 0 where both did, or where bounds leave no room.
   const auto slope = [&](Index k, Index pair) -> VectorXd {
     const auto low = static_cast<std::size_t>(2 * (k * pairs + pair));
     const bool low_fails = values[low].size() == 0, high_fails = values[low + 1].size() == 0;
@@ -112,8 +113,8 @@ Eigen::MatrixXd difference_jacobian(const LeastSquares& problem, const VectorXd&
   for (Index k = 0; k < at.size(); ++k) {
     jacobian.col(k) = slope(k, 0);
     if (pairs == 1) continue;
-    // The errors of the two central differences are as 1 to 4, away from the bounds: what they
-    // differ by tells that of the first.
+    // The errors of the two central differences are as 1 to 4, away from the bounds: a third of
+    // what they differ by is that of the first.
     const auto first = static_cast<std::size_t>(2 * k * pairs);
     const double narrow = points[first + 1][k] - points[first][k];
     const double wide = points[first + 3][k] - points[first + 2][k];

@@ -24,8 +24,8 @@ void put_back(Trail& trail, const std::vector<LeftUnknown>& left) {
 }
 
 void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
-  // Tried at the study's values, with the others refitted; if the specimens contradict them, all is
-  // as it was found.
+  // The study's values are tried, with the other unknowns refitted; if the specimens contradict
+  // them, all stays as it was found.
   const Evaluation found = trail.best();
   Point point = found.point;
   for (const auto& one : left) point[one.unknown] = trail.problem().unknown(one.unknown).start;
@@ -43,7 +43,8 @@ void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
 bool mend_left_out(Trail& trail, const Eigen::MatrixXd& jacobian, Answer& answer) {
   if (trail.problem().study.calibrate.automatic) return false;
   for (LeftUnknown& one : answer.left) {
-    // A walk scores each point by weights of its own; here they compare with the best point.
+    // A walk scores each point by weights of its own; the trail's make them comparable with its
+    // best point.
     auto walked = walk_along(trail, one.unknown, answer.active, jacobian);
     for (Evaluation& point : walked) score(trail.problem(), trail.weights(), point);
     const auto lowest = std::ranges::min_element(walked, {}, &Evaluation::cost);
@@ -69,7 +70,7 @@ Eigen::MatrixXd with_left_out(Trail& trail, const Answer& answer, const Differen
   const Evaluation best = trail.best();
   const Active left = asked_and_left(trail.problem(), answer);
   const auto others = differentiate(trail, best, left, slope_step);
-  // A point where one of them moved is no answer, however low its cost.
+  // A point at which an unknown left out has moved is no answer, however low its cost.
   trail.restart(trail.weights(), best);
   if (others.failed) return fitted.jacobian;
   std::vector<Eigen::Index> moving;

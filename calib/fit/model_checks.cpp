@@ -35,8 +35,8 @@ struct Group {
   std::vector<double> difference, variance;  // the latter without the specimen effect
 };
 
-// Of landmark q, by orientation [rad]; no strengths of those where stopped tests leave the weaker
-// ones as the ones that broke (F25).
+// Of landmark q, by orientation [rad]. Strengths are left out for orientations where tests were
+// stopped and the weaker specimens are those that broke (F25).
 std::map<double, Group> groups_of(const FitProblem& problem, const Answer& answer, Eigen::Index q) {
   std::map<double, Group> groups;
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
@@ -186,8 +186,8 @@ Check check_brittle(const FitProblem& problem, const Answer& answer) {
   const std::string numbers = fmt::format(
       "strength / (modulus × failure strain) is {:.2f} in the tests and {:.2f} in the model",
       std::exp(measured / n), std::exp(simulated / n));
-  // Far off and certain is rejected, less and certain a warning; what is not certain passes, with
-  // the distance at which it would not.
+  // What is certain is rejected where it is far off, and a warning where it is less so; what is not
+  // certain passes, and the text says how far off would not.
   const bool certain = std::abs(gap) > 3.0 * error;
   // What is off is the model, where the tests are straight.
   const bool straight = std::abs(measured / n) < -std::log(slightly_bent);

@@ -60,12 +60,12 @@ bool all_shared(const FitProblem& problem) {
 MatrixXd further_rows(SimulationBatch& batch, const FitProblem& problem, const Answer& answer,
                       double orientation) {
   const std::size_t near = nearest(problem, orientation);
-  // What the study has there need not be simulated.
+  // A specimen that the study has there need not be simulated.
   if (distance(problem, near, orientation) < degree) return rows_of(answer, near);
   if (!all_shared(problem)) return {};
   Specimen turned = problem.study.specimens[problem.fitted[near]];
   turned.orientation = orientation;
-  // Its seeds go with its id (F2).
+  // Its seeds follow from its id (F2).
   turned.id = fmt::format("next at {:.4g}", orientation / degree);
   return simulated_rows(batch, problem, answer, problem.fitted[near], turned);
 }
@@ -101,7 +101,8 @@ MatrixXd with_more_sections(const FitProblem& problem, const Answer& answer) {
   for (std::size_t f = 0; f < problem.fitted.size(); ++f) {
     const std::size_t s = problem.fitted[f];
     const auto sections = static_cast<double>(problem.study.specimens[s].sections.size());
-    // The variance goes as 1/sections: of that of n one more saves 1/(n + 1).
+    // The variance by the scatter is proportional to 1/sections: one more than n saves 1/(n + 1) of
+    // it.
     const Landmarks saved =
         answer.weights.scatter[s].square() * (sections > 0.0 ? 1.0 / (sections + 1.0) : 0.0);
     const Landmarks variance = answer.weights.sd[s].square();

@@ -104,7 +104,7 @@ NormalForm normal_form(const sim::Scene& scene, bool quasi_static) {
 
   const double to_reference = reference_head_tail / scene.joints.head_tail;
   const double strain_factor = reference_young / scene.material.young / to_reference;
-  // The reference's curve would end before the limit asked for.
+  // Else the curve of the reference would end before the strain limit asked for.
   if (form.max_strain > strain_factor * reference_max_strain) return form;
   form.scaled = true;
   form.stress_factor = 1.0 / to_reference;
@@ -112,7 +112,7 @@ NormalForm normal_form(const sim::Scene& scene, bool quasi_static) {
 
   auto& [assembly, material, joints, loading, solver] = form.scene;
   material.young = reference_young;
-  // The limit knows no inertia, rate nor step: whatever they are, the key is the same.
+  // The limit knows neither inertia nor rate nor step: whatever they are, the key is the same.
   material.density = sim::Material{}.density;
   joints.head_tail = reference_head_tail;
   joints.flank = rounded(joints.flank * to_reference);

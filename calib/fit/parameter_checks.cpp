@@ -78,7 +78,7 @@ WideIntervals wide_intervals(const FitProblem& problem, const CalibrationResult&
 }
 
 // Slope of a curve over its modulus, less 1: the upper half of what lies between the beginning of
-// the modulus's window and nine tenths of the strength. Nothing where too few rows tell it.
+// the modulus's window and nine tenths of the strength. No value where too few rows tell it.
 std::optional<double> steepening(const MeasuredTest& test) {
   constexpr double nearly_failed = 0.9;
   constexpr std::size_t rows_that_tell = 5;
@@ -121,7 +121,8 @@ Toes toes_of(const FitProblem& problem, const Unknown& modulus_of, double known_
   }
   const auto n = static_cast<double>(toes.tests);
   toes.mean = sum / n;
-  // Of the mean, by the scatter between tests; NaN of one, which check_toe does not take.
+  // The standard error of the mean, by the scatter between tests; NaN of a single test, which
+  // check_toe leaves out.
   toes.error = std::sqrt(std::max(0.0, squares / n - toes.mean * toes.mean) / (n - 1.0));
   return toes;
 }
@@ -239,7 +240,7 @@ Check check_toe(const FitProblem& problem, const Answer& answer) {
   for (Eigen::Index i = 0; i < answer.uncertainty.half_width.size(); ++i)
     if (const Unknown& unknown = problem.unknown(answer.active[static_cast<std::size_t>(i)]);
         unknown.info->name == "young_GPa")
-      // E is searched in its logarithm: half widths are parts of it, as the steepening is.
+      // E is searched in its logarithm: half widths are parts of E, as the steepening is.
       groups.push_back(toes_of(problem, unknown, answer.uncertainty.half_width[i]));
   if (groups.empty()) return not_checked(name, "young_GPa has no interval.");
   std::erase_if(groups, [](const Toes& one) { return one.tests < 3; });

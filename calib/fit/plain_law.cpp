@@ -97,7 +97,8 @@ PlainLaw best_plain_law(std::span<const Broken> specimens, double model_paramete
   for (const LawDesign& design : designs_of(specimens)) {
     const auto qr = design.columns.colPivHouseholderQr();
     const double left = (design.columns * qr.solve(strength) - strength).squaredNorm();
-    // By rank: of one scatter at an orientation a slope in it is no further parameter.
+    // Parameters are counted by rank: where all specimens of an orientation have one scatter, a
+    // slope in it is no further parameter.
     const double criterion = aicc(left, n, static_cast<double>(qr.rank()));
     if (criterion < best.criterion) {
       best.name = design.name;

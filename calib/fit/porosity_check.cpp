@@ -72,7 +72,7 @@ PorositySample sample_of(const FitProblem& problem, const Answer& answer, Landma
     sample.difference[i] = difference(answer.best.predictions[f], problem.targets[s])[q];
     sample.variance[i] = variance_if_alike(answer.weights, s)[q];
     sample.porosity[i] = problem.models[s].porosity;
-    // Of the difference itself: the Jacobian is that of residuals, which are divided by s.
+    // Slopes of the difference itself: the Jacobian is that of residuals, which are divided by s.
     sample.slopes.row(i) = sd * answer.slopes.jacobian.row(first_row(f) + q);
   }
   return sample;

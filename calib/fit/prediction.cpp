@@ -39,7 +39,7 @@ Prediction summarise(std::span<const Response> responses) {
 
   for (const auto& replicate : result.replicates)
     if (replicate.isFinite().all()) result.sd += (replicate - result.mean).square();
-  // Of a single one, 0.
+  // Of a single replicate it is 0.
   result.sd = (result.sd / std::max(result.usable - 1, 1)).sqrt();
   return result;
 }

@@ -1,6 +1,6 @@
-// (F15) The cost at parts of Wald's half width on either side of the answer, the others moved by
-// the slopes there instead of a fit of their own; the interval by the signed root of its rise,
-// which is a straight line where the cost is a parabola.
+// (F15) The cost at multiples of the half width (F11) on either side of the answer, the other
+// unknowns moved by the slopes of the answer instead of a fit of their own. The interval ends by
+// the signed root of the rise, which is a straight line where the cost is a parabola.
 #include "calib/fit/profile.hpp"
 
 #include <Eigen/QR>
@@ -102,7 +102,7 @@ void add_roots(Trail& trail, const Answer& answer, const std::vector<Held>& held
     const auto k = static_cast<std::size_t>(held[i].fixed);
     const double at = held[i].point[answer.active[k]], centre = answer.best.point[answer.active[k]];
     const double cost = std::min(first[i].cost, second[i].cost);
-    // At a bound what is held may be the answer itself.
+    // At a bound the value that is held may be that of the answer itself.
     if (std::isfinite(cost) && at != centre)
       roots[k].emplace_back(at, signed_root(at - centre, cost - answer.best.cost));
   }
@@ -174,7 +174,7 @@ Profile profile_of(const Unknown& unknown, const Answer& answer, Index k,
   profile.level = 0.5 * quantile * quantile;
   const double centre = answer.best.point[answer.active[static_cast<std::size_t>(k)]];
   const auto end = [&](bool upper) {
-    // NaN, where the cost does not show an end, stays NaN below.
+    // Where the cost does not show an end this is NaN, and stays so below.
     double at = crossing(roots, quantile, upper);
     // No narrower than what is left out allows (F22), which the cost beside one of its values does
     // not show.

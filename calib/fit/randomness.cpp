@@ -1,5 +1,5 @@
-// (F17) How far the answer is the replicates' own: by their variance, and by as many replicates
-// again, to which the answer is moved by its slopes instead of a fit anew.
+// (F17) How much of the answer is the chance of the replicates: by their variance, and by as many
+// replicates again, to which the answer is moved by its slopes instead of by another fit.
 #include "calib/fit/randomness.hpp"
 
 #include <algorithm>

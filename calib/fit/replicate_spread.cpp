@@ -11,7 +11,7 @@ struct Pool {
   double freedom = 0.0;
 };
 
-// A single replicate shows no spread, which does not say that there is none.
+// A single replicate shows no spread, which does not mean that there is none.
 bool counts(const Replicated& specimen) {
   return specimen.scatter > 0.0 && specimen.prediction->usable > 1;
 }

@@ -28,7 +28,7 @@ void set_error(const Unknown& unknown, const Uncertainty& uncertainty, Eigen::In
                CalibratedParameter& parameter) {
   const bool logarithmic = unknown.info->scale == Scale::logarithmic;
   const double position = to_search(*unknown.info, parameter.value);
-  // An error of the logarithm is a part of the value.
+  // The error of a logarithm is relative to the value.
   parameter.standard_error = uncertainty.standard_error[i] * (logarithmic ? parameter.value : 1.0);
   parameter.slopes_95 = {from_search(*unknown.info, position + uncertainty.lower[i]),
                          from_search(*unknown.info, position + uncertainty.upper[i])};
@@ -88,7 +88,7 @@ std::vector<sim::LeftOut> left_out_of(const FitProblem& problem, const Simulatio
       list.push_back({"specimen " + problem.study.specimens[s].id,
                       "its test gives no modulus, strength and failure strain"});
   for (std::size_t s = 0; s < problem.models.size(); ++s)
-    // (K5) They make joints missing, and no scatter.
+    // (K5) Pores larger than a window make joints missing, and no scatter.
     if (problem.models[s].scene.joints.missing != problem.study.model.joints.missing)
       list.push_back({"the scatter that the sections of " + problem.study.specimens[s].id + " give",
                       fmt::format("their pores are larger than a fibre's window: {:.1f} % of the "

@@ -1,5 +1,5 @@
-// (F16) Other specimens by one step with the slopes at the answer: each has its JᵀJ and Jᵀr, and a
-// draw is a sum of these, which costs no simulation.
+// (F16) Other specimens by one step with the slopes at the answer: each specimen has its JᵀJ and
+// Jᵀr, and a draw sums these, which costs no simulation.
 #include "calib/fit/resampling.hpp"
 
 #include <Random123/philox.h>
@@ -73,8 +73,8 @@ VectorXd step_of(const Normal& normal) {
   return -(scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * normal.vector));
 }
 
-// Specimen of a turn of a draw: a function of its arguments alone. The key is not that of the
-// replicates' seeds.
+// The specimen taken in a turn of a draw: a function of the arguments alone. The key is not that of
+// the replicates' seeds.
 std::size_t pick(std::uint64_t seed, int draw, std::size_t turn, std::size_t count) {
   const r123::Philox2x64::ctr_type counter{{static_cast<std::uint64_t>(draw), turn}};
   return r123::Philox2x64()(counter, {{seed ^ 0x626f6f74ULL}})[0] % count;

@@ -44,7 +44,8 @@ SearchResult search_ceres(Trail& trail, const Evaluation& start, const Active& a
     }
     return residuals;
   };
-  // The tolerance is a part of the cost: what is left on the table is one of the start's.
+  // Ceres' tolerance is relative to the cost: here what may be left on the table over the cost of
+  // the start.
   const auto end = least_squares(problem, start.point(active),
                                  {.step = slope_step,
                                   .max_iterations = max_steps,

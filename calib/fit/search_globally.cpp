@@ -1,5 +1,6 @@
-// Starts are spread, and NLopt searches, over costly unknowns only: the free ones are solved for at
-// each, which takes no new simulation (F3).
+// Starts are spread, and NLopt searches, over the costly unknowns only; at each point the free ones
+// are solved for, which takes no new simulation (F3). Where all are free, they take the place of
+// the costly ones.
 #include <gsl/gsl_qrng.h>
 
 #include <algorithm>

@@ -71,7 +71,8 @@ void set_box(nlopt::opt& optimiser, const FitProblem& problem, const Active& cos
     const auto& unknown = problem.unknown(k);
     lower.push_back(unknown.lower);
     upper.push_back(unknown.upper);
-    // In the scale of the search: for a polish 2 % of a parameter.
+    // In the scale of the search: for a polish 2 % of a parameter that is searched in its
+    // logarithm.
     step.push_back(stride == Stride::wide ? unknown.range() / 8.0 : 0.02);
   }
   optimiser.set_lower_bounds(lower);
@@ -121,7 +122,7 @@ SearchResult follow(const Plan& plan, Trail& trail, const Evaluation& start, con
 
   const auto count = static_cast<unsigned>(split.costly.size());
   nlopt::opt optimiser(plan.algorithm, count);
-  // MLSL refines what it samples by a local method of NLopt's.
+  // MLSL refines what it samples by a local method, also one of NLopt's.
   if (plan.algorithm == nlopt::GN_MLSL_LDS) {
     nlopt::opt local(nlopt::LN_SBPLX, count);
     local.set_ftol_abs(wide_cost_tolerance);
@@ -164,7 +165,7 @@ Split split_by_cost(const FitProblem& problem, const SimulationBatch& batch, con
   for (const Eigen::Index k : active) {
     const auto& unknown = problem.unknown(k);
     Point moved = at;
-    // A tenth of the range, to where there is more of it.
+    // Moved by a tenth of the range, towards the farther bound.
     moved[k] += (at[k] < 0.5 * (unknown.lower + unknown.upper) ? 0.1 : -0.1) * unknown.range();
     (keys(moved) == here ? split.free : split.costly).push_back(k);
   }

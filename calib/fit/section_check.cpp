@@ -34,7 +34,7 @@ Untold untold_of(const FitProblem& problem) {
   const bool searched = std::ranges::any_of(
       problem.unknowns, [](const Unknown& unknown) { return unknown.info->name == "scatter"; });
   Untold found;
-  // Those kept for validation too: their predictions take as much from it.
+  // Specimens kept for validation count too: their predictions take as much from porosity.
   for (std::size_t s = 0; s < problem.models.size(); ++s) {
     const Specimen& specimen = problem.study.specimens[s];
     const SpecimenModel& model = problem.models[s];

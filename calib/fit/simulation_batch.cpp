@@ -16,8 +16,8 @@
 namespace havers::calib {
 namespace {
 
-// Answers with numbers that are none have failed; the fit goes on without them. A modulus of 0 is
-// one that is not known.
+// Answers with unusable numbers have failed; the fit goes on without them. A modulus of 0 is one
+// that is not known.
 std::optional<Response> run_checked(const Simulator& simulator, const sim::Scene& scene) {
   std::optional<Response> answer = simulator.run(scene);
   if (!answer) return answer;
@@ -38,7 +38,7 @@ NormalForm form_of(const Simulator& simulator, const sim::Scene& scene) {
 
 }  // namespace
 
-// One key to be answered; `scene` is that of the caller's normal form.
+// One key to be answered; `scene` is in normal form, and kept by the caller.
 struct SimulationBatch::Work {
   std::string key;
   const sim::Scene* scene = nullptr;
@@ -50,8 +50,8 @@ SimulationBatch::SimulationBatch(Simulator simulator, EvaluationStore* store, in
     : simulator_(std::move(simulator)), store_(store), threads_(threads) {}
 
 void SimulationBatch::settle(std::vector<Work>& work) {
-  // Each writes its own work alone. What the store throws is no fault of a simulation, and goes on
-  // to the caller.
+  // Each task writes its own work alone. An exception of the store is no fault of a simulation, and
+  // goes on to the caller.
   const auto settle_one = [&](std::size_t i) {
     auto& [key, scene, response, simulated] = work[i];
     if (stopped_) return;

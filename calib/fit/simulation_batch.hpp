@@ -44,7 +44,7 @@ class SimulationBatch {
   [[nodiscard]] std::vector<std::string> keys(const std::vector<sim::Scene>& scenes) const;
 
   [[nodiscard]] long asked() const { return asked_; }          ///< Scenes, with repeats.
-  [[nodiscard]] long simulated() const { return simulated_; }  ///< Run, not found.
+  [[nodiscard]] long simulated() const { return simulated_; }  ///< Run, and not found in the store.
   [[nodiscard]] long failed() const { return failed_; }        ///< Of the distinct ones.
   /// Why most of them failed; empty where none did.
   [[nodiscard]] std::string most_failed_because() const { return most_frequent_why(true); }

@@ -34,7 +34,8 @@ Eigen::MatrixXd column_space(const Eigen::MatrixXd& matrix) {
 double variance_between(const Sample& sample, double freedom) {
   if (freedom < least_freedom || chi_squared(sample, 0.0) <= freedom) return 0.0;
   double low = 0.0, high = 0.0;
-  // An upper end for the differences; bounds may add more than their squares.
+  // At this variance the differences add less than the freedom; bounds may still add more, and then
+  // it is doubled.
   for (const double difference : sample.difference) high += difference * difference / freedom;
   for (const double above : sample.above) high += above * above / freedom;
   while (chi_squared(sample, high) > freedom) high *= 2.0;
@@ -75,7 +76,7 @@ Landmarks specimen_effect(const FitProblem& problem, const Weights& weights, con
       const std::size_t s = problem.fitted[f];
       const auto& prediction = at.predictions[f];
       const auto& target = problem.targets[s];
-      // A bound adds to the sum, and is not counted in the freedom.
+      // A bound adds to the sum, and is not counted among the degrees of freedom.
       const bool bound = q == strength && has_bound(prediction, target);
       if (!bound && !tells(prediction, target)[q]) continue;
       (bound ? sample.above : sample.difference).push_back(difference(prediction, target)[q]);

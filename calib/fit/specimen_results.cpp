@@ -173,7 +173,7 @@ Landmarks error_of_scatter(const FitProblem& problem, SimulationBatch& batch, co
              : porosity_error(problem, batch, answer.best.point, s, here);
 }
 
-// Of the cost, which specimens kept for validation are no part of.
+// Shares of the cost, of which specimens kept for validation are no part.
 void set_shares(std::vector<SpecimenResult>& specimens) {
   const double sum = 2.0 * cost_of(specimens, 0.0);
   for (auto& specimen : specimens)

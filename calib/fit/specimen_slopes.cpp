@@ -1,5 +1,5 @@
-// A study of the specimen alone, in which it counts as fitted, is simulated beside the answer:
-// central differences as of the fitted ones (F8), but of the landmarks themselves.
+// A study of the specimen alone, in which it counts as fitted, is simulated at points beside the
+// answer: central differences as for the fitted specimens (F8), but of the landmarks themselves.
 #include "calib/fit/specimen_slopes.hpp"
 
 #include <algorithm>

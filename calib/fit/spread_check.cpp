@@ -37,7 +37,7 @@ struct AlikeGroup {
   // χ² of the chance that an F test gives them, as the replicates are few.
   [[nodiscard]] double chi_squared() const {
     const double part = replicates / freedom;
-    // Of a variance that is as good as known the F test is one of χ².
+    // Where the variance is as good as known, the F test is a χ² test.
     const double chance = part * part < 1e-6 * known
                               ? gsl_cdf_chisq_Q(squares, freedom)
                               : gsl_cdf_fdist_Q(squares / freedom, freedom, known / (part * part));
@@ -55,7 +55,7 @@ std::map<std::pair<Eigen::Index, double>, AlikeGroup> alike_groups(
     const std::size_t s = problem.fitted[f];
     const auto& weights = answer.weights;
     const Landmarks alike = variance_if_alike(weights, s).sqrt();
-    // From s with τ to s without.
+    // From residuals by s with τ to those by s without it.
     factor.segment<landmark_count>(first_row(f)) =
         tells(answer.best.predictions[f], problem.targets[s]).select(weights.sd[s] / alike, 1.0);
     part[f] = (weights.replicates[s] / alike).square();

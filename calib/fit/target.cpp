@@ -24,7 +24,8 @@ Row row_at_break(const MeasuredTest& test) {
   if (peak < rows || test.strain.size() != test.stress.size()) return {};
   const auto at = [&](std::ptrdiff_t i) { return static_cast<std::size_t>(i); };
   const double top = test.stress[at(peak)];
-  // A record that ends at its peak, or falls by a tenth within a row, parted between two.
+  // A specimen whose record ends at its peak, or falls by more than a tenth within a row, parted
+  // between two rows.
   const bool abrupt = peak + 1 == count || test.stress[at(peak + 1)] < 0.9 * top;
   if (!abrupt) return {};
   return {.strain = std::max(test.strain[at(peak)] - test.strain[at(peak - rows)], 0.0) / rows,

@@ -7,7 +7,8 @@ namespace havers::calib {
 
 std::vector<Evaluation> Trail::evaluate(const std::vector<Point>& points) {
   const auto& options = problem_.study.calibrate;
-  // Simulations of one point of the budget; scouts, who have fewer replicates, spend a part of one.
+  // Simulations of one point of the budget; a point with fewer replicates spends only a part of
+  // that.
   const auto whole_point =
       static_cast<long>(problem_.fitted.size()) * std::max(all_replicates(options), replicates_);
   budget_spent_ =
@@ -34,7 +35,7 @@ void Trail::restart(Weights weights, Evaluation from) {
 void Trail::note(const Evaluation& evaluation) {
   ++points_;
   if (evaluation.cost < best_.cost) best_ = evaluation;
-  // An observer that has said no is not asked again; the rest of a batch still counts.
+  // An observer that has stopped the fit is not called again; the rest of a batch still counts.
   if (!observer_ || cancelled_) return;
   CalibrationProgress progress{.stage = stage_,
                                .evaluations = batch_.asked(),

@@ -36,7 +36,7 @@ class Trail {
 
   /// Names the stage of the search, for the observer.
   void enter(std::string stage) { stage_ = std::move(stage); }
-  /// Of the points that follow; predictions of the best point keep theirs.
+  /// For the points that follow; the best point keeps the replicates that it has.
   void set_replicates(int replicates) { replicates_ = replicates; }
   void lift_budget() { budget_lifted_ = true; }  ///< For the last look at the answer.
 

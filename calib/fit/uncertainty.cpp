@@ -72,7 +72,7 @@ double quantile(const Eigen::VectorXd& shares, const Landmarks& freedom, const L
     for (const auto& [orientation, part] : by_replicates)
       inverse += part * part / sources.freedom.at(orientation);
   }
-  // Of a million degrees of freedom and more Student's t is as good as normal.
+  // With a million degrees of freedom and more Student's t is as good as normal.
   return inverse > 1e-6 ? gsl_cdf_tdist_Pinv(0.975, std::max(1.0 / inverse, 1.0))
                         : gsl_cdf_ugaussian_Pinv(0.975);
 }
@@ -107,7 +107,7 @@ Eigen::MatrixXd weighed(const FitProblem& problem, const Weights& had, const Wei
 
 Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, const Evaluation& at,
                            const Active& active, const Eigen::MatrixXd& slopes) {
-  // Errors hold at what is left out, whose columns cost freedom alone.
+  // Errors hold at the values of what is left out, whose columns only cost degrees of freedom.
   const Eigen::MatrixXd jacobian = slopes.leftCols(static_cast<Eigen::Index>(active.size()));
   const VarianceSources sources = sources_of(problem, weights, at);
 
@@ -117,7 +117,7 @@ Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, co
   result.standard_error = follow.rowwise().norm();
   result.half_width = result.standard_error;
   for (Eigen::Index k = 0; k < follow.rows(); ++k) {
-    // What each residual makes of the unknown's variance.
+    // The share of each residual in the unknown's variance.
     const Eigen::VectorXd shares =
         follow.row(k).array().square() / std::max(follow.row(k).squaredNorm(), 1e-300);
     result.half_width[k] *= quantile(shares, result.freedom, weights.specimen, sources);

@@ -31,7 +31,8 @@ bool at_bound(const Unknown& unknown, double position);
 Eigen::MatrixXd free_columns(const FitProblem& problem, const Point& point, const Active& active,
                              const Eigen::MatrixXd& jacobian);
 
-/// Slopes of residuals that were standardised by the weights they had, by those that they have now.
+/// Slopes of residuals that were standardised by the weights `had`, as slopes of residuals
+/// standardised by `now`.
 Eigen::MatrixXd weighed(const FitProblem& problem, const Weights& had, const Weights& now,
                         Eigen::MatrixXd slopes);
 

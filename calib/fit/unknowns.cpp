@@ -102,7 +102,7 @@ Point middle_point(const std::vector<Unknown>& unknowns) {
 
 Point inside_bounds(const std::vector<Unknown>& unknowns, Point point) {
   std::ranges::transform(point, unknowns, point.begin(), [](double z, const Unknown& u) {
-    // An optimiser may ask for what is no number.
+    // An optimiser may ask for a point with NaN.
     return std::isfinite(z) ? std::clamp(z, u.lower, u.upper) : u.start;
   });
   return point;
@@ -128,7 +128,8 @@ std::optional<double> value_at(const std::vector<Unknown>& unknowns, const Point
     ++groups;
   }
   if (groups == 0) return std::nullopt;
-  // The mean in the scale of the search: of logarithms a geometric one.
+  // For other specimens the mean over the groups, in the scale of the search: of logarithms a
+  // geometric one.
   return from_search(info, sum / groups);
 }
 

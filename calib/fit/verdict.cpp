@@ -181,7 +181,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
   checks.push_back(check_sections(problem));
   checks.push_back(check_porosity(problem, answer));
   checks.push_back(check_specimen_spread(problem, answer));
-  // Of the same spread, as the replicates have it: part of that check.
+  // Weibull's modulus is about the same spread, and so its sentence is part of that check.
   checks.back().text += weibull_sentence(result, one_sided_orientations(problem, answer.best));
   checks.push_back(check_plain_law(problem, answer));
   checks.push_back(check_correlation(result));
@@ -197,7 +197,7 @@ std::vector<Check> verdict_of(const FitProblem& problem, const Answer& answer,
     leave_all_unchecked(checks, "the budget ended before the searches did.");
   else if (answer.active.empty())
     leave_unchecked(checks, "no parameter is fitted.");
-  // How many simulations failed is told without an answer too.
+  // How many simulations failed is told even where there is no answer.
   checks.push_back(check_simulations(result));
   return checks;
 }

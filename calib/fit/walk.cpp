@@ -1,5 +1,5 @@
-// (F22) What was left out may have any value that the specimens allow: the others are refitted
-// beside each of some, and an interval holds where they come to.
+// (F22) What was left out may have any value that the specimens allow: the others are refitted at
+// some of these values, and their intervals contain where they come to.
 #include "calib/fit/walk.hpp"
 
 #include <Eigen/QR>
@@ -77,7 +77,7 @@ std::vector<Evaluation> walk_along(Trail& trail, Eigen::Index unknown, const Act
     auto moved = trail.evaluate(points);
     score_each(trail, jacobian, moved);
     for (std::size_t i = 0; i < walked.size(); ++i)
-      // Slopes of the answer may lead astray far from it.
+      // Far from the answer its slopes may lead astray: then the point stays as it was.
       if (moved[i].cost < walked[i].cost) walked[i] = std::move(moved[i]);
   }
   std::erase_if(walked, &Evaluation::failed);
@@ -102,7 +102,8 @@ void widen_intervals(const Evaluation& best, const std::vector<Evaluation>& else
       uncertainty.lower[k] = std::min(uncertainty.lower[k], shift - error * std::sqrt(left));
       uncertainty.upper[k] = std::max(uncertainty.upper[k], shift + error * std::sqrt(left));
     };
-    // From the answer on: where another value is likelier its own part is narrower too.
+    // The answer is one of the points: where another one is likelier, what the answer allows is
+    // narrower too.
     uncertainty.lower[k] = uncertainty.upper[k] = 0.0;
     include(best);
     for (const Evaluation& one : elsewhere) include(one);

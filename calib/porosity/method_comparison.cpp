@@ -26,7 +26,7 @@ MethodSummary summary_of(PorosityMethod method, const std::vector<PorosityTrial>
   }
   summary.worst_error = std::ranges::max(errors);
   summary.median_error = gsl_stats_median(errors.data(), 1, errors.size());
-  // Of the sums, so that a large image weighs by its size.
+  // The ratio of the sums, so that a large image weighs by its size.
   summary.cpu_per_pixel = cpu / pixels;
   return summary;
 }
@@ -53,7 +53,7 @@ double PorosityTrial::error(PorosityMethod method) const {
 MethodComparison compare_methods(std::vector<PorosityTrial> trials) {
   assert(!trials.empty());
   MethodComparison comparison{.methods = summaries_of(trials)};
-  // In the order in which they come first.
+  // In the order in which they first occur.
   std::vector<std::string> known;
   for (const PorosityTrial& trial : trials)
     if (std::ranges::find(known, trial.hardship) == known.end()) known.push_back(trial.hardship);

@@ -19,7 +19,7 @@ constexpr std::size_t porosity_methods = 4;
 /// For tables and figures.
 std::string to_string(PorosityMethod method);
 
-/// What one way gives of one image.
+/// What one method gives for one image.
 struct PorosityReading {
   double porosity = 0.0;  ///< [-]
   double cpu = 0.0;       ///< From the file to the number. [s]
@@ -53,7 +53,7 @@ struct HardshipSummary {
   std::array<MethodSummary, porosity_methods> methods;
 };
 
-/// What the bench of porosity shows.
+/// What `havers bench --porosity` shows.
 struct MethodComparison {
   std::vector<PorosityTrial> trials;
   std::array<MethodSummary, porosity_methods> methods;  ///< Over all trials.

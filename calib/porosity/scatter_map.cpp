@@ -32,7 +32,8 @@ Pooled pool(std::vector<Share> shares) {
     within += std::pow(one.weight * one.error, 2);
     between += std::pow(one.weight * (one.value - pooled.mean), 2);
   }
-  // (K1) Squares about their own mean are too small by (n − 1)/n; of one section they tell nothing.
+  // (K1) Squares about their own mean are too small by the factor (n − 1)/n; a single section has
+  // none.
   const auto n = static_cast<double>(shares.size());
   if (n > 1.0) between *= n / (n - 1.0);
   pooled.standard_error = std::sqrt(std::max(within, between));
@@ -56,7 +57,7 @@ void pool_window_sd(const std::vector<SectionPorosity>& sections, SpecimenPorosi
   for (const SectionPorosity& section : sections) {
     // Without a pixel size a section has no windows.
     if (!std::isfinite(section.window_sd)) continue;
-    // What is pooled is the variance, with its error 2 SD se(SD), and the root is taken at the end.
+    // The variance is pooled, with its error 2 SD se(SD); the root is taken at the end.
     const double variance =
         std::pow(section.window_sd, 2) + std::pow(section.porosity - specimen.porosity, 2);
     shares.push_back(
@@ -74,7 +75,7 @@ void pool_window_sd(const std::vector<SectionPorosity>& sections, SpecimenPorosi
 }
 
 // (K2) Σa²/Σa over the pores of all sections with a pixel size: a section's Σa² is its pore area
-// times its a*. All have windows of one size.
+// times its a*. All sections have windows of one size.
 void pool_pore_area_ratio(const std::vector<SectionPorosity>& sections,
                           SpecimenPorosity& specimen) {
   double area = 0.0, squares = 0.0;
@@ -87,7 +88,7 @@ void pool_pore_area_ratio(const std::vector<SectionPorosity>& sections,
   if (area > 0.0) specimen.pore_area_ratio = squares / area;
 }
 
-// (K3) Before it is held inside its bounds. NaN where nothing tells it.
+// (K3) The scatter before it is held inside its bounds. NaN where nothing tells it.
 double free_scatter(const SpecimenPorosity& porosity, const PorosityOptions& options) {
   switch (options.to_scatter) {
     case ToScatter::window:
@@ -127,7 +128,7 @@ double scatter_of(const SpecimenPorosity& porosity, const PorosityOptions& optio
 }
 
 double scatter_standard_error(const SpecimenPorosity& porosity, const PorosityOptions& options) {
-  // To first order, of the scatter before it is held: at a bound it is as uncertain.
+  // To first order, for the scatter before it is held: at a bound it is as uncertain.
   const double d = free_scatter(porosity, options);
   if (!std::isfinite(d)) return d;
   if (options.to_scatter == ToScatter::linear)

@@ -10,7 +10,7 @@ namespace havers::calib {
 /// How porosity becomes scatter: by its spread over windows (K3), by a straight line, or not at
 /// all.
 enum class ToScatter { window, linear, none };
-/// How it acts on the modulus: not, or by a power of what is solid (K4).
+/// How porosity acts on the modulus: not at all, or by a power of the solid share 1 − p (K4).
 enum class ToModulus { none, power };
 
 /// The laws of porosity, as a study's table [porosity] gives them. The numbers can be calibrated.

@@ -1,4 +1,4 @@
-// All that is wrong is told at once, so that a study is mended in one go; nothing is changed.
+// All that is wrong with [calibrate] is told at once, so that a study can be mended in one go.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ void check_bounds(const CalibrateOptions& options, Complaints& found) {
     check_name(name, "bounds", found);
     const auto* info = find_parameter(name);
     const std::string key = "bounds." + name;
-    // So written, a bound that is no number is wrong too.
+    // Written so that a bound that is NaN is wrong too.
     if (!(lower < upper))
       found.push_back({key, fmt::format("is [{}, {}], must rise", lower, upper)});
     if (info && info->scale == Scale::logarithmic && !(lower > 0.0))

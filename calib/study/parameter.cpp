@@ -17,7 +17,7 @@ void scale_thresholds(sim::JointOptions& joints, double factor) {
 }
 
 // f₂ acts as shear on a head-tail joint, f₁ as tension on a flank joint, unless set apart (section
-// 4 of the model): the other kind's force over its own length, l or L/2. [Pa]
+// 4 of sim/README.md): the other kind's force over the length of the joint, l or L/2. [Pa]
 double default_shear(const sim::Scene& scene) {
   return scene.joints.flank * 0.5 * scene.assembly.fibre_length / scene.assembly.fibre_height;
 }
@@ -31,8 +31,8 @@ void set_ratio(sim::Scene& scene, double ratio) {
   scene.joints.flank = sim::flank_from_ratio(scene.assembly, scene.joints.head_tail, ratio);
 }
 
-/// How a parameter is read from a scene and written to it, in its unit. A row for each of
-/// `all_parameters` that is not of porosity.
+/// How a parameter is read from a scene and written to it, in its unit. Each of `all_parameters`
+/// has a row, but for those of porosity.
 struct Access {
   std::string_view name;
   double (*get)(const sim::Scene&);
@@ -80,7 +80,8 @@ constexpr std::array accesses{
            [](Scene& s, double x) { s.material.viscosity = x; }},
 };
 
-// The number of a law of porosity by its name; null for a parameter of the scene.
+// The member that a law of porosity calibrates, by the parameter's name; null for a parameter of
+// the scene.
 double PorosityOptions::*law_of(std::string_view name) {
   if (name == "modulus_exponent") return &PorosityOptions::modulus_exponent;
   if (name == "strength_exponent") return &PorosityOptions::strength_exponent;

@@ -13,11 +13,11 @@
 namespace havers::calib {
 namespace {
 
-// Of all comparisons of a claim together: each has its share (Bonferroni).
+// Of all comparisons of a claim together; each has an equal share of it (Bonferroni).
 constexpr double risk = 0.05;
 
-// The values that tell a point of the sweep from others, but for one column; the number of keys
-// leaves none out.
+// The values that tell a point of the sweep from others. The column `without` is left out; the
+// number of keys stands for none.
 std::vector<ComparedKey> keys_of(const SweepPlan& plan, const SweepPoint& point,
                                  std::size_t without) {
   std::vector<ComparedKey> keys;
@@ -26,7 +26,7 @@ std::vector<ComparedKey> keys_of(const SweepPlan& plan, const SweepPoint& point,
   return keys;
 }
 
-// Of the runs of a point that tell the response.
+// Statistics of the response over the runs of a point that tell it.
 Statistics at(const Evidence& evidence, std::size_t point) {
   return statistics_of(values_of(evidence.runs, point, evidence.request.response));
 }
@@ -38,8 +38,8 @@ struct Pair {
 
 using Level = std::vector<std::size_t>;  // the points at one value of a key
 
-// The points `some` by their value in a column, from the smallest on; words in the order of the
-// file. "1" and "1.0" are one value.
+// Groups the points `some` by their value in a column, from the smallest on; words in the order of
+// the file. "1" and "1.0" are one value.
 std::vector<Level> levels_of(const std::vector<SweepPoint>& points,
                              const std::vector<std::size_t>& some, std::size_t column) {
   std::vector<Level> levels;
@@ -77,7 +77,7 @@ std::vector<Pair> pairs_of(const FindingRequest& request, const SweepPlan& plan,
   const std::size_t column = plan.column(request.keys.front());
   const bool together = plan.sampling == Sampling::list &&
                         levels_of(points, group.points, column).size() == group.points.size();
-  // The points by what their other keys are, in words: within each, the key alone differs.
+  // The points grouped by the values of their other keys: within a group the key alone differs.
   std::map<std::string, std::vector<std::size_t>> alike;
   for (const std::size_t point : group.points)
     alike[together ? "" : to_string(keys_of(plan, points[point], column))].push_back(point);
@@ -93,8 +93,8 @@ Comparison difference(const Evidence& evidence, Pair pair, std::size_t column, d
   const Statistics a = at(evidence, pair.first), b = at(evidence, pair.second);
   const SweepPoint& first = evidence.points[pair.first];
   const SweepPoint& second = evidence.points[pair.second];
-  // Named with what both points share; in a list other keys may have gone with the one that is
-  // judged.
+  // Names, beside the key that is judged, those that both points have alike: in a list others may
+  // differ too.
   std::vector<ComparedKey> compared{
       {evidence.plan.keys[column].name, second.values[column], first.values[column]}};
   std::ranges::copy_if(
@@ -102,12 +102,12 @@ Comparison difference(const Evidence& evidence, Pair pair, std::size_t column, d
       [&](const auto& key) { return first.values[evidence.plan.column(key.name)] == key.value; });
   const double va = std::pow(a.standard_error() / a.mean, 2);
   const double vb = std::pow(b.standard_error() / b.mean, 2);
-  // Welch's degrees of freedom. Equal runs have no variance, and any number does.
+  // Welch's degrees of freedom. Equal runs have no variance, and any number will do.
   const double freedom = va + vb > 0.0
                              ? std::pow(va + vb, 2) / (va * va / static_cast<double>(a.n - 1) +
                                                        vb * vb / static_cast<double>(b.n - 1))
                              : 1.0;
-  // A mean of 0 has no logarithm: the interval is NaN, and so not known.
+  // With a mean of 0, or means of opposite signs, the interval is NaN, which counts as not known.
   const double log_ratio = std::log(b.mean / a.mean);
   const double half = gsl_cdf_tdist_Qinv(0.5 * share, freedom) * std::sqrt(va + vb);
   return {.compared = std::move(compared),
@@ -161,7 +161,7 @@ std::vector<Comparison> means(const Evidence& evidence, const PointGroup& group)
 // (W5) Distance of each point's mean from the law, over the mean of all.
 std::vector<Comparison> deviations(const Evidence& evidence, const PointGroup& group) {
   const LawRequest request{evidence.request.response, evidence.request.keys, evidence.request.per};
-  // The line of this group; none where it is not fitted, and nothing can be said.
+  // Looks for the line of this group; where it is not fitted, there is nothing to compare.
   for (const Law& law : fit_laws(request, evidence.plan, evidence.points, evidence.runs)) {
     if (law.at != group.value || law.status != LawStatus::fitted) continue;
     double level = 0.0;
@@ -171,7 +171,8 @@ std::vector<Comparison> deviations(const Evidence& evidence, const PointGroup& g
         evidence, group, [&](std::size_t point, const Statistics& s, double share) {
           const double off = s.mean - law.value(evidence.points[point], evidence.plan);
           const double value = off / level;
-          // Of the point alone: that the line rests on it too is left aside.
+          // The interval is that of the point's mean alone; the error of the line is left aside
+          // (W5).
           const double half = s.half_width(share) / std::abs(level);
           return Comparison{.value = value, .low = value - half, .high = value + half};
         });

@@ -14,7 +14,7 @@ struct Comparison {
   bool step = false;  ///< Between neighbours, beside a claim about the ends.
 };
 
-/// What a claim is judged by. All of it belongs to the caller, who keeps it.
+/// What a claim is judged by. The caller owns all of it and must keep it alive.
 struct Evidence {
   const FindingRequest& request;
   const SweepPlan& plan;

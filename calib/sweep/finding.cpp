@@ -1,5 +1,5 @@
-// A claim is a range for every comparison; its outcome follows from where the intervals lie.
-// Numbers are judged in full, and only what is shown is rounded or held within what it can be.
+// A claim asks that every comparison lie in a range; its outcome follows from where the intervals
+// lie. Only the numbers that are shown are held within what they can be, not those that are judged.
 #include "calib/sweep/finding.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +45,7 @@ Bracket range_of(const FindingRequest& request) {
   return {};
 }
 
-// By the whole interval; one that is not known is neither inside nor outside.
+// Whether the whole interval lies inside; one that is not known is neither inside nor outside.
 bool inside(const Comparison& c, Bracket range) {
   return c.low >= range.low && c.high <= range.high;
 }
@@ -56,7 +56,8 @@ bool outside(const Comparison& c, Bracket range) {
 }
 
 // Every interval inside: agrees. One wholly outside: disagrees; where it is that of a step between
-// neighbours only, what the ends say is in doubt. A step need not be inside, but known.
+// neighbours only, what the ends say is in doubt. The interval of a step need not lie inside, but
+// it has to be known.
 FindingOutcome outcome_of(const std::vector<Comparison>& comparisons, Bracket range) {
   bool agrees = true;
   for (const Comparison& c : comparisons) {
@@ -94,7 +95,6 @@ std::string in_its_unit(Measure measure, double value) {
   return fmt::format("{:g}{}{}", value / words.scale, words.unit.empty() ? "" : " ", words.unit);
 }
 
-// What was asked, for the reader of the finding.
 std::string ground_of(const FindingRequest& request) {
   const double percent = 100.0 * request.margin;
   switch (request.test) {
@@ -181,7 +181,7 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
     finding.inertia_high = std::fmax(finding.inertia_high, inertia);
   }
   finding.ground += without_value(evidence, group);
-  // A bound is no value: one such run, and no comparison is made.
+  // A bound is no value: a single run that did not break leaves nothing to compare.
   const long unbroken = unbroken_of(evidence.runs, group.points, request.response);
   if (unbroken > 0)
     finding.ground +=
@@ -227,12 +227,14 @@ std::string to_string(FindingOutcome outcome) {
 int extra_digits(const Finding& finding, double scale) {
   const double width = (finding.high - finding.low) / scale;
   if (!std::isfinite(width) || width <= 0.0) return 0;
-  // The place of the second digit of the width, as the page rounds it; at most that of the units.
+  // The page rounds to the second digit of the interval's width, but never coarser than whole
+  // units.
   const std::string two_digits = fmt::format("{:.1e}", width);
   const int exponent = std::stoi(two_digits.substr(two_digits.find('e') + 1));
   const double unit = scale * std::pow(10.0, std::min(0, exponent - 1));
   const auto steps = [unit](double value) { return std::round(value / unit); };
-  // An end beyond what was asked that is rounded to it, or within, would contradict the outcome.
+  // An end that lies beyond what was asked, but is rounded to it or inside, would contradict the
+  // outcome.
   const bool hidden =
       (finding.low < finding.asked_low && steps(finding.low) >= steps(finding.asked_low)) ||
       (finding.high > finding.asked_high && steps(finding.high) <= steps(finding.asked_high));

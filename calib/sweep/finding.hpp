@@ -36,7 +36,7 @@ struct FindingRequest {
   std::string if_agrees, if_disagrees, if_undecided;  ///< What it means, in words.
 };
 
-/// Undecided: an interval lies across the end of what was asked, or is not known.
+/// Undecided: an interval lies across an end of what was asked, or is not known.
 enum class FindingOutcome { agrees, disagrees, undecided };
 
 std::string to_string(FindingOutcome outcome);

@@ -15,8 +15,8 @@
 namespace havers::calib {
 namespace {
 
-// The columns of the terms at a point, and 1 for the constant. Precondition: the terms vary, with
-// numbers.
+// The values of the terms at a point, and 1 for the constant. Precondition: the terms are keys that
+// the sweep varies.
 std::vector<double> row_of(const LawRequest& request, const SweepPlan& plan,
                            const SweepPoint& point) {
   std::vector<double> row;
@@ -25,7 +25,7 @@ std::vector<double> row_of(const LawRequest& request, const SweepPlan& plan,
   return row;
 }
 
-// One for each run that tells the response.
+// The design matrix and the response: a row for each run that tells the response.
 struct Rows {
   std::vector<double> x;  // row by row
   std::vector<double> y;
@@ -58,15 +58,15 @@ double least_squares(Rows rows, Law& law) {
   std::size_t rank = 0;
   gsl_multifit_linear_tsvd(&x.matrix, &y.vector, 1e-10, &c.vector, &of_c.matrix, &squares, &rank,
                            work.get());
-  // Terms that go together leave a combination of coefficients open.
+  // Terms that vary together leave a combination of their coefficients open.
   if (rank < k) law.status = LawStatus::terms_do_not_vary;
   for (std::size_t j = 0; j < k; ++j)
     law.standard_errors.push_back(std::sqrt(covariance[j * k + j]));
   return squares;
 }
 
-// (W2) `pure` and `within` are sum of squares and freedom of the runs about their points' means,
-// `lack` and `levels` those of the means about the law.
+// (W2) `pure` is the sum of squares of the runs about their points' means, with `within` degrees of
+// freedom; `lack` is that of the means about the law, for `levels` points.
 void test_lack_of_fit(const SweepPlan& plan, const std::vector<SweepPoint>& points,
                       const std::vector<SweepRun>& runs, Law& law) {
   double pure = 0.0, lack = 0.0, within = 0.0, levels = 0.0;
@@ -81,7 +81,7 @@ void test_lack_of_fit(const SweepPlan& plan, const std::vector<SweepPoint>& poin
     levels += 1.0;
   }
   const double freedom = levels - static_cast<double>(law.coefficients.size());
-  // No more points than coefficients, one run each, or no scatter: nothing to try the law against.
+  // With no more points than coefficients, one run each, or no scatter the law cannot be tested.
   if (freedom < 1.0 || within < 1.0 || !(pure > 0.0)) return;
   law.lack_of_fit = (lack / freedom) / (pure / within);
   law.lack_of_fit_p = gsl_cdf_fdist_Q(law.lack_of_fit, freedom, within);
@@ -94,7 +94,7 @@ void fit(const SweepPlan& plan, const std::vector<SweepPoint>& points,
   if (unbroken_of(runs, law.points, law.request.response) > 0)
     law.status = LawStatus::unbroken_runs;
   const std::size_t k = law.request.terms.size() + 1;
-  // A bound is no value, and without it the fit would be of the weaker runs.
+  // A bound is no value; to leave it out would be to fit the weaker runs alone.
   if (law.status == LawStatus::unbroken_runs || rows.y.size() <= k) return;
   law.status = LawStatus::fitted;
   const double squares = least_squares(rows, law);
@@ -122,7 +122,7 @@ double Law::value(const SweepPoint& point, const SweepPlan& plan) const {
 
 bool tries_law(const LawRequest& request, const SweepPlan& plan,
                const std::vector<SweepPoint>& points, const PointGroup& group) {
-  // Points with the same terms are one, however many.
+  // Points with the same terms count as one.
   std::set<std::vector<double>> rows;
   for (const std::size_t point : group.points) rows.insert(row_of(request, plan, points[point]));
   const std::size_t coefficients = request.terms.size() + 1;
@@ -130,7 +130,7 @@ bool tries_law(const LawRequest& request, const SweepPlan& plan,
   Eigen::MatrixXd x(rows.size(), coefficients);
   for (Eigen::Index i = 0; const std::vector<double>& row : rows)
     x.row(i++) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), x.cols());
-  // So that the threshold knows no units: terms may differ by many orders of magnitude.
+  // Normalised, as terms may differ by many orders of magnitude: the threshold is relative.
   x.colwise().normalize();
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(x);
   return qr.setThreshold(1e-10).rank() == x.cols();

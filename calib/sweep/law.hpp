@@ -16,10 +16,10 @@ struct LawRequest {
   std::string per;                 ///< Empty: one law.
 };
 
-/// Why a law is fitted, or is not; without `fitted` its numbers mean nothing.
+/// Whether a law is fitted, or why it is not; unless it is, its numbers mean nothing.
 enum class LawStatus { fitted, too_few_runs, terms_do_not_vary, unbroken_runs };
 
-/// A law, as the runs of one group of points give it.
+/// A law fitted to the runs of one group of points.
 struct Law {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();  ///< Of no fitted law.
   LawRequest request;
@@ -37,7 +37,8 @@ struct Law {
   double lack_of_fit = none;    ///< F; NaN where it cannot be tested. [-]
   double lack_of_fit_p = none;  ///< Its probability if the law held. [-]
 
-  /// Of a point of the sweep. SI units. Precondition: it has coefficients.
+  /// The response that the law gives at a point of the sweep. SI units. Precondition: the law has
+  /// coefficients.
   [[nodiscard]] double value(const SweepPoint& point, const SweepPlan& plan) const;
 };
 

@@ -13,16 +13,16 @@ namespace {
 
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
-// (M2) In uniform motion viscous fibres bear E τ ε̇ from the start on: the strain whose stress that
-// is. 0 where it has to build up from rest, or the limit knows no time. [-]
+// (M2) Fibres in uniform motion bear a viscous stress E τ ε̇ from the start on; τ ε̇ is the strain
+// that would make it. 0 where it has to build up from rest, and in the quasi-static limit. [-]
 double viscous_strain_of(const sim::Scene& scene) {
   const bool from_the_start = scene.loading.start == sim::Start::uniform &&
                               sim::choose_regime(scene).regime == sim::Regime::dynamic;
   return from_the_start ? scene.material.viscosity * scene.loading.strain_rate : 0.0;
 }
 
-// Up to which strain the curve lies beside the modulus's line by 1 % of the strength at most; no
-// farther than the failure strain.
+// The strain up to which the curve stays within 1 % of the strength of the modulus's line, at most
+// the failure strain.
 double linear_until(const Response& response, double viscous_strain) {
   double until = 0.0;
   for (std::size_t i = 0; i < response.strain.size(); ++i) {
@@ -46,7 +46,7 @@ std::array<double, measure_count> measures_of(const Response& response, const si
                                               const Pattern* pattern) {
   std::array<double, measure_count> measures{};
   measures.fill(not_measured);
-  // What is not set is NaN, and no mean takes it.
+  // A measure that is not set stays NaN, and counts in no mean.
   if (response.failed || response.strain.empty()) return measures;
   const auto set = [&](Measure m, double value) {
     measures.at(static_cast<std::size_t>(m)) = value;
@@ -54,7 +54,7 @@ std::array<double, measure_count> measures_of(const Response& response, const si
   const double failure = response.failure_strain;
   set(Measure::strength, response.strength);
   set(Measure::failure_strain, failure);
-  // A modulus that is not known leaves the line open too.
+  // Without a modulus there is no line to compare with.
   if (response.modulus > 0.0) {
     set(Measure::modulus, response.modulus);
     set(Measure::linear_part, linear_until(response, viscous_strain_of(scene)) / failure);
@@ -140,9 +140,9 @@ std::vector<PointGroup> groups_of(const std::vector<SweepPoint>& points, const S
   std::vector<PointGroup> groups;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].level > 1) continue;
-    // A key that does not vary, as the empty one, makes one group.
+    // A key that does not vary, or is empty, makes one group.
     const std::string value = column == plan.keys.size() ? "" : points[i].values[column];
-    // In the order in which values come first.
+    // A new group goes to the end, so that values are in the order in which they first occur.
     auto group = std::ranges::find(groups, value, &PointGroup::value);
     if (group == groups.end()) group = groups.insert(group, {value, {}});
     group->points.push_back(i);

@@ -60,7 +60,7 @@ struct SweepRun {
   }
   /// The strain limit came first: strength and failure strain are lower bounds.
   [[nodiscard]] bool unbroken() const { return !failed && !broke; }
-  /// It is to be trusted but for what `why` says.
+  /// Whether it is to be trusted only with the reservation that `why` states.
   [[nodiscard]] bool reserved() const { return !failed && !why.empty(); }
 };
 
@@ -68,12 +68,11 @@ struct SweepRun {
 std::array<double, measure_count> measures_of(const Response& response, const sim::Scene& scene,
                                               const Pattern* pattern);
 
-/// What a number of values say together.
 struct Statistics {
   long n = 0;
   double mean = 0.0, sd = 0.0;  ///< NaN without enough runs.
 
-  /// Of the mean; NaN of fewer than two values, as the half width.
+  /// Of the mean. NaN for fewer than two values, as is the half width.
   [[nodiscard]] double standard_error() const;
   /// Half width of the interval of confidence 1 − `risk`, by Student's t.
   [[nodiscard]] double half_width(double risk = 0.05) const;

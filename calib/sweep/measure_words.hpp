@@ -12,7 +12,7 @@ struct MeasureWords {
   std::string name, unit;
   double scale = 1.0;  ///< SI value over the shown one.
 };
-/// The unit is empty of counts and ratios.
+/// The unit is empty where the number is shown as it is.
 MeasureWords words_of(Measure measure);
 
 }  // namespace havers::calib

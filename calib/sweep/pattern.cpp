@@ -23,8 +23,8 @@ struct Segment {
   std::array<Place, 2> places;
 };
 
-// Joints lie in the middle of their segments, along the tangent. Ends that two of them share differ
-// by rounding only.
+// A joint lies in the middle of its segment, which runs along its tangent. Ends that two segments
+// share differ by rounding only.
 std::vector<Segment> broken_segments(const sim::Assembly& assembly,
                                      const std::vector<sim::JointOutcome>& joints) {
   const double unit = 1e-7 * std::max(assembly.width, assembly.height);
@@ -49,7 +49,7 @@ double highest_chain(const std::vector<Segment>& segments) {
   std::map<Place, std::size_t> at;
   for (std::size_t i = 0; i < segments.size(); ++i)
     for (const Place& place : segments[i].places)
-      // With the first segment that ends there.
+      // Joined with the first segment that ends there, and so with all others.
       chains.unite(at.try_emplace(place, i).first->second, i);
 
   std::map<std::size_t, std::pair<double, double>> extent;
@@ -69,7 +69,8 @@ double highest_chain(const std::vector<Segment>& segments) {
 Pattern pattern_of(const sim::Assembly& assembly, const std::vector<sim::JointOutcome>& joints) {
   assert(assembly.joints.size() == joints.size());
   const std::vector<Segment> segments = broken_segments(assembly, joints);
-  // The flanks first: whether one goes on where a head-tail joint ends is asked of all of them.
+  // The ends of all flanks are collected first, so that each head-tail joint can be looked up in
+  // them.
   std::set<Place> flank_ends;
   Pattern pattern;
   for (const Segment& segment : segments) {
@@ -77,7 +78,7 @@ Pattern pattern_of(const sim::Assembly& assembly, const std::vector<sim::JointOu
     ++pattern.flank;
     flank_ends.insert(segment.places.begin(), segment.places.end());
   }
-  // Of those that broke, what is no flank.
+  // All that broke, less the flanks.
   pattern.head_tail =
       static_cast<int>(std::ranges::count(segments, true, &Segment::broke)) - pattern.flank;
   const auto linked = std::ranges::count_if(segments, [&](const Segment& segment) {

@@ -14,7 +14,7 @@ struct Pattern {
                         ///< NaN when none broke. [-]
 };
 
-/// O(n log n) of the broken joints. Missing joints make chains longer, but are not counted as
+/// Cost O(n log n) for n broken joints. Missing joints make chains longer, but do not count as
 /// broken. Precondition: one outcome for each joint of the assembly, in its order.
 Pattern pattern_of(const sim::Assembly& assembly, const std::vector<sim::JointOutcome>& joints);
 

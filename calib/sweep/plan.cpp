@@ -16,8 +16,8 @@ namespace {
 
 using Unit = std::vector<std::vector<double>>;  // points in [0, 1)^keys
 
-// A permutation of the strata for each key, by sorting random numbers, and a place in each stratum.
-// [MCB79] The numbers are functions of point, key and seed alone.
+// A permutation of the strata for each key, by sorting random numbers, and a random place in each
+// stratum [MCB79]. The random numbers are functions of point, key and seed alone.
 Unit latin_hypercube(std::size_t points, std::size_t keys, std::uint64_t seed) {
   Unit unit(points, std::vector<double>(keys));
   for (std::size_t key = 0; key < keys; ++key) {
@@ -38,7 +38,7 @@ Unit latin_hypercube(std::size_t points, std::size_t keys, std::uint64_t seed) {
   return unit;
 }
 
-// A sequence without a seed: its first points.
+// The first points of the sequence, which has no seed.
 Unit sobol(std::size_t points, std::size_t keys) {
   const std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> sequence(
       gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(keys)), gsl_qrng_free);
@@ -47,10 +47,10 @@ Unit sobol(std::size_t points, std::size_t keys) {
   return unit;
 }
 
-// The value a part of the way from the lower bound to the upper, as the text of a TOML number.
+// The value at `part` of the way from the lower bound to the upper, as the text of a TOML number.
 std::string between(const SweepKey& key, double part) {
   const double low = number_in(key.values[0]), high = number_in(key.values[1]);
-  // A bound of 0 or below has no logarithm.
+  // Bounds two decades or more apart are spanned by their logarithms, unless the lower has none.
   const bool by_logarithm = low > 0.0 && high >= 100.0 * low;
   return fmt::format("{:.9g}",
                      by_logarithm ? low * std::pow(high / low, part) : low + part * (high - low));
@@ -90,7 +90,8 @@ std::vector<std::vector<std::string>> list(const std::vector<SweepKey>& keys) {
   return rows;
 }
 
-// Of all points and seeds; a grid grows fast, beyond what an integer holds.
+// The number of runs of all points and seeds. A double, as a grid soon exceeds what an integer
+// holds.
 double runs_of(const SweepPlan& plan) {
   double points = is_sample(plan.sampling) ? plan.points : 1.0;
   for (const SweepKey& key : plan.keys)
@@ -127,12 +128,12 @@ std::vector<SweepPlan::Problem> SweepPlan::problems() const {
     complain("keys", "has more keys than the 40 dimensions of the Sobol sequence");
   for (const SweepKey& key : keys) {
     if (key.values.empty()) complain("keys", fmt::format("gives {} no values", key.name));
-    // The values of a list go together: each key has as many.
+    // The values of a list go together, so each key needs as many.
     if (sampling == Sampling::list && key.values.size() != keys.front().values.size())
       complain("keys", fmt::format("is a list, but {} has {} and {} has {}", key.name,
                                    count(key.values.size(), "value"), keys.front().name,
                                    keys.front().values.size()));
-    // NaN, of a bound that is no number, is not less either.
+    // A bound that is no number is NaN, which is not less than anything.
     if (is_sample(sampling) &&
         !(key.values.size() == 2 && number_in(key.values.front()) < number_in(key.values.back())))
       complain("keys", fmt::format("is a sample, but {} has no lower and upper bound", key.name));

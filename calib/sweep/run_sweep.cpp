@@ -17,8 +17,9 @@ namespace {
 // Simulations between two looks at the observer.
 constexpr std::size_t chunk = 32;
 
-// The fibre model, which leaves the pattern of every scene's broken joints in a map, by the key of
-// the scene as the batch runs it. A store could not give them back. Called from several threads.
+// The fibre model, which also keeps the pattern of every scene's broken joints in a map, by the key
+// of the scene as the batch runs it. A store holds no patterns, so these runs cannot use one. `run`
+// is called from several threads.
 class PatternedModel {
  public:
   explicit PatternedModel(sim::StopAsked stop_asked) : stop_asked_(std::move(stop_asked)) {}
@@ -66,21 +67,21 @@ class Runner {
   void run(SweepResult& result, std::size_t first) {
     std::vector<sim::Scene> scenes;
     for (std::size_t point = first; point < result.points.size(); ++point)
-      // Seeds count on over all points, so that no two points share their chance (W3).
+      // Seeds count on over all points, so that the runs of two points are independent (W3).
       for (std::size_t k = 0; k < seeds_; ++k) {
         scenes.push_back(result.points[point].scene);
         scenes.back().joints.seed = sweep_.plan.seed + point * seeds_ + k;
         result.runs.push_back({.point = point, .seed = scenes.back().joints.seed, .why = {}});
       }
     const std::size_t offset = first * seeds_;
-    // In parts, so that the observer can stop between them; what has run stays.
+    // In parts, between which the observer can stop; what has run stays.
     for (std::size_t at = 0; at < scenes.size() && !result.cancelled; at += chunk) {
       const std::size_t end = std::min(at + chunk, scenes.size());
       const std::vector<sim::Scene> some(scenes.begin() + static_cast<std::ptrdiff_t>(at),
                                          scenes.begin() + static_cast<std::ptrdiff_t>(end));
       const std::vector<Response> responses = batch_.run(some);
       result.cancelled = batch_.stopped();
-      // Scenes that were not run are answered as failed: none of this part is taken.
+      // Scenes that were not run are answered as failed, so none of this part is kept.
       if (result.cancelled) break;
       const std::vector<std::string> keys = batch_.keys(some);
       for (std::size_t i = 0; i < some.size(); ++i)
@@ -94,7 +95,7 @@ class Runner {
   }
 
  private:
-  // Takes what a run's response says; the curve only of the first of a point that did not fail.
+  // Keeps what a response says of a run; the curve only for a point's first run that did not fail.
   void keep(const Response& response, const sim::Scene& scene, const std::string& key,
             SweepRun& run) {
     run.failed = response.failed;
@@ -124,8 +125,8 @@ void summarise(SweepResult& result, std::size_t first) {
   }
 }
 
-// A point above every point from `first` on whose strength is known: two runs or more, none of
-// which ended unbroken.
+// Adds a point of the next level for every point from `first` on whose strength is known: two runs
+// or more tell it, and none ended unbroken.
 void climb(SweepResult& result, std::size_t first) {
   const std::size_t end = result.points.size();
   for (std::size_t point = first; point < end; ++point) {
@@ -174,7 +175,7 @@ sim::Scene scale_above(const sim::Scene& scene, const PointSummary& below) {
   sim::Scene above = scene;
   apply(above, "head_tail_MPa", strength.mean / 1e6);
   above.joints.distribution = sim::Distribution::weibull;
-  // (M8) d = √12 times the coefficient of variation, held below 2.
+  // (W7) d = √12 times the coefficient of variation, held below 2.
   above.joints.scatter = std::min(strength.sd / strength.mean * std::sqrt(12.0), 1.99);
   return above;
 }
@@ -195,7 +196,7 @@ SweepResult run_sweep(const Sweep& sweep, EvaluationStore* store, int threads,
     runner.run(result, first);
     if (!result.cancelled) summarise(result, first);
   }
-  // Laws and claims of a part of the runs would be others.
+  // From a part of the runs laws and claims could come out differently.
   if (result.cancelled) return result;
   for (const LawRequest& request : sweep.laws)
     for (Law& law : fit_laws(request, sweep.plan, result.points, result.runs))

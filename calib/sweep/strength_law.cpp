@@ -38,7 +38,7 @@ StrengthLaw strength_law(std::span<const double> strengths) {
   const std::vector<double> values(strengths.begin(), strengths.end());
   const Statistics all = statistics_of(values);
   StrengthLaw law;
-  // Fewer runs tell no law, and equal ones have none.
+  // Too few runs tell no law, and equal strengths have none.
   if (all.n < 5 || !(all.sd > 1e-9 * all.mean)) return law;
   law.runs = all.n;
   const Weibull fitted = weibull(values);

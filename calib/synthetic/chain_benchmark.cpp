@@ -10,13 +10,13 @@
 namespace havers::calib {
 namespace {
 
-// Along the axis of cost, even in its logarithm.
+// Steps along the axis of cost, even in its logarithm.
 constexpr int steps_of_progress = 24;
-// Errors within a tenth are no reason to prefer a chain.
+// An error that is larger by less than a tenth is no reason to prefer another chain.
 constexpr double equal_error = 1.1;
 
-// Root mean square of log(value/truth) over the parameters `counts` says yes to; 0 where it does to
-// none.
+// Root mean square of log(value/truth) over the parameters for which `counts` is true; 0 where it
+// is for none.
 template <class Counts>
 double log_error(const std::vector<std::pair<std::string, double>>& values, const KnownStudy& known,
                  Counts counts) {
@@ -31,7 +31,8 @@ double log_error(const std::vector<std::pair<std::string, double>>& values, cons
   return std::sqrt(sum / std::max(n, 1));
 }
 
-// Fits a study of its own copy. The row is no success yet beside others: `judge` sees them all.
+// Fits a copy of the study. The row's success says only that the fit converged; `judge` compares it
+// with the other chains.
 ChainRow fit_by(const Chain& chain, KnownStudy known, int number) {
   known.study.calibrate.global = chain.global;
   known.study.calibrate.local = chain.local;
@@ -43,7 +44,7 @@ ChainRow fit_by(const Chain& chain, KnownStudy known, int number) {
   };
   std::vector<Step> steps;
   const sim::Stopwatch stopwatch;
-  // Without a store, as what another chain has simulated would cost nothing.
+  // Without a store: what another chain has simulated before would cost this one nothing.
   const CalibrationResult result =
       calibrate(known.study, nullptr, [&](const CalibrationProgress& progress) {
         steps.push_back({{progress.simulated, stopwatch.wall_seconds(), 0.0}, progress.best});
@@ -62,8 +63,8 @@ ChainRow fit_by(const Chain& chain, KnownStudy known, int number) {
     answer.emplace_back(parameter.name, parameter.value);
   row.informed = static_cast<int>(result.fitted.size());
   row.error = log_error(answer, known, informed);
-  // Afterwards, as only the answer says which parameters are informed, and all points of a trace
-  // are to be of the same.
+  // Only the answer says which parameters are informed; all points of a trace are judged by the
+  // same ones.
   for (Step& step : steps) {
     step.point.error = log_error(step.best, known, informed);
     row.trace.push_back(step.point);
@@ -71,16 +72,15 @@ ChainRow fit_by(const Chain& chain, KnownStudy known, int number) {
   return row;
 }
 
-// A success is as good as the best chain of the same study, to a cost of ½. Also chains that did
-// not converge set that cost.
+// A success costs at most ½ more than the best chain of the same study, be that converged or not.
 void judge(std::vector<ChainRow>& rows) {
   for (ChainRow& row : rows)
     for (const ChainRow& other : rows)
       if (other.study == row.study && row.cost > other.cost + 0.5) row.success = false;
 }
 
-// Errors over cost: at each step, of every row's last point that cost no more, or its first. Empty
-// where a fit told of no progress.
+// Quantiles of the error over cost: at each step every row counts by its last point that cost no
+// more, or else by its first. Empty where a fit told of no progress.
 template <class Cost>
 std::vector<Progress> progress_of(const std::vector<const ChainRow*>& rows, Cost cost) {
   double first = INFINITY, last = 0.0;
@@ -98,7 +98,7 @@ std::vector<Progress> progress_of(const std::vector<const ChainRow*>& rows, Cost
     for (const ChainRow* row : rows) {
       const TracePoint* reached = &row->trace.front();
       for (const TracePoint& point : row->trace)
-        // The last step is the largest cost only to rounding.
+        // The last step equals the largest cost only up to rounding.
         if (cost(point) <= step.cost * (1.0 + 1e-9)) reached = &point;
       errors.push_back(reached->error);
     }
@@ -156,7 +156,7 @@ std::vector<const ChainSummary*> ChainBenchmark::contenders() const {
   for (const ChainSummary& summary : summaries) left.push_back(&summary);
   double most = 0.0, least = INFINITY;
   for (const ChainSummary* one : left) most = std::max(most, one->success.part);
-  // Successes first: a chain that stops in worse minima is cheap.
+  // Successes count first: a chain that stops in worse minima is cheap.
   keep([&](const ChainSummary& one) { return one.success.part == most; });
   for (const ChainSummary* one : left) least = std::min(least, one->error[2]);
   keep([&](const ChainSummary& one) { return one.error[2] <= equal_error * least; });

@@ -53,13 +53,12 @@ struct Progress {
 /// Rows of one chain: 10, 50 and 90 %.
 struct ChainSummary {
   std::string chain;
-  /// Each at 10, 50 and 90 % of the rows.
   std::array<double, 3> error{}, simulations{}, seconds{};
   Rate success;
   std::vector<Progress> by_simulations{}, by_seconds{};
 };
 
-/// All fits, and what they come to.
+/// The fits of all chains, and their summaries.
 struct ChainBenchmark {
   std::vector<ChainRow> rows;
   std::vector<ChainSummary> summaries;  ///< In the order of the rows; empty when stopped.

@@ -41,7 +41,7 @@ CoverageSummary summary_of(const std::string& design, const std::string& paramet
     if (!row.informed) continue;
     ++summary.informed;
     inside += row.inside ? 1 : 0;
-    // By logarithms, as the intervals of positive parameters are symmetric in them (F1).
+    // By logarithms, in which these parameters are searched (F1).
     half_widths.push_back(0.5 * std::log(row.upper / row.lower));
   }
   summary.inside = rate_of(inside, summary.informed);
@@ -63,20 +63,21 @@ std::string to_string(IntervalWidth width) {
 
 IntervalWidth Coverage::width_of(const CoverageSummary& summary) const {
   constexpr double promised = 0.95, much_poorer = 0.85;
-  // Shares of no interval are not judged, and so take no part of the risk.
+  // A design and parameter without any interval is not judged, and so takes no part of the risk.
   const auto shares =
       std::ranges::count_if(summaries, [](const CoverageSummary& one) { return one.informed > 0; });
   const double risk_each_side = 0.025 / static_cast<double>(std::max(shares, std::ptrdiff_t{1}));
   const auto held = static_cast<unsigned>(summary.held());
   const auto all = static_cast<unsigned>(summary.informed);
-  // Where neither none nor all of them would be beyond chance, no share can be.
+  // Where it could be chance that no interval holds the truth, and also that all do, the share
+  // cannot tell.
   const double none_held = std::pow(1.0 - promised, all), all_held = std::pow(promised, all);
   if (std::min(none_held, all_held) >= risk_each_side) return IntervalWidth::too_few;
   if (gsl_cdf_binomial_P(held, promised, all) < risk_each_side) return IntervalWidth::too_narrow;
-  // Q is the chance of more than its argument: of `held` or more, here.
+  // Q is the probability of more than its argument, here of `held` or more.
   if (held > 0 && gsl_cdf_binomial_Q(held - 1, promised, all) < risk_each_side)
     return IntervalWidth::too_wide;
-  // Not beyond chance among all shares; by itself it may still speak.
+  // Not beyond chance among all shares, but the share's own interval may still leave out 95 %.
   const auto [low, high] = summary.inside.interval_95;
   return high < promised     ? IntervalWidth::perhaps_too_narrow
          : low > promised    ? IntervalWidth::perhaps_too_wide
@@ -109,10 +110,11 @@ Coverage measure_coverage(const std::vector<Design>& designs, int studies, int t
       if (!coverage.complete) break;
       KnownStudy known = known_study(design, number);
       known.study.calibrate.threads = threads;
-      // The intervals of a fit as users run it.
+      // `known_study` turns profiles off; a fit has them by default, and its intervals rest on
+      // them.
       known.study.calibrate.profiles = true;
       const CalibrationResult result = calibrate(known.study, nullptr, {}, stop_asked);
-      // A study that was stopped has no rows: half of a fit promises nothing.
+      // A fit that was stopped gives no rows, as its intervals promise nothing.
       coverage.complete = result.status != CalibrationStatus::cancelled;
       if (!coverage.complete) break;
       add_rows(design, number, known, result, coverage);

@@ -35,7 +35,8 @@ struct CoverageSummary {
   [[nodiscard]] int held() const;  ///< Intervals that hold the truth.
 };
 
-/// What a share says of intervals that promise 95 %, from what chance leaves open.
+/// What the share of intervals that hold the truth says of their width, as far as chance lets it be
+/// told.
 enum class IntervalWidth {
   as_promised,
   too_wide,

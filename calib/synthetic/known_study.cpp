@@ -15,8 +15,8 @@
 namespace havers::calib {
 namespace {
 
-// Of the truth, in the parameter's unit; drawn evenly in its logarithm. Narrower than the bounds of
-// the search.
+// Range from which the truth is drawn, evenly in its logarithm, in the parameter's unit. It is
+// narrower than the bounds of the search.
 std::pair<double, double> range_of_truth(std::string_view parameter) {
   if (parameter == "young_GPa") return {10.0, 20.0};
   if (parameter == "head_tail_MPa") return {50.0, 110.0};
@@ -25,7 +25,7 @@ std::pair<double, double> range_of_truth(std::string_view parameter) {
   return {0.2, 0.8};
 }
 
-// Between 0 and 1, by study and purpose alone: 53 bits, and a half so that it is not 0.
+// A number between 0 and 1 by study and purpose alone: 53 bits, and a half so that it is never 0.
 double fraction(int study, std::uint64_t purpose) {
   return (static_cast<double>(specimen_seed(static_cast<std::uint64_t>(study), purpose) >> 11U) +
           0.5) *
@@ -47,12 +47,12 @@ Study empty_study(const Design& design, int number) {
   study.model.assembly.fibres = 6;
   study.model.joints.scatter = 0.3;
   study.model.loading.strain_rate = 1e-3;
-  // No sections: the scatter is the model's, or is calibrated.
+  // There are no sections: the scatter is the model's, or is calibrated.
   study.porosity.to_scatter = ToScatter::none;
   study.calibrate.parameters.assign(design.parameters.begin(), design.parameters.end());
   study.calibrate.bounds = {{"head_tail_MPa", {20.0, 250.0}}, {"ratio", {0.3, 6.0}}};
   study.calibrate.replicates = 4;
-  // Profiles cost simulations, and are no part of a search. The bench of intervals turns them on.
+  // Profiles cost simulations and are no part of a search; `measure_coverage` turns them on.
   study.calibrate.profiles = false;
   // With one seed for all studies their fits would err alike.
   study.calibrate.seed =
@@ -112,12 +112,12 @@ KnownStudy known_study(const Design& design, int number, const std::array<double
   for (std::size_t s = 0; s < design.degrees.size(); ++s) {
     const sim::Scene scene = scene_of(known, design, number, s);
     const sim::Simulation simulation = sim::simulate(scene);
-    // A laboratory would have no such test; the study has a specimen less.
+    // A laboratory would have no such test: the study then has one specimen less.
     if (!is_test(simulation)) continue;
     Specimen specimen;
     specimen.id = fmt::format("S{}", s + 1);
     specimen.orientation = scene.assembly.orientation;
-    // Recorded and reduced as a study's files are, so that the errors of that are in it.
+    // Recorded and reduced as a study's tests are, so that the errors of both are in it.
     specimen.test = reduce_test(record_test(simulation, Bar{}, laboratory, scene.joints.seed)).test;
     known.study.specimens.push_back(std::move(specimen));
   }
@@ -125,7 +125,7 @@ KnownStudy known_study(const Design& design, int number, const std::array<double
 }
 
 Rate rate_of(int successes, int n) {
-  // Of no studies nothing is known: any part may be.
+  // Without studies nothing is known, and any part is possible.
   if (n == 0) return {.part = std::nan(""), .interval_95 = {0.0, 1.0}};
   const double count = n, part = successes / count, z = gsl_cdf_ugaussian_Pinv(0.975);
   const double middle = (part + 0.5 * z * z / count) / (1.0 + z * z / count);

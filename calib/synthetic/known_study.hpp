@@ -47,7 +47,7 @@ struct Rate {
   double part = 0.0;
   std::array<double, 2> interval_95{};
 };
-/// Of n = 0: NaN, from 0 to 1.
+/// For n = 0 the part is NaN and the interval [0, 1].
 Rate rate_of(int successes, int n);
 
 /// Median, and 10 and 90 % beside it: {10 %, 50 %, 90 %}. Precondition: not empty.

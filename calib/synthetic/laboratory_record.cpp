@@ -15,7 +15,7 @@ namespace {
 // What a random number is for; with the seed and the row it names the number.
 enum class Draw : std::uint64_t { noise = 1, seed = 2, modulus = 3, gain = 4 };
 
-// The same for the same arguments, whatever was drawn before.
+// A function of its arguments alone, whatever was drawn before.
 r123::Philox2x64::ctr_type draw(std::uint64_t seed, std::uint64_t row, Draw purpose) {
   return r123::Philox2x64()({{row, static_cast<std::uint64_t>(purpose)}}, {{seed}});
 }
@@ -95,7 +95,8 @@ std::uint64_t specimen_seed(std::uint64_t study_seed, std::uint64_t specimen) {
 }
 
 double modulus_variation(std::uint64_t specimen_seed, double cv) {
-  // Of the logarithm, for that coefficient of variation; the mean stays 1 by the shift.
+  // Standard deviation of the logarithm that makes this coefficient of variation; the shift below
+  // keeps the mean at 1.
   const double sd = std::sqrt(std::log1p(cv * cv));
   return std::exp(sd * gauss_pair(specimen_seed, 0, Draw::modulus).x - 0.5 * sd * sd);
 }

@@ -22,7 +22,8 @@ TableReader ConfigFile::top() {
 }
 
 std::string ConfigFile::where(const toml::node& node, const std::string& key) const {
-  // The top, where a key may be missing, has no line, nor has what no text was parsed for.
+  // A missing key is named at the table it is missing from; the table of the whole file has no
+  // line, nor has a node that was not parsed from the text.
   const toml::source_region& source = node.source();
   if (is_override(node)) return fmt::format("{}{}", override_mark, key);
   if (&node == top_.get() || source.begin.line == 0)
@@ -30,8 +31,8 @@ std::string ConfigFile::where(const toml::node& node, const std::string& key) co
   return fmt::format("{}:{}: {}", file_.string(), source.begin.line, key);
 }
 
-// The one other table that has the key, or what is near in its own. At the top a key has no table
-// to name, and of two tables neither is surely meant.
+// Names the one other table that knows the key, else what is near in the key's own table. The top
+// has no name to give, and of two tables neither is surely meant.
 std::string ConfigFile::hint_of_key(std::string_view key,
                                     const std::set<std::string, std::less<>>& known) const {
   const auto has_key = [&](const auto& table) { return table.second.contains(key); };
@@ -42,10 +43,10 @@ std::string ConfigFile::hint_of_key(std::string_view key,
 }
 
 std::vector<Problem> ConfigFile::problems() {
-  // Tables to look through, breadth first. Those of one [[name]] share a path, and so their keys.
+  // Tables to look through, breadth first. All tables [[name]] share a path, and so the known keys.
   std::vector<std::pair<const toml::table*, std::string>> open{{top_.get(), ""}};
   for (std::size_t i = 0; i < open.size(); ++i) {
-    // A copy: what is opened below may move the list.
+    // A copy, as the list may be reallocated below.
     const auto [table, path] = open[i];
     const auto& known = asked_[path];
     for (auto&& [key, node] : *table) {

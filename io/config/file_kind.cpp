@@ -12,7 +12,7 @@ namespace havers::io {
 namespace {
 
 struct KindWords {
-  const char *name, *commands;  // the second as a hint
+  const char *name, *commands;
 };
 
 // In the order of FileKind.
@@ -56,8 +56,8 @@ FileKind kind_of_file(const std::filesystem::path& file, const Overrides& overri
 
 void require_kind(FileKind expected, const TableReader& top, const std::filesystem::path& file) {
   const Tables tables = tables_of(top);
-  // With tables of both a study and a scene either may be meant, with none nothing is known: the
-  // reader names each key that is wrong.
+  // With tables of both a study and a scene either may be meant, and without any nothing is known:
+  // the expected kind's reader then names each key that is wrong.
   const bool of_several = tables.study && tables.scene;
   const bool of_none = !tables.study && !tables.sweep && !tables.scene;
   const FileKind kind = kind_of(tables);

@@ -19,7 +19,8 @@ std::string_view name_of(FileKind kind);
 FileKind kind_of_file(const std::filesystem::path& file, const Overrides& overrides);
 
 /// `top` is the file's. @throws InputError when the tables are those of another kind, whose keys
-/// would all be unknown. A file with tables of no kind passes: its reader names the keys.
+/// would all be unknown. A file with tables of no kind passes, and so does one with those of a
+/// study and of a scene: the reader names the keys that are wrong.
 void require_kind(FileKind expected, const TableReader& top, const std::filesystem::path& file);
 
 }  // namespace havers::io

@@ -10,8 +10,8 @@
 namespace havers::io {
 
 double from_si(double si, KeyUnit unit) {
-  // The quotient is rounded, so that it may miss the number of the file by a bit. Fifteen digits
-  // give a short number back as it was written; else a neighbour may be the one.
+  // The quotient is rounded, and may miss the number of the file by a bit. Rounded to fifteen
+  // digits it is a short number as it was written; for a longer one its neighbours are tried.
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double nearest = si * unit.over / unit.times;
   const double rounded = std::strtod(fmt::format("{:.15g}", nearest).c_str(), nullptr);

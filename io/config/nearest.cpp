@@ -9,8 +9,8 @@
 namespace havers::io {
 namespace {
 
-// Levenshtein's distance, in which two letters that changed places are one slip. of[i][j] is that
-// of the first i letters of a to the first j of b; O(|a| |b|), of names of a few letters.
+// Levenshtein's distance, in which two letters that changed places are one slip. of[i][j] is the
+// distance of the first i letters of a to the first j of b.
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> of(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i)
@@ -39,13 +39,13 @@ std::string did_you_mean(std::string_view word,
   const auto closer = [&](const std::string& a, const std::string& b) {
     return distance(word, a) < distance(word, b);
   };
-  // Of two as near the first of the alphabet, as the set is sorted.
+  // Of two as near it is the first in the alphabet, as the set is sorted.
   const auto found = std::ranges::min_element(candidates, closer);
   if (found != candidates.end() &&
       // (n + 2)/3 slips in n letters: one in a word of up to three.
       3 * distance(word, *found) <= 2 + std::max(letters(word), letters(*found)))
     return fmt::format("did you mean {}?", *found);
-  // Too many letters are missing for a slip, and yet the key is plain.
+  // A key without its unit lacks too many letters for a slip, but it is plain which one is meant.
   const auto without_unit = [&](const std::string& key) {
     return key.starts_with(std::string(word) + "_");
   };

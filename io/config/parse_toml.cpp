@@ -15,8 +15,8 @@
 namespace havers::io {
 namespace {
 
-// What is behind the parser's most frequent complaints, by words of its own; empty for others. The
-// first that fits counts, so the more special of two stands first.
+// What is behind the parser's most frequent complaints, known by some of their words; empty for
+// others. The first that fits counts, so the more special of two stands first.
 const char* hint_for(std::string_view complaint) {
   using Hint = std::pair<std::string_view, const char*>;
   for (const auto& [words, hint] :

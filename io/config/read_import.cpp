@@ -6,7 +6,7 @@
 namespace havers::io {
 
 ImportSettings read_import_settings(const Overrides& overrides) {
-  // The keys of a study without a study: what is said of them names "--set KEY".
+  // Reads keys of a study without a file: complaints name "--set KEY" instead of a line.
   ConfigFile no_file({}, overrides);
   TableReader top = no_file.top();
   TableReader columns = top.table("columns"), gauge_columns = top.table("gauge_columns");

@@ -28,8 +28,8 @@ SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrid
     output.complain("snapshots", "this build writes no snapshots for ParaView",
                     "apt-get install libvtk9-dev and build again, or set output.snapshots = 0");
 
-  // Given thresholds are not drawn, so these keys are left over: a warning, as a scene with them
-  // can be run.
+  // Thresholds from a file are not drawn, so these keys have no effect. That is a warning only, as
+  // the scene can be run.
   if (TableReader joints = top.table("joints"); joints.has("thresholds_file"))
     for (const char* const key : {"seed", "scatter", "distribution", "missing"})
       if (joints.has(key))

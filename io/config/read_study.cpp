@@ -1,5 +1,5 @@
-// Reads a study table by table. Every reader complains and goes on with what is good, so that all
-// that is wrong is said at once.
+// Reads a study table by table. Every function notes what is wrong and goes on with the rest, so
+// that all that is wrong is said at once.
 #include "io/config/read_study.hpp"
 
 #include <fmt/format.h>
@@ -142,11 +142,11 @@ void read_parameters(TableReader& calibrate, calib::CalibrateOptions& options) {
 // A bound must be in order with itself, and the model must be possible at either end.
 void check_bounds(TableReader& bounds, std::string_view name, std::pair<double, double> value,
                   const sim::Scene& model) {
-  calib::CalibrateOptions alone;  // of this bound only
+  calib::CalibrateOptions alone;
   alone.bounds.emplace(name, value);
   const std::vector<calib::CalibrateOptions::Problem> problems = alone.problems();
   for (const auto& problem : problems) bounds.complain(name, problem.what);
-  if (!problems.empty() || !model.problems().empty()) return;  // either was said
+  if (!problems.empty() || !model.problems().empty()) return;  // said already
   for (const double end : {value.first, value.second}) {
     sim::Scene scene = model;
     calib::apply(scene, name, end);  // the laws of porosity have no problems of their own
@@ -242,7 +242,7 @@ StudyFile read_tables(ConfigFile& config, const std::filesystem::path& file, Fil
 
   TableReader model = top.table("model");
   read_scene_tables(model, read.study.model);
-  read.rate_is_given = model.table("loading").has("strain_rate_per_s");  // by the file
+  read.rate_is_given = model.table("loading").has("strain_rate_per_s");
   if (TableReader joints = model.table("joints"); joints.has("thresholds_file"))
     joints.complain("thresholds_file",
                     "is of one assembly; a study draws thresholds for each specimen",
@@ -255,7 +255,7 @@ StudyFile read_tables(ConfigFile& config, const std::filesystem::path& file, Fil
   read_synthesize(top.table("synthesize"), read.synthesize);
   read_reduction(top.table("reduction"), read.reduction);
   read_sections(top.table("sections"), read.sections);
-  read.warnings = study_doubts(top, read);  // of all that was read above
+  read.warnings = study_doubts(top, read);
   read.inputs = config.inputs();
   return read;
 }

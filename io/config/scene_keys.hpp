@@ -33,8 +33,8 @@ void keys(Table& table, sim::Material& material) {
   table.key("layer_contrast", material.layer_contrast);  // of every second layer
 }
 
-/// [joints] but the strengths σ₁, σ₂, Σ and r, sections 3 and 4. A stress is a force per thickness
-/// over the length of the joint.
+/// [joints] without the strengths σ₁, σ₂, Σ and r, sections 3 and 4. A stress here is a force per
+/// thickness over the length of the joint.
 template <class Table>
 void keys(Table& table, sim::JointOptions& joints) {
   table.key("scatter", joints.scatter);

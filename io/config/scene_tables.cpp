@@ -1,5 +1,5 @@
-// The tables of a scene, read over its defaults, and judged together: what the keys cannot say one
-// by one is for Scene::problems().
+// The tables of a scene are read over its defaults. What cannot be judged key by key is left to
+// Scene::problems(), which sees them together.
 #include "io/config/scene_tables.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +45,7 @@ bool are_usable(TableReader& joints, const Strengths& strengths) {
   return given <= 2 && !(given == 1 && strengths.resultant);
 }
 
-// What (M9) divides by; the wrong value itself is named by Scene::problems().
+// (M9) divides by these. A value that is wrong is named by Scene::problems().
 bool can_be_resolved(const sim::AssemblyOptions& assembly) {
   return assembly.layers > 0 && assembly.fibre_length > 0.0 && assembly.fibre_height > 0.0;
 }
@@ -54,7 +54,7 @@ bool can_be_resolved(const sim::AssemblyOptions& assembly) {
 // and becomes the answer. Precondition: the strengths are usable.
 void resolve(const Strengths& given, const sim::AssemblyOptions& assembly,
              sim::JointOptions& joints) {
-  // Σ_res = σ₁ + share · σ₂ (M9); the share is of the wall alone, whatever the stresses.
+  // Σ_res = σ₁ + share · σ₂ (M9); the share depends on the wall, not on the stresses.
   const double share = (sim::resultant(assembly, joints) - joints.head_tail) / joints.flank;
   if (given.head_tail) joints.head_tail = *given.head_tail;
   if (given.flank) joints.flank = *given.flank;
@@ -63,14 +63,14 @@ void resolve(const Strengths& given, const sim::AssemblyOptions& assembly,
   if (given.resultant && given.flank) joints.head_tail = *given.resultant - share * joints.flank;
   if (given.resultant && given.ratio)
     joints.head_tail = sim::head_tail_from_resultant(assembly, *given.resultant, *given.ratio);
-  // (M9) r is proportional to σ₁, so that scaling σ₁ gives the ratio, and σ₂ stays as given.
+  // (M9) r is proportional to σ₁: scaling σ₁ gives the ratio while σ₂ stays as given.
   if (given.flank && given.ratio)
     joints.head_tail *= *given.ratio / sim::ratio(assembly, joints);
   else if (given.ratio)
     joints.flank = sim::flank_from_ratio(assembly, joints.head_tail, *given.ratio);
 }
 
-// Only what can be turned into two stresses is; the wall must have been read before.
+// `joints` stays as it is where the keys do not give two stresses. Precondition: the wall was read.
 void read_strengths(TableReader& table, const sim::AssemblyOptions& assembly,
                     sim::JointOptions& joints) {
   Strengths given;
@@ -108,8 +108,8 @@ std::vector<double> read_thresholds_file(TableReader& table,
   }
 }
 
-// A file of another wall may have as many joints, as 7 layers of 5 fibres have 91 and 2 of 23 too.
-// Lengths tell them apart; where the file has none, NaN, nothing is compared.
+// A file of another wall may have as many joints; their lengths tell the walls apart. A length is
+// NaN where the file has none, and is then not compared.
 void require_joints(TableReader& table, const std::vector<double>& lengths,
                     const sim::Scene& scene) {
   constexpr double rounding = 1e-6;
@@ -142,7 +142,8 @@ void read_scene_tables(TableReader& tables, sim::Scene& scene) {
   TableReader solver = tables.table("solver");
   keys(solver, scene.solver);
 
-  // With all tables there; building the wall for its joints needs a scene that can be.
+  // Asked once all tables are read. The joints are compared only in a scene without problems, as
+  // the wall is built for that.
   const std::vector<sim::Scene::Problem> problems = scene.problems();
   for (const sim::Scene::Problem& problem : problems)
     tables.complain(problem.key, problem.what, problem.hint);

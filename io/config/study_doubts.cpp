@@ -1,5 +1,5 @@
-// Each `doubt_` looks at one table of a study. They ask the file whether a key is there, as one
-// that changes nothing is to be said only where the user wrote it.
+// Each `doubt_` function looks at one part of a study. It asks the file whether a key is there:
+// that a key changes nothing is to be said only where the user wrote it.
 #include "io/config/study_doubts.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ void changes_nothing(Sentences& found, std::string_view key, std::string_view wh
   found.push_back(fmt::format("{} changes nothing: {}", key, why));
 }
 
-// Keys of a scene pasted whole, which a study takes from elsewhere.
+// Keys that come with a scene pasted as a whole, but that a study takes from elsewhere.
 void doubt_model(TableReader model, const StudyFile& read, Sentences& found) {
   if (read.study.model.assembly.orientation != 0.0)
     changes_nothing(found, "model.assembly.orientation_deg", "every specimen has its own");
@@ -39,7 +39,7 @@ void doubt_model(TableReader model, const StudyFile& read, Sentences& found) {
   });
   if (joints.has("scatter") && all_tell && laws.to_scatter == calib::ToScatter::linear)
     changes_nothing(found, "model.joints.scatter", "every specimen has one from its porosity");
-  // Asked for here, so that the key is known: nothing else of a study reads [model.output].
+  // Asked for here so that the key is a known one: a study has no other use for [model.output].
   int snapshots = 0;
   if (model.table("output").key("snapshots", snapshots) && snapshots != 0)
     changes_nothing(found, "model.output.snapshots", "a fit writes none");
@@ -104,7 +104,8 @@ void doubt_specimens(TableReader top, const StudyFile& read, Sentences& found) {
 }
 
 // All angles of a study in radians are small numbers; among others in degrees one is known by the
-// 15, 30 ... 90 degrees that it is. One sentence for a study of the first kind, one an angle else.
+// 15, 30 ... 90 degrees that it is. The first gives one sentence for the study, the second one for
+// each such angle.
 void doubt_angles(const StudyFile& read, Sentences& found) {
   constexpr double most = 1.6;  // a little more than a right angle in radians
   // As the file has them, in degrees.
@@ -118,7 +119,7 @@ void doubt_angles(const StudyFile& read, Sentences& found) {
   }
   for (const calib::Specimen& specimen : read.study.specimens) {
     const double given = specimen.orientation / calib::degree;
-    // The angle in degrees, were the number one in radians, and the nearest step of 15.
+    // The angle in degrees if the number was meant in radians, to the nearest multiple of 15.
     const double meant = 15.0 * std::round(given / calib::degree / 15.0);
     if (given == 0.0 || std::abs(given) >= most || std::abs(given / calib::degree - meant) > 0.3)
       continue;
@@ -129,7 +130,7 @@ void doubt_angles(const StudyFile& read, Sentences& found) {
   }
 }
 
-// Limits of quality control where it is off.
+// Limits of quality control that are given although it is off.
 void doubt_reduction(const TableReader& reduction, const StudyFile& read, Sentences& found) {
   for (const char* key : {"largest_modulus_error", "largest_noise"})
     if (!read.reduction.quality_control && reduction.has(key))
@@ -161,7 +162,7 @@ std::vector<std::string> study_doubts(TableReader top, const StudyFile& read) {
   Sentences found;
   for (const calib::ParameterInfo& info : calib::all_parameters()) {
     if (is_fitted(study.calibrate, info)) {
-      // Only a model that can be has values to compare with bounds.
+      // A model with problems may have no values to compare with bounds.
       if (study.model.problems().empty()) doubt_start(info, study, found);
       continue;
     }

@@ -9,9 +9,9 @@
 
 namespace havers::io {
 
-/// A sentence each, of a study whose tables are read; a warning, for the study can be fitted all
-/// the same. `top` tells what the file says and `read` what became of it: a key that states a
-/// default is in the one and not to be seen in the other.
+/// A sentence for each doubt about a study whose tables are read. They are warnings, as the study
+/// can be fitted all the same. `top` tells which keys the file has and `read` their values: whether
+/// a value was written or is a default cannot be seen from `read`.
 std::vector<std::string> study_doubts(TableReader top, const StudyFile& read);
 
 }  // namespace havers::io

@@ -7,7 +7,7 @@
 
 namespace havers::io {
 
-/// [porosity]: how it becomes scatter and acts on the modulus, (K3) and (K4).
+/// [porosity]: how porosity becomes scatter and acts on the modulus, (K3) and (K4).
 template <class Table>
 void keys(Table& table, calib::PorosityOptions& porosity) {
   table.key("to_scatter", porosity.to_scatter);
@@ -35,17 +35,17 @@ template <class Table>
 void keys(Table& table, calib::CalibrateOptions& options) {
   table.key("terms", options.terms);                // of the objective (F4)
   table.key("replicates", options.replicates);      // 0: as many as needed
-  table.key("global", options.global);              // the search among starts
-  table.key("local", options.local);                // how a start is refined
-  table.key("smooth", options.smooth);              // least squares after it
+  table.key("global", options.global);              // how the neighbourhood of the answer is found
+  table.key("local", options.local);                // how a start is refined from there
+  table.key("smooth", options.smooth);              // least squares after the local search
   table.key("profiles", options.profiles);          // likelihood of each parameter
-  table.key("common_seeds", options.common_seeds);  // at every point of a search (F2)
-  table.key("confirm", options.confirm);            // simulations in time
-  table.key("budget", options.budget);              // points with all specimens and replicates
+  table.key("common_seeds", options.common_seeds);  // the same at every point of a search (F2)
+  table.key("confirm", options.confirm);            // how many simulations in time
+  table.key("budget", options.budget);  // points, each with all specimens and replicates
   table.key("seed", options.seed);
 }
 
-/// [synthesize]: noise of the laboratory, and the sections it draws.
+/// [synthesize]: how tests are recorded, and what the sections look like.
 template <class Table>
 void keys(Table& table, SynthesizeOptions& options) {
   table.key("force_noise_N", options.laboratory.force_noise);
@@ -77,7 +77,8 @@ void keys(Table& table, calib::ReductionOptions& options) {
   table.key("largest_noise", options.largest_noise);                  // of the strength (X16)
 }
 
-/// Reads a name, or a whole number that stands for one, as its digits. False: absent, or wrong.
+/// Reads a name; a whole number stands for one and is read as its digits. False where the key is
+/// absent or wrong.
 template <class Table>
 bool name_or_number(Table& table, const std::string& key, std::string& name) {
   if (!table.is_name_or_number(key)) return false;
@@ -92,7 +93,8 @@ bool name_or_number(Table& table, const std::string& key, std::string& name) {
 /// "500 N/V". A unit alone is that of the column that is found by its name.
 template <class Table>
 void keys(Table& table, ReadOptions& options) {
-  // The others are found, never named: volts by their unit.
+  // The other quantities have no key: a signal in volts is named as the force or strain it
+  // measures.
   for (const Quantity quantity :
        {Quantity::time, Quantity::force, Quantity::extension, Quantity::strain, Quantity::stress}) {
     ColumnHint hint;

@@ -1,5 +1,5 @@
-// Every `key` first notes that it was asked for, then looks: what nobody asked for is unknown in
-// the end. Types are TOML's own; a conversion that would lose something is a complaint.
+// Every `key` first notes that it was asked for, then looks it up: a key of the file that nobody
+// asked for is unknown in the end. Types are TOML's own; text is never taken for a number.
 #include "io/config/table_reader.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ const toml::node& innermost(const toml::table& table, std::string_view key) {
   return *node;
 }
 
-// A name in the file, seen from the file's folder; an absolute one stays.
+// The path that a name in the file means: relative to the file's folder, unless it is absolute.
 std::filesystem::path beside(const std::filesystem::path& file, const std::string& name) {
   const std::filesystem::path path = (file.parent_path() / name).lexically_normal();
   return name.empty() || path.has_filename() ? path : path.parent_path();  // "." is a folder's name
@@ -72,7 +72,7 @@ bool TableReader::is_name_or_number(std::string_view name) {
 }
 
 const toml::node* TableReader::ask(std::string_view name) {
-  file_->asked_[path_].emplace(name);  // absent or not
+  file_->asked_[path_].emplace(name);  // also where the key is absent
   return table_ == nullptr ? nullptr : table_->get(name);
 }
 
@@ -216,7 +216,7 @@ bool TableReader::require_file(std::string_view name, const std::filesystem::pat
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   const bool there = std::filesystem::is_regular_file(status);
   const bool named = file.has_filename();     // beside() has added nothing else to the folder
-  if (there) file_->inputs_.push_back(file);  // of the provenance
+  if (there) file_->inputs_.push_back(file);  // for the provenance
   if (!named) complain(name, "is empty, must name a file");
   if (!named || there) return there;
   const bool set = is_override(innermost(*table_, name));  // by the command line

@@ -40,8 +40,8 @@ class TableReader {
   TableReader(ConfigFile& file, const toml::table* table, std::string path)
       : file_(&file), table_(table), path_(std::move(path)) {}
 
-  /// A number, whole or not, in `unit`; the value in SI. Neither NaN nor infinite, 0 or from 1e-30
-  /// to 1e30 in size, so that squares and quotients of it can be computed.
+  /// A number in `unit`, whole or not; `value` is in SI units. The number must be finite, and 0 or
+  /// from 1e-30 to 1e30 in size, so that squares and quotients of it can be computed.
   bool key(std::string_view name, double& value, KeyUnit unit = {});
   bool key(std::string_view name, int& value);            ///< At most 1e9 in size.
   bool key(std::string_view name, std::uint64_t& value);  ///< At most 2^63 − 1, as TOML has it.
@@ -73,7 +73,7 @@ class TableReader {
     return good;
   }
 
-  /// The table of that name, whose keys are judged thereafter; an absent one has no keys.
+  /// The table of that name, whose keys are then judged too; an absent one has no keys.
   TableReader table(std::string_view name);
   /// The tables [[name]], in the order of the file; none where it is absent, or wrong.
   std::vector<TableReader> tables(std::string_view name);
@@ -82,7 +82,7 @@ class TableReader {
   using List = std::pair<std::string, std::vector<std::string>>;
   std::vector<List> lists(std::string_view name);
 
-  /// Whether the file has the key, be its value right or wrong; it is not thereby asked for.
+  /// Whether the file has the key, be its value right or wrong; this does not make the key known.
   [[nodiscard]] bool has(std::string_view name) const;
   /// Whether the key holds a text, for keys that take a text or something else.
   [[nodiscard]] bool is_text(std::string_view name) const;
@@ -96,7 +96,7 @@ class TableReader {
   void require(bool holds, std::string_view name, double value, std::string_view rule);
 
  private:
-  /// The node of a key, which is known from now on; null where it is absent.
+  /// Makes the key known, and gives its node; null where it is absent.
   const toml::node* ask(std::string_view name);
   /// Complains, and answers false.
   bool wrong_type(std::string_view name, const toml::node& node, std::string_view expected);
@@ -127,25 +127,25 @@ class ConfigFile {
   ConfigFile(const ConfigFile&) = delete;
   ConfigFile& operator=(const ConfigFile&) = delete;
 
-  /// A reader keeps a pointer to its file, which stays where it is: neither copied nor moved.
+  /// The reader keeps a pointer to this file, which therefore can neither be copied nor moved.
   TableReader top();
-  /// Of the file as a whole, or of another that it names.
+  /// Adds a problem: of a key, of the file as a whole, or of another file that it names.
   void complain(Problem problem);
-  /// To be called when all keys were asked for, and once: all problems, unknown keys among them.
-  /// They are moved out.
+  /// All problems, unknown keys among them, moved out. To be called once, when all keys were asked
+  /// for.
   std::vector<Problem> problems();
-  /// @throws InputError with these, if any.
+  /// @throws InputError with all problems, if there are any.
   void finish();
 
   /// The file, and those that it names and that are there.
   [[nodiscard]] const std::vector<std::filesystem::path>& inputs() const { return inputs_; }
 
  private:
-  /// It notes what is asked and which files are named.
+  /// A reader notes here what is asked and which files are named.
   friend class TableReader;
-  /// Of a key: "file:line: key", or "--set key" where the command line gave it.
+  /// Where a key stands: "file:line: key", or "--set key" where the command line gave it.
   [[nodiscard]] std::string where(const toml::node& node, const std::string& key) const;
-  /// What to do about an unknown key of a table that knows these.
+  /// What to do about an unknown key of a table whose keys are `known`.
   [[nodiscard]] std::string hint_of_key(std::string_view key,
                                         const std::set<std::string, std::less<>>& known) const;
 

@@ -15,7 +15,8 @@ namespace havers::io {
 template <std::size_t N>
 using Words = std::array<std::string_view, N>;
 
-/// None, unless given below or, for enumerations of sweeps, in io/sweep/sweep_keys.hpp.
+/// An enumeration has no words unless they are given below or, for sweeps, in
+/// io/sweep/sweep_keys.hpp.
 template <class E>
 inline constexpr Words<0> words{};
 

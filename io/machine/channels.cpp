@@ -1,6 +1,6 @@
-// Every column gets a candidate, the quantity that its name and unit allow, with a rank: how sure
-// that is. The user's columns are set first; the others are then taken rank by rank, so that a
-// better column counts wherever it stands.
+// Every column is classified: which quantity its name and unit allow, and with what rank, which
+// says how sure that is. The user's columns are set first; the others are then taken rank by rank,
+// so that a better column counts wherever it stands.
 #include "io/machine/channels.hpp"
 
 #include <fmt/format.h>
@@ -43,15 +43,15 @@ std::string unit_of(const Table& table, std::size_t i) {
 
 // What a column may be; the smaller the rank, the sooner it is taken. The column of a gauge, an
 // extensometer or a load cell beats any other of its quantity; a strain by its unit alone beats one
-// that is doubted, as that of the crosshead; any other unit alone comes last.
+// that is doubted, as one of the crosshead; any other unit alone comes last.
 struct Candidate {
   Quantity quantity = Quantity::other;
   int rank = 0;
 };
 enum Rank { of_sensor, by_name, by_unit_of_strain, in_doubt, by_unit, ranks };
 
-// The name decides where the unit allows it, or is not there; else the unit does. Nothing where the
-// name is that of a command, or of a size of the specimen.
+// The name decides where the unit allows it or is missing; else the unit does. Nothing where the
+// name is that of no reading, as a command or a peak, or of a fact of the specimen.
 Candidate classify(const Column& column) {
   if (is_no_reading(column.name) || fact_of_key(column.name)) return {};
   const Quantity named = quantity_of_name(column.name);
@@ -70,8 +70,8 @@ Candidate classify(const Column& column) {
   return {held, held == Quantity::strain ? by_unit_of_strain : by_unit};
 }
 
-// By which an elongation of the gauge is divided: the user's length, the extensometer's own, the
-// specimen's.
+// The length by which an elongation of the gauge is divided: the user's, else the extensometer's
+// own, else the specimen's.
 std::optional<double> gauge_length_of(const calib::RawTest& test, const ReadOptions& options) {
   const bool own = test.extensometer_length && !options.gauge_length;
   return own ? test.extensometer_length : test.gauge_length;
@@ -84,7 +84,7 @@ InputError without_gauge_length(const std::string& where, const Column& column) 
       "say gauge_length_mm"};
 }
 
-// Factor to SI; the warnings say what was assumed. That of an elongation makes a strain of it.
+// Factor to SI; the warnings say what was assumed. An elongation's factor makes a strain of it.
 double factor(const Column& column, const std::string& where, const ReadOptions& options,
               calib::RawTest& test) {
   const std::string_view assumed = info_of(column.quantity).assumed_unit;
@@ -167,8 +167,8 @@ std::optional<std::size_t> second_gauge(const TestFile& file,
 // user has chosen.
 void choose(TestFile& file, const std::vector<Candidate>& candidates, const ReadOptions& options,
             Chosen& chosen) {
-  // The user's columns are out of question, and a quantity that the user has chosen needs no word
-  // about others.
+  // The user's columns keep what they were chosen for, and of a quantity that the user has chosen
+  // no other column is mentioned.
   const Chosen hinted = chosen;
   for (int rank = of_sensor; rank < ranks; ++rank) {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -197,9 +197,9 @@ const char* volt_hint(const ReadOptions& options) {
                        : "say what a volt is in [specimen.columns], as in force_unit = \"500 N/V\"";
 }
 
-// A test needs a load. One in volts is of use only where the logger's force tells its factor (X19);
-// other signals in volts are dropped, with a warning. Where nothing at all was recognised the
-// refusal shows a guess from the numbers.
+// A test needs a load. One in volts is of use only where a logger's force may tell its factor
+// (X19). Beside a load, signals in volts are dropped with a warning; otherwise they are refused.
+// Where nothing at all was recognised, the refusal shows a guess from the numbers.
 void need_load(TestFile& file, const Table& table, const ReadOptions& options, Chosen& chosen) {
   const std::string where = at_line(file.file, table.first_line);
   const bool loaded = chosen.contains(Quantity::force) || chosen.contains(Quantity::stress);
@@ -222,8 +222,8 @@ void need_load(TestFile& file, const Table& table, const ReadOptions& options, C
                       : ""));
 }
 
-// A logger needs a time, to set its clock by, and something that runs along with the test: a
-// strain, volts, force or extension.
+// A logger's file needs a time, by which its clock is matched, and a signal that goes along with
+// the test: a strain, volts, a force or an extension.
 void need_gauge(const TestFile& file, const std::string& where, const ReadOptions& options,
                 const Chosen& chosen) {
   for (const Column& column : file.columns)
@@ -245,8 +245,8 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < table.names.size(); ++i)
     file.columns.push_back({table.names[i], unit_of(table, i)});
-  // The user's units count as the file's, so they are there before columns are judged by them; the
-  // user's columns are set afterwards, over what the candidates say.
+  // The user's units count as the file's, so they are set before columns are classified by them;
+  // the user's columns are set afterwards, and overrule the classification.
   take_units(file, where, options);
   std::ranges::transform(file.columns, std::back_inserter(candidates), classify);
   Chosen chosen = take_hints(file, where, options);
@@ -256,7 +256,8 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
     need_gauge(file, where, options, chosen);
   else
     need_load(file, table, options, chosen);
-  // (X2) The compliance of the machine is in such a strain, unless the user calls it a gauge's.
+  // (X2) The machine's compliance is in a strain of the crosshead, unless the user names it as the
+  // strain.
   if (const auto strain = chosen.find(Quantity::strain); strain != chosen.end()) {
     const Column& column = file.columns[strain->second];
     file.test.crosshead_strain = !options.columns.contains(Quantity::strain) &&

@@ -1,5 +1,5 @@
-// What the user says of columns is checked here: a column that is not there, or a unit of another
-// quantity, is refused rather than passed over.
+// What the user says of the columns is checked here: a column that does not exist, or a unit of
+// another quantity, is refused rather than passed over.
 #include "io/machine/column_hints.hpp"
 
 #include <fmt/format.h>
@@ -97,7 +97,7 @@ std::string unit_hint_of(Quantity quantity, const ReadOptions& options) {
 void take_units(TestFile& file, const std::string& where, const ReadOptions& options) {
   for (const auto& [quantity, unit] : options.units) {
     if (!held_in(unit, quantity)) throw wrong_unit(where, unit, quantity);
-    // One column takes the unit whatever its own; of several those without one that is known.
+    // A single column takes the unit whatever its own is; of several, those whose own is not known.
     std::vector<Column*> named;
     for (Column& column : file.columns)
       if (quantity_of_name(column.name) == quantity) named.push_back(&column);
@@ -132,8 +132,8 @@ Chosen take_hints(TestFile& file, const std::string& where, const ReadOptions& o
     Column& column = file.columns[*found];
     if (!hint.unit.empty()) column.unit = hint.unit;
     const std::optional<Quantity> held = held_in(column.unit, quantity);
-    // The user's unit must be one of the quantity; the file's is refused only where it is known.
-    // One that is not known, or is not there, is for `find_channels` to judge.
+    // The user's unit must be one of the quantity. The file's is refused only where it is a known
+    // one of another quantity; an unknown or missing one is judged in `find_channels`.
     if (!held && !hint.unit.empty()) throw wrong_unit(where, hint.unit, quantity);
     if (!held && find_unit(column.unit))
       throw InputError(
@@ -141,7 +141,7 @@ Chosen take_hints(TestFile& file, const std::string& where, const ReadOptions& o
           fmt::format("column \"{}\" is in {}, which is no unit of {}", excerpt(column.name),
                       excerpt(column.unit), to_string(quantity)),
           "name another, or say " + column_setting(options, to_string(quantity) + "_unit", "..."));
-    // In volts the quantity is `volts` or `load_volts`.
+    // For a unit in volts this is `volts` or `load_volts`.
     column.quantity = held.value_or(quantity);
     chosen[column.quantity] = *found;
   }

@@ -1,5 +1,5 @@
-// Each `name_` says one kind of doubt of a choice that was made, as a warning. What the user has
-// named is in no doubt.
+// Each `name_` function warns of one kind of doubt about the columns that were chosen. A column
+// that the user has named is not doubted.
 #include "io/machine/column_notes.hpp"
 
 #include <fmt/format.h>

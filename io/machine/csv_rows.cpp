@@ -1,6 +1,6 @@
 // libcsv cuts any text, letter by letter. Lines of numbers have plain quotes or none: such a line,
-// if it lies whole in the block, is cut here by the delimiter alone, which takes a fraction of the
-// time. The rows are the same, as tests/io/machine/csv_rows_test.cpp holds for random texts.
+// if it lies as a whole in the block, is cut here by the delimiter alone, in a fraction of the
+// time. tests/io/machine/csv_rows_test.cpp checks on random texts that the rows are the same.
 #include "io/machine/csv_rows.hpp"
 
 #include <csv.h>
@@ -25,12 +25,12 @@ struct CsvRows::State {
 
 namespace {
 
-constexpr std::size_t longest_cell = 1U << 20U;   // [byte]; beyond it a quote was not closed
+constexpr std::size_t longest_cell = 1U << 20U;   // [byte]; beyond it a quote was left open
 constexpr int between_rows = 0, inside_cell = 2;  // libcsv's states, which csv.h does not name
 
 template <typename State>
 void hand_on(State& state) {
-  // A blank line is counted by who calls, and given to nobody.
+  // A blank line is counted by the caller, but not handed on.
   const bool blank = state.cells.empty() || (state.cells.size() == 1 && state.cells[0].empty());
   if (state.wanted && !blank) state.wanted = state.take({state.line, state.cells});
 }
@@ -44,7 +44,7 @@ void hand_on_parsed(State& state) {
     begin = end;
   }
   hand_on(state);
-  // Lines inside a quote: the row's own end is counted by `on_row`.
+  // Counts line ends inside quotes; the row's own end is counted by `on_row`.
   if (state.text.find(state.line_end) != std::string::npos)  // rarely: a quote spans lines
     state.line += static_cast<std::size_t>(std::ranges::count(state.text, state.line_end));
   state.text.clear();
@@ -62,7 +62,7 @@ template <typename State>
 void on_row(int end, void* data) {
   auto& state = *static_cast<State*>(data);
   if (!state.ends.empty()) hand_on_parsed(state);
-  // Of CR LF both are reported, and one of them counts.
+  // CR and LF of one line end are both reported, but only one of them counts a line.
   if (end == state.line_end) ++state.line;
 }
 
@@ -97,7 +97,7 @@ bool cut_plain(State& state, std::string_view line) {
     std::size_t end = quoted ? std::min(line.find('"', 1), line.size() - 1) + 1 : 0;
     while (end < line.size() && line[end] != delimiter) ++end;
     std::string_view cell = trimmed(line.substr(0, end));
-    // A quote that is not closed, or is followed by text, or stands inside: libcsv knows.
+    // A quote that is not closed, is followed by text, or stands inside a cell is left to libcsv.
     if (quoted && (cell.size() < 2 || !cell.ends_with('"'))) return false;
     if (quoted) cell = cell.substr(1, cell.size() - 2);
     if (quotes && cell.find('"') != std::string_view::npos) return false;
@@ -123,13 +123,13 @@ CsvRows::~CsvRows() {
 
 bool CsvRows::feed(std::string_view block) {
   State& state = *state_;
-  // The first block decides for the file.
+  // The first block decides which line end the file has.
   if (state.line_end == '\0')
     state.line_end = block.find('\n') == std::string_view::npos ? '\r' : '\n';
   while (!block.empty() && state.wanted && state.parser.entry_pos < longest_cell) {
     const std::size_t end = std::min(block.find(state.line_end), block.size());
     const std::size_t used = std::min(end + 1, block.size());
-    // Inside a quote, or without its end in this block, the line is libcsv's.
+    // A line that begins inside a quote, or does not end in this block, is left to libcsv.
     const bool whole = end < used && state.parser.pstate == between_rows;
     if (whole && cut_plain(state, block.substr(0, end))) {
       hand_on(state);
@@ -156,7 +156,7 @@ std::size_t CsvRows::open_quote_line() const {
 std::function<bool(const Row&)> requoted(char delimiter, std::function<bool(const Row&)> take) {
   return [delimiter, take = std::move(take)](const Row& line) {
     bool wanted = true;
-    // A parser for each line counts lines from 1 again; its rows are given the line of the file.
+    // The parser of each line counts from 1 again, so its rows are given the line of the file.
     CsvRows inner(delimiter, [&](const Row& row) {
       wanted = take({line.line, row.cells});
       return wanted;

@@ -9,14 +9,15 @@
 namespace havers::io {
 namespace {
 
-// What no text has; tabs, line ends, form feeds and the end mark of DOS, 0x1A, are in some.
+// Control characters that no text has. Tabs, line ends, form feeds and the end mark of DOS, 0x1A,
+// may be in one.
 bool is_control(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return byte < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f' && c != '\x1a';
 }
 
-// UTF-16 of western text has a zero in every second byte, nearly: in four fifths of them at least,
-// and none in the others. Empty where it is none.
+// In UTF-16 of western text nearly every second byte is zero: here more than four fifths of these,
+// and none of the others. Empty where the text is not UTF-16.
 std::string utf16_by_zeros(std::string_view bytes) {
   std::array<std::size_t, 2> zeros{};
   for (std::size_t i = 0; i < bytes.size(); ++i)
@@ -73,7 +74,7 @@ bool has_symbols_in_words(std::string_view text) {
   return false;
 }
 
-// Of a text that is neither ASCII nor UTF-8.
+// The encoding of a text that is neither ASCII nor UTF-8.
 std::string guess(std::string_view bytes) {
   const std::string lines = telling_lines(bytes);
   uchardet_t detector = uchardet_new();
@@ -98,13 +99,13 @@ std::string guess(std::string_view bytes) {
 Encoding find_encoding(std::string_view bytes) {
   using std::string_view_literals::operator""sv;
   if (bytes.starts_with("\xEF\xBB\xBF")) return {"UTF-8 with BOM", false, 3};
-  // UTF-32 before UTF-16, whose mark its own begins with.
+  // UTF-32 is asked before UTF-16, as the mark of UTF-32LE begins with that of UTF-16LE.
   if (bytes.starts_with("\xFF\xFE\0\0"sv)) return {"UTF-32LE", true, 4};
   if (bytes.starts_with("\0\0\xFE\xFF"sv)) return {"UTF-32BE", true, 4};
   if (bytes.starts_with("\xFF\xFE"sv)) return {"UTF-16LE", true, 2};
   if (bytes.starts_with("\xFE\xFF"sv)) return {"UTF-16BE", true, 2};
   if (const std::string wide = utf16_by_zeros(bytes); !wide.empty()) return {wide, true, 0};
-  // Zeros are control characters as well, so UTF-16 was asked before.
+  // Zeros are control characters too: text in UTF-16 would be refused here.
   if (std::ranges::any_of(bytes, is_control)) return {};
   if (std::ranges::all_of(bytes, [](char c) { return static_cast<signed char>(c) >= 0; }))
     return {"ASCII", false, 0};

@@ -8,7 +8,7 @@ std::string excerpt(std::string_view text) {
   constexpr std::size_t longest = 60;                             // [byte]
   constexpr unsigned char continues = 0x80, continuation = 0xC0;  // of a character in UTF-8
   std::size_t length = std::min(text.size(), longest);
-  // Never in the middle of a character.
+  // Never cut in the middle of a character.
   while (length < text.size() && length > 0 &&
          (static_cast<unsigned char>(text[length]) & continuation) == continues)
     --length;

@@ -15,7 +15,7 @@ struct FactWord {
   Fact fact;
 };
 
-// Keys as a whole, since "Final width" is not the width; in lower case.
+// Compared with whole keys, in lower case: "Final width" is not the width.
 using enum Fact;
 constexpr std::array fact_words{
     FactWord{"specimen id", specimen_id},
@@ -84,8 +84,8 @@ constexpr std::array fact_words{
     FactWord{"querschnitt", area},
 };
 
-// What a heading calls a specimen, and its number; of two words for a number that begin alike the
-// longer stands first.
+// What a heading calls a specimen, and what stands before its number. Of two words for a number
+// that begin alike the longer stands first.
 constexpr std::array<std::string_view, 16> specimen_words{
     "specimen",   "sample",      "test",    "probe",     "prüfkörper", "proben",
     "éprouvette", "échantillon", "probeta", "muestra",   "provino",    "campione",
@@ -105,7 +105,8 @@ std::optional<std::string_view> behind_specimen(std::string_view text) {
     const std::string_view rest = without_blanks(text.substr(word.size()));
     for (const std::string_view number : number_words)
       if (rest.starts_with(number) &&
-          // Behind a mark no blank is needed, "Nr.4"; behind a word it is: "notes" is no "no".
+          // "Nr.4" needs no blank after its mark; after a letter one is needed, as in "no 4", so
+          // that "notes" is not taken for "no".
           (number.back() < 'a' || is_or_begins_apart(rest.substr(number.size()))))
         return without_blanks(rest.substr(number.size()));
     return rest;
@@ -116,14 +117,14 @@ std::optional<std::string_view> behind_specimen(std::string_view text) {
 }  // namespace
 
 std::optional<Fact> fact_of_key(std::string_view key) {
-  // "Geometry : Width": the group is not asked.
+  // Of "Geometry : Width" the group before the colon is left out.
   if (const std::size_t group = key.rfind(" : "); group != std::string_view::npos)
     key.remove_prefix(group + 3);
   while (key.ends_with(':') || key.ends_with(' ')) key.remove_suffix(1);
   const std::string text = lower(key);
   const auto* found = std::ranges::find(fact_words, text, &FactWord::key);
   if (found != fact_words.end()) return found->fact;
-  // "Test" alone names no specimen.
+  // "Test" alone is no key for a specimen's number.
   if (text != "test" && behind_specimen(text) == "") return specimen_number;
   return std::nullopt;
 }

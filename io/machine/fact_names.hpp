@@ -20,8 +20,8 @@ enum class Fact {
   area
 };
 
-/// The fact a header's key names: "Specimen ID", "Geometry : Width", "Largeur", ... Upper and lower
-/// case, colons and blanks at the end do not count; nothing where no such fact is known.
+/// The fact that a header's key names: "Specimen ID", "Geometry : Width", "Largeur", ... Upper
+/// case, and colons and blanks at the end, make no difference. Nothing where the key names no fact.
 std::optional<Fact> fact_of_key(std::string_view key);
 
 /// The specimen's name in a heading: "4" of "Specimen 4" and "Probe Nr. 4"; empty where there is

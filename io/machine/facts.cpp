@@ -1,5 +1,5 @@
-// Lines of a header are brought to key, value and unit, whatever their form; a key that
-// `fact_of_key` knows is a fact of the specimen, any other line is passed over.
+// The lines of a header are split into key, value and unit, whatever their form. A line whose key
+// `fact_of_key` knows tells a fact of the specimen; all others are passed over.
 #include "io/machine/facts.hpp"
 
 #include <fmt/format.h>
@@ -71,7 +71,7 @@ std::vector<HeaderLine> header_lines(const PreviewRow& row) {
   return lines;
 }
 
-// Where a size is kept: the specimen's length counts as gauge length.
+// The member that keeps a size; a bare length is kept as the gauge length.
 std::optional<double>& dimension_of(Fact fact, calib::RawTest& test) {
   if (fact == Fact::width) return test.width;
   if (fact == Fact::thickness) return test.thickness;
@@ -110,8 +110,8 @@ struct HeaderSize {
 
 // The user may correct a size. Width and thickness are in every stress: more than 15 % is said. Ten
 // times the gauge length is a slip of the unit, and a strain that was recorded needs none; a bare
-// length may be that of the whole specimen, a hundred times the gauge length it is not. `given` and
-// the size in m; empty where they are near.
+// length may be that of the whole specimen, a hundred times the gauge length it is not. Both sizes
+// are in m. Empty where they are near each other.
 std::string far_from(double given, const HeaderSize& fresh) {
   const bool gauge = fresh.fact == Fact::length || fresh.fact == Fact::gauge_length;
   const double most = fresh.fact == Fact::length ? 100.0 : gauge ? 10.0 : 1.15;
@@ -123,8 +123,8 @@ std::string far_from(double given, const HeaderSize& fresh) {
                            : "the given one is used");
 }
 
-// A gauge length beats the length of the specimen; else the first of two counts. `sizes` are those
-// that the header has given so far: what `test` has without them is the user's.
+// A gauge length beats the length of the specimen; else the first of two counts. `sizes` holds what
+// the header has given so far: a size in `test` that is not among them is the user's.
 void take_size(HeaderSize fresh, std::vector<HeaderSize>& sizes, calib::RawTest& test,
                std::string& warning) {
   std::optional<double>& size = dimension_of(fresh.fact, test);
@@ -140,7 +140,7 @@ void take_size(HeaderSize fresh, std::vector<HeaderSize>& sizes, calib::RawTest&
     return;
   }
   if (before->fact != fresh.fact) {
-    // Two facts share a place only where they are a gauge length and a bare length.
+    // Only a gauge length and a bare length share a member.
     if (fresh.fact == Fact::length) return;
     size = fresh.value;
     *before = std::move(fresh);
@@ -164,7 +164,7 @@ void take_fact(const HeaderLine& line, std::size_t number, std::vector<HeaderSiz
   if (!fact || line.value.empty() || is_name(*fact)) return;
   std::string warning;
   if (const std::optional<double> value = size_of(line, *fact, warning)) {
-    // A round bar has an area, and no width.
+    // A round bar has no width: its diameter gives the area.
     const bool round = *fact == Fact::diameter;
     take_size({round ? Fact::area : *fact, line.key,
                round ? 0.25 * std::numbers::pi * *value * *value : *value},
@@ -192,7 +192,7 @@ void read_facts(std::span<const PreviewRow> header, calib::RawTest& test) {
   std::vector<HeaderSize> sizes;
   for (const PreviewRow& row : header)
     for (const HeaderLine& line : header_lines(row)) take_fact(line, row.line, sizes, test);
-  // An id anywhere beats a number anywhere.
+  // An id counts before a number, wherever they stand.
   for (const Fact name : {Fact::specimen_id, Fact::specimen_number})  // the first of two counts
     for (const PreviewRow& row : header)
       for (const HeaderLine& line : header_lines(row))

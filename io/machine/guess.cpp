@@ -12,7 +12,7 @@
 namespace havers::io {
 namespace {
 
-// Of the rows of the preview below the names; faults are not looked at, for a guess.
+// The column's numbers in the preview, below the names. Faults are ignored, as this is for a guess.
 std::vector<double> numbers_of_column(const Preview& preview, const Table& table, std::size_t i) {
   std::vector<double> numbers;
   for (const PreviewRow& row : preview.rows)
@@ -21,8 +21,8 @@ std::vector<double> numbers_of_column(const Preview& preview, const Table& table
   return numbers;
 }
 
-// Even steps, but for the digits that the file cut off: each within a fifth of the mean step. Two
-// rows have one step, which tells nothing.
+// Whether the steps are even but for the digits that the file cut off: each within a fifth of the
+// mean step. Two rows have only one step, which tells nothing.
 bool may_be_time(const std::vector<double>& numbers) {
   if (numbers.size() < 3) return false;
   const double step = (numbers.back() - numbers.front()) / static_cast<double>(numbers.size() - 1);
@@ -50,7 +50,7 @@ std::string guess_columns(const Preview& preview, const Table& table) {
     else
       others.push_back(i);
   }
-  // By their ranges, the largest first, which is taken for the force.
+  // Sorted by range; the column with the largest is taken for the force.
   std::ranges::stable_sort(others, std::greater{}, [&](std::size_t i) {
     return range(numbers_of_column(preview, table, i));
   });

@@ -1,5 +1,5 @@
-// The numbers are looked for first; what a table has of names, units and titles stands in the rows
-// above them, read upwards.
+// The numbers are looked for first. Names, units and titles stand in the rows above them, which are
+// read upwards.
 #include "io/machine/layout.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace havers::io {
 namespace {
 
 // The first row of numbers from `begin` that is followed by another of the same length, or by
-// nothing: a line of facts may hold two numbers as well.
+// nothing: a single row with two numbers may be a line of facts.
 std::optional<std::size_t> first_number_row(const Preview& preview, std::size_t begin) {
   const auto& rows = preview.rows;
   for (std::size_t i = begin; i < rows.size(); ++i) {
@@ -39,14 +39,14 @@ bool is_unit_row(const PreviewRow& row) {
           std::ranges::count_if(row.cells, in_brackets) >= 2);
 }
 
-// Whether more than half of the columns have a name there that is no number.
+// Whether the row has a text that is no number for more than half of the columns.
 bool may_name(const PreviewRow& row, std::size_t columns, char decimal) {
   const auto named = std::ranges::count_if(
       row.cells, [&](const auto& cell) { return !cell.empty() && !is_number(cell, decimal); });
   return 2 * static_cast<std::size_t>(named) > columns;
 }
 
-// Names and units column by column; without a row of units each name is asked for its own.
+// Takes names and units column by column; without a row of units each unit is sought in the name.
 void take_names(Table& table, const PreviewRow& names, const PreviewRow* units) {
   for (std::string cell : names.cells) {
     std::ranges::replace_if(
@@ -102,8 +102,8 @@ bool holds_results(const Table& table) {
   return times == 0 && std::ranges::count_if(table.names, is_result) >= 2;
 }
 
-// The smallest number of columns after which names and units repeat; all of them where they do not.
-// Two at least.
+// The smallest number of columns, two or more, after which names and units repeat; all columns
+// where they do not.
 std::size_t period_of(const Table& table, std::size_t columns) {
   for (std::size_t period = 2; period <= columns / 2; ++period) {
     bool repeats = columns % period == 0;
@@ -156,7 +156,7 @@ std::vector<Table> side_by_side(const Table& table) {
 }
 
 std::optional<Table> recognise_table(const Preview& preview) {
-  // Results may stand above the raw data: the first other table counts.
+  // Results may stand above the raw data: the first table that is none of results counts.
   std::optional<Table> results;
   std::size_t begin = 0;
   while (const std::optional<std::size_t> numbers = first_number_row(preview, begin)) {

@@ -1,4 +1,4 @@
-// Almost every cell is a few digits and a mark, and is converted at once. What is not goes to
+// Almost every cell is a few digits and a mark, and is converted directly. Any other goes to
 // from_chars, scrubbed of what that does not take: thousands marks, a plus, a decimal comma, the
 // minus sign of typography.
 #include "io/machine/number.hpp"
@@ -88,7 +88,7 @@ class Scrubbed {
         continue;
       }
       const char c = cell.front();
-      // from_chars would take it for the decimal mark.
+      // from_chars would take this point for the decimal mark.
       if (c == '.' && decimal != '.') return false;
       if (is_digit(c) && !fraction) ++whole;
       if (c == decimal || c == 'e' || c == 'E') fraction = true;
@@ -132,7 +132,7 @@ Number parse_number(std::string_view cell, char decimal) {
   if (cell.empty()) return {0.0, NumberFault::empty};
   Number number;
   if (convert_short(cell, decimal, number.value)) return number;
-  // As it stands first: only what is text so may be a number once it is scrubbed.
+  // First as it stands; only a cell that is a text so may still be a number once it is scrubbed.
   if (decimal == '.') {
     const Number plain = convert(cell);
     if (plain.fault != NumberFault::text) return plain;
@@ -144,7 +144,8 @@ Number parse_number(std::string_view cell, char decimal) {
 
 Number parse_lone_number(std::string_view cell) {
   const auto points = std::ranges::count(cell, '.'), commas = std::ranges::count(cell, ',');
-  // One mark is decimal; of both kinds the last is; several of one kind group.
+  // A single mark is the decimal one; where both kinds occur the last is; several of one kind group
+  // thousands.
   bool comma = commas == 1;
   if (points > 0 && commas > 0)
     comma = cell.rfind(',') > cell.rfind('.');
@@ -170,7 +171,8 @@ namespace {
 Number parse_time_of_day(std::string_view cell) {
   if (cell.ends_with('Z')) cell.remove_suffix(1);
   cell.remove_prefix(cell.find_last_of(" T") + 1);  // npos + 1 is 0
-  // One colon and decimals: "12:01.5"; without decimals it may be hours and minutes.
+  // With one colon and decimals, "12:01.5", these are minutes and seconds; "12:01" is refused, as
+  // it may be hours and minutes.
   const bool minutes =
       cell.find_first_of(".,") != std::string_view::npos && std::ranges::count(cell, ':') == 1;
   const int parts = minutes ? 2 : 3;  // hours, minutes, seconds

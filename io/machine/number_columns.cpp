@@ -1,5 +1,5 @@
-// Rows come one by one and are not kept. What is wrong with a row is a problem, and the reading
-// goes on until there are enough of them.
+// Rows come one by one and are not kept. What is wrong with a row is added to the problems, and the
+// caller reads on until there are enough of them.
 #include "io/machine/number_columns.hpp"
 
 #include <fmt/format.h>
@@ -22,8 +22,8 @@ bool has_ended(const Row& row, const SpecimenColumns& specimen) {
   });
 }
 
-// A clock that goes back by most of a day has passed midnight. The time before has its days
-// already, so those that the clock lacks are added; less than half a day back stays a fault.
+// A clock that goes back by most of a day has passed midnight: the whole days that it lacks against
+// the time before are added. Going back by less than half a day stays a fault.
 void check_time(const Row& row, SpecimenColumns& specimen, std::vector<Problem>& problems) {
   constexpr double day = 86400.0;
   for (std::size_t i = 0; i < specimen.channels.size(); ++i) {
@@ -54,8 +54,8 @@ void take_reading(SpecimenColumns& specimen, std::vector<Problem>& problems) {
   specimen.lost.reset();
 }
 
-// False where the row is not taken to its end: the channels then differ in length, and as there is
-// a problem the file is refused.
+// False where the row is not taken to its end. The channels then differ in length, but a problem is
+// noted, and the file is refused.
 bool take_cells(const Row& row, char decimal, SpecimenColumns& specimen,
                 std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < specimen.channels.size(); ++i) {
@@ -120,7 +120,7 @@ void take_numbers(const Row& row, char decimal, std::span<SpecimenColumns> side_
                   std::vector<Problem>& problems) {
   check_width(row, side_by_side, problems);
   for (SpecimenColumns& specimen : side_by_side) {
-    // A single specimen has no neighbours: there an empty row is a fault of its cells.
+    // Empty cells end a specimen only beside others; of a single one they are a fault.
     if (side_by_side.size() > 1 && has_ended(row, specimen)) {
       specimen.ended = true;
       continue;

@@ -22,8 +22,8 @@ struct SpecimenColumns {
   std::optional<Problem> lost{};            ///< The first cell since then where it has none.
 };
 
-/// A cell of the channel, in SI units; of a time, a clock's too, which is in s whatever the
-/// column's unit. A number that its unit makes infinite is `too_large`.
+/// Reads a cell of the channel, in SI units. A time may also be a clock's, which is in s whatever
+/// the column's unit. A number that its unit makes infinite is `too_large`.
 Number read_cell(std::string_view cell, char decimal, const Channel& channel);
 
 /// Appends a row to the specimens' values. A specimen that ended before its neighbours has empty

@@ -1,6 +1,6 @@
 // Every delimiter is tried with either decimal mark, and the pair that makes the most rows of
-// numbers is taken. Lines quoted as a whole, and then columns of text, are tried only where that
-// finds no two rows of numbers: each allows more to pass for one.
+// numbers is taken. Only where that gives fewer than two such rows, lines quoted as a whole are
+// tried, and then columns of text: with each of these more lines pass for a row of numbers.
 #include "io/machine/preview.hpp"
 
 #include <algorithm>
@@ -14,11 +14,12 @@
 namespace havers::io {
 namespace {
 
-constexpr std::size_t preview_bytes = 1U << 16U;  // [byte]
-// The first of two that make as many rows counts.
+constexpr std::size_t preview_bytes = 1U << 16U;
+// Of two that make as many rows of numbers the first counts.
 constexpr std::array<char, 4> delimiters{',', ';', '\t', '|'};
 
-// The text up to preview_bytes; a line that is cut there would look like a short row.
+// The text up to preview_bytes, without a line that is cut there, which would look like a short
+// row.
 std::string_view whole_lines(std::string_view text) {
   if (text.size() <= preview_bytes) return text;
   text = text.substr(0, preview_bytes);
@@ -30,7 +31,7 @@ Preview cut(std::string_view text, const Dialect& dialect) {
   Preview preview;
   preview.dialect = dialect;
   const auto take = [&](const Row& row) {
-    // "sep=;" is for spreadsheets; the delimiter is found without.
+    // "sep=;" tells spreadsheets the delimiter, which is found without it.
     const bool names_delimiter = row.line == 1 && row.cells[0].starts_with("sep=");
     if (!names_delimiter) preview.rows.push_back({row.line, {row.cells.begin(), row.cells.end()}});
     return true;
@@ -98,7 +99,6 @@ struct Content {
   std::vector<std::size_t> text;  // the columns that hold some
 };
 
-// What the filled cells of a row are.
 Content content_of(const PreviewRow& row, char decimal) {
   Content content;
   for (std::size_t i = 0; i < row.cells.size(); ++i) {
@@ -114,8 +114,8 @@ Content content_of(const PreviewRow& row, char decimal) {
   return content;
 }
 
-// Those of most rows with two numbers or more. None is an answer too, and the one where most rows
-// have no text.
+// The columns that hold text in most of the rows with two numbers or more; empty where most of
+// these have no text.
 std::vector<std::size_t> text_columns_of(const Preview& preview) {
   std::map<std::vector<std::size_t>, int> rows;
   for (const PreviewRow& row : preview.rows)
@@ -132,7 +132,7 @@ struct Best {
   std::ptrdiff_t rows = -1;
 
   void take(Preview other, bool with_text) {
-    // A cell is text or a number by its decimal mark, so the columns of text go with it.
+    // Which cells are text depends on the decimal mark, so the columns of text are found for each.
     const auto set = [&](char decimal) {
       other.dialect.decimal = decimal;
       if (with_text) other.dialect.text_columns = text_columns_of(other);

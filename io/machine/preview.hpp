@@ -19,7 +19,7 @@ struct Dialect {
   std::vector<std::size_t> text_columns{};  ///< Of text beside the numbers, in order; from 0.
 };
 
-/// Like `Row`, with cells of its own, which stay.
+/// Like `Row`, but it owns its cells.
 struct PreviewRow {
   std::size_t line = 0;  ///< From 1.
   std::vector<std::string> cells;

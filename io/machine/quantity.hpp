@@ -18,7 +18,7 @@ struct QuantityInfo {
   std::string_view assumed_unit;                 ///< Where none is written.
   std::string_view usual_units;                  ///< Those that are met most; more are known.
 };
-/// Of constants that live as long as the program.
+/// What is known of a quantity; the reference stays valid.
 const QuantityInfo& info_of(Quantity quantity);
 
 /// A unit that the quantity can have. A gauge may be recorded as an elongation.

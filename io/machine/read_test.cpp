@@ -30,7 +30,7 @@ bool names_results(const PreviewRow& row) {
   return std::ranges::count_if(row.cells, is_result) >= 2;
 }
 
-// A row that is numbers but for a text is likelier a fault in the table than no table.
+// A row of numbers with a text among them is more likely a fault in a table than no table at all.
 void refuse_text_among_numbers(const std::string& name, const PreviewRow& row,
                                const Preview& preview) {
   if (const std::string* text = text_among_numbers(row, preview.dialect.decimal))
@@ -55,7 +55,7 @@ Table find_table(const std::string& name, const Preview& preview) {
   std::optional<Table> table = recognise_table(preview);
   if (table && table->layout != results_layout && !lists_specimens(*table, preview.dialect))
     return *table;
-  // What is there instead: results, an open quote, a text among numbers, or none of these.
+  // Says what is there instead: results, an open quote, a text among numbers, or none of these.
   if (table || std::ranges::any_of(preview.rows, names_results))
     throw InputError(name, "is a table of results, a row for each specimen",
                      "export the raw data: time, force and extension row by row");
@@ -71,7 +71,7 @@ void name_columns(Table& table, const std::string& name, const Preview& preview,
                   const ReadOptions& options) {
   if (!table.names.empty()) return;
   const auto first = std::ranges::find(preview.rows, table.first_line, &PreviewRow::line);
-  // What stands above the numbers names no columns; it may be a row of them with a text in it.
+  // The row above the numbers names no columns; it may be a row of numbers with a text among them.
   if (first != preview.rows.begin()) refuse_text_among_numbers(name, *std::prev(first), preview);
   if (options.columns.empty())
     throw InputError(at_line(name, table.first_line), "the columns have no names",
@@ -83,7 +83,7 @@ void name_columns(Table& table, const std::string& name, const Preview& preview,
   }
 }
 
-// The name in quotes behind a blank, to follow a number; empty without one.
+// A blank and the specimen's name in quotes, to follow its number; empty where it has no name.
 std::string name_of(const TestFile& test) {
   const std::string& name = test.test.specimen_id;
   return name.empty() ? "" : fmt::format(" \"{}\"", excerpt(name));
@@ -109,8 +109,8 @@ void name_numbered(TestFile& test) {
         test.number, name));
 }
 
-// The specimen of that name or number; a text is the number of one without a name only. What could
-// mean two of them is refused, with the list of all.
+// The specimen of that name or number; a text is taken as a number only for a specimen without a
+// name. A choice that could mean two specimens is refused, with a list of all.
 TestFile chosen_of(std::vector<TestFile> tests, const ReadOptions& options) {
   const bool numbered = options.specimen_number.has_value();
   const std::string wanted = numbered ? std::to_string(*options.specimen_number) : options.specimen;
@@ -142,7 +142,7 @@ TestFile chosen_of(std::vector<TestFile> tests, const ReadOptions& options) {
 
 std::vector<TestFile> read_tests(const std::filesystem::path& file, const ReadOptions& options) {
   TextSource source(file);
-  // A copy: the source's block is gone with the next one.
+  // A copy, as the block is valid only until the next call.
   const std::string beginning(source.next());
   const Preview preview = make_preview(beginning);
 

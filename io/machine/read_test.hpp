@@ -11,7 +11,7 @@
 
 namespace havers::io {
 
-/// What a column holds; `volts` of a gauge and `load_volts` of a load cell wait for their factor.
+/// What a column holds. `volts` of a gauge and `load_volts` of a load cell still lack their factor.
 enum class Quantity { time, force, extension, strain, stress, volts, load_volts, other };
 std::string to_string(Quantity quantity);
 

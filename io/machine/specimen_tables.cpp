@@ -1,6 +1,6 @@
-// Rows are numbers until a text stands where the first channel should be. Then rows are held back
-// as a possible header; two rows of numbers end it, and what it is decides: a further specimen, a
-// page of the same, or a fault.
+// Rows are taken as numbers until a text stands where the first channel should be. From there rows
+// are held back as a possible header, which two rows of numbers end. It then turns out to begin a
+// further specimen or a further page of the same one, or to be a fault.
 #include "io/machine/specimen_tables.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ namespace {
 
 // A file that is wrong in every row need not say so in every row.
 constexpr std::size_t enough_problems = 5;
-constexpr std::size_t longest_header = 500;  // [row]; held back in memory
+constexpr std::size_t longest_header = 500;  // rows that are held back at most
 
 // The machine's stress must be force over the area that the file states, or one of the three is
 // wrong.
@@ -100,7 +100,7 @@ void SpecimenTables::begin(const Table& table, std::span<const PreviewRow> heade
     specimen.file.layout = table.layout;
     take_given_sizes(options_, specimen.file.test);
     read_facts(header_of(part, header), specimen.file.test);
-    // A title above its columns is nearer than a line of the header.
+    // A title above the specimen's own columns counts before a line of the header.
     if (!part.title.empty()) specimen.file.test.specimen_id = part.title;
     specimen.channels = find_channels(specimen.file, part, options_);
     specimen.values.resize(specimen.channels.size());
@@ -115,7 +115,7 @@ void SpecimenTables::read(std::string_view beginning, TextSource& source) {
     const std::string_view block = source.next();
     wanted = !block.empty() && rows.feed(block);
   }
-  // A quote that swallows the rest hides its rows; other faults were found before it.
+  // An open quote hides the rows after it. Faults found before it are reported instead.
   if (const std::size_t line = rows.open_quote_line(); line > 0 && problems_.empty())
     throw open_quote(common_.file, line);
   rows.finish();
@@ -136,13 +136,12 @@ bool SpecimenTables::take_row(const Row& row) {
   if (row.line < first_line_) return true;
   const bool empty = row.cells[0].empty() &&
                      std::ranges::all_of(row.cells, [](auto cell) { return cell.empty(); });
-  // Delimiters alone are a blank line.
+  // A row of delimiters alone counts as a blank line.
   if (empty) return true;
   if (!header_.empty() || begins_header(row))
     take_header_row(row);
   else
     take_numbers(row, dialect_.decimal, current(), problems_);
-  // false ends the reading of the file.
   return problems_.size() < enough_problems;
 }
 
@@ -150,14 +149,14 @@ bool SpecimenTables::take_row(const Row& row) {
 bool SpecimenTables::begins_header(const Row& row) const {
   const std::size_t column = specimens_[current_].channels.front().column;
   const std::string_view cell = row.cells[std::min(column, row.cells.size() - 1)];
-  // A digit begins a clock's time, or a number with a fault, and is no header.
+  // A cell that begins with a digit is a clock's time or a faulty number, not a header.
   if (cell.empty() || (cell.front() >= '0' && cell.front() <= '9')) return false;
   return parse_number(cell, dialect_.decimal).fault == NumberFault::text;
 }
 
 void SpecimenTables::take_header_row(const Row& row) {
   header_.push_back({row.line, {row.cells.begin(), row.cells.end()}});
-  // Two rows of numbers of one length begin a table, as for `recognise_table`.
+  // As for `recognise_table`, two rows of numbers of equal length begin a table.
   const auto is_numbers = [&](std::size_t from_end) {
     return header_.size() > from_end && is_number_row(header_[header_.size() - from_end], dialect_);
   };
@@ -211,7 +210,7 @@ bool SpecimenTables::goes_on(const Table& table, const Preview& preview) const {
 
 // A header that leads to no table of a specimen was a row of text among the numbers.
 void SpecimenTables::end_header() {
-  // What was held back is looked at as the beginning of a file is.
+  // The rows held back are looked at like the beginning of a file.
   const Preview preview{dialect_, std::exchange(header_, {})};
   const std::optional<Table> table = recognise_table(preview);
   if (!table || table->names.empty() || table->layout == results_layout ||
@@ -228,7 +227,7 @@ void SpecimenTables::end_header() {
   take_held_back_numbers(preview.rows, table->first_line);
 }
 
-// The rows of numbers by which the header was seen to end.
+// Takes the rows of numbers that showed where the header ends.
 void SpecimenTables::take_held_back_numbers(const std::vector<PreviewRow>& rows,
                                             std::size_t first_line) {
   for (const PreviewRow& row : rows) {
@@ -252,7 +251,7 @@ std::vector<TestFile> SpecimenTables::take() {
       throw InputError(file.file, problem, "give all rows a strain, or leave them out");
     file.rows = file.test.rows();
     file.specimens = specimens_.size();
-    // By other sizes than the file's the machine's stress is another.
+    // With the user's sizes instead of the file's the machine's stress differs anyway.
     if (!options_.width && !options_.thickness) check_stress(file.test);
     files.push_back(std::move(file));
   }

@@ -35,9 +35,9 @@ class SpecimenTables {
  private:
   /// The specimens of the table that is being read.
   std::span<SpecimenColumns> current() { return std::span(specimens_).subspan(current_); }
-  /// Reserves for a file of so many first blocks.
+  /// Reserves memory for a file that is `blocks` times as long as its first block.
   void make_room(double blocks);
-  /// False: enough problems, no more rows are wanted.
+  /// False when there are enough problems and no more rows are wanted.
   bool take_row(const Row& row);
   [[nodiscard]] bool begins_header(const Row& row) const;
   void take_header_row(const Row& row);
@@ -46,7 +46,7 @@ class SpecimenTables {
   [[nodiscard]] bool goes_on(const Table& table, const Preview& preview) const;
   /// Decides what the rows held back in `header_` are.
   void end_header();
-  /// The same at the end, where they may be a text below the last numbers.
+  /// The same at the end of the file, where these rows may be a text below the last numbers.
   void end_file();
   void take_held_back_numbers(const std::vector<PreviewRow>& rows, std::size_t first_line);
 

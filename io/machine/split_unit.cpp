@@ -73,7 +73,7 @@ NameAndUnit split_unit(std::string_view text) {
     if (!unit.empty() && !find_unit(unit) && !looks_like_a_unit(unit)) return whole;
     return named_unit(text.substr(0, open), unit);
   }
-  // Without brackets only what the quantity can have is a unit: "Load_in" is none.
+  // Without brackets a text is a unit only where the named quantity can have it: not in "Load_in".
   for (const std::string_view mark : {"/", " in ", "_", ", ", " "}) {
     // Of "Stress/N/mm2" the first stroke, of "max_force_kN" the last underline.
     const std::size_t at = mark == "/" ? text.find(mark) : text.rfind(mark);

@@ -14,7 +14,7 @@
 namespace havers::io {
 namespace {
 
-constexpr std::size_t block_bytes = 1U << 18U;          // [byte]
+constexpr std::size_t block_bytes = 1U << 18U;
 constexpr std::uintmax_t largest_file = 1'000'000'000;  // [byte]
 
 void check_openable(const std::filesystem::path& file) {
@@ -47,7 +47,7 @@ TextSource::TextSource(const std::filesystem::path& file) : name_(file.string())
         name_, "is not a text file",
         block_.starts_with("PK") ? "a spreadsheet: save it as CSV" : "export the raw data as CSV");
   encoding_ = encoding.name;
-  // The first block is kept for the first call of `next`.
+  // The first block stays in `block_` for the first call of `next`.
   block_.erase(0, encoding.mark_bytes);
   if (!encoding.convert) return;
   // NOLINTNEXTLINE(performance-no-int-to-ptr): iconv_open's own sign of failure
@@ -89,7 +89,7 @@ void TextSource::convert_block() {
   text_.clear();
   char* in = block_.data();
   std::size_t in_left = block_.size();
-  // A full buffer, E2BIG, is no fault: the loop goes on.
+  // A buffer that is full (E2BIG) is no fault: the loop goes on with it emptied.
   std::array<char, 1U << 14U> buffer{};
   while (in_left > 0) {
     char* out = buffer.data();

@@ -43,7 +43,7 @@ class TextSource {
   std::string text_;           // converted
   void* converter_ = nullptr;  // iconv_t; null: the bytes are UTF-8 already
   double first_blocks_ = 0.0;
-  bool first_ = true;  // the first block was read with the constructor
+  bool first_ = true;  // the constructor has read the first block, and `next` has not given it yet
 };
 
 }  // namespace havers::io

@@ -1,5 +1,5 @@
-// A table of names, searched as written before it is searched without regard to case: mN and MN
-// differ by 1e9. A weight as a unit of force is by standard gravity.
+// A table of names, searched first as written and then without regard to case, as mN and MN differ
+// by 1e9. Units of weight become forces by standard gravity.
 #include "io/machine/units.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr double inch = 0.0254;                          // m
 constexpr double microstrain = 1e-6;
 
 using enum Dimension;
-// Searched from its beginning: names, units and header lines are looked up, never numbers.
+// A linear search suffices: names, units and header lines are looked up, never cells of numbers.
 constexpr std::array units{
     NamedUnit{"s", {time, 1.0}},
     NamedUnit{"sec", {time, 1.0}},
@@ -139,7 +139,7 @@ bool equal_but_case(std::string_view a, std::string_view b) {
   });
 }
 
-// A unit by its name in the table; no prefix is taken apart.
+// A unit by its name in the table; prefixes are not split off.
 std::optional<Unit> listed_unit(std::string_view name) {
   const auto* found = std::ranges::find(units, name, &NamedUnit::name);
   if (found == units.end())
@@ -153,7 +153,6 @@ std::optional<Unit> listed_unit(std::string_view name) {
 std::optional<Unit> calibration(std::string_view text) {
   if (!text.ends_with("/V")) return std::nullopt;
   text.remove_suffix(2);
-  // "500 N/V" is 500, a blank, and the unit that a volt stands for.
   const std::size_t blank = text.find(' ');
   if (blank == std::string_view::npos) return std::nullopt;
   const Number factor = parse_number(text.substr(0, blank));

@@ -1,4 +1,4 @@
-// Words are looked for inside names, since names are put together: "Tensile strain (Strain 1)",
+// Words are looked for inside names, since names are often compound: "Tensile strain (Strain 1)",
 // "Standardkraft". Words that are common inside others must stand alone.
 #include "io/machine/vocabulary.hpp"
 
@@ -104,7 +104,7 @@ constexpr std::array quantity_words{
     QuantityWord{"位移", extension},
 };
 
-// Across the load, in several languages; commands; peaks so far.
+// Columns that are no reading along the load: across the load, commands, peaks so far.
 constexpr std::array<std::string_view, 18> no_reading_words{
     "transvers", "trasvers", "querdehn", "lateral", "poprzeczn", "横向",
     "command",   "comando",  "consign",  "soll",    "setpoint",  "set point",
@@ -171,8 +171,8 @@ bool counts_compression(std::string_view name) {
   return contains_any(text, compression_words) && !contains_any(text, tension_words);
 }
 
-// A strain whose name speaks of travel too, unless it is an elongation in mm, which is a gauge's;
-// or a travel in the unit of a strain.
+// A strain whose name also speaks of travel, unless it is an elongation in a unit of length, which
+// is a gauge's; or a travel in a unit of strain.
 bool is_crosshead_strain(std::string_view name, std::optional<Dimension> unit) {
   const std::string text = lower(name);
   const bool travels = std::ranges::any_of(quantity_words, [&](const QuantityWord& known) {

@@ -5,14 +5,14 @@
 namespace havers::io {
 namespace {
 
-// Of a text in lower case; every byte of a character that is not ASCII counts as one.
+// For text in lower case. Every byte of a character that is not ASCII counts as a letter.
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || static_cast<signed char>(c) < 0;
 }
 
-// Of a letter of Latin-1 (U+00C0 on), which has its small one 32 places on, or of Latin Extended-A
-// (to U+017F), where the two stand side by side, capitals first at even numbers or, in two ranges,
-// at odd ones. A multiplication sign is no letter, and the small one of U+0130 is no single letter.
+// The small letter of a letter of Latin-1 (from U+00C0), where it stands 32 places on, or of Latin
+// Extended-A (to U+017F), where it is the next. There capitals have even numbers or, in two ranges,
+// odd ones. U+00D7 is the multiplication sign, and the small letter of U+0130 is not a single one.
 unsigned small_letter(unsigned letter) {
   if (letter < 0x100)
     return letter >= 0xC0 && letter <= 0xDE && letter != 0xD7 ? letter + 0x20 : letter;

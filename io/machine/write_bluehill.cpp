@@ -46,7 +46,7 @@ std::string header(const calib::RawTest& test, const std::locale& locale) {
   return text + "\r\n";
 }
 
-// Five, and of a fast test so many that its rows keep times of their own: two digits of a step.
+// Five, or for a fast test so many that its rows keep different times: two digits of a step.
 int decimals_of(const std::vector<double>& time) {
   constexpr int usual = 5, of_a_step = 2;
   if (time.size() < 2 || !(time[1] > time[0])) return usual;
@@ -89,7 +89,7 @@ void write_bluehill(const std::filesystem::path& file, const calib::RawTest& tes
 
   std::ofstream stream(file, std::ios::binary);
   stream << text;
-  // A full disk may show only as the rest is flushed.
+  // A full disk may show only when the rest is flushed.
   stream.close();
   if (!stream) throw InputError(file.string(), "cannot be written");
 }

@@ -16,7 +16,7 @@ namespace {
 // In the order of the columns; JSON and CSV have the same.
 template <class Table>
 void keys(Table& table, sim::BenchSetting& setting) {
-  // NaN, so that the column is there without a given step: empty in CSV, null in JSON.
+  // NaN where no step is given, so that the key is still there: empty in CSV, null in JSON.
   double step = setting.step.value_or(NAN);
   table.key("regime", setting.regime);
   table.key("contact", setting.contact);
@@ -70,8 +70,8 @@ void keys(Table& table, sim::StabilityResult& result) {
   table.key("reason", result.reason);
 }
 
-// An item with its name, as an object and as a row. `item` is a copy: keys() takes what can be read
-// into.
+// An item with its name, here as an object and below as a row. `item` is a copy, as keys() needs a
+// value that it could also read into.
 template <class Item>
 nlohmann::json object_of(const char* title, const std::string& name, Item item) {
   nlohmann::json object{{title, name}};
@@ -117,7 +117,7 @@ nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPreci
   for (const sim::BenchRow& row : study.rows)
     rows.push_back(object_of("text", to_string(row.setting), row));
   for (const sim::CheapestSetting& entry : study.cheapest)
-    // Without a row no setting reaches the target.
+    // An entry without a row means that no setting reaches the target.
     cheapest.push_back(
         {{"quantity", entry.quantity},
          {"error_below", entry.target},
@@ -151,7 +151,7 @@ nlohmann::json stability_json(const sim::StabilityBench& bench,
 }
 
 std::string work_precision_csv(const sim::WorkPrecision& study) {
-  // By a row of no run, so that the names are there without rows.
+  // The names come from an empty row, so that they are there even where no row follows.
   std::string text = row_of("setting", "", sim::BenchRow{}).names();
   for (const sim::BenchRow& row : study.rows)
     text += row_of("setting", to_string(row.setting), row).cells();
@@ -180,7 +180,7 @@ nlohmann::json methods_json(const calib::MethodComparison& comparison,
 std::string methods_csv(const calib::MethodComparison& comparison) {
   CsvTable table;
   for (const calib::PorosityTrial& trial : comparison.trials)
-    // A reading a method, in the order of PorosityMethod.
+    // One reading for each method, in the order of PorosityMethod.
     for (std::size_t i = 0; i < trial.readings.size(); ++i) {
       const auto method = static_cast<calib::PorosityMethod>(i);
       CsvRow row("hardship", trial.hardship);
@@ -190,7 +190,7 @@ std::string methods_csv(const calib::MethodComparison& comparison) {
       row.key("method", to_string(method));
       row.key("porosity", trial.readings.at(i).porosity);
       row.key("cpu_s", trial.readings.at(i).cpu);
-      // The others give none.
+      // Only havers' own method gives a standard error.
       row.key("standard_error", method == calib::PorosityMethod::ours ? trial.standard_error : NAN);
       table.add(row);
     }

@@ -14,13 +14,13 @@
 
 namespace havers::io {
 
-/// result.json of a bench: what its table holds, and what follows from it. SI units, errors
-/// relative; `complete` is false where it was stopped, a number that is not known null.
+/// result.json of a bench: what its table holds, and what follows from it. In SI units; `complete`
+/// is false where the bench was stopped.
 ///
 /// `havers bench SCENE`: settings against the reference; `scene` can be run by simulate.
 nlohmann::json work_precision_json(const sim::Scene& scene, const sim::WorkPrecision& study,
                                    const calib::Provenance& provenance);
-/// `--stability`: scenes of known answer.
+/// `--stability`: scenes whose answer is known.
 nlohmann::json stability_json(const sim::StabilityBench& bench,
                               const calib::Provenance& provenance);
 
@@ -34,9 +34,10 @@ nlohmann::json chains_json(const calib::ChainBenchmark& benchmark,
 /// `--coverage`: how often 95 % intervals hold the truth, by design and parameter.
 nlohmann::json coverage_json(const calib::Coverage& coverage, const calib::Provenance& provenance);
 
-/// The tables beside them, one line a setting, a scene, a section by a method; a fit by a chain, an
-/// interval of a study. The first line has the names, which are those of result.json where that has
-/// the rows too. Of the last three an empty table has no line at all.
+/// The tables beside them, with one line for each setting; scene; section and method; fit by a
+/// chain; interval of a study. The first line has the names of the columns; where result.json has
+/// the same rows these are its keys, but for the first. The last three tables are empty without
+/// rows.
 std::string work_precision_csv(const sim::WorkPrecision& study);
 std::string stability_csv(const std::vector<sim::StabilityResult>& results);
 std::string methods_csv(const calib::MethodComparison& comparison);

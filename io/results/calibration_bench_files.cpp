@@ -7,7 +7,7 @@
 namespace havers::io {
 namespace {
 
-// The error of a chain against what it had cost until then; `cost` names the latter.
+// The error of a chain against the cost so far; `cost` is the key of that cost.
 nlohmann::json progress_json(const std::vector<calib::Progress>& progress, const char* cost) {
   nlohmann::json steps = nlohmann::json::array();
   for (const calib::Progress& step : progress)

@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // as Excel's "CSV UTF-8" has it
 
-// Takes rows one by one: the header first, then numbers. Faults are collected, so that all of a
-// file are said at once; a header that lacks columns ends the reading.
+// Takes rows one by one: the header first, then numbers. All faults of a file are collected and
+// said at once; but a header that lacks columns ends the reading.
 class Columns {
  public:
   Columns(std::string file, const std::vector<std::string>& names, std::size_t optional)
@@ -53,10 +53,10 @@ class Columns {
                        fmt::join(names_.begin(), std::next(names_.begin(), needed_), ","));
   }
 
-  // A name that is not there gets a place behind the last cell, where `number` finds nothing.
+  // A missing name gets the position behind the last cell, where `number` finds nothing.
   bool find_columns(const Row& header) {
     cells_ = header.cells.size();
-    // Another delimiter would make every column missing: this is said instead.
+    // With another delimiter every column would be missing; the delimiter is named instead.
     if (cells_ == 1 && header.cells[0].find_first_of(";\t|") != std::string_view::npos) {
       problems_.push_back({at_line(file_, header.line),
                            fmt::format("has one column, \"{}\"", excerpt(header.cells[0])),
@@ -78,7 +78,7 @@ class Columns {
     const std::size_t position = positions_[column];
     const std::string_view cell = position < row.cells.size() ? row.cells[position] : "";
     const char* const end = cell.data() + cell.size();
-    // No thousands marks and no decimal comma, other than in a testing machine's file.
+    // Unlike a testing machine's file, this one may have no thousands marks and no decimal comma.
     const bool whole = std::from_chars(cell.data(), end, value).ptr == end;
     if (!cell.empty() && !(whole && std::isfinite(value)))
       problems_.push_back(

@@ -7,12 +7,12 @@
 
 namespace havers::io {
 
-/// The shortest text that reads back as the same number; empty for a number that is not finite. A
-/// zero has no sign.
+/// The shortest text that reads back as the same number; empty for a number that is not finite. -0
+/// is written as 0.
 std::string csv_number(double value);
 
-/// A header and rows, comma-separated; `columns` in the order of the header. Precondition: at least
-/// one column, all of equal length, and no name that needs quotes.
+/// A header and rows, comma-separated; `columns` are in the order of the header. Precondition:
+/// there is a column, all are of equal length, and no name needs quotes.
 std::string csv_text(const std::vector<std::string>& header,
                      const std::vector<std::vector<double>>& columns);
 

@@ -13,11 +13,11 @@
 
 namespace havers::io {
 
-/// Collects the keys of one row: a `Table` for the keys() of an item that have no unit, so that its
-/// columns have the names of its JSON.
+/// Collects the keys of one row. It serves as `Table` for keys() without units, so that the columns
+/// have the names of the JSON.
 class CsvRow {
  public:
-  /// The first column: which item the row is of.
+  /// The first column, which tells what the row is about.
   CsvRow(const char* name, const std::string& value) : names_(name), cells_(quoted(value)) {}
 
   /// One more column: a number as `csv_number` writes it, a text in quotes where it needs them, the

@@ -28,7 +28,7 @@ std::vector<std::vector<double>> read_columns(const std::filesystem::path& file,
   return columns;
 }
 
-// Columns as in band_columns, whose order is not that of the band.
+// The file's columns are in the order of band_columns, not in that of the members.
 calib::CurveBand read_band(const std::filesystem::path& file) {
   std::vector<std::vector<double>> columns = read_columns(file, band_columns);
   return {.strain = columns[0],
@@ -39,7 +39,7 @@ calib::CurveBand read_band(const std::filesystem::path& file) {
           .residual = columns[5]};
 }
 
-// Tells what the file is not from the outside in: not there, no JSON, not of a fit.
+// Refuses, in this order, a file that is not there, is not JSON, or is not of a fit.
 nlohmann::json read_json(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream)
@@ -54,7 +54,7 @@ nlohmann::json read_json(const std::filesystem::path& file) {
   return json;
 }
 
-// What `calibration_json` wrote. A value of another type throws, an absent key does not.
+// Reads what `calibration_json` wrote. A value of another type throws; an absent key does not.
 FitFolder fit_of(const nlohmann::json& json) {
   FitFolder fit;
   JsonReader table(json);
@@ -89,7 +89,7 @@ void read_curves(const std::filesystem::path& folder, calib::SpecimenResult& spe
 
 nlohmann::json calibration_json(const calib::Study& study, const calib::CalibrationResult& result,
                                 const calib::Provenance& provenance) {
-  // What the result holds, and what follows from it for users.
+  // The keys of the result, and beside them what follows from it, for users.
   nlohmann::json json = json_of(result);
   json["status_text"] = calib::explain(result.status);
   json["trusted"] = result.trusted();
@@ -128,12 +128,12 @@ FitFolder read_fit_folder(const std::filesystem::path& folder_or_result) {
     refuse_result(file);
   }
   if (!is_whole(fit.result)) refuse_result(file);
-  // Said once, not of each file in it.
+  // Said once of the folder, and not of each file in it.
   if (!fit.result.specimens.empty() && !std::filesystem::exists(folder / "curves"))
     throw InputError(file.string(), "has no curves beside it",
                      "leave it in the fit's folder, or copy curves with it");
   for (calib::SpecimenResult& specimen : fit.result.specimens) read_curves(folder, specimen);
-  // A test is written once, with the specimen's result; the study's specimen shares it.
+  // A test is written only with the specimen's result; the study's specimen gets a copy.
   for (calib::Specimen& specimen : fit.study.specimens) {
     const auto found =
         std::ranges::find(fit.result.specimens, specimen.id, &calib::SpecimenResult::id);

@@ -11,7 +11,7 @@ std::string table_of(const std::vector<calib::SpecimenResult>& specimens,
                      std::vector<Item> calib::SpecimenResult::*items) {
   CsvTable table;
   for (const calib::SpecimenResult& specimen : specimens)
-    // A copy, as keys() takes what can be read into.
+    // A copy, as keys() needs a value that it could also read into.
     for (Item item : specimen.*items) {
       CsvRow row("specimen", specimen.id);
       keys(row, item);

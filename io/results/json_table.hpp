@@ -21,13 +21,13 @@ concept Keyed = requires(JsonWriter& table, T& value) {
   keys(table, value);
 };
 
-/// A map from texts: an object of JSON, whose keys are not declared.
+/// A map from texts: a JSON object whose keys are those of the map.
 template <class T>
 concept TextMap = requires {
   typename T::mapped_type;
 };
 
-/// Anything else to run through, of fixed length or not: an array of JSON.
+/// Any other container, of fixed length or not: a JSON array.
 template <class T>
 concept List = requires(T& value) {
   value.begin();
@@ -42,8 +42,8 @@ inline nlohmann::json json_of(const std::optional<double>& value) {
   return value ? json_of(*value) : nlohmann::json();
 }
 
-/// JSON of anything else, its numbers given in SI units; inner ones share the unit. Not const:
-/// keys() takes what can be read into.
+/// JSON of anything else, its numbers given in SI units; the items of a container share the unit.
+/// Not const, as keys() needs a value that it could also read into.
 template <class T>
 nlohmann::json written(T& value, KeyUnit unit = {});
 
@@ -53,7 +53,7 @@ nlohmann::json json_of(T value) {
   return written(value);
 }
 
-/// Writes keys into a JSON object; those that are in it already stay.
+/// Writes keys into a JSON object, beside those that it has already.
 class JsonWriter {
  public:
   explicit JsonWriter(nlohmann::json& object) : object_(&object) {}
@@ -64,7 +64,7 @@ class JsonWriter {
   }
   template <class T>
   void key(const char* name, std::optional<T>& value, KeyUnit unit = {}) {
-    if (value) key(name, *value, unit);  // no key where there is no value
+    if (value) key(name, *value, unit);
   }
   /// An inner object that is no struct of its own.
   template <class Inner>
@@ -100,9 +100,8 @@ nlohmann::json written(T& value, KeyUnit unit) {
   return json;
 }
 
-/// Reads keys from a JSON object; an absent key leaves its value as it is, null makes NaN of a
-/// number. A value of another type ends in an exception of nlohmann::json; an unknown word leaves
-/// the value as it is.
+/// Reads keys from a JSON object. An absent key leaves its value as it is, and so does an unknown
+/// word; null makes a number NaN. A value of another type ends in an exception of nlohmann::json.
 class JsonReader {
  public:
   explicit JsonReader(const nlohmann::json& object) : object_(&object) {}
@@ -111,12 +110,12 @@ class JsonReader {
   void key(const char* name, T& value, KeyUnit unit = {}) {
     if (object_->contains(name)) read(object_->at(name), value, unit);
   }
-  /// A key that is there gives a value: null makes a number NaN here too.
+  /// A key that is there always gives a value; for a number null gives NaN.
   template <class T>
   void key(const char* name, std::optional<T>& value, KeyUnit unit = {}) {
     if (object_->contains(name)) read(object_->at(name), value.emplace(), unit);
   }
-  /// The group of JsonWriter; absent, all its values stay.
+  /// Reads what JsonWriter's `group` wrote; where it is absent, all its values stay.
   template <class Inner>
   void group(const char* name, Inner inner) {
     if (!object_->contains(name)) return;
@@ -125,7 +124,7 @@ class JsonReader {
   }
 
  private:
-  /// The way back of `written`, case by case.
+  /// The inverse of `written`, case by case.
   template <class T>
   static void read(const nlohmann::json& json, T& value, KeyUnit unit) {
     if constexpr (std::is_same_v<T, double>) {
@@ -137,7 +136,7 @@ class JsonReader {
     } else if constexpr (TextMap<T>) {
       for (const auto& [name, item] : json.items()) read(item, value[name], unit);
     } else if constexpr (List<T>) {
-      // An array of fixed length takes its first items; too few are an exception.
+      // An array of fixed length takes the first items; too few items throw.
       if constexpr (requires { value.resize(0); }) value.resize(json.size());
       for (std::size_t i = 0; i < value.size(); ++i) read(json.at(i), value.at(i), unit);
     } else if constexpr (Keyed<T>) {

@@ -1,5 +1,5 @@
-// The keys of what is measured: a test, and a section. A value without a unit in its name is a
-// ratio, a count or a text; what it is stands with its field in calib/experiment and
+// The keys of what is measured: a test, and a section. A number without a unit in its name is a
+// ratio or a count. What each value means stands with its field in calib/experiment and
 // calib/porosity.
 #pragma once
 
@@ -57,10 +57,10 @@ void keys(Table& table, calib::SectionPorosity& section) {
   table.key("file", section.file);
   table.key("pixel_size_um", section.pixel_size, micrometre);
   table.key("method", section.method);        // how the threshold was found
-  table.key("threshold", section.threshold);  // a depth: 0 bone, 1 pore
+  table.key("threshold", section.threshold);  // a depth: 0 in bone, 1 in pores
   table.key("porosity", section.porosity);    // Ct.Po
   table.key("porosity_standard_error", section.porosity_standard_error);
-  table.key("porosity_by_grey", section.porosity_by_grey);  // without a threshold
+  table.key("porosity_by_grey", section.porosity_by_grey);  // a check without a threshold
   table.key("pore_count", section.pore_count);              // Po.N
   table.key("pore_density_per_m2", section.pore_density);
   table.key("pore_area_um2", section.pore_area, square_micrometre);
@@ -83,7 +83,7 @@ void keys(Table& table, calib::SectionPorosity& section) {
   table.key("density_kg_per_m3", section.density);
   table.key("density_residual_kg_per_m3", section.density_residual);
   table.key("warnings", section.warnings);
-  table.key("doubtful", section.doubtful);  // a warning doubts the porosity itself
+  table.key("doubtful", section.doubtful);  // whether a warning doubts the porosity itself
 }
 
 }  // namespace havers::io

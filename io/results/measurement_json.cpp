@@ -16,8 +16,9 @@ nlohmann::json column_json(const Column& column) {
 nlohmann::json import_json(const TestFile& file, const calib::Reduction& reduction) {
   nlohmann::json json =
       json_of(reduction.test);  // modulus_Pa, strength_Pa, ... , corrections and warnings
-  // What is not known is null: without a strain all but the area, of a test that was not reduced
-  // what was left at 0, and of any what follows from a channel or a size that it lacks.
+  // What is not known is null. Without a curve that is everything but the area and the lists; in a
+  // test that was not reduced, every 0. In a reduced test it is a 0 only where the channel or size
+  // that the value follows from may be missing.
   const bool curve = !reduction.test.strain.empty(), reduced = curve && reduction.problems.empty();
   for (const auto& [key, value] : json.items()) {
     const bool area = key == "area_m2";
@@ -43,7 +44,7 @@ nlohmann::json import_json(const TestFile& file, const calib::Reduction& reducti
 
 nlohmann::json porosity_json(const calib::SectionPorosity& section, double scatter) {
   nlohmann::json json = json_of(section);
-  // (K5) Pores larger than a window take joints away, and have no scatter.
+  // (K5) Pores larger than a window take joints away, and tell no scatter.
   const calib::SpecimenPorosity alone = calib::pool_sections({section});
   json["scatter"] = json_of(calib::removes_joints(alone) ? std::nan("") : scatter);
   json["missing_joints"] = calib::missing_joints(alone);

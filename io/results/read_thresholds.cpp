@@ -8,8 +8,8 @@
 
 namespace havers::io {
 
-// Rows may come in any order; the joints must be 0 to n - 1, each once. Whether the assembly has as
-// many is asked where it is known (io/config).
+// Rows may come in any order; the joints must be 0 to n - 1, each once. Scene::problems() asks
+// whether the assembly has as many.
 GivenThresholds read_thresholds(const std::filesystem::path& file) {
   const std::vector<std::string> names{"joint", "f_N", "f_T", "length_m"};
   const std::vector<CsvNumbers> rows = read_csv_numbers(file, names, 1);
@@ -18,7 +18,7 @@ GivenThresholds read_thresholds(const std::filesystem::path& file) {
   GivenThresholds given;
   given.thresholds.resize(rows.size());
   given.lengths.resize(rows.size());
-  std::vector<std::size_t> line_of(rows.size(), 0);  // 0: not named yet
+  std::vector<std::size_t> line_of(rows.size(), 0);  // where each joint was named; 0: not yet
   std::vector<Problem> problems;
   const auto complain = [&](std::size_t line, std::string what) {
     problems.push_back({at_line(file.string(), line), std::move(what), ""});
@@ -28,7 +28,7 @@ GivenThresholds read_thresholds(const std::filesystem::path& file) {
     for (std::size_t i = 0; i < 3; ++i)
       if (std::isnan(row.values[i]))
         complain(row.line, fmt::format("column {} is empty, must be a number", names[i]));
-    // Said above.
+    // An empty number of a joint was said above.
     if (std::isnan(joint)) continue;
     if (!(joint >= 0.0 && joint < static_cast<double>(rows.size()) && joint == std::floor(joint))) {
       complain(row.line,

@@ -1,7 +1,7 @@
-// The keys of results, declared once for writing and for reading back, like those of scenes. A name
-// is what scripts of users are built on. What a value is, and its equation, stands with its field
-// in calib/fit/calibration.hpp; parameters are in their own units, all else in SI units where the
-// name says no other.
+// The keys of results, declared once for writing and for reading back, like those of scenes. Users'
+// scripts rely on these names. What a value of a fit means, and its equation, stands with its field
+// in calib/fit/calibration.hpp. Parameters are in their own units; all else is in SI units, unless
+// its name says another.
 #pragma once
 
 #include "io/config/scene_keys.hpp"
@@ -11,8 +11,8 @@
 
 namespace havers::io {
 
-/// A scene in the tables of a scene file. [joints] is written by σ₁ and σ₂, whichever two of the
-/// four strengths its file gave.
+/// A scene in the tables of a scene file. [joints] is written with σ₁ and σ₂, whichever of the four
+/// strengths the scene's file gave.
 template <class Table>
 void keys(Table& table, sim::Scene& scene) {
   table.key("assembly", scene.assembly);
@@ -54,7 +54,7 @@ void keys(Table& table, calib::Specimen& specimen) {
   table.key("sections", specimen.sections);
 }
 
-/// A study as far as the page of its fit shows it.
+/// A study, as far as the page of its fit needs it.
 template <class Table>
 void keys(Table& table, calib::Study& study) {
   table.key("name", study.name);
@@ -99,7 +99,7 @@ void keys(Table& table, calib::CalibratedParameter& parameter) {
   table.key("left_out_because", parameter.left_out_because);  // empty where fitted
 }
 
-/// Over the replicates.
+/// A simulated quantity over the replicates of a specimen.
 template <class Table>
 void keys(Table& table, calib::Spread& spread) {
   table.key("mean", spread.mean);
@@ -119,9 +119,9 @@ void keys(Table& table, calib::TermResult& term) {
   table.key("sd_specimens", term.specimens);    // between specimens, beyond all that
   table.key("sd_parameters", term.parameters);  // by the errors of the fit
   table.key("sd", term.sd);                     // of all together
-  table.key("residual", term.residual);         // standardised
+  table.key("residual", term.residual);         // standardised by sd
   table.key("share", term.share);               // of the cost
-  table.key("bound", term.bound);               // the test was stopped
+  table.key("bound", term.bound);               // the test was stopped: `measured` is a bound
 }
 
 /// One simulation at the answer. Also the columns of replicates.csv.
@@ -191,7 +191,7 @@ void keys(Table& table, calib::Profile& profile) {
   table.key("parameter", profile.parameter);
   table.key("value", profile.value);
   table.key("rise", profile.rise);    // of the cost, by value
-  table.key("level", profile.level);  // rise at the ends of the interval
+  table.key("level", profile.level);  // the rise at the ends of the interval
   table.key("interval_95", profile.interval_95);
 }
 
@@ -228,7 +228,7 @@ void keys(Table& table, calib::NextTest& test) {
   table.key("width", test.width);  // one for each of `fitted`
 }
 
-/// The whole answer of a fit; what is added for users alone is in `calibration_json`.
+/// The whole answer of a fit; `calibration_json` adds what is for users alone.
 template <class Table>
 void keys(Table& table, calib::CalibrationResult& result) {
   table.key("status", result.status);
@@ -250,9 +250,9 @@ void keys(Table& table, calib::CalibrationResult& result) {
   table.key("scene", result.scene);
   table.key("cost", result.cost);                        // half the sum of squared residuals
   table.key("specimen_effect", result.specimen_effect);  // of each landmark (F9)
-  table.key("evaluations", result.evaluations);          // simulations asked for
-  table.key("simulated", result.simulated);              // of these, not in the store
-  table.key("distinct_simulations", result.distinct_simulations);  // of those asked for
+  table.key("evaluations", result.evaluations);          // how many simulations were asked for
+  table.key("simulated", result.simulated);              // of these, run and not found in the store
+  table.key("distinct_simulations", result.distinct_simulations);  // different ones asked for
   table.key("failed_simulations", result.failed_simulations);
 }
 

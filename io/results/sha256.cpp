@@ -10,7 +10,7 @@
 
 namespace havers::io {
 
-using Digest = std::array<char, SHA256_DIGEST_STRING_LENGTH>;  // 64 digits and the end
+using Digest = std::array<char, SHA256_DIGEST_STRING_LENGTH>;  // 64 digits and a final zero
 
 std::string sha256(const std::filesystem::path& file) {
   Digest digest{};

@@ -1,5 +1,4 @@
-// What a simulation leaves. All numbers are in SI units as the simulation has them; their names say
-// so.
+// What a simulation leaves. Its numbers are written in SI units, as it has them.
 #include <fmt/format.h>
 
 #include <cassert>
@@ -16,7 +15,7 @@ nlohmann::json simulation_json(const SceneFile& file, const sim::Simulation& sim
                                const calib::Provenance& provenance) {
   nlohmann::json scene = scene_json(file.scene);
   scene["output"]["snapshots"] = file.snapshots;
-  // A given step was never halved, so that its error is not known.
+  // The error is told by halving the step; a given step is not halved, so its error is not known.
   const sim::StepError error = simulation.step_error.value_or(sim::StepError{NAN, NAN, NAN});
   return {
       {"status", sim::to_string(simulation.status)},
@@ -69,7 +68,7 @@ void write_curve(const std::filesystem::path& file, const sim::Simulation& simul
 
 void write_joints(const std::filesystem::path& file, const sim::Assembly& assembly,
                   const sim::Simulation& simulation) {
-  // One row a joint, in the order of both: its number is its place.
+  // One row for each joint, numbered by its place in both lists.
   assert(assembly.joints.size() == simulation.joints.size());
   std::string text =
       "joint,kind,x_m,y_m,normal_x,normal_y,length_m,f_N,f_T,status,broken_at_strain,"

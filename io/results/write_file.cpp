@@ -16,14 +16,14 @@ void write_file(const std::filesystem::path& file, const std::string& content) {
   const std::filesystem::path temporary = fmt::format("{}.{}.tmp", file.string(), getpid());
   std::ofstream stream(temporary, std::ios::binary);
   stream << content;
-  // A full disk may show only as the rest is flushed.
+  // A full disk may show only when the rest is flushed.
   stream.close();
   std::error_code failure;
   if (stream) std::filesystem::rename(temporary, file, failure);
   if (stream && !failure) return;
 
   const std::string reason = failure ? failure.message() : std::strerror(errno);
-  // The reason is kept before, as this may fail too.
+  // After the reason is taken, as this may set another.
   std::filesystem::remove(temporary, failure);
   throw InputError(file.string(), "cannot be written: " + reason);
 }

@@ -20,10 +20,11 @@ void SnapshotRecorder::record(const sim::Progress& progress) {
     held_.clear();
   }
   row_ = progress.row;
-  // Only a kept moment asks for displacements, in the limit a solve.
+  // Displacements are asked for only where they are kept: in the quasi-static limit they cost a
+  // solve.
   if (count_ == 0 || shown_++ % stride_ != 0) return;
   held_.push_back({progress.row, progress.displacements(), progress.joints()});
-  // What stays is what the doubled stride would have kept from the beginning.
+  // What remains is what the doubled stride would have kept from the beginning.
   if (held_.size() < 2 * count_ + 1) return;
   drop_every_second(held_);
   stride_ *= 2;
@@ -31,7 +32,7 @@ void SnapshotRecorder::record(const sim::Progress& progress) {
 
 void SnapshotRecorder::finish(const sim::Simulation& simulation) {
   if (count_ == 0 || simulation.displacements.size() == 0) return;
-  // The last row may have been recorded, or not have been shown.
+  // The last row is held once, whether or not `record` has seen it.
   const std::size_t last = simulation.curve.size() - 1;
   if (!held_.empty() && held_.back().row == last) held_.pop_back();
   held_.push_back({last, simulation.displacements, simulation.joints});
@@ -40,7 +41,7 @@ void SnapshotRecorder::finish(const sim::Simulation& simulation) {
 std::vector<Snapshot> SnapshotRecorder::chosen() const {
   if (held_.size() <= count_) return held_;
   std::vector<Snapshot> spread;
-  // Evenly by their places, with the first; the last follows.
+  // Evenly spread over those held, from the first; the last is added below.
   for (std::size_t i = 0; i + 1 < count_; ++i)
     spread.push_back(held_[i * (held_.size() - 1) / (count_ - 1)]);
   spread.push_back(held_.back());

@@ -22,7 +22,7 @@ Database::Database(const std::filesystem::path& file) : file_(file.string()) {
   sqlite3* handle = nullptr;
   const int code =
       sqlite3_open_v2(file_.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
-  // A handle comes with a failure too: it has the message, and must be closed.
+  // Even a failure leaves a handle, which has the message and must be closed.
   handle_.reset(handle);
   if (code != SQLITE_OK) fail();
   sqlite3_busy_timeout(handle, patience);
@@ -33,7 +33,7 @@ void Database::run(const std::string& sql) {
 }
 
 void Database::insist(const std::string& sql) {
-  // [ms], as each turn sleeps for one.
+  // Each turn sleeps for a millisecond, so `waited` is in ms.
   for (int waited = 0;; ++waited) {
     const int code = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
     if (code == SQLITE_OK) return;
@@ -49,7 +49,7 @@ int Database::ask(const std::string& sql) {
 
 void Database::fail() const {
   const int code = sqlite3_errcode(handle_.get());
-  // Of other failures, as a full disk, the store itself may be good.
+  // After other failures, as a full disk, the store may be sound: no advice to remove it.
   const bool damaged = code == SQLITE_CORRUPT || code == SQLITE_NOTADB;
   throw InputError(
       file_,
@@ -108,7 +108,7 @@ double Query::number(int column) const {
 }
 
 std::string Query::text(int column) const {
-  // Text before its length, which is that of the form asked for.
+  // The text is asked before its length: asking may convert it.
   const void* data = sqlite3_column_text(statement_.get(), column);
   const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column));
   return {static_cast<const char*>(data), size};

@@ -12,8 +12,8 @@ struct sqlite3_stmt;
 
 namespace havers::io {
 
-/// An open file. Every failure is an InputError that names the file. It must stay where it is, and
-/// live, as long as a Query uses it.
+/// An open file. Every failure is an InputError that names the file. A Query points to its
+/// Database, which must neither move nor end before it.
 class Database {
  public:
   /// Opens or creates the file. Waits up to a minute for other processes' transactions.

@@ -28,8 +28,8 @@ void create_or_recognise(Database& database, const std::string& file) {
   const int owner = database.ask("PRAGMA application_id");
   const int version = database.ask("PRAGMA user_version");
   const bool empty = database.ask("SELECT count(*) FROM sqlite_master") == 0;
-  // An empty file is ours to make; anything else must be ours already. A throw leaves the
-  // transaction to be rolled back, and the file as it was.
+  // An empty file becomes a store; any other must be one already. After a throw the transaction is
+  // rolled back as the file is closed, and leaves it as it was.
   if (empty && owner == 0) {
     database.run(create_table);
     database.run(fmt::format("PRAGMA application_id = {}", application));
@@ -83,7 +83,6 @@ class SqliteStore : public calib::EvaluationStore {
     row->bind(1, sha256_of_text(key));
     if (!row->step()) return std::nullopt;
     const std::vector<double> curve = row->numbers(6);
-    // All strains, then all stresses.
     const auto half = curve.begin() + static_cast<std::ptrdiff_t>(curve.size() / 2);
     return calib::Response{.failed = row->flag(0),
                            .broke = row->flag(1),
@@ -116,7 +115,7 @@ class SqliteStore : public calib::EvaluationStore {
 
  private:
   std::mutex mutex_;   // one connection, many threads
-  Database database_;  // before its statements, which must be finished before it is closed
+  Database database_;  // declared before its statements, so that it is closed after they end
   Query select_, insert_;
 };
 

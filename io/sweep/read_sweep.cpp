@@ -1,5 +1,5 @@
-// The file is read twice over: once for the plan and its questions, then once a point with its
-// values on top as if by --set, so that every scene passes all checks of a scene file.
+// The file is read once for the plan and its questions, and then once more for every point, with
+// the point's values on top as if by --set, so that every scene passes all checks of a scene file.
 #include "io/sweep/read_sweep.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@
 namespace havers::io {
 namespace {
 
-// What thresholds are drawn with.
+// Keys by which thresholds are drawn.
 constexpr std::array drawn_by{"joints.scatter", "joints.distribution", "joints.missing"};
 
 void read_plan(TableReader& top, calib::Sweep& sweep) {
@@ -139,7 +139,7 @@ void require_looked_at(TableReader& table, const calib::Sweep& sweep, calib::Mea
 
 // A difference is judged over one key, the others held; a line may have several.
 void require_as_many_keys_as_are_judged(TableReader& table, const calib::FindingRequest& finding) {
-  if (finding.test > calib::FindingTest::linear) return;  // of a mean or a spread
+  if (finding.test > calib::FindingTest::linear) return;  // judges a mean or a spread
   if (finding.keys.empty())
     table.complain("keys", "is missing", "name the key whose effect is judged");
   else if (finding.keys.size() > 1 && finding.test != calib::FindingTest::linear)
@@ -207,7 +207,7 @@ std::vector<Problem> findings_without_comparison(const std::filesystem::path& fi
   for (const auto& values : points_of(plan)) points.push_back(without_scene(values));
   std::vector<Problem> problems;
   for (const calib::FindingRequest& finding : sweep.findings) {
-    const bool of_keys = finding.test <= calib::FindingTest::linear;  // else a mean or a spread
+    const bool of_keys = finding.test <= calib::FindingTest::linear;  // differences or a line
     if (!of_keys || finding.keys.empty() || !std::ranges::all_of(finding.keys, varies)) continue;
     const auto group = group_without_comparison(finding, plan, points);
     if (!group) continue;
@@ -235,7 +235,7 @@ calib::SweepPoint read_point(SweepFile& read, Overrides overrides,
     overrides.push_back(fmt::format("{}={}", plan.keys[i].name, values[i]));
   ConfigFile config(read.inputs.front(), overrides);
   TableReader top = config.top();
-  calib::Sweep again;  // known keys only: its values are those read before
+  calib::Sweep again;  // read again only so that the sweep's own keys are known
   read_plan(top, again);
   check_thresholds(top, again);
   read_questions(top, again);
@@ -275,7 +275,7 @@ SweepFile read_sweep(const std::filesystem::path& file, const Overrides& overrid
   }
   read_questions(top, sweep);
   read.warnings = idle_keys_of_sweep(top, sweep.plan);
-  if (seed) sweep.plan.seed = *seed;  // before a hypercube is drawn by it
+  if (seed) sweep.plan.seed = *seed;  // before points are drawn by it
   if (sweep.name.empty()) sweep.name = file.stem().string();
 
   std::vector<Problem> problems = settings_of_varied_keys(overrides, sweep.plan);

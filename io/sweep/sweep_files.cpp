@@ -17,7 +17,7 @@ namespace {
 
 using calib::Measure;
 
-// The columns by which rows of both tables are found: point, level, and the keys of the sweep.
+// A row with the columns that both tables begin with: point, level, and the keys of the sweep.
 CsvRow row_of(const calib::Sweep& sweep, const calib::SweepPoint& point, std::size_t index) {
   CsvRow row("point", std::to_string(index));
   row.key("level", point.level);
@@ -26,8 +26,7 @@ CsvRow row_of(const calib::Sweep& sweep, const calib::SweepPoint& point, std::si
   return row;
 }
 
-// A number, a truth value or a list; what is none of these is a word. Values are TOML, of which
-// JSON reads these as well.
+// A number, a truth value or a list, as far as JSON writes it like TOML; anything else is a word.
 nlohmann::json json_of_value(const std::string& value) {
   nlohmann::json json = nlohmann::json::parse(value, nullptr, false);
   return json.is_discarded() ? nlohmann::json(value) : json;
@@ -41,7 +40,7 @@ std::string name_of(Measure m) {
 }
 
 std::string runs_csv(const calib::Sweep& sweep, const calib::SweepResult& result) {
-  // Columns are the same in all rows: what no point tells has none.
+  // All rows have the same columns: a measure that no point tells has none.
   const std::vector<Measure> known = result.known();
   CsvTable table;
   // In the order of points and seeds.
@@ -94,8 +93,8 @@ std::vector<calib::SweepLaw> read_laws(const std::filesystem::path& file) {
       const bool known = std::ranges::all_of(asked.terms, [](const std::string& term) {
         return term == "joints.scatter" || term == "joints.ratio";
       });
-      // Of a specimen the orientation, the scatter and the ratio are known, nothing else that a
-      // sweep may vary.
+      // Only laws that a specimen can be put into: of one, orientation, scatter and ratio are
+      // known, but nothing else that a sweep may vary.
       const bool somewhere = asked.per.empty() || asked.per == "assembly.orientation_deg" ||
                              asked.per == "joints.ratio";
       // Others are passed over: a sweep may have laws of anything.
@@ -105,7 +104,7 @@ std::vector<calib::SweepLaw> read_laws(const std::filesystem::path& file) {
                         law.coefficients});
     }
   } catch (const std::exception&) {
-    // Of nlohmann::json, or of std::stod: whatever is wrong, it is no such file.
+    // From nlohmann::json or std::stod: whatever is wrong, it is no such file.
     throw InputError(file.string(), "is no file of laws", advice);
   }
   if (laws.empty())

@@ -12,8 +12,9 @@
 
 namespace havers::io {
 
-/// One row for each run; the keys of the sweep are columns, with the texts of the file. Measures
-/// that no run tells have none. `point` is the row's place in the points of result.json, from 0.
+/// One row for each run. The keys of the sweep are columns, with values as the file writes them; a
+/// measure that no run tells has no column. `point` is the place of the run's point among those of
+/// result.json, from 0.
 std::string runs_csv(const calib::Sweep& sweep, const calib::SweepResult& result);
 
 /// One row for each point and measure: mean, standard deviation, n, standard error. Where no run of

@@ -1,6 +1,6 @@
-// The keys and words of sweep files and of their results, declared once as in io/config. Requests
-// are read from the file, answers written and in part read back; equations (W1)... are those of
-// calib/sweep/README.md.
+// The keys and words of sweep files and of their results, declared once as in io/config. Laws,
+// findings and figures are read from the file; of the results only laws are read back. Equations
+// (W1)... are those of calib/sweep/README.md.
 #pragma once
 
 #include "calib/sweep/sweep.hpp"
@@ -11,7 +11,7 @@ namespace havers::io {
 /// sweep.sample
 template <>
 inline constexpr Words<4> words<calib::Sampling>{"list", "grid", "latin-hypercube", "sobol"};
-/// response; also columns and keys of results, by `name_of`.
+/// response; `name_of` makes columns and keys of results from these words.
 template <>
 inline constexpr Words<9> words<calib::Measure>{
     "strength",         "failure_strain", "modulus",    "linear_part", "fall_part",
@@ -39,7 +39,7 @@ void keys(Table& table, calib::LawRequest& law) {
   table.key("per", law.per);      // empty: one law
 }
 
-/// [[finding]]: a claim and how it is judged (W3) to (W5).
+/// [[finding]]: a claim and how it is to be judged, (W3) to (W5).
 template <class Table>
 void keys(Table& table, calib::FindingRequest& finding) {
   table.key("id", finding.id);
@@ -64,7 +64,7 @@ void keys(Table& table, calib::SweepFigure& figure) {
   table.key("response", figure.response);
 }
 
-/// A law as fitted, for one value of `per`; in SI units. `read_laws` reads it again.
+/// A law as fitted, for one value of `per`; in SI units. `read_laws` reads it back.
 template <class Table>
 void keys(Table& table, calib::Law& law) {
   table.key("response", law.request.response);
@@ -82,8 +82,8 @@ void keys(Table& table, calib::Law& law) {
   table.key("lack_of_fit_p", law.lack_of_fit_p);
 }
 
-/// A claim as judged. `value`, `low` and `high` are of the comparison that speaks most against it,
-/// and NaN where nothing could be compared.
+/// A claim as judged. `value`, `low` and `high` are those of the comparison that speaks most
+/// against the claim, and NaN where nothing could be compared.
 template <class Table>
 void keys(Table& table, calib::Finding& finding) {
   table.key("id", finding.id);
@@ -98,8 +98,8 @@ void keys(Table& table, calib::Finding& finding) {
   table.key("high", finding.high);
   std::string what = to_string(finding.compared);
   table.key("what", what);
-  table.key("ground", finding.ground);            // the test, in words
-  table.key("meaning", finding.meaning);          // if_agrees and its like
+  table.key("ground", finding.ground);            // what was asked, in words
+  table.key("meaning", finding.meaning);          // if_agrees, if_disagrees or if_undecided
   table.key("comparisons", finding.comparisons);  // whose intervals hold together
   table.key("runs", finding.runs);
   table.key("inertia_low", finding.inertia_low);  // I (M12) of its points

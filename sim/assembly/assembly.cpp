@@ -1,6 +1,6 @@
-// From half fibres to a mesh: outlines whose halves share their common line, fans of triangles in
-// them, and the nodes that the machine holds. Bodies come before joints and sides, which are found
-// by the nodes of the bodies' edges.
+// From half fibres to a mesh: outlines, in which the halves of a fibre share their common line,
+// fans of triangles in them, and the nodes that the machine holds. Bodies come before joints and
+// sides, which are found by the nodes of the bodies' edges.
 #include "sim/assembly/assembly.hpp"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ void add_outline(const HalfFibre* first, int k, HalfFibre& half, Assembly& assem
     const auto tail = static_cast<std::size_t>(find_edge(half.polygon, EdgeOrigin::tail));
     for (std::size_t i = 0; i <= m; ++i) half.outline[(tail * m + i) % (n * m)] = line[m - i];
   }
-  // Each edge in k equal parts, corners included.
+  // Each edge is divided into k equal parts; corners are among the nodes.
   for (std::size_t i = 0; i < n * m; ++i) {
     if (half.outline[i] >= 0) continue;
     const Vector2d &from = half.polygon[i / m].position,
@@ -51,7 +51,7 @@ void add_triangles(const HalfFibre& half, int k, Assembly& assembly) {
   const std::size_t n = half.polygon.size(), m = static_cast<std::size_t>(k);
   const Vector2d centre = mean_corner(half.polygon);
   std::vector<std::vector<int>> rings(m + 1);
-  // Ring r lies at r/k of the way from the centre to the outline and has r nodes an edge.
+  // Ring r lies at r/k of the way from the centre to the outline and has r nodes for each edge.
   rings[m] = half.outline;
   for (std::size_t r = m - 1; r > 0; --r)
     for (std::size_t i = 0; i < n * r; ++i) {
@@ -64,12 +64,12 @@ void add_triangles(const HalfFibre& half, int k, Assembly& assembly) {
     }
   rings[0].push_back(add_node(centre, assembly));
 
-  // An edge ends on a ring where the next one begins.
+  // On a ring an edge ends at the node at which the next one begins.
   const auto node = [&](std::size_t ring, std::size_t edge, std::size_t along) {
     return rings[ring][(edge * ring + along) % rings[ring].size()];
   };
   // Between ring r − 1 and ring r: r triangles with their base on the outer one, and r − 1 with it
-  // on the inner one, k² an edge in all.
+  // on the inner one, k² for each edge in all.
   for (std::size_t edge = 0; edge < n; ++edge)
     for (std::size_t r = 1; r <= m; ++r)
       for (std::size_t i = 0; i < r; ++i) {
@@ -85,7 +85,8 @@ void add_triangles(const HalfFibre& half, int k, Assembly& assembly) {
 void add_bodies(HalfFibres& halves, int refinement, Assembly& assembly) {
   for (auto& [place, half] : halves) {
     const auto [layer, column] = place;
-    // Halves without a common line, as where the clipping took it, are bodies of their own.
+    // Halves without a common line, where the clipping took it or the other half, are bodies of
+    // their own.
     const HalfFibre* first = nullptr;
     if (!is_first_half(layer, column)) {
       const auto before = halves.find({layer, column - 1});
@@ -100,7 +101,8 @@ void add_bodies(HalfFibres& halves, int refinement, Assembly& assembly) {
     half.body = static_cast<int>(assembly.bodies.size()) - 1;
     add_outline(first, refinement, half, assembly);
     add_triangles(half, refinement, assembly);
-    // Both halves count: the second has its nodes and triangles right behind the first.
+    // Both halves count: what the second adds comes right behind the nodes and triangles of the
+    // first.
     Body& body = assembly.bodies.back();
     body.nodes = static_cast<int>(assembly.nodes.size()) - body.first_node;
     body.triangles = static_cast<int>(assembly.triangles.size()) - body.first_triangle;
@@ -123,7 +125,7 @@ void find_sides(const HalfFibres& halves, double tolerance, Assembly& assembly) 
         assembly.right.insert(assembly.right.end(), edge.begin(), edge.end());
     }
   for (std::vector<int>* side : {&assembly.left, &assembly.right}) {
-    // Edges that meet have a node in common.
+    // Edges that meet have a node in common, which is kept once.
     std::ranges::sort(*side);
     side->erase(std::unique(side->begin(), side->end()), side->end());
   }

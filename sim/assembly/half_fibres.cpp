@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 
 constexpr double smallest_area = 1e-6;    // of a half fibre
 constexpr double smallest_closed = 1e-8;  // of one whose neighbours fill a sliver's place
-constexpr int most_passes = 5;            // over the grid, until no sliver is left to close
+constexpr int most_passes = 5;            // over the grid; fewer where no sliver is left to close
 
 // Columns and layers of half fibres that can meet the rectangle.
 struct GridRange {
@@ -48,7 +48,7 @@ class Grid {
   // Those of which something is left.
   [[nodiscard]] HalfFibres half_fibres() const {
     HalfFibres halves;
-    // In the order of the map, which is that of bodies and joints.
+    // The order of the map is that of bodies and joints, whatever order they are found in.
     for (int layer = range_.first_layer; layer <= range_.last_layer; ++layer)
       for (int column = range_.first_column; column <= range_.last_column; ++column) {
         Polygon polygon = half_fibre(layer, column);

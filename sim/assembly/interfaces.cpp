@@ -43,7 +43,7 @@ struct OuterEdge {
   double from, to;         // x [m]
 };
 
-// Those whose ends lie within the tolerance of that height, from left to right.
+// The edges whose ends lie within the tolerance of that height, from left to right.
 std::vector<OuterEdge> outer_edges(const HalfFibres& halves, const Assembly& assembly, double y,
                                    double tolerance) {
   std::vector<OuterEdge> edges;
@@ -89,7 +89,7 @@ void add_joints(const AssemblyOptions& options, const HalfFibres& halves, Assemb
   flank.kind = JointKind::flank;
   flank.normal = {-axis.y(), axis.x()};
 
-  // Each looks ahead and above, so that every pair is found once.
+  // Each half fibre looks ahead and above, so that every pair is found once.
   for (const auto& [place, half] : halves) {
     const auto [layer, column] = place;
     const auto ahead = halves.find({layer, column + 1});

@@ -56,7 +56,7 @@ std::vector<BenchSetting> settings_in_time(const BenchSetting& own, double h) {
 }  // namespace
 
 std::string to_string(const BenchSetting& setting) {
-  // Ends in what all settings have: a mesh.
+  // All descriptions end with the mesh.
   const std::string rest =
       fmt::format("{}, {} triangles a fibre", setting.leave_out ? "" : ", nothing left out",
                   8 * setting.refinement * setting.refinement);

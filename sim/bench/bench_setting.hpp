@@ -42,9 +42,10 @@ Scene with_setting(const BenchSetting& setting, Scene scene);
 /// limit a hundredth of the way to the first break. [s]
 double base_step(const Scene& scene);
 
-/// What a scene is computed with: in the limit that, and steps beside it; in time the direct solver
-/// and sweeps by several steps; finer meshes last. In time the first setting leaves nothing out and
-/// the second differs in that alone, as runs with and without omissions are compared in turn.
+/// The settings that a scene is computed with. For a scene in the limit: the limit, steps in time,
+/// and the limit on finer meshes. For one in time: the direct solver and sweeps, each by several
+/// steps, and finer meshes last; the first setting leaves nothing out and the second differs in
+/// that alone, as only neighbours are compared for what omissions change.
 std::vector<BenchSetting> bench_settings(const Scene& scene);
 
 }  // namespace havers::sim

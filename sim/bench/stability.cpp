@@ -76,7 +76,7 @@ bool all_finite(const Simulation& run) {
          std::isfinite(run.worst_penetration);
 }
 
-// Empty where nothing is.
+// Empty where nothing is wrong.
 std::string what_is_wrong(const StabilityResult& result, bool finite) {
   if (!finite) return "a number that is not finite left the run";
   if (result.error > largest_error)

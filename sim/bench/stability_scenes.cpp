@@ -59,7 +59,7 @@ void add_both(Scenes& scenes, const std::string& name, const Scene& scene) {
 }
 
 void add_steps_and_materials(Scenes& scenes) {
-  // The joints' operator gets worse with the square of this (M10).
+  // The condition of the joints' operator grows with the square of this (M10).
   for (const double size : {1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6})
     scenes.push_back({fmt::format("h c/L = {:g}", size), dynamic(size, wall())});
   for (const double young : {1e3, 1e12})
@@ -80,7 +80,7 @@ void add_steps_and_materials(Scenes& scenes) {
     scene.material.layer_contrast = contrast;
     add_both(scenes, fmt::format("every second layer {:g} as stiff", contrast), scene);
   }
-  // Across the load the closed form holds without lateral contraction only.
+  // For layers across the load the closed form holds only without lateral contraction.
   Scene in_series = wall(4, 3, 90.0);
   in_series.material.layer_contrast = 1e-3;
   in_series.material.poisson = 0.0;
@@ -164,7 +164,7 @@ void add_loadings(Scenes& scenes) {
 }
 
 void add_refused(Scenes& scenes) {
-  // `spoil` makes of a scene one that has no answer.
+  // `spoil` turns a scene into one that has no answer.
   const auto refuse = [&](const std::string& name, const auto& spoil) {
     Scene scene = wall();
     spoil(scene);

@@ -50,7 +50,7 @@ class Watcher {
     }
     for (std::size_t j = 0; j < joints.size(); ++j) {
       const JointOutcome& joint = joints[j];
-      // Those of one row stand in the order of their index.
+      // Joints that break in the same row stand in the order of their index.
       if (!joint.broke() || !seen_.insert(j).second) continue;
       run_->order.push_back(static_cast<int>(j));
       if (run_->forces_at_break.size() * joints.size() < most_forces)

@@ -1,5 +1,6 @@
-// Runs the settings in turn and measures them by a reference of the same seed. The direct solver's
-// steps come first, as the reference's step follows from the shortest that ends in time.
+// Runs the settings in turn and measures them by a reference of the same seed. In time the direct
+// solver's steps come first, as the step of the reference depends on which of them end within the
+// time limit.
 #include "sim/bench/work_precision.hpp"
 
 #include <fmt/format.h>
@@ -79,7 +80,7 @@ double curve_error(const Simulation& run, const Simulation& reference) {
   return std::sqrt(squares / points) / reference.strength;
 }
 
-// Of those that are known; all NaN where none is.
+// Spread of the values that are known; NaN where none is.
 BenchSpread spread(std::vector<double> values) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty()) return {not_known, not_known, not_known};
@@ -176,7 +177,8 @@ std::optional<Omissions> omissions_of(const std::vector<BenchRow>& rows, Runs ru
                                       Runs runs_before) {
   const BenchRow &row = rows.back(), &before = rows[rows.size() - 2];
   if (row.setting == before.setting || without_omissions(row.setting) != before.setting) return {};
-  // One that was stopped is compared as far as it came; all others have to be trusted.
+  // A run without omissions that was stopped is compared as far as it came; all others have to be
+  // trusted.
   if (row.trusted < row.runs || before.trusted + before.out_of_time < before.runs) return {};
   // After a run that was stopped the seeds that follow are not run.
   const BenchErrors errors =
@@ -262,7 +264,7 @@ WorkPrecision compare_settings(const Scene& scene, const BenchOptions& options,
   }
   std::vector<WatchedRun> references = bench.run(study.reference, no_limit);
   if (bench.stopped()) return study;
-  // The reference's own forces, for its row: what errors are measured by may be exact ones.
+  // The reference's own forces are kept for its row: errors may be measured by exact ones instead.
   std::vector<WatchedRun> before = references;
   study.closed_form = take_exact_forces(scene, study.bonded_strain, references);
   study.rows.push_back(row_of(study.reference, before, references));

@@ -1,5 +1,5 @@
-// Most joints hold, which is a linear condition and one solve. What may move is found by what this
-// overloads; the order of ways in `solve` is that of (C5).
+// Most joints hold, which is a linear condition and one solve. The joints that may move are found
+// among those that this solve overloads; the order of ways in `solve` is that of (C5).
 #include "sim/contact/active_set.hpp"
 
 #include <algorithm>
@@ -96,8 +96,9 @@ VectorXd ActiveSetSolver::jumps(const JointStep& step) const {
 // The loose joints among themselves.
 bool ActiveSetSolver::settle_loose(const JointStep& step, const VectorXd& bonded_reactions,
                                    Effort effort, JointStepResult& result, VectorXd& y) const {
-  // Gaps count from where each joint is held. The step's force scale is a norm over all joints:
-  // here that of one. The trace stays below inertia, which has to be what holds pieces.
+  // Gaps count from where each joint is held. The step's force scale is a norm over all joints;
+  // divided by √n it is that of one joint. The trace stays below inertia, which has to be what
+  // holds pieces.
   LocalContact contact{loose_.stiffness(),
                        bonded_reactions(loose_.rows()),
                        (step.gaps - step.held_at)(loose_.rows()),
@@ -165,17 +166,18 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
   const auto loosening = [&](std::size_t joints) {
     return solve_loose(step, Effort::little, joints);
   };
-  // Several answers are possible: only one in which no joint leaves the bonded state is taken as it
-  // is. Where the first answer overloads few, sets are searched towards the nearest.
+  // Several answers are possible here: the first one is taken as it is only where no joint leaves
+  // the bonded state in it. Where few leave it, sets are searched for the nearest answer.
   if (few_bear && sweeps_are_quick_ && friction_is_strong(step)) {
     unless_solved([&] { return loosening(0); });
     if (leaving(step, result) < worth_searching) unless_solved([&] { return search(step, true); });
   }
-  // Few bear: among themselves. Then sets, whose sweeps see the neighbours of many.
+  // Where few joints bear, the loose ones are solved for among themselves. Else, or where that
+  // finds nothing, sets are searched by sweeps over all joints.
   if (few_bear && may_search_) unless_solved([&] { return loosening(most_at_once); });
   if (may_search_) unless_solved([&] { return search(step, false); });
-  // What neither finds is looked for with all effort. Sweeps come after that where inertia is but a
-  // trace.
+  // Where neither finds an answer it is looked for with all effort. Where inertia is but a trace,
+  // sets are only searched after that.
   unless_solved([&] { return solve_loose(step, Effort::all, step.laws.size()); });
   if (!may_search_) unless_solved([&] { return search(step, false); });
   result.iterations = iterations;
@@ -206,7 +208,7 @@ JointStepResult ActiveSetSolver::solve_loose(const JointStep& step, Effort effor
     if (moves && !detached(joint) && !loose_.contains(joint)) loose_.add(joint);
   }
 
-  // Again where joints that were detached have closed.
+  // Done again where joints that were detached have closed.
   do {
     result.states = step.states;
     for (std::size_t j = 0; j < result.states.size(); ++j)

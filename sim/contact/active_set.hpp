@@ -28,14 +28,15 @@ class ActiveSetSolver : public JointSolver {
  private:
   // A new factor without the joints that have opened, where they are many.
   void detach_opened(const JointStep& step);
-  // What was known of loose joints goes with the old factor.
+  // What was known of loose joints is lost with the old factor.
   void rebuild(std::vector<Held> held);
   [[nodiscard]] bool detached(int joint) const {
     return structure_.held()[static_cast<std::size_t>(joint)] == Held::not_at_all;
   }
-  // By sets (C5); or their answer as a start, where joints are not to be detached.
+  // By sets (C5). Where open joints are not to be detached, solve_loose goes on from the states
+  // found.
   JointStepResult search(const JointStep& step, bool nearest);
-  // The loose joints among themselves (C1), and ever more of them.
+  // Solves for the loose joints among themselves (C1), and adds those that the answer overloads.
   JointStepResult solve_loose(const JointStep& step, Effort effort, std::size_t most_leave);
   // For StructureLoads: of every joint, beyond what is predicted. [m]
   [[nodiscard]] Eigen::VectorXd jumps(const JointStep& step) const;
@@ -44,7 +45,7 @@ class ActiveSetSolver : public JointSolver {
                     JointStepResult& result, Eigen::VectorXd& y) const;
   std::vector<int> violated(const JointStep& step, const Eigen::VectorXd& reactions,
                             JointStepResult& result) const;
-  // Whether some that are detached overlap; these are loose in a new factor then.
+  // Whether some detached joints overlap; they are then loose ones of a new factor.
   bool reattach_closed(const JointStepResult& result);
 
   bool detach_open_;

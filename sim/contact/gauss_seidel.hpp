@@ -13,7 +13,7 @@ class GaussSeidelSolver : public JointSolver {
   /// @param tolerance  largest residual (M11) of an answer [-]
   /// @param max_sweeps  in one step
   GaussSeidelSolver(const Bodies& bodies, double tolerance, int max_sweeps);
-  /// Starts from the last step's reactions. Not converged after that many sweeps.
+  /// Starts from the last step's reactions. Not converged where `max_sweeps` do not suffice.
   JointStepResult solve(const JointStep& step) override;
 
  private:

@@ -37,8 +37,8 @@ MatrixXd with_slope(const VectorXd& value, const VectorXd& slope) {
   return both;
 }
 
-// Of the system's states as they are; `known` is a solution for other states, from which
-// corrections are few, or empty.
+// The branch of the system's states. `known` is a solution for other states, from which few
+// corrections are needed, or empty.
 Branch solve_branch(StateSystem& system, StateSolution known, const Homotopy& added,
                     double nothing) {
   const LocalContact& p = system.problem();
@@ -58,7 +58,7 @@ struct Course {
   double direction = -1.0;
 };
 
-// Of one joint's state.
+// A change of one joint's state.
 struct Change {
   double at = -1.0;  // λ; negative: none
   std::size_t joint = 0;
@@ -109,7 +109,7 @@ Change next_change(const StateSystem& system, const Branch& branch, std::size_t 
   const auto slip = branch.u.row(static_cast<Index>(2 * joint) + 1);
   switch (system.states()[joint]) {
     case JointState::open:
-      // It closes, and slides the way of the slip that it has there.
+      // It closes, and slides in the direction of the slip that it has there.
       consider(JointState::slip_forward);
       if (slip(0) + first.at * slip(1) < 0.0) first.to = JointState::slip_backward;
       break;
@@ -157,8 +157,8 @@ VectorXd cohesion_to_stick(const VectorXd& reactions, const std::vector<JointLaw
 }
 
 std::optional<Homotopy> from_states(StateSystem& system) {
-  // Mirrored: overlap becomes a gap as wide, a pull a push as strong, a slip against its sign one
-  // along it.
+  // What breaks the law is mirrored: an overlap becomes as wide a gap, a pull as strong a push, and
+  // a slip against the sign of its state one along it.
   const LocalContact& p = system.problem();
   const StateSolution now = system.solve();
   if (!now.y.allFinite()) return std::nullopt;
@@ -194,7 +194,8 @@ Homotopy from_sticking(StateSystem& system, int way) {
     if (p.is_apart(i))
       start[i] = JointState::open;
     else
-      // From 1 to 2: fractions of multiples of the golden ratio lie evenly, and never meet.
+      // From 1 to 2: fractional parts of multiples of the golden ratio are spread evenly, no two of
+      // them alike.
       e(static_cast<Index>(i)) =
           1.0 + std::fmod(std::numbers::phi * (static_cast<double>(i) + 7.0 * way * way), 1.0);
   system.set(std::move(start));

@@ -17,7 +17,8 @@ VectorXd joint_forces_on_nodes(const Bodies& bodies, const VectorXd& reactions) 
   return bodies.port_forces_on_nodes(bodies.forces_of_joints(reactions));
 }
 
-// Entries of Z's diagonal, the larger of both sides; what is beyond the joints' unknowns are ties.
+// Of each joint the largest entry of Z's diagonal, over components and sides; unknowns beyond those
+// of joints are of ties.
 VectorXd joint_stiffness(const Bodies& bodies) {
   VectorXd stiffness = VectorXd::Zero(static_cast<Index>(bodies.assembly().joints.size()));
   for (const BodyClass& group : bodies.classes())
@@ -40,7 +41,7 @@ double joint_residual(const JointStep& step, const JointStepResult& result,
                             stiffness(static_cast<Index>(j)))
                    .squaredNorm();
   }
-  // Where nothing bears and nothing is missed, the residual is 0 and not 0/0.
+  // Where no joint bears anything and the law is kept, the residual is 0 and not 0/0.
   const double scale = std::max(step.force_scale, result.reactions.norm());
   return squared == 0.0 ? 0.0 : std::sqrt(squared) / std::max(scale, 1e-300);
 }

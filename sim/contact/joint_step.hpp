@@ -35,7 +35,7 @@ struct JointStepResult {
   Eigen::VectorXd tie_forces;     ///< Of every tie, pushing its top point up. [N/m]
   Eigen::VectorXd gaps;           ///< Total, at the end of the step. [m]
   std::vector<JointState> states;
-  long iterations = 0;    ///< As the solver counts them: sets, branches, sweeps.
+  long iterations = 0;    ///< As the solver counts them: sets, branches, sweeps, solves.
   double residual = 0.0;  ///< (M11). [-]
 };
 

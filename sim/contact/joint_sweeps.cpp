@@ -1,6 +1,6 @@
 // Non-smooth Gauss-Seidel [Jean99] on the displacements of the ports, which are kept up to date: a
-// joint costs two columns of its bodies' answers, whatever the mesh. All nodes are found at the
-// end.
+// joint costs two columns of each of its bodies' answers, whatever the mesh. Displacements of nodes
+// are found at the end.
 #include "sim/contact/joint_sweeps.hpp"
 
 #include <Eigen/Cholesky>
@@ -100,7 +100,7 @@ void JointSweeps::start(const JointStep& step, VectorXd reactions, const VectorX
   double sum = 0.0;  // an equation's force acts on its own tie and, the other way, on the next
   for (Index i = 0; i < between_ties_.size() && tie_forces.size() > 0; ++i)
     between_ties_(i) = sum += tie_forces(i);
-  // All that the forces so far do; each sweep adds what it changes.
+  // The displacements by all forces so far; sweeps keep them up to date.
   p_ = bodies_->port_displacements(displacements(step));
 }
 
@@ -128,7 +128,8 @@ double JointSweeps::opening(const TieEquation& tie) const {
 }
 
 bool JointSweeps::sweep(const JointStep& step, double relaxation, double negligible) {
-  // Bodies that have felt enough since their joints were solved; these start to count anew.
+  // Bodies that have felt enough change since their joints were last solved are marked; for them
+  // the count begins anew.
   for (std::size_t body = 0; body < moves_.size(); ++body) {
     double& unrest = unrest_(static_cast<Index>(body));
     moves_[body] = unrest > negligible ? 1 : 0;
@@ -143,7 +144,8 @@ bool JointSweeps::sweep(const JointStep& step, double relaxation, double negligi
     const Local gap = step.predicted.segment<2>(row) - step.held_at.segment<2>(row) +
                       p_(contact.ports_b) - p_(contact.ports_a);
     const Local old = reactions_.segment<2>(row);
-    // What it would bear with no gap, its two bodies' other forces staying as they are.
+    // What the joint would bear without a gap, the other forces on its two bodies staying as they
+    // are.
     const Local free = old - contact.stiffness * gap;
     const SingleJoint found = solve_single_joint(contact.stiffness, free, step.laws[j]);
     // Over-relaxed reactions may lie outside their cones while sweeps go on.
@@ -154,7 +156,7 @@ bool JointSweeps::sweep(const JointStep& step, double relaxation, double negligi
     changed = changed || found.state != states_[j];
     states_[j] = found.state;
   }
-  // Ties hold both ways: what closes them is their force.
+  // Ties hold in both directions: the force that closes one is added, whatever its sign.
   for (std::size_t i = 0; i < ties_.size(); ++i) {
     const double force = -opening(ties_[i]) / ties_[i].compliance;
     for (std::size_t k = 0; k < 4; ++k)

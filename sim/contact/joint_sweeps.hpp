@@ -23,7 +23,8 @@ inline SingleJoint solve_single_joint(const Eigen::Matrix2d& S, const Local& fre
   const double n = free.x() + law.cohesion, t = free.y();
   // With r at the tip, S u = (−n, −t): open where this gap is not negative.
   if (S(0, 1) * t >= S(1, 1) * n) return {{-law.cohesion, 0.0}, JointState::open};
-  // Closed and on the cone, r_T = −slope (r_N + c), with the slip that has the sign of its way.
+  // Closed and on the cone, r_T = −slope (r_N + c): of the two ways the one whose slip has its
+  // sign.
   SingleJoint slipped{};
   for (const JointState way : {JointState::slip_forward, JointState::slip_backward}) {
     const double slope = slip_sign(way) * law.friction;
@@ -73,9 +74,10 @@ class JointSweeps {
   // Once for all steps:
   void find_contacts();
   void pair_ties();
-  // What a unit force at one port of a body moves another by; both counted over all bodies. [m²/N]
+  // How far a unit force at one port of a body moves another one; ports are numbered over all
+  // bodies. [m²/N]
   [[nodiscard]] double answer(int body, Eigen::Index row, Eigen::Index column) const;
-  // Two forces on a body, and what they move at all of its ports.
+  // Applies two forces to a body, which move all of its ports.
   void push(int body, std::array<Eigen::Index, 2> ports, const Local& force);
   // Height of a tie less that of the next one. [m]
   [[nodiscard]] double opening(const TieEquation& tie) const;

@@ -32,7 +32,7 @@ constexpr int changes_in_all = 30'000;
 constexpr std::array<double, 5> springs{1e-11, 1e-10, 1e-9, 1e-8, 1e-7};
 constexpr int times_moved = 8;
 
-// The states that the law gives joints with the gaps y, compared as forces.
+// The states that the law gives joints with the gaps y; gaps are compared as forces.
 States states_of(const LocalContact& p, const VectorXd& y, const States& now) {
   const VectorXd r = p.r0 + p.S * y, u = p.u0 + y;
   const double scale =
@@ -113,7 +113,7 @@ LocalContactResult solve_as_it_is(const LocalContact& problem, const States& sta
     result = follow_homotopy(system, path, {}, std::min(changes, left_for_each));
     spent += result.iterations;
   };
-  // First the short path, which arrives where the last states are nearly the answer's.
+  // First the path from the last states, which is short where these are nearly those of the answer.
   if (const std::optional<Homotopy> near = from_states(system)) follow(*near, 1);
   for (int way = 0; way < most_ways && goes_on(); ++way)
     follow(from_sticking(system, way), changes_of_first_way << way);
@@ -143,7 +143,8 @@ LocalContactResult solve_with_springs(const LocalContact& problem, const States&
       spent += result.iterations;
       if (!result.converged) break;
       const double residual = law_residual_of(problem, result.y);
-      // From here on springs bear what the next answer moves beyond this one.
+      // The springs have no force at this answer: the next one loads them by what it moves beyond
+      // it.
       held.r0 = problem.r0 - stiffness * result.y;
       if (!(residual <= least)) continue;
       least = residual;

@@ -37,7 +37,7 @@ void LooseJoints::add(int joint) {
   jumps_.push_back(std::move(held_));
 }
 
-// What was last asked for is kept: of the joints that are looked at one comes loose next.
+// The last answer is kept, as a joint that is looked at is often the next to come loose.
 const Eigen::Matrix2Xd& LooseJoints::reactions_of(int joint) {
   if (held_ && held_->joint == joint) return of_held_;
   held_ = source_(joint);

@@ -30,7 +30,7 @@ class LooseJoints {
     return is_loose_[static_cast<std::size_t>(joint)] != 0;
   }
 
-  /// Lets a joint come loose that is held fully by the structure: half a solve, and a product with
+  /// Lets a joint come loose that the structure holds fully. Costs half a solve, and a product with
   /// each of those before.
   void add(int joint);
 

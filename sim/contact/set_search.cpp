@@ -159,7 +159,7 @@ JointStepResult SetSearch::solve(const JointStep& step, bool nearest) {
   sweeps_.start(step, step.reactions, step.tie_forces);
   int patience = nearest ? patience_for_nearest : 1;
   const int most_sets = sets_from_answers + (nearest ? 0 : sets_from_sweeps);
-  // Sweeps, a set and its answer, and on from there.
+  // Sweeps, the set that they come to, and its answer, from which the next sweeps start.
   for (int set = 0; set < most_sets && !stop_is_asked(step.stop_asked); ++set) {
     const bool by_sweeps_alone = set < sets_by_sweeps_alone;
     const bool far = by_sweeps_alone && !nearest;

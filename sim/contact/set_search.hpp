@@ -23,17 +23,17 @@ class SetSearch {
  private:
   // Lets the structure hold what a set of states holds.
   void take(const std::vector<JointState>& states);
-  // The set's own answer, to part of the forces; converged where it keeps every joint's law.
+  // The set's own answer, its forces to the accuracy; converged where it keeps every joint's law.
   void answer(const JointStep& step, double accuracy, JointStepResult& result);
-  // Whether the result's states are an answer, which is then in the result with all else.
+  // Whether the result's states solve the step; the result is complete then.
   bool settles(const JointStep& step, JointStepResult& result);
   // @param most  changes that an answer may ask for
   bool settles_nearby(const JointStep& step, std::size_t most, JointStepResult& result);
-  // What the law makes of an answer.
+  // The states that the law gives joints with an answer.
   [[nodiscard]] std::vector<JointState> lawful(const JointStep& step, const JointStepResult& result,
                                                double accuracy) const;
-  // Sweeps until states rest or it has taken too long, `patience` times as long as usual; `far`:
-  // over-relaxed, and past joints that hardly feel a change.
+  // Sweeps until states rest or for too long, both `patience` times as long as usual; `far`:
+  // over-relaxed, and without joints that hardly feel a change.
   int look_for_states(const JointStep& step, int patience, bool far,
                       std::vector<JointState>& states);
 

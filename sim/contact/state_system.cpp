@@ -53,7 +53,7 @@ double StateSystem::scale() const {
   return problem_->S.diagonal().maxCoeff();
 }
 
-// Of r_N + c for a normal gap, of r_T + slope (r_N + c) for a slip.
+// The equation of a normal row is r_N + c = 0, that of a tangential one r_T + slope (r_N + c) = 0.
 double StateSystem::coefficient(const Equation& equation, Index unknown) const {
   double value = problem_->S(unknown, equation.row);
   if (equation.slope != 0.0) value += equation.slope * problem_->S(unknown, equation.row - 1);
@@ -113,17 +113,17 @@ const VectorXd& StateSystem::column(Index row) {
 // (C6). Whether the states are near enough to those of the factor.
 bool StateSystem::border_factor() {
   std::vector<std::optional<double>> slopes(place_.size());
-  // By row; none where the states have no equation.
+  // Slopes are by row, and none where the states have no equation.
   for (const Equation& equation : equations_)
     slopes[static_cast<std::size_t>(equation.row)] = equation.slope;
   borders_.clear();
-  // What the factor has and the states have not, or in another way: an unknown force frees its
-  // equation.
+  // Equations of the factor that the states do not have, or have with another slope: an unknown
+  // force frees each of them.
   for (const Equation& old : factorised_) {
     const std::optional<double>& now = slopes[static_cast<std::size_t>(old.row)];
     if (now != old.slope) borders_.push_back({old.row, false, now});
   }
-  // And what the states alone have: a gap more, and its equation.
+  // Equations that only the states have: each comes with a gap more.
   for (const Equation& equation : equations_)
     if (place_[static_cast<std::size_t>(equation.row)] < 0)
       borders_.push_back({equation.row, true, equation.slope});
@@ -167,13 +167,13 @@ VectorXd StateSystem::corrected_by(const VectorXd& lack) {
   for (Index j = 0; j < n; ++j) load(j) = lack(factorised_[static_cast<std::size_t>(j)].row);
   for (Index i = 0; i < k; ++i) {
     const Border& border = borders_[static_cast<std::size_t>(i)];
-    // What is freed asks for nothing itself; its place is taken by the border's own equation.
+    // An equation that is freed asks for nothing; the border's own equation takes its place.
     border_load(i) = border.slope ? lack(border.row) : 0.0;
     if (!border.has_unknown) load(place_[static_cast<std::size_t>(border.row)]) = 0.0;
   }
   VectorXd known = from_factor(load), change = VectorXd::Zero(lack.size());
   VectorXd added;
-  // W − VA⁻¹U first, then what it changes of the factor's answer.
+  // First the unknowns of the borders, by W − VA⁻¹U; then what they change in the factor's answer.
   if (k > 0) {
     added = complement_.solve(border_load - border_rows_ * known);
     known -= border_columns_ * added;
@@ -208,12 +208,12 @@ StateSolution StateSystem::solve_from(StateSolution known, const MatrixXd& r0, c
                                       const MatrixXd& cohesion, double accuracy) {
   equations_ = equations_of_states();
   if (!border_factor()) factorise();
-  // Without gaps: what an accuracy is a part of.
+  // What the equations lack without gaps: the accuracy is a part of it.
   const double load = lacking(r0, cohesion).norm();
   StateSolution found = known;
   correct(found, held, cohesion, load, accuracy);
   if (borders_.empty()) return found;
-  // The border is given up only where it lacks digits that a factor would have.
+  // A new factor is made only where the border lacks digits that the factor would have.
   const double lacks = lacking(found.r, cohesion).norm(),
                rounding = rounding_of_gaps * std::sqrt(static_cast<double>(found.y.rows()));
   if (lacks <= tolerated * found.r.norm() + rounding * scale() * found.y.norm() ||
@@ -232,7 +232,7 @@ VectorXd StateSystem::forces_of(const VectorXd& change) const {
 // Gaps that the states hold are set, the others found.
 void StateSystem::correct(StateSolution& solution, const MatrixXd& held, const MatrixXd& cohesion,
                           double load, double accuracy) {
-  // Gaps that are given act on all reactions at once.
+  // Given gaps are set first, with what they do to all reactions.
   std::vector<char> free(place_.size(), 0);
   for (const Equation& equation : equations_) free[static_cast<std::size_t>(equation.row)] = 1;
   for (Index row = 0; row < held.rows(); ++row) {

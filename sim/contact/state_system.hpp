@@ -34,7 +34,7 @@ class StateSystem {
 
   /// Takes note of joints that the problem has got; they stick.
   void grow();
-  /// The next solution takes states up.
+  /// Takes effect with the next solution.
   void set(std::size_t joint, JointState state) { states_[joint] = state; }
   void set(std::vector<JointState> states) { states_ = std::move(states); }
 
@@ -71,10 +71,10 @@ class StateSystem {
   [[nodiscard]] Eigen::VectorXd forces_of(const Eigen::VectorXd& change) const;
   // By how much the gap of a row changes what an equation asks to be zero. [N/m²]
   [[nodiscard]] double coefficient(const Equation& equation, Eigen::Index unknown) const;
-  // Of a border, solved for with the factor; kept as long as that is.
+  // Column of a border, solved for with the factor; kept as long as that is.
   [[nodiscard]] const Eigen::VectorXd& column(Eigen::Index row);
   [[nodiscard]] Eigen::VectorXd corrected_by(const Eigen::VectorXd& lack);
-  // One load a column. [N/m]
+  // One column for each load. [N/m]
   [[nodiscard]] Eigen::MatrixXd lacking(const Eigen::MatrixXd& r,
                                         const Eigen::MatrixXd& cohesion) const;
   void correct(StateSolution& solution, const Eigen::MatrixXd& held,

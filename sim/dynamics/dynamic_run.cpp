@@ -1,5 +1,5 @@
-// Implicit Euler (M3), with the joints' problem of a step left to a solver: this prepares it, takes
-// its answer over and keeps the account of energies.
+// Implicit Euler (M3), with the joints' problem of each step left to a solver: the run prepares it,
+// takes its answer over and keeps account of the energies.
 #include "sim/dynamics/dynamic_run.hpp"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ DynamicRun::DynamicRun(const Scene& scene, const Assembly& assembly, double step
   step_.states.assign(joints_.size(), JointState::stick);
   step_.broken.assign(joints_.size(), 0);
   step_.laws.reserve(joints_.size());
-  // What is missing bears pressure and friction only, from the first step on.
+  // A missing joint bears pressure and friction only, from the first step on.
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const bool missing = joints_[j].broken;
     step_.broken[j] = missing ? 1 : 0;
@@ -100,7 +100,8 @@ double DynamicRun::work_of_ties(const VectorXd& tie_forces) const {
 void DynamicRun::account(const JointStepResult& result, const Motion& before) {
   const VectorXd inertia = bodies_.mass().cwiseProduct(motion_.v - before.v) / h_;
   acceleration_force_ = inertia.norm();
-  // Zero at all nodes but those that are held, where it is what the machine adds.
+  // Along x this is zero but at held nodes, where it is the force of the machine; along y it has
+  // the forces of ties in it.
   const VectorXd reaction = inertia + motion_.Kq + scene_.material.viscosity * motion_.Kv -
                             joint_forces_on_nodes(bodies_, result.reactions);
   const auto along_x = [](const VectorXd& forces, const std::vector<int>& nodes) {
@@ -136,7 +137,8 @@ void DynamicRun::break_joints(const JointStepResult& result) {
     joints_[j].reaction_tangent = result.reactions(row + 1);
     joints_[j].gap = result.gaps(row);
     worst_penetration_ = std::max(worst_penetration_, -result.gaps(row));
-    // A broken joint sticks where it is: friction acts against the slip of a step.
+    // A broken joint that sticks does so where it is now: friction acts against the slip of each
+    // step.
     if (joints_[j].broken) step_.held_at(row + 1) = result.gaps(row + 1);
   }
   step_.states = result.states;
@@ -151,14 +153,14 @@ bool DynamicRun::advance() {
   const JointStepResult result = solver_->solve(step_);
   iterations_ += result.iterations;
   worst_residual_ = worse(worst_residual_, result.residual);
-  // Numbers that are not finite are taken over, so that the run says what it ends of.
+  // An answer that is not finite is taken over, so that the run ends with that as its reason.
   if (!result.converged && result.displacements.allFinite()) return false;
   const Motion before = motion_;
   move(result);
   if (!finite()) return true;  // the joints stay as they are in the last row
   account(result, before);
   ++steps_;
-  // For a leap, should the motion be uniform.
+  // Kept for a leap, which needs it where the motion is uniform.
   slope_ = result.reactions - step_.reactions;
   step_.reactions = result.reactions;
   step_.tie_forces = result.tie_forces;
@@ -186,7 +188,8 @@ double DynamicRun::time_to_first_break() const {
 
 double DynamicRun::leap() {
   constexpr double uniform = 1e-9, beyond = 1.0 + 1e-9;  // so that the step then breaks the joint
-  // Only where all accelerations are rounding, and nothing has broken: then all is linear in time.
+  // It leaps only where all accelerations are rounding and nothing has broken: then all is linear
+  // in time.
   if (std::ranges::any_of(joints_, &JointOutcome::broken) ||
       acceleration_force_ > uniform * motion_.Kq.norm())
     return 0.0;
@@ -198,7 +201,7 @@ double DynamicRun::leap() {
   motion_.Kq += time * motion_.Kv;
   step_.reactions += time / h_ * slope_;
   step_.force_scale = std::max(step_.force_scale, step_.reactions.norm());
-  // The account goes on from here, as no step tells what the leap cost.
+  // The account starts anew from here: no step tells the work that the leap took.
   energy_.start(motion_, bodies_.mass());
   leapt_ += time;
   return scene_.loading.strain_rate * time;

@@ -13,7 +13,7 @@ namespace havers::sim {
 /// The specimen in motion, at the end of a step of constant length (M3).
 class DynamicRun {
  public:
-  /// @param assembly  of the scene, kept by the caller as long as the run is
+  /// @param assembly  of the scene; it has to outlive the run
   /// @param step  h [s]
   DynamicRun(const Scene& scene, const Assembly& assembly, double step,
              const StopAsked& stop_asked = {});
@@ -64,9 +64,9 @@ class DynamicRun {
   double h_;       // of every step [s]
   Bodies bodies_;  // with Ā of this step (S1)
   std::unique_ptr<JointSolver> solver_;
-  Motion motion_;  // at the end of the last step, as are the next two
+  Motion motion_;  // at the end of the last step, as are the joints
   std::vector<JointOutcome> joints_;
-  JointStep step_;  // the joints' problem: what it starts from, and the next one's loads
+  JointStep step_;  // the joints' problem: the last answer, and the loads of the next step
   EnergyBalance energy_;
   Eigen::VectorXd slope_;                        // change of the reactions in the last step [N/m]
   double acceleration_force_ = 0.0;              // norm of M dv/h in the last step [N/m]

@@ -18,7 +18,7 @@ double kinetic_energy(const Eigen::VectorXd& v, const Eigen::VectorXd& mass) {
 void EnergyBalance::start(const Motion& motion, const Eigen::VectorXd& mass) {
   kinetic = kinetic_energy(motion.v, mass);
   elastic = 0.5 * motion.q.dot(motion.Kq);
-  // All that is there now counts as work done so far.
+  // All energy that is there now counts as work done so far.
   external = largest_ = kinetic + elastic + joints + viscous + numerical;
 }
 
@@ -28,7 +28,7 @@ void EnergyBalance::add(const Step& step, const Motion& before, const Motion& af
   const double kinetic_change = kinetic_energy(after.v, mass) - kinetic;
   const double elastic_change = 0.5 * after.q.dot(after.Kq) - elastic;
   const double viscous_step = h * step.viscosity * after.v.dot(after.Kv);
-  // ½ΔvᵀMΔv + ½(hv⁺)ᵀK(hv⁺), which no bone loses.
+  // ½ΔvᵀMΔv + ½(hv⁺)ᵀK(hv⁺): what the method loses, and bone does not.
   const double numerical_step =
       kinetic_energy(after.v - before.v, mass) + 0.5 * h * h * after.v.dot(after.Kv);
   const double defect =

@@ -41,7 +41,7 @@ struct EnergyBalance {
            const Eigen::VectorXd& mass);
 
  private:
-  double largest_ = 0.0;  // energy so far, that defects are compared with [J/m]
+  double largest_ = 0.0;  // energy so far, with which defects are compared [J/m]
 };
 
 }  // namespace havers::sim

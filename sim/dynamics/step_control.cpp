@@ -1,6 +1,6 @@
-// Halves the step until the answer stands (section 8). Implicit Euler damps waves by the step, and
-// these decide what breaks next, so no a-priori step fits all scenes; the change by halving is what
-// can be known of the error.
+// Halves the step until the answer stands (section 8). How much implicit Euler damps waves depends
+// on the step, and waves decide what breaks next, so that no step fits all scenes; what is known of
+// the error is the change by halving.
 #include "sim/dynamics/step_control.hpp"
 
 #include <fmt/format.h>

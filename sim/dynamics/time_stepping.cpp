@@ -34,7 +34,7 @@ std::vector<LeftOut> left_out_in_time(const Scene& scene, const Simulation& simu
 SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepping& stepping,
                                 const Observer& observer, Simulation& simulation) {
   constexpr double but_for_rounding = 1.0 - 1e-9;
-  // The sum of steps to the strain limit may miss it by rounding.
+  // The strain of the row that reaches the limit may miss it by rounding.
   const double end = but_for_rounding * scene.loading.max_strain;
   // From rest the left side bears nothing until a wave has come across, however strong the specimen
   // is: until then the sides do not say whether it is broken.
@@ -89,11 +89,12 @@ void tell_waves(const Scene& scene, Simulation& simulation) {
     simulation.crossings = modulus_stretch * strain_of_modulus(simulation) / of_a_crossing;
     if (simulation.missing_joints() > 0)  // waves are as slow as the specimen is soft
       simulation.crossings *= std::sqrt(std::clamp(modulus / scene.material.young, 0.0, 1.0));
-    // What is measured while waves cross may be anything: it counts from 0 to the slope of a
+    // A modulus measured while waves cross may be anything: it is kept between 0 and the slope of a
     // straight line to the strength.
     modulus = std::clamp(modulus, 0.0, simulation.strength / simulation.failure_strain);
   }
-  // The middle of that mean lies half a period before its end, and the stress rises on until then.
+  // The middle of a mean over one period lies half a period before its end; until then the stress
+  // rises on, by the modulus times the strain of a crossing.
   if (borne_until(simulation) >= 2.0 * of_a_crossing)
     simulation.strength_over_a_wave = largest_mean_stress(simulation.curve, of_a_crossing);
   const double without_ringing = simulation.strength_over_a_wave + modulus * of_a_crossing;

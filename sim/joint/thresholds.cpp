@@ -29,7 +29,7 @@ double weibull_shape(double cv) {
   const auto excess = [&](double k) {
     return std::lgamma(1.0 + 2.0 / k) - 2.0 * std::lgamma(1.0 + 1.0 / k) - std::log1p(cv * cv);
   };
-  // The variation falls as k rises: bisection, on a logarithmic scale.
+  // The coefficient of variation falls as k rises: bisection on a logarithmic scale.
   double low = 0.1, high = 1e7;  // cv from 400 to 1e-7
   for (int i = 0; i < 200 && high / low > 1.0 + 1e-15; ++i) {
     const double middle = std::sqrt(low * high);
@@ -54,8 +54,7 @@ double open_uniform(std::uint64_t bits) {
 ThresholdFactors::ThresholdFactors(std::uint64_t seed, double scatter, Distribution distribution)
     : seed_(seed), scatter_(scatter), distribution_(distribution) {
   const double cv = scatter / std::sqrt(12.0);
-  // Of the exponential of a normal variable of deviation s the variance is e^(s²) − 1, the mean
-  // being 1.
+  // A log-normal variable of mean 1, whose logarithm has deviation s, has variance e^(s²) − 1.
   if (distribution == Distribution::lognormal) shape_ = std::sqrt(std::log1p(cv * cv));
   if (distribution == Distribution::weibull && scatter > 0.0) shape_ = weibull_shape(cv);
 }
@@ -84,7 +83,7 @@ double head_tail_strength(const Scene& scene) {
   if (given.empty()) return scene.joints.head_tail;
   const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
   std::vector<double> factors;
-  // Thresholds of another wall are refused, but may be asked about before that.
+  // Thresholds of another wall are refused, but this may be called before that.
   for (std::size_t j = 0; j < std::min(given.size(), assembly.joints.size()); ++j)
     if (const Joint& joint = assembly.joints[j];
         joint.kind == JointKind::head_tail && !is_missing(given[j]))
@@ -99,7 +98,7 @@ Threshold mean_threshold(const Scene& scene, const Joint& joint) {
   const double f1 = j.head_tail * height, f2 = j.flank * half;
   const bool head_tail = joint.kind == JointKind::head_tail;
 
-  // By default one pair for both kinds.
+  // By default both kinds of joints have the same pair.
   Threshold full{f1, f2};
   if (head_tail && j.head_tail_shear) full.tangent = *j.head_tail_shear * height;
   if (!head_tail && j.flank_tension) full.normal = *j.flank_tension * half;
@@ -115,7 +114,7 @@ std::vector<Threshold> draw_thresholds(const Scene& scene, const Assembly& assem
          scene.joints.thresholds.size() == assembly.joints.size());
   const JointOptions& joints = scene.joints;
   if (!joints.thresholds.empty()) return joints.thresholds;
-  // What is missing keeps thresholds of 0.
+  // Missing joints keep thresholds of 0.
   const ThresholdFactors factor(joints.seed, joints.scatter, joints.distribution);
   std::vector<Threshold> thresholds(assembly.joints.size());
   for (std::size_t i = 0; i < thresholds.size(); ++i) {

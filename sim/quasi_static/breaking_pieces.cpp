@@ -45,7 +45,7 @@ bool BreakingRun::has_detour(const Joint& broken) const {
 std::vector<char> BreakingRun::apart() {
   const Assembly& assembly = intact_->assembly();
   const auto broken_since = std::span(loose_.joints()).subspan(joints_in_pieces_);
-  // Where each joint that has broken since has a way around it, pieces are what they were.
+  // Where there is a way around each joint that has broken since, the pieces are what they were.
   const bool as_before = joints_in_pieces_ > 0 && std::ranges::all_of(broken_since, [&](int joint) {
                            return has_detour(assembly.joints[static_cast<std::size_t>(joint)]);
                          });

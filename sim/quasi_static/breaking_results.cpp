@@ -64,7 +64,8 @@ void BreakingRun::take_note_of_strength(const Event& event) {
 double BreakingRun::missed_at_strength(const UnitAnswer& exact) const {
   if (strongest_.gaps.size() == 0 || strongest_.force == 0.0) return 0.0;  // known
   double missed = std::abs(strongest_.force / exact.force - 1.0);
-  // The strain as well: that at which the whole structure would have broken the next joints.
+  // The strain is checked as well, by that at which the whole structure would have broken the next
+  // joints.
   for (const std::size_t j : strongest_.next.joints) {
     const double strain =
         strain_at_cone(of_joint(exact.reactions, j), intact_law(joints_[j].threshold),
@@ -85,7 +86,7 @@ double BreakingRun::energy_defect(const UnitAnswer& exact, const VectorXd& y) co
 void BreakingRun::finish(Simulation& simulation) {
   const UnitAnswer& intact = intact_->answer();
   const double scale = intact.reactions.norm(), force = force_;
-  // The force stays that of the last row: how far refining changes it is a check below.
+  // The force stays that of the last row: how much refining changes it is one of the checks below.
   if (!unsolved_) {
     refine();
     if (y_ != y_at_reference_) take_reference();

@@ -29,7 +29,7 @@ constexpr double little = 1e-5;       // of the gaps: what so much changes is kn
 constexpr double nothing_borne = 1e-9, next_to_nothing = 1e-3, too_much = 2.0;
 constexpr double hardly_stored = 1e-3;  // of the work of a force: then the force is rounding
 
-// What is broken meets its cone at no strain.
+// The law of a broken joint in the search for the next one: it never meets its cone.
 constexpr JointLaw unbreakable{std::numeric_limits<double>::infinity(), 1.0};
 
 }  // namespace
@@ -103,7 +103,7 @@ void BreakingRun::loosen(const std::vector<std::size_t>& breaking) {
   const JointLaw law = broken_law(scene_.joints.friction);
   const auto old = static_cast<Index>(loose_.size());
   const auto n = old + static_cast<Index>(breaking.size());
-  // Columns help only while all loose joints have theirs, and while these are few.
+  // Columns help only while all loose joints have one, and while they are few.
   for (const std::size_t joint : breaking) {
     const bool none_missing = columns_.size() == loose_.size();
     loose_.add(static_cast<int>(joint));
@@ -175,7 +175,7 @@ bool BreakingRun::settle() {
   const double intact_force = intact_->answer().force;
   const bool hardly_bears = std::abs(force_) <= next_to_nothing * intact_force;
   const bool in_two = hardly_bears && severed();
-  // Rounding is looked at where it may count, by the whole structure's answer.
+  // Where rounding may count, it is looked at by the answer of the whole structure.
   if (may_lose_digits() || hardly_bears) {
     see_all();
     borne_ = reactions_(loose_.rows());
@@ -264,7 +264,8 @@ void BreakingRun::refine() {
   take_reference();
   VectorXd lack = lacking();
   for (int i = 0; i < most_refinements && lack.norm() > refined * scale; ++i) {
-    // The joints' own problem gets what it lacks, and is solved again from where it is.
+    // What the joints' own problem lacks is added to it, and it is solved again from the present
+    // gaps.
     contact_.r0 += lack;
     const LocalContactResult found =
         or_better({.converged = true,

@@ -41,8 +41,7 @@ class BreakingRun {
     double strain;  ///< It may be less than the present one; infinite when no joint ever will.
     std::vector<std::size_t> joints;
   };
-  /// By what all joints bear now: seen in single precision, and exactly of those that may be next
-  /// (S8).
+  /// From what joints bear now: of all in single precision, of those that may be next exactly (S8).
   [[nodiscard]] Event next_event();
   /// Stretches on to a strain, never back; joints that slide rub while it grows.
   void stretch(double strain);
@@ -73,8 +72,8 @@ class BreakingRun {
   [[nodiscard]] double meets_cone_at(std::size_t joint, const Local& reaction) const {
     return strain_at_cone(reaction, laws_[joint], scene_.material.young, noise_);
   }
-  // The search for the next event. What joints bear, for E = 1 and ε = 1, and by how much that is
-  // seen to be wrong. [N/m]
+  // The search for the next event. What joints bear for E = 1 and ε = 1, and how wrong that is seen
+  // to be. [N/m]
   struct Glance {
     Eigen::VectorXd reactions;
     double missed;  // as far as it is seen
@@ -87,17 +86,17 @@ class BreakingRun {
   [[nodiscard]] std::vector<Candidate> may_be_next(const Eigen::VectorXd& reactions,
                                                    double missed) const;
   [[nodiscard]] Event first_of(std::vector<Candidate> candidates);
-  // Exactly, for E = 1 and ε = 1. [N/m]
+  // What one joint bears, exactly, for E = 1 and ε = 1. [N/m]
   [[nodiscard]] Local borne_at(std::size_t joint);
   // An event: joints come loose, holding at first; then all of these settle among themselves.
   void loosen(const std::vector<std::size_t>& breaking);
   bool settle();
-  // With more digits, or back to what was before.
+  // Settles once more, from what was before and with more digits; or goes back to that.
   bool settle_with_care(const std::vector<JointState>& states_before,
                         const Eigen::VectorXd& gaps_before);
   void go_back_to(const Eigen::VectorXd& gaps_before);
   void take_back(const std::vector<std::size_t>& breaking, const Eigen::VectorXd& gaps_before);
-  // What hangs together, and what carries nothing as it hangs on no end.
+  // Which bodies hang together, and which carry nothing as they hang on no end.
   [[nodiscard]] DisjointSets pieces() const;
   [[nodiscard]] bool has_detour(const Joint& broken) const;
   [[nodiscard]] std::vector<char> apart();
@@ -126,7 +125,7 @@ class BreakingRun {
   std::shared_ptr<const IntactStructure> intact_;
   std::vector<JointOutcome> joints_;
   std::vector<JointLaw> laws_;  // of each while it is bonded; what has broken breaks no more
-  double strain_ = 0.0;         // ε, at which the next event is looked for [-]
+  double strain_ = 0.0;         // ε, the present one [-]
   double dissipated_ = 0.0;     // [J/m]
   // As it was in the row of the largest stress, to be checked at the end.
   struct Strongest {

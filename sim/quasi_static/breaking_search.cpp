@@ -56,8 +56,8 @@ BreakingRun::Glance BreakingRun::glance() const {
                                    ? intact_->nearly_reactions_to(loose_.jumps(), moved)
                                    : sum_of(columns_, moved.cast<float>());
   Glance found{reactions_ + change.reactions.cast<double>(), change.off_balance};
-  // What it misses shows where the sides of a joint differ, and at loose joints, which bear what is
-  // known (S8).
+  // What single precision misses shows where the two sides of a joint differ, and at loose joints,
+  // whose reactions are known (S8).
   found.missed =
       std::max(found.missed, (found.reactions(loose_.rows()) - borne_).lpNorm<Eigen::Infinity>());
   if (!found.reactions.allFinite()) found.missed = never;
@@ -71,7 +71,7 @@ std::vector<BreakingRun::Candidate> BreakingRun::may_be_next(const VectorXd& rea
   std::vector<Candidate> candidates;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const Local r = of_joint(reactions, j);
-    // At the earliest and, below, at the latest.
+    // The strain at which it breaks: here the earliest, below the latest.
     const double may = meets_cone_at(j, {r.x() - missed, std::abs(r.y()) + missed});
     if (!(may < never) || may > last * (1.0 + together)) continue;
     candidates.push_back({may, j});
@@ -90,7 +90,7 @@ BreakingRun::Event BreakingRun::first_of(std::vector<Candidate> candidates) {
   const auto is_later = [&](const Candidate& one) {
     return one.strain > event.strain * (1.0 + together);
   };
-  // From the one that may be the earliest on, until none of the rest can come before one that is
+  // In the order in which they may break, until none of the rest can break before one that is
   // known.
   auto next = candidates.begin();
   for (; next != candidates.end() && !is_later(*next); ++next) {

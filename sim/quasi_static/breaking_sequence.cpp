@@ -15,7 +15,8 @@ namespace havers::sim {
 
 double end_fraction_used(const Scene& scene) {
   const JointOptions& joints = scene.joints;
-  // What the rule was found with (section 6): other walls are followed all the way.
+  // The walls that the rule was found with (section 6): others are followed down to the scene's own
+  // end fraction.
   const bool as_drawn = joints.thresholds.empty() && !joints.head_tail_shear &&
                         !joints.flank_tension && scene.material.layer_contrast == 1.0;
   const bool brittle = as_drawn && joints.distribution == Distribution::uniform &&
@@ -139,8 +140,8 @@ bool is_enough(const Simulation& run) {
   return run.trusted() && run.rounding_error <= accurate && run.worst_residual <= run.tolerance;
 }
 
-// What ended is better than what did not, and of the latter the longer; then what is trusted; then
-// what misses least.
+// A run that ended is better than one that did not, and of two that did not the longer one; then
+// one that is trusted; then the one that misses least.
 bool is_no_worse(const Simulation& a, const Simulation& b) {
   if (has_ended(a) != has_ended(b)) return has_ended(a);
   if (!has_ended(a)) return a.curve.size() >= b.curve.size();  // it came as far

@@ -80,7 +80,7 @@ IntactStructure::IntactStructure(const Scene& scene)
   const Eigen::VectorXd exact = uniform_stress_forces(assembly_, stress);
   const double missed = std::max((exact - answer_.reactions).norm() / exact.norm(),
                                  std::abs(answer_.force / force - 1.0));
-  // Every later answer contains this one, and gets what a solve misses of it.
+  // Every later answer contains this one: what the solve missed of it is added to each.
   stress_is_known_ = scene.solver.leave_out && missed <= known;
   if (stress_is_known_) {
     lost_ = exact - answer_.reactions;
@@ -100,7 +100,7 @@ UnitAnswer IntactStructure::stretch(const Eigen::VectorXd& gaps) const {
 
   UnitAnswer answer{response.displacements, response.reactions + lost_, lost_force_,
                     response.residual};
-  // What the held nodes need beyond what joints do, in the balance of all forces.
+  // The forces on the held nodes beyond those of joints, from the balance of all forces.
   const Eigen::VectorXd forces = bodies_.shifted_times(answer.displacements) -
                                  joint_forces_on_nodes(bodies_, response.reactions);
   for (const int node : assembly_.right) answer.force += forces(2 * node);
@@ -117,7 +117,8 @@ SharedJump IntactStructure::jump(int joint) const {
     const auto found = jumps_.find(joint);
     if (found != jumps_.end()) return found->second;
   }
-  // Without the lock, so that threads do not wait: two may find the same, and one of both is kept.
+  // Found without the lock, so that threads do not wait: two may find the same one, of which one is
+  // kept.
   auto jump = std::make_shared<const Jump>(structure_.jump(joint));
   const std::scoped_lock lock(mutex_);
   if (remembered + bytes(*jump) <= most_remembered && jumps_.emplace(joint, jump).second)
@@ -128,7 +129,7 @@ SharedJump IntactStructure::jump(int joint) const {
 IntactStructure::SharedColumn IntactStructure::column(const SharedJump& jump, bool make) const {
   {
     const std::scoped_lock lock(mutex_);
-    // Asked for once is not worth a column; that it was asked for is remembered.
+    // A joint that is asked for once is not worth a column; that it was asked for is remembered.
     const auto [place, is_new] = columns_.try_emplace(jump->joint);
     if (is_new || place->second || !make) return place->second;
   }
@@ -149,7 +150,7 @@ std::size_t IntactStructure::columns_of_a_glance() const {
 }
 
 IntactStructure::~IntactStructure() {
-  // The limit is one for all structures: what this one had is free again.
+  // All structures share one limit: what this one took of it is free again.
   for (const auto& [joint, jump] : jumps_) remembered -= bytes(*jump);
   for (const auto& [joint, column] : columns_)
     if (column) remembered -= bytes(*column);

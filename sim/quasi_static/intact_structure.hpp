@@ -27,7 +27,7 @@ Eigen::VectorXd uniform_stress_forces(const Assembly& assembly, double stress);
 /// they are asked for.
 class IntactStructure {
  public:
-  /// Factorises. Not solvable, and without an answer, where the structure is not ok().
+  /// Factorises. Where structure() is not ok(), there is no answer and nothing may be solved.
   explicit IntactStructure(const Scene& scene);
   IntactStructure(const IntactStructure&) = delete;
   IntactStructure& operator=(const IntactStructure&) = delete;

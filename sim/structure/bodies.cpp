@@ -1,5 +1,6 @@
 // Products with the matrices of all bodies, class by class: one dense matrix times as many columns
-// as there are bodies of that kind. Ports of a class lie together, so that nothing is copied.
+// as there are bodies of that kind. Values at the ports of a class lie together, so that they need
+// no copy.
 #include "sim/structure/bodies.hpp"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ std::vector<char> held_dofs(const Assembly& assembly) {
   return held;
 }
 
-// B of one body, a row a port.
+// B of one body, one row for each port.
 MatrixXd port_matrix(const std::vector<PortRow>& rows, const Body& body) {
   MatrixXd B = MatrixXd::Zero(static_cast<Index>(rows.size()), 2 * body.nodes);
   for (std::size_t r = 0; r < rows.size(); ++r)
@@ -95,7 +96,7 @@ Signature signature(const Assembly& assembly, const Body& body, const MatrixXd& 
     key.push_back(std::llround(p.x()));
     key.push_back(std::llround(p.y()));
   }
-  // Entries of B are weights times directions, of the size of 1.
+  // Entries of B are weights times unit directions, 1 at most: they need no unit.
   for (const double value : ports.reshaped()) key.push_back(std::llround(value * 1e12));
   key.insert(key.end(), held.begin(), held.end());
   return key;
@@ -121,7 +122,7 @@ Bodies::Bodies(const Assembly& assembly, const Material& material, const Shift& 
     const auto first = held_.begin() + 2 * body.first_node;
     const std::vector<char> held(first, first + 2 * body.nodes);
     Signature key = signature(assembly, body, B, held);
-    // Alike in shape, not in stiffness.
+    // Bodies of odd and of even layers are alike in shape, not in stiffness.
     if (material.layer_contrast != 1.0) key.push_back(body.layer & 1);
     if (!share) key.push_back(static_cast<std::int64_t>(b));
     const auto [place, is_new] = known.try_emplace(std::move(key), classes_.size());
@@ -133,7 +134,8 @@ Bodies::Bodies(const Assembly& assembly, const Material& material, const Shift& 
     found.bodies.push_back(static_cast<int>(b));
     mass_.segment(2 * body.first_node, 2 * body.nodes) = found.op.matrices.mass;
   }
-  // Ports are numbered class by class, as classes are known only when all bodies are.
+  // Ports are numbered class by class. That takes a loop of its own: classes are known only after
+  // all bodies.
   for (const BodyClass& group : classes_)
     for (const int body : group.bodies) {
       const auto b = static_cast<std::size_t>(body);
@@ -172,7 +174,7 @@ VectorXd Bodies::stiffness_times(const VectorXd& q) const {
   VectorXd y(dofs());
   for (const BodyClass& group : classes_) {
     MatrixXd moved = gather(q, group);
-    // From the last row on, as the first node's own rows become 0.
+    // From the last row upwards: the first node's own rows, which are subtracted, become 0 last.
     for (Index row = moved.rows() - 1; row >= 0; --row) moved.row(row) -= moved.row(row % 2);
     const auto& [stiffness, mass, motions] = group.op.matrices;
     MatrixXd forces = stiffness * moved;
@@ -203,7 +205,7 @@ VectorXd Bodies::port_forces_on_nodes(const VectorXd& t) const {
 
 VectorXd Bodies::gaps(const VectorXd& p) const {
   VectorXd gaps(2 * static_cast<Index>(assembly_->joints.size()));
-  // Ends are those of joints first: ties are left out here.
+  // `ends_` begins with those of joints; ties, which follow, have no gap.
   for (Index unknown = 0; unknown < gaps.size(); ++unknown) {
     const auto& [a, b] = ends_[static_cast<std::size_t>(unknown)];
     gaps(unknown) = p(b) - p(a);
@@ -258,7 +260,7 @@ VectorXd Bodies::port_forces(const VectorXd& p, const Eigen::Ref<const VectorXd>
 VectorXf Bodies::near_port_forces(const VectorXf& p, const Eigen::Ref<const VectorXf>& a) const {
   VectorXf y(p.size());
   for (const BodyClass& group : classes_) {
-    // One product, which takes that part in.
+    // `nearly` has the inertia of the body's own motion in it: nothing is taken apart here.
     const Eigen::MatrixXf& nearly = group.op.nearly;
     auto forces = ports_in(y, group);
     forces.noalias() = nearly.leftCols(forces.rows()) * ports_in(p, group);

@@ -22,7 +22,7 @@ struct Port {
 /// Bodies with the same operator.
 struct BodyClass {
   BodyOperator op;
-  std::vector<int> bodies;  ///< Rising.
+  std::vector<int> bodies;  ///< In rising order.
 };
 
 /// Vectors over the degrees of freedom have x and y of every node of the assembly; vectors over the
@@ -32,7 +32,7 @@ class Bodies {
   /// @param share  false: one operator per body, for comparison (section 7).
   Bodies(const Assembly& assembly, const Material& material, const Shift& shift, bool share = true);
 
-  /// That it was made of, which has to outlive it.
+  /// The assembly that it was made of, which has to outlive it.
   [[nodiscard]] const Assembly& assembly() const { return *assembly_; }
   /// Whether equal bodies share one operator.
   [[nodiscard]] bool shared() const { return shared_; }
@@ -44,10 +44,10 @@ class Bodies {
   [[nodiscard]] const std::vector<std::array<Eigen::Index, 2>>& ends() const { return ends_; }
   /// 1 for a degree of freedom that the boundary prescribes.
   [[nodiscard]] const std::vector<char>& held() const { return held_; }
-  /// Two a node.
+  /// Two for each node.
   [[nodiscard]] Eigen::Index dofs() const { return static_cast<Eigen::Index>(held_.size()); }
-  /// Where those of a body begin, in vectors over the degrees of freedom, over the ports, and over
-  /// the rows of all N.
+  /// Where the values of a body begin: in vectors over the degrees of freedom, over the ports, and
+  /// over the rows of all N.
   [[nodiscard]] Eigen::Index first_dof(int body) const;
   [[nodiscard]] Eigen::Index first_port(int body) const {
     return first_port_[static_cast<std::size_t>(body)];
@@ -96,8 +96,8 @@ class Bodies {
   }
 
  private:
-  // Bodies of a class follow each other in these vectors: a matrix of a column each, without a
-  // copy.
+  // Bodies of a class follow each other in these vectors: without a copy they are a matrix with a
+  // column for each body.
   template <class Values>
   [[nodiscard]] static auto part(Values& values, const BodyClass& group,
                                  const std::vector<Eigen::Index>& first, Eigen::Index rows) {

@@ -10,13 +10,12 @@ namespace havers::sim {
 /// Sets of the numbers below n, at first each its own.
 class DisjointSets {
  public:
-  /// @param n  how many
   explicit DisjointSets(std::size_t n) : parent_(n) {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
   /// One of the set's members, the same for all of them.
   [[nodiscard]] std::size_t find(std::size_t i) {
-    // Ways to the root are halved in passing, and so stay short.
+    // Paths to the root are halved in passing, and so stay short.
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
@@ -24,7 +23,7 @@ class DisjointSets {
   void unite(std::size_t into, std::size_t other) { parent_[find(other)] = find(into); }
 
  private:
-  std::vector<std::size_t> parent_;  // a root is its own
+  std::vector<std::size_t> parent_;  // a root is its own parent
 };
 
 }  // namespace havers::sim

@@ -29,7 +29,8 @@ int cells_cut_off(int count) {
   }
 }
 
-// Cuts pieces in two, over and over, and numbers what is cut by when it is eliminated.
+// Cuts pieces in two again and again. The unknowns that a cut crosses are a part, and so are those
+// of a piece that is not cut; parts are numbered in the order of their elimination.
 class Halves {
  public:
   Halves(const Assembly& assembly, const std::vector<std::array<int, 2>>& bodies_of)

@@ -1,5 +1,5 @@
 // Supervariables are found by splitting sets of rows, element by element: rows that no element
-// parts stay together. O(rows of all elements).
+// parts stay together. That takes O(rows of all elements).
 #include "sim/structure/element_matrices.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::vector<int> told_apart(const ElementMatrices& sum) {
   std::fill(set_of.end() - sum.multipliers, set_of.end(), 1);
   std::vector<Set> sets(2, Set{-1, -1});
   for (int e = 0; e < static_cast<int>(sum.elements.size()); ++e)
-    // Each set that the element reaches gets a new one for the rows that it has of it.
+    // The rows of a set that are in the element move to a new set.
     for (const int row : sum.rows_of(sum.elements[static_cast<std::size_t>(e)])) {
       int& set = set_of[static_cast<std::size_t>(row)];
       if (sets[static_cast<std::size_t>(set)].split_by != e) {

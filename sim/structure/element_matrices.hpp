@@ -12,7 +12,7 @@ namespace havers::sim {
 /// The sum of elements, each a dense symmetric matrix on some rows of it. Many elements have the
 /// same matrix.
 struct ElementMatrices {
-  /// One dense matrix, placed.
+  /// A dense matrix, and the rows of the sum that it is added to.
   struct Element {
     int matrix;         ///< Among `matrices`.
     std::size_t first;  ///< Of its rows, among those of all elements.
@@ -23,11 +23,10 @@ struct ElementMatrices {
   std::vector<Element> elements;
   std::vector<int> rows;  ///< Of the sum, for each row of each element: one or more, none twice.
 
-  /// Of an element; many have the same.
   [[nodiscard]] const Eigen::MatrixXd& matrix_of(const Element& element) const {
     return matrices[static_cast<std::size_t>(element.matrix)];
   }
-  /// Rows of the sum that those of the element's matrix are added to.
+  /// The rows of the sum to which those of the element's matrix are added.
   [[nodiscard]] std::span<const int> rows_of(const Element& element) const {
     return std::span(rows).subspan(element.first,
                                    static_cast<std::size_t>(matrix_of(element).rows()));
@@ -49,7 +48,7 @@ class Supervariables {
   [[nodiscard]] int unknowns() const { return unknowns_; }
   /// The one that a row is in. They are numbered as the first rows in them are.
   [[nodiscard]] const std::vector<int>& of_rows() const { return of_rows_; }
-  /// Rows of each.
+  /// How many rows each of them has.
   [[nodiscard]] const std::vector<int>& sizes() const { return sizes_; }
   /// Which of them feel each other.
   [[nodiscard]] const Graph& graph() const { return graph_; }

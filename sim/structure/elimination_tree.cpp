@@ -1,5 +1,6 @@
-// The graph of supervariables is analysed by CHOLMOD; panels are then counted in rows, get their
-// elements, and are compared with each other, in the order of elimination.
+// The graph of supervariables is analysed by CHOLMOD; then rows take the place of supervariables,
+// panels get their elements, and those that have the same values are found, in the order of
+// elimination.
 #include "sim/structure/elimination_tree.hpp"
 
 #include <cholmod.h>
@@ -226,7 +227,7 @@ void share_values(EliminationTree& tree, const ElementMatrices& sum) {
     }
     panel.like = known.try_emplace(key, static_cast<int>(p)).first->second;
     const Panel& first = tree.panels[static_cast<std::size_t>(panel.like)];
-    // Values are numbered anew, as fewer panels have some.
+    // Values are laid out anew, as a panel that is like an earlier one has none of its own.
     panel.values = &first == &panel ? tree.values : first.values;
     if (&first == &panel) tree.values += panel.height * static_cast<std::size_t>(panel.columns);
   }

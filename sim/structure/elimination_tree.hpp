@@ -43,7 +43,7 @@ struct EliminationTree {
   std::size_t values = 0;     ///< Of all panels, once of those that share them.
   std::vector<int> elements;  ///< Of all panels: each in that of the first of its rows.
 
-  /// Its own rows, then those below, by their places.
+  /// Places of its own rows, then of those below.
   [[nodiscard]] std::span<const int> rows_of(const Panel& panel) const {
     return std::span(rows).subspan(panel.at, panel.height);
   }

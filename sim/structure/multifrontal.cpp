@@ -30,7 +30,7 @@ class Fronts {
         where_(tree.place.size()),
         fronts_(tree.panels.size()),
         awaited_(tree.panels.size(), 0) {
-    // A front is added once by each parent that is itself found.
+    // A front is awaited once for each panel that shares it and whose parent is itself found.
     for (const Panel& panel : tree.panels)
       if (const Panel* parent = tree.parent_of(panel); parent != nullptr && tree.is_first(*parent))
         ++awaited_[static_cast<std::size_t>(panel.like)];
@@ -69,7 +69,7 @@ class Fronts {
   }
   // A matrix of which the lower triangle counts, its rows at these places.
   void add(const auto& part, Eigen::Ref<Matrix> own, Matrix& below) {
-    // In the order of the panel, only the lower triangle is added to.
+    // Sorted by their place in the panel, so that only the lower triangle is added to.
     std::ranges::sort(places_);
     for (auto place = places_.begin(); place != places_.end(); ++place) {
       const auto [column, j] = *place;
@@ -109,7 +109,7 @@ VectorXd factorise(const ElementMatrices& A, const EliminationTree& tree, const 
     if (tree.is_first(panel)) {
       auto own = store.zeros(panel);
       auto below = fronts.assemble(panel, own);
-      // To rows of K alone.
+      // Added to rows of K alone.
       own.diagonal().array() += (asked.added * signs.max(0.0)).template cast<Scalar>();
       factorise_panel<Scalar>(own);
       take_panel_from<Scalar>(below, own);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Index in_block = 32;  // columns that are taken from those behind them as one product
 
-// x ← L⁻¹ x by the columns from `first` on: in their own rows first, then in all rows below at
+// x ← L⁻¹ x by so many columns from `first` on: in their own rows first, then in all rows below at
 // once.
 template <Index columns>
 void eliminate(const Ref<const MatrixXd>& panel, Index first, Ref<MatrixXd>& x) {
@@ -76,7 +76,7 @@ template <class Scalar>
 void factorise_panel(Ref<Eigen::MatrixX<Scalar>> panel) {
   Eigen::MatrixX<Scalar> scaled;
   for (Index begin = 0; begin < panel.cols(); begin += in_block) {
-    // Within the block column by column,
+    // Within the block each column is taken from those behind it.
     const Index end = std::min(begin + in_block, panel.cols());
     for (Index j = begin; j < end; ++j) {
       const Scalar pivot = panel(j, j);
@@ -85,7 +85,7 @@ void factorise_panel(Ref<Eigen::MatrixX<Scalar>> panel) {
             panel(k, j) / pivot * panel.col(j).tail(panel.rows() - k);
       panel.col(j).tail(panel.rows() - j - 1) /= pivot;
     }
-    // then the block from all columns behind it.
+    // Then the block is taken from all columns behind it, as one product.
     const auto block = panel.bottomRows(panel.rows() - end).middleCols(begin, end - begin);
     const Index left = panel.cols() - end;
     scaled.noalias() =

@@ -16,7 +16,7 @@ std::vector<std::vector<int>> joints_of_bodies(const Assembly& assembly);
 
 /// Bodies that bonded joints connect to each other, and after them the left and the right end, as
 /// members of their own: bodies that the machine holds are one piece with its end. Ties hold
-/// nothing together here. O(joints).
+/// nothing together here.
 /// @param is_bonded  whether a joint is, by its index
 template <class IsBonded>
 DisjointSets pieces_of(const Assembly& assembly, const IsBonded& is_bonded) {

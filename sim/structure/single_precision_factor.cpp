@@ -1,6 +1,6 @@
-// A solve reads all values once: half the bytes of doubles, in one direction. The inverse of a
-// strip's own square takes the place of a substitution, in which each column waits for the one
-// before.
+// Half a solve reads the values panel by panel, in one direction, and half as many bytes as doubles
+// have. The inverse of a strip's own square takes the place of a substitution, in which each column
+// waits for the one before.
 #include "sim/structure/single_precision_factor.hpp"
 
 #include <algorithm>
@@ -98,7 +98,7 @@ void SinglePrecisionFactor::lay_out() {
     if (is_first) values[like] = size;
     std::size_t at = values[like];
     for (int first = 0, columns = 0; first < panel.columns; first += columns) {
-      // Up to twelve as 8 and 4, which takes less filling up than 16.
+      // Nine to twelve columns become strips of 8 and 4, which take less filling up than 16.
       const int left = panel.columns - first;
       columns = left > 12 ? std::min(left, widest) : std::min(left, 8);
       const auto before = static_cast<std::size_t>(first);
@@ -146,10 +146,10 @@ void SinglePrecisionFactor::eliminate(const Strip& strip, VectorXf& x) const {
     const int* const rows = tree_->rows.data() + strip.rows;
     const auto all = x.segment<width>(*rows).array();
     Row<width> known = all;
-    // Its own rows at once, by the inverse of its square,
+    // The strip's own rows at once, by the inverse of its square.
     for (int i = 0; i < strip.columns; ++i) x(*rows + i) = (row<width>(values, i) * known).sum();
     known = all;
-    // then what these take from the rows below.
+    // Then what these take from the rows below.
     for (int i = strip.columns; i < strip.height; ++i)
       x(rows[i]) -= (row<width>(values, i) * known).sum();
   });

@@ -40,13 +40,13 @@ class SinglePrecisionFactor {
   struct Strip {
     std::size_t rows;     // in the tree, from its own first one on
     int height, columns;  // of its own
-    std::size_t values;   // where they begin
+    std::size_t values;   // where its values begin
   };
-  // Where strips and their values are, all zero; the rest fills them in.
+  // Says where strips and their values are; all values are zero until `copy` fills them in.
   void lay_out();
   template <class Scalar>
   void copy(const Panel& panel, const Eigen::Map<const Eigen::MatrixX<Scalar>>& from);
-  // Half a solve each, x being longer than the matrix by the widest strip.
+  // x ← L⁻ᵀ x, and x ← L⁻¹ x by one strip; x is longer than the matrix by the widest strip.
   void substitute(Eigen::VectorXf& x) const;
   void eliminate(const Strip& strip, Eigen::VectorXf& x) const;
 

@@ -1,5 +1,5 @@
-// Solves with the panels of a factor, which read each panel once: asked for ahead of its turn, used
-// for all loads at once, and left out where no load reaches it.
+// Each half of a solve reads a panel once, for all loads. Elimination asks for the values of the
+// next panel ahead of its turn, and passes over panels that no load reaches.
 #include "sim/structure/sparse_factor.hpp"
 
 #include <algorithm>
@@ -95,7 +95,8 @@ MatrixXd SparseFactor::complete(MatrixXd x) const {
 Eliminated SparseFactor::eliminate(std::vector<int> rows, const Eigen::MatrixX2d& values) const {
   assert(ok());
   thread_local MatrixXd x;  // zero between calls
-  // As long as the longest so far: to clear it anew would cost more than the path.
+  // It stays as long as the longest factor so far: to clear it for each call would cost more than
+  // the path does.
   if (x.rows() < this->rows()) x.setZero(this->rows(), 2);
   for (int& row : rows) row = tree_->place[static_cast<std::size_t>(row)];
   x(rows, Eigen::all) = values;
@@ -118,7 +119,6 @@ Eliminated SparseFactor::eliminate(std::vector<int> rows, const Eigen::MatrixX2d
     return std::binary_search(half.rows.begin(), half.rows.end(), row);
   }));
   half.values = x(half.rows, Eigen::all).transpose();
-  // Zero again for the next call.
   x(half.rows, Eigen::all).setZero();
   return half;
 }
@@ -130,7 +130,7 @@ Eliminated SparseFactor::over_pivots(Eliminated half) const {
 
 // Two paths that have met go on as one, and before that there is nothing to multiply.
 Eigen::Matrix2d product(const Eliminated& a, const Eliminated& b) {
-  // From the root back they are alike: by bisection, how far.
+  // Seen from the root both paths are alike up to some row, which bisection finds.
   std::size_t common = 0, beyond = std::min(a.rows.size(), b.rows.size()) + 1;
   while (beyond - common > 1) {
     const std::size_t middle = (common + beyond) / 2;

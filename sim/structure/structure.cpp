@@ -1,5 +1,5 @@
-// Solves by corrections: with a factor of (S7), which may be in single precision, hold mechanisms
-// or know no friction, and with residuals of (S6) itself, which says what is solved for.
+// Solves by corrections: with a factor of (S7), which knows no friction and may be in single
+// precision or hold mechanisms, and with residuals of (S6), which is what is solved.
 #include "sim/structure/structure.hpp"
 
 #include <algorithm>
@@ -119,7 +119,7 @@ VectorXd Structure::in_forces(const VectorXd& forces, const VectorXd& gap) const
 Structure::Correction Structure::correct(const VectorXd& missing, const VectorXd& friction) const {
   VectorXd load = -missing;
   auto gap = load.tail(bodies_->compatibilities());
-  // The factor has kNᵀN in it: a gap that is asked for is also a force.
+  // The factor has kNᵀN in it: where another Np than 0 is asked for, that makes a force too.
   if (gap.lpNorm<1>() != 0.0) add_to_unknowns(bodies_->compatibility_forces(gap), load);
   gap /= stiffness_;
   Correction change{single_ ? solve_nearby(load) : VectorXd(factor_->solve(load)), {}, {}, {}};
@@ -164,7 +164,7 @@ void Structure::refine_with_friction(const StructureLoads& loads, VectorXd missi
     Correction change = correct(missing, loads.friction);
     ++state.solves;
     const double lacked = missing.norm(), correction = change.forces.norm();
-    // What it does is made orthogonal to what earlier ones did.
+    // Its effect is made orthogonal to those of earlier corrections.
     for (const Correction& old : past) {
       const double part = change.effect.dot(old.effect) / old.effect_squared;
       change.answer -= part * old.answer;
@@ -255,7 +255,8 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
   }
 
   PortState start{std::move(offsets), {}, VectorXd::Zero(bodies_->compatibilities()), 0, 0.0};
-  // The answer nearby: its ports as they are held here, without what is imposed.
+  // Corrections start from the answer nearby: from its ports as they are held here, less what is
+  // imposed.
   if (loads.near != nullptr) {
     start.displacements += as_held(bodies_->port_displacements(loads.near->displacements) -
                                    (start.displacements - prescribed));
@@ -274,7 +275,8 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
     }
     bodies_->scatter(moved, group, displacements);
   }
-  // Where a joint is not held its reaction is what was given, with friction on top where it slides.
+  // Where a joint is not held its reaction is the given one, and friction comes on top where it
+  // slides.
   VectorXd reactions = reactions_of(state.forces);
   for (int unknown = 0; unknown < reactions.size() && loads.given.size() > 0; ++unknown)
     if (!holds(unknown)) reactions(unknown) = loads.given(unknown);

@@ -31,7 +31,7 @@ enum class Precision : char { single_where_enough, full };
 /// Port forces that err by less than this part of their norm are solved for as well as can be.
 constexpr double accuracy_of_forces = 1e-12;
 
-/// What a structure answers, beside how well that is known.
+/// What a structure answers, and how well that is known.
 struct StructureResponse {
   Eigen::VectorXd displacements;  ///< δ. [m]
   Eigen::VectorXd reactions;      ///< r of every joint: R_N, R_T. [N/m]
@@ -93,7 +93,7 @@ class Structure {
   /// by them (S9). False, and nothing done, where joints are many or the factor is not in single
   /// precision: where none slides in it, or inertia is next to nothing.
   [[nodiscard]] bool hold_nearby(const std::vector<Held>& held);
-  /// Whether what holds differs from the factor.
+  /// Whether joints hold in another way than in the factor.
   [[nodiscard]] bool is_corrected() const { return !changes_.empty(); }
 
   /// Whether it can be solved; bodies without ports need no factor.
@@ -105,12 +105,12 @@ class Structure {
   [[nodiscard]] Eigen::Index joints() const {
     return static_cast<Eigen::Index>(layout_.held.size());
   }
-  /// Precondition: ok(). As well as accuracy asks for, or as corrections get; `residual` says how
-  /// well.
+  /// Precondition: ok(). Solves as well as `accuracy` asks for or as far as corrections get;
+  /// `residual` says how well.
   [[nodiscard]] StructureResponse solve(const StructureLoads& loads) const;
 
   // Only where no joint slides:
-  /// Of the mixed form (S7).
+  /// The factor of the mixed form (S7).
   [[nodiscard]] const SparseFactor& factor() const {
     assert(factor_);
     return *factor_;
@@ -141,7 +141,7 @@ class Structure {
   struct Layout {
     std::vector<Held> held;
     std::vector<std::array<int, 2>> of_port;  // unknowns that it moves with
-    Eigen::Index unknowns = 0;                // of joints, ties and loose sides
+    Eigen::Index unknowns = 0;  // of joints, ties, loose sides and what ties have in common
   };
   /// A joint that holds in another way than in the factor, and what couples the components that do
   /// to the unknowns, half solved: its jump where it has let go, else what moves its sides.
@@ -168,9 +168,9 @@ class Structure {
   [[nodiscard]] Eigen::MatrixXd coupling(const Change& of, const Change& to) const;
   [[nodiscard]] Eigen::Matrix2d stiffness_between(int joint, int other) const;
   void find_loose_components();
-  // With the factor in single precision, corrected by the changes. [m], multipliers [N/m]
+  // A solve with the factor in single precision, corrected by the changes. [m], multipliers [N/m]
   [[nodiscard]] Eigen::VectorXd solve_nearby(const Eigen::VectorXd& load) const;
-  // L⁻¹P of the load of jumps y, an answer a column.
+  // L⁻¹P of the load of jumps y, one answer a column.
   [[nodiscard]] Eigen::MatrixXd half_solved(const std::vector<SharedJump>& jumps,
                                             const Eigen::MatrixXd& y) const;
   template <class Vector>
@@ -180,15 +180,16 @@ class Structure {
   // (S6) by corrections with (S7), from a state to start from.
   [[nodiscard]] PortState solve_ports(const StructureLoads& loads, const Eigen::VectorXd& on_ports,
                                       PortState state) const;
-  // What one solve adds where forces and gaps are missing, and what that does.
+  // What one solve adds for what the equations lack, and what that does to them.
   [[nodiscard]] Correction correct(const Eigen::VectorXd& missing,
                                    const Eigen::VectorXd& friction) const;
-  // One correction after the other until the forces stand, or they shrink no more; with friction
-  // they are conjugate residuals [EES83].
+  // Correction after correction, until the forces are accurate enough or further ones bring
+  // nothing; with friction by generalised conjugate residuals [EES83].
   void refine(const StructureLoads& loads, Eigen::VectorXd missing, PortState& state) const;
   void refine_with_friction(const StructureLoads& loads, Eigen::VectorXd missing,
                             PortState& state) const;
-  // What the equations lack, all as forces: a gap times the largest stiffness. [N/m]
+  // What the equations lack, all as forces: what Np lacks is multiplied by the largest stiffness.
+  // [N/m]
   [[nodiscard]] Eigen::VectorXd in_forces(const Eigen::VectorXd& forces,
                                           const Eigen::VectorXd& gap) const;
   void rub(const Eigen::VectorXd& friction, Eigen::VectorXd& port_forces) const;
@@ -209,7 +210,7 @@ class Structure {
   }
   // Z + kNᵀN (S7). [N/m²]
   [[nodiscard]] Eigen::MatrixXd stiffened(const BodyOperator& op) const;
-  // Rx; the tops of ties move by what is common to all of them beside that.
+  // Rx (S8); the tops of ties also move by the distance common to all of them.
   template <class Vector>
   [[nodiscard]] Vector unknowns_to_ports(const Eigen::Ref<const Vector>& unknowns,
                                          const Layout& layout) const {
@@ -219,17 +220,18 @@ class Structure {
     for (const Eigen::Index top : tops_of_ties_) p(top) += unknowns(layout.unknowns - 1);
     return p;
   }
-  // Of another answer's ports, for a start from it.
+  // Displacements of another answer's ports, changed so that sides which are held together here
+  // move alike: a start for corrections.
   [[nodiscard]] Eigen::VectorXd as_held(const Eigen::VectorXd& displacements) const;
   // Adds Rᵀ t.
   void add_to_unknowns(const Eigen::VectorXd& port_forces, Eigen::VectorXd& all) const;
   [[nodiscard]] Eigen::VectorXd reactions_of(const Eigen::VectorXd& port_forces) const;
-  // The factor of (S7): its matrix, and the order of its elimination.
+  // The factor of (S7) and its matrix, to which each body's rows are added.
   [[nodiscard]] ElementMatrices mixed_form() const;
   [[nodiscard]] Eigen::MatrixXd add_rows(int body, std::vector<int>& rows) const;
   void factorise(Precision precision);
-  // (S7): the network of multipliers, which says where each body's pivots come from, and where
-  // those of cut bodies do.
+  // (S7): what each body's multipliers come after in the order of elimination. Of whole fibres a
+  // network of multipliers tells it, of cut bodies Gauss's elimination.
   [[nodiscard]] std::vector<char> conducting() const;
   [[nodiscard]] std::vector<Branch> network(const std::vector<int>& place,
                                             const std::vector<char>& conducts) const;
@@ -238,11 +240,11 @@ class Structure {
   [[nodiscard]] Eigen::Index first_multiplier(std::size_t body) const {
     return factorised_.unknowns + bodies_->first_compatibility(static_cast<int>(body));
   }
-  // Of unknowns alone; then with each body's multipliers behind what determines them.
+  // The order of unknowns alone; then with each body's multipliers behind what determines them.
   [[nodiscard]] std::vector<int> order_of_unknowns(const Supervariables& groups) const;
   [[nodiscard]] std::vector<int> elimination_order(const Supervariables& groups) const;
 
-  const Bodies* bodies_;                         // outlive this
+  const Bodies* bodies_;                         // not owned
   Layout layout_, factorised_;                   // as the joints hold, and of the factor
   std::vector<Eigen::Index> tops_of_ties_;       // their ports
   double stiffness_ = 0.0;                       // the largest of Z [N/m²]
@@ -251,7 +253,7 @@ class Structure {
   std::optional<SinglePrecisionFactor> single_;  // for the many corrections of friction, this one
   std::vector<LooseComponent> loose_components_;
   std::vector<Change> changes_;  // since
-  // What is left between their jumps and forces:
+  // The matrix between their jumps and forces (S9):
   Eigen::PartialPivLU<Eigen::MatrixXd> between_changes_;
 };
 

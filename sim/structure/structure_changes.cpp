@@ -33,8 +33,8 @@ bool Structure::hold_nearby(const std::vector<Held>& held) {
     first.push_back(size);
     size += std::ssize(changes_.back().components);
   }
-  // What is left between jumps and forces when all unknowns are eliminated: products of paths, no
-  // solve.
+  // The matrix between jumps and forces that is left when all unknowns are eliminated: products of
+  // paths, no solve.
   MatrixXd between(size, size);
   for (std::size_t i = 0; i < changes_.size(); ++i)
     for (std::size_t j = 0; j <= i; ++j) {
@@ -93,8 +93,8 @@ void Structure::find_loose_components() {
 
 // What has let go bears no force, what holds has no jump.
 VectorXd Structure::solve_nearby(const VectorXd& load) const {
-  // Joints, ties and multipliers have the same place in both layouts, at the two ends; what is
-  // loose differs.
+  // Both layouts begin with joints and ties, and end with what ties have in common and the
+  // multipliers; the loose sides in between differ.
   const Index shared = 2 * joints() + std::ssize(tops_of_ties_);
   const Index last = load.size() - layout_.unknowns + (tops_of_ties_.empty() ? 0 : 1);
   VectorXd in_factor(factorised_.unknowns + load.size() - layout_.unknowns);
@@ -118,7 +118,8 @@ VectorXd Structure::solve_nearby(const VectorXd& load) const {
         visit(change, static_cast<Index>(component), row++,
               Index{layout_.of_port[static_cast<std::size_t>(port_b(change.joint, component))][0]});
   };
-  // Changes first, from what the half solve gives at them; then their part in it.
+  // First the jumps and forces of the changes, from the half solve in their rows; then what they
+  // change in it.
   if (is_corrected()) {
     for_each_change([&](const Change& change, Index component, Index row, Index own) {
       by(row) = change.holds_more ? 0.0 : load(own) / size;

@@ -1,4 +1,5 @@
-// The factor of the mixed form (S7), and which precision and what hold on mechanisms it needs.
+// The factor of the mixed form (S7): its precision, and what is added to its diagonal to hold
+// mechanisms.
 #include <algorithm>
 #include <iterator>
 #include <memory>

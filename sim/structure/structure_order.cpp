@@ -1,5 +1,5 @@
 // The order of elimination (S7): unknowns by their graph, each body's multipliers behind what
-// determines them, so that no pivot is small though none is searched for.
+// determines them, so that no pivot is small although there is no pivoting.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
@@ -153,7 +153,7 @@ std::vector<int> Structure::elimination_order(const Supervariables& groups) cons
   const auto rows = [&](std::size_t body) {
     return body == ground ? Index{0} : op_of_body_[body]->compatibility.rows();
   };
-  // What needs no multipliers is the ground, on which a part may hang.
+  // Bodies without multipliers are the ground, to which a part may be connected.
   DisjointSets parts(ground + 1);
   for (std::size_t body = 0; body < ground; ++body)
     if (rows(body) == 0) parts.unite(ground, body);
