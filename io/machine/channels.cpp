@@ -197,23 +197,23 @@ const char* volt_hint(const ReadOptions& options) {
                        : "say what a volt is in [specimen.columns], as in force_unit = \"500 N/V\"";
 }
 
-// A test needs a load. One in volts is of use only where a logger's force may tell its factor
-// (X19). Beside a load, signals in volts are dropped with a warning; otherwise they are refused.
-// Where nothing at all was recognised, the refusal shows a guess from the numbers.
+// A test needs a load. One in volts is kept where a logger's force may tell its factor (X19). Other
+// signals in volts are dropped with a warning beside that or a load, and refused without. Where
+// nothing at all was recognised, the refusal shows a guess from the numbers.
 void need_load(TestFile& file, const Table& table, const ReadOptions& options, Chosen& chosen) {
   const std::string where = at_line(file.file, table.first_line);
   const bool loaded = chosen.contains(Quantity::force) || chosen.contains(Quantity::stress);
-  if (!loaded && options.has_logger && chosen.contains(Quantity::load_volts)) return;
+  const bool fitted = !loaded && options.has_logger && chosen.contains(Quantity::load_volts);
   for (const Quantity quantity : {Quantity::load_volts, Quantity::volts}) {
     const auto volts = chosen.find(quantity);
-    if (volts == chosen.end()) continue;
+    if (volts == chosen.end() || (fitted && quantity == Quantity::load_volts)) continue;
     const std::string what =
         fmt::format("column \"{}\" is in volts", file.columns[volts->second].name);
-    if (!loaded) throw InputError(where, what, volt_hint(options));
+    if (!loaded && !fitted) throw InputError(where, what, volt_hint(options));
     file.test.warnings.push_back(fmt::format("{}: not used ({})", what, volt_hint(options)));
     chosen.erase(volts);
   }
-  if (loaded) return;
+  if (loaded || fitted) return;
   throw InputError(
       where, "no column holds a force or a stress",
       fmt::format("the columns are {}; name it {}{}", list_of(file.columns), column_place(options),

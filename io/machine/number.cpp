@@ -105,6 +105,14 @@ class Scrubbed {
   std::size_t length_ = 0;
 };
 
+// Of a number out of range: one by its exponent or, without one, by the zeros behind the mark. It
+// is as good as zero.
+bool is_small(std::string_view text) {
+  const std::size_t exponent = text.find_first_of("eE");
+  if (exponent != std::string_view::npos) return text.find('-', exponent) != std::string_view::npos;
+  return text[text.find_first_not_of("+-0")] == '.';
+}
+
 Number convert(std::string_view text) {
   Number number;
   const char* end = text.data() + text.size();
@@ -112,9 +120,7 @@ Number convert(std::string_view text) {
   if (error == std::errc::invalid_argument || stopped != end)
     number.fault = NumberFault::text;
   else if (error == std::errc::result_out_of_range)
-    // Too small is as good as zero; only a negative exponent leads there.
-    number = {0.0, text.find('-', 1) == std::string_view::npos ? NumberFault::too_large
-                                                               : NumberFault::none};
+    number = {0.0, is_small(text) ? NumberFault::none : NumberFault::too_large};
   else if (!std::isfinite(number.value))
     number.fault = NumberFault::not_finite;
   return number;

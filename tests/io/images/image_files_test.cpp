@@ -92,8 +92,8 @@ TEST(ImageFile, OfGreyAndAlphaIsThatOfColoursAndAlpha) {
   drawn.bone.convertTo(alpha, CV_8U, 255.0);
   cv::merge(std::vector<cv::Mat>{drawn.image, alpha}, two);
   cv::merge(std::vector<cv::Mat>{drawn.image, drawn.image, drawn.image, alpha}, four);
-  EXPECT_EQ(cv::norm(to_grey(two, ""), to_grey(four, ""), cv::NORM_INF), 0.0);
-  EXPECT_GT(cv::norm(to_grey(two, ""), drawn.image, cv::NORM_INF), 0.0);  // what is hidden
+  EXPECT_EQ(cv::norm(images::to_grey(two, ""), images::to_grey(four, ""), cv::NORM_INF), 0.0);
+  EXPECT_GT(cv::norm(images::to_grey(two, ""), drawn.image, cv::NORM_INF), 0.0);  // what is hidden
 }
 
 TEST(ImageFile, OfSeveralPagesIsASectionAPage) {

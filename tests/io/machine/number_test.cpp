@@ -62,8 +62,13 @@ TEST(Number, NamesEveryFault) {
 }
 
 TEST(Number, TakesWhatIsTooSmallAsZero) {
-  EXPECT_EQ(parse_number("1e-999").value, 0.0);
-  EXPECT_TRUE(is_number("1e-999"));
+  const std::string zeros(330, '0');
+  for (const std::string& text : {std::string("1e-999"), "0." + zeros + "1", "-." + zeros + "1"}) {
+    EXPECT_EQ(parse_number(text).value, 0.0) << text;
+    EXPECT_TRUE(is_number(text)) << text;
+  }
+  EXPECT_FALSE(is_number("0.1e999"));
+  EXPECT_FALSE(is_number("1" + zeros + ".5"));
 }
 
 TEST(Number, RefusesACellLongerThanAnyNumber) {

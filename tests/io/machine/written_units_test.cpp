@@ -78,6 +78,15 @@ TEST(WrittenUnits, AreSaidByTheCommandLineOfATestInNoStudy) {
             "columns.force=2 takes the other)");
 }
 
+// The logger's force may tell what a volt of the load is, but nothing tells that of the strain.
+TEST(WrittenUnits, InVoltsAreThoseOfTheLoadWhereALoggerIs) {
+  const auto test = test_of("Time (s);Load (V);Strain (V)", {.has_logger = true});
+  EXPECT_FALSE(test.load_volts.empty());
+  EXPECT_EQ(test.warnings.at(0),
+            "column \"Strain\" is in volts: not used (say what a volt is in [specimen.columns], as "
+            "in force_unit = \"500 N/V\")");
+}
+
 TEST(WrittenUnits, AreOverruledByTheUser) {
   for (const char* column : {"Load", "Load (daX)", "2"}) {
     const ReadOptions options{{{Quantity::force, {column, "kN"}}}};
