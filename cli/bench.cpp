@@ -40,7 +40,7 @@ constexpr std::array options{"SCENE", "--seed", "--seeds", "--studies", "--costl
 
 constexpr Mode of_scene{"a SCENE alone", "", bench_scene, {"SCENE", "--seed", "--seeds"}};
 
-// A mode is an entry here and a function of its own.
+// A new mode needs an entry here and a function in bench.hpp.
 constexpr std::array flags{
     Mode{"--stability", "stiff and extreme scenes whose answer is known; needs no SCENE",
          bench_stability},
@@ -94,7 +94,7 @@ void leave(const BenchFiles& files, const CommonOptions& common, OutputFolder& o
 Command bench_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(app, common, "bench", "error against run time", bench_examples);
   const auto arguments = std::make_shared<BenchArguments>();
-  // Where two flags are given the last one is taken, and the other is refused as idle.
+  // If several flags are given one of them is chosen, and run_mode refuses the others as idle.
   const auto chosen = std::make_shared<const Mode*>(&of_scene);
   parser->add_option("SCENE", arguments->scene, "scene file (TOML)");
   add_output(*parser, arguments->folder, "folder for the results")->required();

@@ -10,7 +10,7 @@
 
 namespace havers::cli {
 
-/// What the modes are told; each looks at the few that it uses.
+/// The arguments of all modes together; each mode uses a few of them.
 struct BenchArguments {
   std::filesystem::path scene;  ///< Empty in modes that need none.
   std::filesystem::path folder;
@@ -28,11 +28,11 @@ struct BenchFiles {
   std::string csv_name, csv;
   std::string page;  ///< Empty: none.
 };
-/// Stages result.json, the CSV and the page, publishes them and prints.
+/// Writes result.json, the CSV and the page, publishes the folder and answers.
 void leave(const BenchFiles& files, const CommonOptions& common, OutputFolder& output,
            const std::function<void()>& print);
 
-/// The modes. All return 0 only where the bench was finished and came out as it should.
+/// The modes. All return 0 only if the bench was finished and its outcome is as it must be.
 int bench_scene(const BenchArguments& arguments, const CommonOptions& common);
 int bench_stability(const BenchArguments& arguments, const CommonOptions& common);
 int bench_porosity(const BenchArguments& arguments, const CommonOptions& common);

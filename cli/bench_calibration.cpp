@@ -36,7 +36,7 @@ class FitCounter {
   std::size_t fits_, next_ = 1;
 };
 
-// Median, and 10 and 90 % where they differ, in `unit`.
+// The median in `unit`; with the 10 and the 90 % quantile if these differ.
 std::string spread(const std::array<double, 3>& quantiles, double unit, int digits) {
   if (quantiles[0] == quantiles[2]) return fmt::format("{:.{}g}", quantiles[1] / unit, digits);
   return fmt::format("{:.{}g} ({:.{}g} to {:.{}g})", quantiles[1] / unit, digits,
@@ -103,7 +103,7 @@ int bench_calibration(const BenchArguments& arguments, const CommonOptions& comm
          .page =
              reports::available() && summed_up ? reports::chains_page(benchmark, provenance) : ""},
         common, output, [&] { print_chains(benchmark); });
-  // The first chain is the one that fits take by themselves.
+  // The first chain is the one that fits use by default.
   const bool usual_wins =
       summed_up && benchmark.winner().chain == benchmark.summaries.front().chain;
   return usual_wins ? done : answer_is_no;

@@ -15,15 +15,15 @@
 namespace havers::cli {
 namespace {
 
-// One section after the other: their CPU times are those of the process. `image` is drawn over each
-// time, and removed.
+// Not in parallel, as the CPU times are those of the whole process. Each section overwrites
+// `image`, which is removed at the end.
 calib::MethodComparison try_all(const BenchArguments& arguments, const CommonOptions& common,
                                 const std::filesystem::path& image) {
   ProgressLine line(common);
   std::vector<calib::PorosityTrial> trials;
   const std::vector<io::SectionCase> cases = io::section_cases(arguments.seeds);
   for (const io::SectionCase& next : cases) {
-    // A comparison needs one trial at least.
+    // A comparison needs at least one trial.
     if (interrupted() && !trials.empty()) break;
     if (line.due()) line.show(next.hardship);
     trials.push_back(io::try_section(next, image));

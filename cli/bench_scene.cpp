@@ -31,7 +31,7 @@ std::string step_text(const sim::BenchSetting& setting) {
   return setting.step ? fmt::format("{:.4g}", *setting.step * 1e9) : "-";
 }
 
-// Why a row's errors are not to be judged: runs that are not trusted, or that time cut off.
+// Why a row's errors mean little: some of its runs are not to be trusted, or ran out of time.
 std::string state_of(const sim::BenchRow& row) {
   if (row.trusted == row.runs) return "";
   return row.out_of_time == 0
@@ -79,7 +79,7 @@ void print_summary(const sim::WorkPrecision& study) {
 }  // namespace
 
 int bench_scene(const BenchArguments& arguments, const CommonOptions& common) {
-  // The one mode that needs a scene, which the parser cannot know.
+  // Only this mode needs a scene, so that the parser cannot demand one.
   if (arguments.scene.empty())
     throw io::InputError("bench", "no scene is given", "havers bench SCENE.toml -o DIR");
   const Stopwatch watch;

@@ -22,12 +22,12 @@ sim::StabilityBench run_all(const CommonOptions& common) {
     if (line.due()) line.show(scene.name);
     bench.scenes.push_back(sim::run_stability_scene(scene, interrupted));
   }
-  // Asked last, as the last scene may have been cut short.
+  // Also the last scene may have been cut short.
   bench.complete = !interrupted();
   return bench;
 }
 
-// Only scenes that did not come out as they must; the CSV has all.
+// The summary, and scenes that did not come out as they must; the CSV has all of them.
 void print_summary(const sim::StabilityBench& bench) {
   fmt::print("{}\n", summary(bench));
   for (const sim::StabilityResult& result : bench.scenes)

@@ -29,14 +29,14 @@ struct Findings {
   std::vector<std::string> warnings;
 };
 
-// Reads the input as its command would, and keeps what that would have thrown.
+// Reads the input as its command would, and keeps the problems that the command would report.
 Findings look_at(const std::filesystem::path& file, const io::Overrides& overrides) {
   Findings findings;
   try {
     findings.kind = io::kind_of_file(file, overrides);
     switch (*findings.kind) {
       case io::FileKind::study:
-        // By the pointer where it throws, else all of them.
+        // If load_study throws, the pointer has given the notes so far.
         findings.warnings = load_study(file, overrides, &findings.warnings).all_notes();
         break;
       case io::FileKind::sweep:
@@ -66,7 +66,7 @@ void print_json(const std::filesystem::path& file, const Findings& findings) {
 int run_check(const std::filesystem::path& file, const CommonOptions& common) {
   refuse_seed(common, "havers check runs nothing");
   const Findings findings = look_at(file, common.set);
-  // Problems are in the JSON already; thrown, they would be printed a second time.
+  // The JSON holds the problems: if they were thrown, `main` would print a second JSON.
   if (common.json) {
     print_json(file, findings);
     return findings.problems.empty() ? done : bad_input;

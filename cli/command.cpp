@@ -1,5 +1,4 @@
-// What all commands share: their options, in one place so that these mean the same everywhere, and
-// the way a run ends.
+// What all commands share: the common options, which mean the same everywhere, and how a run ends.
 #include "cli/command.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +44,7 @@ CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& n
                    "instead of the input's: joints.scatter=0.4 of a scene, "
                    "model.joints.scatter=0.4 of a study; repeatable")
       ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);  // A list would take the words behind it too.
+      ->allow_extra_args(false);  // Else --set would also take the words behind its value.
   command->add_flag("--force", common.force, "write into a folder that already holds a run");
   command->set_version_flag("--version", version_text, "version and what is built in");
   return command;
@@ -65,7 +64,7 @@ CLI::Option* add_output(CLI::App& command, std::filesystem::path& folder, const 
       ->check(CLI::Validator(complaint, ""));
 }
 
-// An option that does nothing is taken for one that did something.
+// A user would believe that an option without any effect had one: it is refused.
 void refuse_seed(const CommonOptions& common, const std::string& what) {
   if (common.seed)
     throw io::InputError(fmt::format("--seed {}", *common.seed), "sets nothing: " + what,
@@ -79,7 +78,7 @@ void refuse_settings(const CommonOptions& common, const std::string& what) {
   refuse_seed(common, what);
 }
 
-// On stderr, as stdout is the result.
+// On stderr, as stdout is for the result.
 void note(const CommonOptions& common, const std::string& sentence) {
   if (!common.quiet) fmt::print(stderr, "{}\n", sentence);
 }
@@ -88,7 +87,7 @@ std::string cell(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
 }
 
-// Scripts that ask for one file find its keys at the top, those for several in the list.
+// With one file its keys are at the top as well as in the list, so that scripts need no index.
 nlohmann::json json_of_files(const std::string& name, nlohmann::json entries, std::size_t files) {
   nlohmann::json json =
       files == 1 && entries.size() == 1 ? entries.front() : nlohmann::json::object();
@@ -102,7 +101,7 @@ std::string page_or(const std::string& file) {
 
 void answer(const CommonOptions& common, OutputFolder* output, const nlohmann::json& json,
             const std::string& file, const std::function<void()>& print) {
-  // First, so that nothing is printed of files that are not at their place.
+  // Files are moved to their place before anything is printed about them.
   if (output != nullptr) output->publish();
   if (common.json) {
     fmt::print("{}", io::json_text(json));

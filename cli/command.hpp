@@ -50,8 +50,8 @@ struct Command {
 /// What is wrong with an input, for --json.
 nlohmann::json json_of(const std::vector<io::Problem>& problems);
 
-/// What each of these does stands in cli/README.md; each adds its parser to `app` and keeps a
-/// reference to `common`, which has to live longer.
+/// The commands of cli/README.md. Each adds its parser to `app` and keeps a reference to `common`,
+/// which has to live longer than the command.
 Command fit_command(CLI::App& app, CommonOptions& common);
 Command simulate_command(CLI::App& app, CommonOptions& common);
 Command import_command(CLI::App& app, CommonOptions& common);

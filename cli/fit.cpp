@@ -39,7 +39,7 @@ std::string progress_text(const calib::CalibrationProgress& progress) {
   return text;
 }
 
-// Ctrl-C is asked for after every point of a search and inside simulations, which may be long.
+// Looks for Ctrl-C whenever the fit reports progress, and inside simulations, which may be long.
 calib::CalibrationResult watched_fit(const calib::Study& study, calib::EvaluationStore& store,
                                      const CommonOptions& common) {
   ProgressLine line(common);
@@ -69,16 +69,16 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
   if (common.seed) loaded.study.calibrate.seed = *common.seed;
   for (const std::string& doubt : loaded.all_notes()) note(common, "note: " + doubt);
 
-  // Of the files as they were read, whatever becomes of them during the fit.
+  // Now, as files may be changed during the fit.
   Digests inputs = digests_of(loaded.inputs);
   catch_interrupts();
   KeptRun run("fit", {arguments.study}, arguments.folder, common);
   calib::CalibrationResult result = watched_fit(loaded.study, run.store(), common);
-  // Those of files stand with their tests and sections.
+  // Only those of the study: notes on files are already in its tests and sections.
   result.notes = loaded.notes;
   tell_left_out(loaded.left_out, result);
   if (result.status == calib::CalibrationStatus::cancelled)
-    // The store is in the folder already: what was simulated stays.
+    // The store lies in the target itself: what was simulated stays there.
     return without_result(common, "cancelled",
                           fmt::format("stopped by you; the simulations so far are kept in {}: the "
                                       "same command goes on from there",

@@ -1,5 +1,5 @@
-// Names of overlays and test figures are made here alone, for `fit` that writes them and for
-// `report` that reads them back.
+// `fit` writes overlays and figures of tests, `report` reads them back: their names are made only
+// here.
 #include "cli/fit_files.hpp"
 
 #include <fmt/core.h>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Sections are counted from 1, in the order in which they were measured.
+// Names count sections from 1, in the order in which they were measured.
 fs::path overlay_file(const std::string& id, std::size_t section) {
   return fmt::format("overlays/{}_{}.png", id, section + 1);
 }
@@ -26,7 +26,7 @@ std::vector<std::uint8_t> read_bytes(const fs::path& file) {
   return {bytes.begin(), bytes.end()};
 }
 
-// Figure 0 is the test, 1 the clocks of its logger.
+// Figure 0 shows the test, figure 1 the clocks of machine and logger.
 fs::path test_file(const std::string& id, std::size_t figure) {
   return fmt::format("tests/{}{}.svg", id, figure == 0 ? "" : "_clocks");
 }
@@ -37,7 +37,7 @@ TestFigures draw_tests(const LoadedStudy& loaded) {
   TestFigures figures;
   for (const calib::Specimen& specimen : loaded.study.specimens) {
     const TestRecord& record = loaded.records.at(specimen.id);
-    // Ids inside figures must differ on the page that holds all of them.
+    // All figures are on one page: the ids inside them must differ.
     const std::string id = fmt::format("r{}", figures.size());
     std::vector<std::string>& drawn = figures[specimen.id];
     drawn.push_back(reports::test_svg({specimen.id, record.raw, specimen.test}, id));

@@ -25,7 +25,7 @@ struct FinishedFit {
   std::map<std::string, std::vector<std::vector<std::uint8_t>>> overlays;  ///< Specimen id to PNGs.
   std::map<std::string, std::vector<std::string>> tests;                   ///< And to SVGs.
 
-  /// What its page shows; refers to this.
+  /// What its page shows; holds references to this object.
   [[nodiscard]] reports::FitReport report() const;
 };
 

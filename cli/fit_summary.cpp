@@ -15,7 +15,7 @@
 namespace havers::cli {
 namespace {
 
-// Value and interval in the parameter's own unit, which its name holds.
+// Value and interval are in the unit that the parameter's name contains, as in "flank_MPa".
 void print_parameter(const calib::CalibratedParameter& parameter) {
   if (!parameter.identifiable) {
     fmt::print("  {:<22}{:>10.5g}  not determined: {}\n", parameter.name, parameter.value,
@@ -27,7 +27,7 @@ void print_parameter(const calib::CalibratedParameter& parameter) {
              parameter.at_bound ? "  AT ITS BOUND" : "");
 }
 
-// Measured before simulated, each in the unit of the heading.
+// A row of the table; the measured modulus and strength stand before the simulated ones.
 void print_specimen(const calib::SpecimenResult& specimen) {
   fmt::print("  {:<12}{:>9}{:>11}{:>12}{:>12}{:>11}{:>11}{}\n", specimen.id,
              cell(1e-9 * specimen.measured.modulus, 2), cell(1e-9 * specimen.modulus.mean, 2),

@@ -54,7 +54,7 @@ struct ImportFindings {
   nlohmann::json entries = nlohmann::json::array();  // an object a test, or a file's error
 };
 
-// An option beats the file; without one the file's own stays.
+// Without an option the size of the settings or of the file stays.
 void give_size(std::optional<double>& size, const std::optional<double>& given_mm) {
   if (given_mm) size = io::to_si(*given_mm, io::millimetre);
 }
@@ -78,8 +78,8 @@ std::vector<Imported> import_tests(const std::filesystem::path& path,
   return tests;
 }
 
-// One test from two recorders. If their clocks cannot be joined, why not is the reduction's
-// problem, and the record is shown as it is.
+// One test from two recorders. If these cannot be joined the reasons are stated as problems of the
+// reduction, and the test is shown as recorded.
 Imported import_joined(io::ImportSettings settings, const ImportArguments& arguments) {
   settings.columns.has_logger = true;
   io::TestFile file = io::read_test(arguments.files.front(), settings.columns);
@@ -109,7 +109,7 @@ std::string title_of(const io::TestFile& file) {
 void collect(const std::vector<Imported>& tests, std::vector<io::Problem>& problems) {
   for (const Imported& test : tests) {
     const calib::RawTest& raw = test.file.test;
-    // Sizes would help only where one is missing.
+    // Options for sizes are suggested only if a size is missing.
     const bool sized = raw.area || (raw.width && raw.thickness) || !raw.stress.empty();
     const bool strained = raw.gauge_length || !raw.strain.empty() || raw.extension.empty();
     const std::string where = tests.size() == 1 ? test.file.file : title_of(test.file);
@@ -122,8 +122,8 @@ void collect(const std::vector<Imported>& tests, std::vector<io::Problem>& probl
   }
 }
 
-// Machine time = offset_s + rate · logger time. The fit is about a time of reference; offset_s is
-// that at logger time 0.
+// Machine time = offset_s + rate · logger time. ClockFit has its offset at `reference`; offset_s is
+// the offset at logger time 0.
 nlohmann::json clocks_json(const calib::ClockFit& clocks) {
   return {{"offset_s", clocks.offset - clocks.rate * clocks.reference},
           {"rate", clocks.rate},
@@ -199,7 +199,7 @@ void print_test(const Imported& imported) {
 
 // One figure per file; per specimen, with its number, where a file holds several.
 std::string figure_name(const std::vector<Imported>& tests, std::size_t i) {
-  // Tests of the same file before this one, and all of it.
+  // How many tests of the same file come before this one, and how many there are.
   std::size_t before = 0, all = 0;
   for (std::size_t k = 0; k < tests.size(); ++k) {
     if (tests[k].file.file != tests[i].file.file) continue;
@@ -250,15 +250,14 @@ int run_import(const ImportArguments& arguments, const CommonOptions& common) {
   if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force);
   ImportFindings found = import_all(arguments, settings);
   const nlohmann::json json = json_of_files("files", found.entries, arguments.files.size());
-  // No test, no folder.
+  // Without any test no folder is made.
   if (found.tests.empty()) output.reset();
   if (output) output->write("import.json", io::json_text(json));
   if (output) write_results(*output, arguments, found, common, watch);
   answer(common, output ? &*output : nullptr, json, page_or("import.json"), [&] {
     for (const Imported& test : found.tests) print_test(test);
   });
-  // Last, so that what could be read is shown all the same; `main` says the problems and exits with
-  // 2.
+  // Thrown last, so that what could be read is shown before; `main` prints the problems.
   if (!found.problems.empty()) throw io::InputError(std::move(found.problems));
   return done;
 }

@@ -13,7 +13,7 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 void ask_to_stop(int signal) {
   asked_to_stop = true;
-  // A second one ends the program at once.
+  // From now on the signal has its usual effect: a second one ends the program at once.
   std::signal(signal, SIG_DFL);
 }
 

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr const char* store_name = "evaluations.sqlite";
 constexpr const char* run_name = ".run";  // whose simulations are kept
 
-// Of whole paths, so that a run is known from wherever it is started again.
+// With absolute paths, so that a run can be continued from another working directory.
 std::string name_of_run(const char* command, const std::vector<fs::path>& inputs) {
   std::vector<std::string> files;
   files.reserve(inputs.size());
@@ -24,7 +24,7 @@ std::string name_of_run(const char* command, const std::vector<fs::path>& inputs
   return fmt::format("{} of {}", command, fmt::join(files, ", "));
 }
 
-// Whether `run` is the one that was stopped; so it is too where no name was left.
+// Whether `run` is the one that was stopped in the folder. If no name was left, it is taken to be.
 bool goes_on(const fs::path& folder, const std::string& run, bool force) {
   if (!was_stopped(folder)) return false;
   const fs::path file = folder / run_name;
@@ -48,10 +48,10 @@ KeptRun::KeptRun(const char* command, const std::vector<fs::path>& inputs, const
       resumes_(goes_on(folder, name_, common.force)),
       output_(folder, common.force || resumes_) {
   if (resumes_) note(common, "going on with the simulations kept in " + folder.string());
-  // In the target, not staged: from here on every simulation survives a kill.
+  // In the target itself, not staged: from now on every simulation survives a kill.
   store_ = io::open_store(output_.keep(store_name));
   io::write_file(output_.keep(run_name), name_);
-  // So that a later run may replace it.
+  // Noted, so that a later run may replace the file.
   take_note(output_.folder(), run_name);
 }
 

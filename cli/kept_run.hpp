@@ -15,8 +15,8 @@ namespace havers::cli {
 /// Whether a run was stopped in a folder: simulations are kept, and there is no result.
 bool was_stopped(const std::filesystem::path& folder);
 
-/// The folder of such a run: its results are staged as any run's, its simulations are written into
-/// the target itself, where they survive a kill.
+/// The folder of a run that can be continued after it was stopped. Results are staged as those of
+/// any run; simulations are kept in the target itself, where they survive a kill.
 class KeptRun {
  public:
   /// Goes on with what a stopped run of the same command and inputs has left in the folder.
@@ -25,14 +25,14 @@ class KeptRun {
   KeptRun(const char* command, const std::vector<std::filesystem::path>& inputs,
           const std::filesystem::path& folder, const CommonOptions& common);
 
-  /// Where results are staged.
+  /// For the results.
   OutputFolder& output() { return output_; }
-  /// What was simulated before, and what will be.
+  /// Simulations of a stopped run, if there was one, and those of this run.
   calib::EvaluationStore& store() { return *store_; }
 
  private:
   std::string name_;  ///< "fit of /home/me/femur/study.toml", by which it is known when stopped.
-  bool resumes_;      ///< Declared before the folder, which would refuse what it holds.
+  bool resumes_;      ///< Declared before output_, which needs it to accept its folder.
   OutputFolder output_;
   std::unique_ptr<calib::EvaluationStore> store_;
 };

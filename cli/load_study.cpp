@@ -1,6 +1,6 @@
-// Files are read in parallel, each specimen's into an outcome of its own, and put together in the
-// study's order afterwards. A problem of one file hides none of another: all are collected, and
-// thrown at once.
+// Specimens are read in parallel, each into an outcome of its own, and put together in the study's
+// order afterwards. Problems of all files are collected and thrown at once, so that none hides
+// another.
 #include "cli/load_study.hpp"
 
 #include <fmt/format.h>
@@ -67,8 +67,8 @@ std::optional<io::TestFile> read_file(const std::filesystem::path& file,
   }
 }
 
-// The raw test, joined with its logger where there is one. Where one of its files is missing the
-// record stays empty.
+// Reads the raw test and joins it with its logger if it has one. If one of the files cannot be read
+// the record stays empty.
 void read_specimen(const io::SpecimenFiles& files, const calib::ReductionOptions& reduction,
                    Outcome& outcome) {
   io::ReadOptions options = with_sizes(files.columns, files);
@@ -86,14 +86,14 @@ void read_specimen(const io::SpecimenFiles& files, const calib::ReductionOptions
   outcome.rejections = std::move(joined.problems);
 }
 
-// From the record to stress and strain as used; why it cannot be, in the rejections.
+// Reduces the record to stress and strain. If that is impossible, `rejections` say why.
 void reduce(const io::SpecimenFiles& files, const calib::ReductionOptions& options,
             Outcome& outcome) {
   calib::Reduction reduction = calib::reduce_test(outcome.record.raw, options);
   outcome.rejections = std::move(reduction.problems);
   for (const std::string& warning : reduction.test.warnings)
     outcome.warnings.push_back(files.test.string() + ": " + warning);
-  // What the user says counts, or else how the record ends.
+  // What the study says counts before what the record shows.
   reduction.test.broke = files.broke.value_or(reduction.test.broke);
   outcome.specimen.broke = reduction.test.broke;
   outcome.specimen.test = std::move(reduction.test);
@@ -144,7 +144,7 @@ Outcome load_specimen(const calib::Specimen& declared, const io::SpecimenFiles& 
   Outcome outcome;
   outcome.specimen = declared;
   read_specimen(files, study.reduction, outcome);
-  // Reduced only by sound settings; else the record says what it has to say.
+  // A test is reduced only by sound settings; if it is not, its record's own warnings are kept.
   if (sound && outcome.problems.empty() && outcome.rejections.empty())
     reduce(files, study.reduction, outcome);
   else
@@ -259,7 +259,7 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   std::vector<io::Problem> problems;
   io::StudyFile read = io::read_study(file, overrides, problems);
   const bool sound = problems.empty();
-  // One a specimen, in the study's order; each is touched by one task only.
+  // One for each specimen, in the study's order; only one task writes to each.
   std::vector<Outcome> outcomes(read.specimens.size());
   tbb::parallel_for(std::size_t{0}, outcomes.size(), [&](std::size_t i) {
     outcomes[i] = load_specimen(read.study.specimens[i], read.specimens[i], read, sound);
@@ -275,13 +275,13 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   doubt_specimens(read.specimens, loaded);
   doubt_tests(read.specimens, outcomes, loaded);
   doubt_names(read.specimens, outcomes, loaded);
-  // Before what throws: `check` shows notes of a study that is refused, too.
+  // Before anything is thrown: `check` also shows the notes of a study that is refused.
   if (known != nullptr) *known = notes_of(loaded, outcomes);
   if (!problems.empty()) throw io::InputError(std::move(problems));
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     take_specimen(read.specimens[i], std::move(outcomes[i]), loaded);
   require_specimens(loaded, file);
-  // Only now are the tests' rates known, which scenes need.
+  // Scenes need the rates of the tests, which are known only now.
   if (problems = scene_problems(loaded.study, file); !problems.empty())
     throw io::InputError(std::move(problems));
   doubt_model(read.rate_is_given, loaded);

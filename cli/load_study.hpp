@@ -21,7 +21,7 @@ struct TestRecord {
   std::optional<calib::ClockFit> clocks;  ///< Of a second logger, where there is one.
 };
 
-/// What a study and its files say together.
+/// A study with everything that was read from its files.
 struct LoadedStudy {
   calib::Study study;                         ///< Without the specimens that are left out.
   std::vector<sim::LeftOut> left_out;         ///< Specimens that cannot be used, and why.
@@ -32,7 +32,7 @@ struct LoadedStudy {
   std::vector<std::string> notes;       ///< Of the study itself.
   std::vector<std::string> file_notes;  ///< Of tests and sections, which carry them as well.
 
-  /// Those of the study first.
+  /// `notes`, then `file_notes`.
   [[nodiscard]] std::vector<std::string> all_notes() const;
 };
 

@@ -1,5 +1,5 @@
-// Doubts that need several specimens, or the study together with its files, and that no reader of a
-// single file can have.
+// Doubts that arise only from several specimens, or from the study together with its files: the
+// reader of a single file cannot have them.
 #include "cli/loaded_doubts.hpp"
 
 #include <fmt/format.h>
@@ -46,7 +46,7 @@ void doubt_angles(LoadedStudy& loaded) {
   for (const calib::Specimen& specimen : loaded.study.specimens)
     ids.try_emplace(specimen.orientation, specimen.id);
   std::vector<std::string> alike;
-  // Neighbours in order of their angles.
+  // Compares neighbours, as the map is sorted by angle.
   for (auto next = ids.begin(), one = next; next != ids.end(); one = next++)
     if (one != next && next->first - one->first < hardly)
       alike.push_back(fmt::format("{:.4g} ({}) and {:.4g} ({})", one->first / calib::degree,

@@ -7,8 +7,8 @@
 
 namespace havers::cli {
 
-/// Sections that count twice, angles that are not said. Of a study that may not be sound: looks at
-/// what it names, at no measurement.
+/// Sections that count twice, angles that are not said. Looks only at what the study names, not at
+/// measurements, so that the study may still have problems.
 void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStudy& loaded);
 
 /// Angles that hardly differ, scatter, pores, rate and search, once all specimens are taken.

@@ -87,7 +87,7 @@ int answer(const CLI::App& app, const CLI::ParseError& error, bool json) {
   const std::string what = unknown.empty() ? error.what() : unknown;
   constexpr const char* hint = "havers -h and havers COMMAND -h show how it is used";
   if (json) print_refusal({{"command line", what, hint}});
-  // No command at all: somebody looks for what there is.
+  // Without any command the user is shown which there are.
   if (unknown.empty() && app.get_subcommands().empty())
     fmt::print(stderr, "{}", app.help());
   else
@@ -95,10 +95,10 @@ int answer(const CLI::App& app, const CLI::ParseError& error, bool json) {
   return bad_input;
 }
 
-// Whatever is thrown becomes a sentence on stderr and an exit code; an input's problems come one a
-// line, and once more in the JSON of commands that hold them nowhere else.
+// Every exception becomes a message on stderr and an exit code. Problems of an input are one line
+// each; with --json they are also printed as JSON, unless the command's own JSON has them.
 int run(const Command& command, const CommonOptions& common) {
-  // It holds as long as it lives, that is, while the command runs.
+  // The limit holds as long as this object lives: while the command runs.
   std::optional<tbb::global_control> limit;
   if (common.threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism,
@@ -147,7 +147,7 @@ int program(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // The line was not understood: the parsed option may not be set.
+    // Parsing failed, so that common.json may not be set yet: the words are searched instead.
     const bool json = std::any_of(
         argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
     return answer(app, error, json);

@@ -1,5 +1,6 @@
-// A run's files are written elsewhere and renamed into place, so that a kill leaves no result that
-// looks whole and is not; a list of names tells later runs what they may replace.
+// A run's files are written to a staging folder and renamed into place, so that a run that is
+// killed leaves no result that only looks complete. A list of names tells later runs what they may
+// replace.
 #include "cli/output_folder.hpp"
 
 #include <fcntl.h>
@@ -31,7 +32,7 @@ std::set<std::string> names_of_runs(const fs::path& folder) {
   std::set<std::string> names;
   std::ifstream file(folder / own_names);
   for (std::string name; std::getline(file, name);)
-    // What is named here may be removed: never anything outside of the folder.
+    // Files of these names may be removed later: none may lie outside the folder.
     if (!name.empty() && fs::path(name).filename() == name && name != "." && name != "..")
       names.insert(name);
   return names;
@@ -71,7 +72,7 @@ fs::path set_apart(const fs::path& staging, const fs::path& folder,
   return apart;
 }
 
-// A run that was killed may have left its staging folder; that alone is nothing.
+// The staging folder of a run that was killed does not count.
 bool holds_something(const fs::path& folder) {
   return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
                      [](const auto& entry) { return entry.path().filename() != staging_name; });
@@ -115,7 +116,7 @@ void refuse_to_overwrite(const fs::path& folder, bool force) {
                          own.empty() ? "no run has written there; give another folder, or --force "
                                        "to write beside what it holds"
                                      : "give another folder, or --force to replace the run in it");
-  // Even with --force: found here, before the run, and not when its result is to be moved.
+  // Also with --force: better refused here than after the run, when its result is to be moved.
   if (is_in_the_way(folder, last_name, own))
     refuse_to_replace(folder / last_name, "give another folder after -o");
 }
@@ -142,7 +143,7 @@ OutputFolder::OutputFolder(const fs::path& folder, bool force)
   refuse_to_overwrite(folder_, force);
   std::error_code error;
   for (const fs::path& left : {staging_beside(folder_), staging_}) {  // by a run that was killed
-    close(lock(left));  // Throws where that run still goes on.
+    close(lock(left));  // lock() throws if that run is still going on.
     fs::remove_all(left, error);
   }
   fs::create_directories(staging_, error);
@@ -176,14 +177,15 @@ void OutputFolder::publish(Earlier earlier) {
   std::set<std::string> staged, own = names_of_runs(folder_);
   for (const auto& entry : fs::directory_iterator(staging_))
     staged.insert(entry.path().filename().string());
-  // Nothing is moved before all places are known to be free.
+  // Before anything is moved, all places must be free.
   for (const std::string& name : staged)
     if (is_in_the_way(folder_, name, own))
       refuse_to_replace(folder_ / name, "this run's results are in " +
                                             set_apart(staging_, folder_, staged).string());
   const std::set<std::string> old = own;
   own.insert(staged.begin(), staged.end());
-  // Before the files: after a kill in between, a later run may replace what is there already.
+  // Names are written before files are moved: if the run is killed in between, a later run may
+  // replace the files that are already there.
   write_names(folder_, own);
   // The result goes first and comes last: where it stands, its run is complete, whenever a kill
   // came.
@@ -191,7 +193,7 @@ void OutputFolder::publish(Earlier earlier) {
     if (old.contains(last_name)) fs::remove_all(folder_ / last_name);
     for (const std::string& name : old) fs::remove_all(folder_ / name);
   }
-  // No folder can be renamed onto one that holds something.
+  // A folder cannot be renamed onto one that is not empty.
   const auto move = [&](const std::string& name) {
     fs::remove_all(folder_ / name);
     fs::rename(staging_ / name, folder_ / name);

@@ -49,7 +49,7 @@ class OutputFolder {
   void publish(Earlier earlier = Earlier::goes);
 
  private:
-  std::filesystem::path folder_, staging_;   ///< Both as the kernel takes them.
+  std::filesystem::path folder_, staging_;   ///< Absolute, with links resolved.
   std::vector<std::filesystem::path> made_;  // above them
   int lock_ = -1;                            // on the staging folder: no other run writes there
 };

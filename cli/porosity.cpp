@@ -74,7 +74,7 @@ io::DensityReference reference_of(const std::string& text) {
     in >> known.grey;
   char equals = 0;
   in >> equals >> known.density;
-  // Nothing may follow; every separator must be the one expected.
+  // Nothing may follow. Of the commas only the last one is known here.
   if (!in || !(in >> std::ws).eof() || (is_phantom && comma != ',') || equals != '=' ||
       known.density < 0.0 || (is_phantom && (known.width < 1 || known.height < 1)))
     throw io::InputError("--density " + text, "is not understood",
@@ -82,7 +82,7 @@ io::DensityReference reference_of(const std::string& text) {
   return known;
 }
 
-// Everything in SI units; pictures only where there is a folder for them.
+// Converted to SI units; pictures are made only if there is a folder for them.
 io::SectionOptions options_of(const PorosityArguments& arguments) {
   io::SectionOptions options = arguments.options;
   if (arguments.pixel_size_um)
@@ -99,7 +99,7 @@ io::SectionOptions options_of(const PorosityArguments& arguments) {
 // Images that can be measured are shown even when others cannot.
 PorosityFindings measure_all(const PorosityArguments& arguments) {
   const io::SectionOptions options = options_of(arguments);
-  // One an image, touched by one task only: the order of threads shows nowhere.
+  // One for each image, in their order, so that the result does not depend on threads.
   std::vector<MeasuredFile> outcomes(arguments.images.size());
   tbb::parallel_for(std::size_t{0}, outcomes.size(), [&](std::size_t i) {
     try {
@@ -119,7 +119,7 @@ PorosityFindings measure_all(const PorosityArguments& arguments) {
       continue;
     }
     found.read.push_back(image);
-    // Whatever path it is listed by.
+    // The same image may be listed by different paths.
     const bool fresh = seen.insert(std::filesystem::canonical(image)).second;
     for (io::SectionMeasurement& measured : outcomes[i].sections) {
       if (!fresh) measured.porosity.warnings.emplace_back("is listed again: it counts twice");
@@ -131,7 +131,7 @@ PorosityFindings measure_all(const PorosityArguments& arguments) {
   return found;
 }
 
-// As a fit pools the sections of one specimen (calib/porosity, K1).
+// All sections are pooled as a fit pools those of one specimen (calib/porosity, K1).
 calib::SpecimenPorosity mean_of(const std::vector<Section>& sections) {
   std::vector<calib::SectionPorosity> all;
   all.reserve(sections.size());
@@ -143,7 +143,7 @@ void print_table(const std::vector<Section>& sections) {
   fmt::print("porosity [%]   +-    pores   window SD [%]   scatter  section\n");
   for (const Section& section : sections) {
     const calib::SectionPorosity& found = section.measured.porosity;
-    // Pores larger than a window take joints away instead of spreading their strength (K5).
+    // Pores larger than a window remove joints rather than spread their strength (K5).
     const bool missing = calib::removes_joints(calib::pool_sections({found}));
     fmt::print("{:>12.3f}{:>7}{:>7}{:>16}{:>10}  {}\n", 100.0 * found.porosity,
                cell(100.0 * found.porosity_standard_error, 3), found.pore_count,
@@ -169,7 +169,7 @@ void print_table(const std::vector<Section>& sections) {
         100.0 * calib::missing_joints(mean));
 }
 
-// Overlays stand beside the page too, under names that images of one name do not share.
+// Overlays are also files beside the page; images of the same name get different ones.
 void write_page(const OutputFolder& output, const PorosityFindings& found,
                 const CommonOptions& common, const Stopwatch& watch) {
   reports::PorosityReport page;
@@ -195,7 +195,7 @@ int run_porosity(const PorosityArguments& arguments, const CommonOptions& common
   if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force);
   PorosityFindings found = measure_all(arguments);
   nlohmann::json json = json_of_files("sections", found.entries, arguments.images.size());
-  // Nothing measured, no folder.
+  // If nothing was measured no folder is made.
   if (found.sections.empty())
     output.reset();
   else
@@ -205,7 +205,7 @@ int run_porosity(const PorosityArguments& arguments, const CommonOptions& common
   answer(common, output ? &*output : nullptr, json, page_or("porosity.json"), [&] {
     if (!found.sections.empty()) print_table(found.sections);
   });
-  // Last, so that what could be measured is shown; `main` says the problems and exits with 2.
+  // Thrown last, so that what could be measured is shown before; `main` prints the problems.
   if (!found.problems.empty()) throw io::InputError(std::move(found.problems));
   return done;
 }
@@ -220,7 +220,7 @@ void add_words(CLI::App& parser, const std::string& name, E& value, const std::s
     const auto found = known.find(text);
     if (found == known.end())
       return fmt::format("is {}, must be one of: {}", text, fmt::join(io::words<E>, ", "));
-    // CLI11 reads numbers into an enumeration.
+    // CLI11 reads an enumeration from its number.
     text = std::to_string(static_cast<int>(found->second));
     return {};
   };

@@ -18,16 +18,16 @@ class ProgressLine {
   ProgressLine(ProgressLine&&) = delete;
   ProgressLine& operator=(ProgressLine&&) = delete;
 
-  /// Whether it is time to show something new: ten times a second at most. Asked before a text is
-  /// made, which would cost for nothing otherwise.
+  /// Whether it is time to show something new: at most ten times a second, and never when nothing
+  /// is shown. Ask before making a text, so that none is made in vain.
   bool due();
-  /// In place of what it showed before; cut at 79 characters.
+  /// Replaces what was shown before. Text beyond 79 columns is cut off.
   void show(const std::string& text);
 
  private:
-  bool visible_;        ///< stderr is a terminal that can wipe a line, and nobody asked for quiet.
+  bool visible_;        ///< stderr is a terminal that can wipe a line, and -q is not given.
   bool shown_ = false;  ///< Whether there is a line to wipe.
-  std::chrono::steady_clock::time_point next_;  ///< From when on it is due.
+  std::chrono::steady_clock::time_point next_;  ///< When the next text is due.
 };
 
 }  // namespace havers::cli

@@ -1,4 +1,4 @@
-// What a result must carry to be made again, and to show what its files were.
+// What a result carries so that it can be reproduced and its input files can be recognised.
 #include "cli/provenance.hpp"
 
 #include <utility>

@@ -20,7 +20,7 @@ using Digests = std::map<std::string, std::string>;
 Digests digests_of(const std::vector<std::filesystem::path>& inputs);
 
 /// The command as typed, the inputs' digests, and the time so far.
-/// To be called when the result is whole: the time so far is the time that it took.
+/// Call it when the result is complete, as the time so far is stated as the time of the run.
 calib::Provenance provenance_of(const CommonOptions& common, Digests inputs,
                                 const Stopwatch& watch);
 

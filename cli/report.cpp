@@ -31,7 +31,7 @@ std::vector<std::string> shortest_ends(const std::vector<fs::path>& folders) {
   std::vector<fs::path> rest(folders.size()), ends(folders.size());
   std::ranges::transform(folders, rest.begin(), [](const fs::path& p) { return fs::canonical(p); });
   const std::set<fs::path> different(rest.begin(), rest.end());
-  // One folder more each time, until as many ends differ as folders do.
+  // Each turn takes one more part of the paths, until there are as many ends as folders.
   do {
     for (std::size_t i = 0; i < rest.size(); ++i) {
       ends[i] = ends[i].empty() ? rest[i].filename() : rest[i].filename() / ends[i];
@@ -55,7 +55,7 @@ void tell_apart(std::vector<FinishedFit>& fits, const std::vector<fs::path>& fol
   }
 }
 
-// The problems of all results at once.
+// Throws the problems of all results at once.
 std::vector<FinishedFit> read_all(const std::vector<fs::path>& results) {
   std::vector<FinishedFit> fits;
   std::vector<fs::path> folders;
@@ -87,13 +87,13 @@ fs::path write_page(const ReportArguments& arguments, const std::vector<Finished
   if (arguments.folder.empty()) {
     const fs::path page = folder_of_fit(arguments.results.front()) / "report.html";
     io::write_file(page, page_of(fits));
-    // So that a later run may replace the page, whichever build made the fit.
+    // Noted, so that a later run may replace the page even if the fit was made without one.
     take_note(page.parent_path(), page.filename().string());
     return fs::absolute(page).lexically_normal();
   }
   OutputFolder output(arguments.folder, force);
   output.write("report.html", page_of(fits));
-  output.publish(OutputFolder::Earlier::stays);  // Beside a fit that may be there.
+  output.publish(OutputFolder::Earlier::stays);  // A fit in that folder is kept.
   return output.folder() / "report.html";
 }
 

@@ -38,8 +38,8 @@ std::string progress_text(const sim::Progress& progress) {
                      100.0 * point.strain, 1e-6 * point.stress_right, point.broken_joints);
 }
 
-// The observer sees every row; the terminal takes some of them, the snapshots choose for
-// themselves.
+// Every row is observed. The terminal shows some of them; the recorder of snapshots chooses its
+// own.
 sim::Simulation watched_run(const sim::Scene& scene, io::SnapshotRecorder& snapshots,
                             const CommonOptions& common) {
   ProgressLine line(common);
@@ -56,7 +56,7 @@ nlohmann::json write_results(const OutputFolder& output, const io::SceneFile& fi
                              const io::SnapshotRecorder& snapshots,
                              const calib::Provenance& provenance) {
   const sim::Scene& scene = file.scene;
-  // Built anew, as a simulation does not keep its own.
+  // Built again, as a simulation does not keep its assembly.
   const sim::Assembly assembly = sim::build_assembly(scene.assembly, scene.loading.lateral);
   io::write_curve(output.stage("curve.csv"), simulation);
   io::write_joints(output.stage("joints.csv"), assembly, simulation);
@@ -88,7 +88,7 @@ std::string steps_text(const sim::Simulation& run) {
                                        error.strength));
 }
 
-// The verdict, which comes before every number.
+// The verdict, which is printed before all numbers.
 std::string headline(const sim::Simulation& run) {
   if (!run.trusted()) return "NOT to be trusted: " + run.why_not_trusted();
   const std::string reservation = run.reservation();
@@ -97,7 +97,7 @@ std::string headline(const sim::Simulation& run) {
              : fmt::format("to be trusted but for {}; {}", reservation, explain(run));
 }
 
-// A relative error beside a value; nothing where it is no more than was asked for.
+// A relative error beside a value. Nothing if it is within the accuracy that was asked for.
 std::string by_step(double error) {
   return error > 0.0 ? fmt::format(" (± {:.2g} % of it by the step)", 100.0 * error) : "";
 }
@@ -107,7 +107,7 @@ std::string strength_text(const sim::Scene& scene, const sim::Simulation& run) {
   if (std::isnan(run.strength)) return "-";
   const sim::StepError error = run.error_beyond_accuracy();
   std::string strength = fmt::format("{:.4g} MPa{}", 1e-6 * run.strength, by_step(error.strength));
-  // Nothing bears a load: no strain belongs to that.
+  // Nothing bears a load, so that there is no strain at failure.
   if (run.status == sim::SimulationStatus::severed) return strength;
   if (run.status == sim::SimulationStatus::broken)
     return fmt::format("{} at a strain of {:.4g} %{}", strength, 100.0 * run.failure_strain,
@@ -119,7 +119,7 @@ std::string strength_text(const sim::Scene& scene, const sim::Simulation& run) {
                                   : "");
 }
 
-// How many, from when on, and what of them was not counted.
+// How many joints broke, at which strain the first one did, and what was not counted.
 std::string breaks_text(const sim::Scene& scene, const sim::Simulation& run) {
   std::string breaks = fmt::format("{} of {}", run.broken_joints, run.joints.size());
   if (run.broken_joints > 0)
@@ -150,7 +150,6 @@ void print_summary(const sim::Scene& scene, const sim::Simulation& run, double w
   fmt::print("broken joints  {}\n", breaks_text(scene, run));
   fmt::print("regime         {}: {}\n",
              run.regime == sim::Regime::dynamic ? "dynamic" : "quasi-static", run.regime_ground);
-  // The time stands with what it was bought with.
   fmt::print("time           {:.3g} s for {}; energy defect {}, residual {}, penetration {} m\n",
              wall_seconds, steps_text(run), small(run.energy_defect), small(run.worst_residual),
              small(run.worst_penetration));
@@ -162,7 +161,7 @@ void print_summary(const sim::Scene& scene, const sim::Simulation& run, double w
 int run_simulate(const SimulateArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   io::SceneFile file = io::read_scene(arguments.scene, common.set, io::Snapshots::written);
-  // Of the files as they were read, whatever becomes of them during the run.
+  // Now, as files may be changed during the run.
   Digests inputs = digests_of(file.inputs);
   if (common.seed) file.scene.joints.seed = *common.seed;
   if (common.seed && !file.scene.joints.thresholds.empty())
@@ -173,13 +172,13 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
     note(common, "note: " + doubt);
   catch_interrupts();
   io::SnapshotRecorder snapshots(file.snapshots);
-  // A folder that cannot be written is found before the run, not after it.
+  // Before the run, so that a folder that cannot be written is refused at once.
   OutputFolder output(arguments.folder, common.force);
   if (!reports::available())
     note(common, "no report.html and fracture.svg: this build makes no pages (havers --version)");
 
   const sim::Simulation simulation = watched_run(file.scene, snapshots, common);
-  // Without a row there is nothing that could be left.
+  // Without a row there is no result to write.
   if (simulation.curve.empty())
     return without_result(
         common, sim::to_string(simulation.status),

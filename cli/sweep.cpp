@@ -37,7 +37,7 @@ struct SweepArguments {
   std::string title = "havers sweep";
 };
 
-// A sweep with what came of it.
+// A sweep with its results; `stem` is the name of its folder.
 struct Done {
   std::string stem;
   std::vector<fs::path> inputs;
@@ -45,11 +45,11 @@ struct Done {
   calib::SweepResult result;
 };
 
-// All sweeps are read before any runs, with the problems of all at once.
+// All sweeps are read before one of them runs; the problems of all are thrown at once.
 std::vector<Done> read_all(const SweepArguments& arguments, const CommonOptions& common) {
   std::vector<Done> all;
   std::vector<io::Problem> problems;
-  // Each sweep's folder is called by its file; these two names are taken.
+  // The folder of each sweep has the name of its file. These two names are already in use.
   std::set<std::string> stems{"result.json", "report.html"};
   for (const fs::path& file : arguments.files) {
     if (!stems.insert(file.stem().string()).second)
@@ -139,7 +139,6 @@ std::string found(const calib::Finding& finding) {
                                                               : calib::MeasureWords{"", "%", 0.01};
   const double width = (finding.high - finding.low) / scale;
   const bool known = std::isfinite(width) && width > 0.0;
-  // Decimals that show two digits of the width.
   const int two = known ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(width)))) : 3;
   const int decimals = two + calib::extra_digits(finding, scale);
   const auto shown = [&, scale = scale](double number) {
@@ -169,7 +168,7 @@ void print_summary(const std::vector<Done>& all, double wall_seconds) {
   for (const Done& one : all) {
     calib::SweepTotals totals;
     totals.add(one.result);
-    // Said of each sweep, as one sweep's reservation says nothing of another.
+    // For each sweep on its own, as their reservations differ.
     if (totals.reserved > 0)
       fmt::print("{} of {} with a reservation, most often so: {}\n",
                  calib::count(totals.reserved, "run"), one.stem, one.result.most_reserved_because);
@@ -184,12 +183,12 @@ void print_summary(const std::vector<Done>& all, double wall_seconds) {
 int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   std::vector<Done> all = read_all(arguments, common);
-  // Of the files as they were read, whatever becomes of them during the runs.
+  // Now, as files may be changed during the runs.
   Digests inputs = digests_of(inputs_of(all));
   catch_interrupts();
   KeptRun run("sweep", arguments.files, arguments.folder, common);
   if (!run_all(all, run.store(), common)) {
-    // Runs that were looked at joint by joint are not in the store.
+    // Runs of sweeps with patterns are not stored, as a store does not hold patterns of joints.
     const bool patterns =
         std::ranges::any_of(all, [](const Done& one) { return one.sweep.patterns; });
     return without_result(

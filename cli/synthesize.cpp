@@ -44,7 +44,7 @@ struct Made {
   std::vector<std::string> problems;  ///< That the test has for a fit.
 };
 
-// The study's sizes; where it has none, those of a usual bar.
+// The sizes of the study; for those that it lacks the defaults of calib::Bar.
 calib::Bar bar_of(const io::SpecimenFiles& files) {
   calib::Bar bar;
   bar.width = files.width.value_or(bar.width);
@@ -65,7 +65,7 @@ void refuse_what_is_not_made(const std::string& where, const io::SpecimenFiles& 
   const auto refuse = [&](bool named, const std::string& key) {
     if (named) problems.push_back({where, "has " + key + ", which is not made", "leave it out"});
   };
-  // What is written is one export of one machine, and images without masks.
+  // The tests that are made are exports of one machine with one specimen each; images have no mask.
   refuse(specimen.gauge.has_value(), "a gauge");
   refuse(specimen.mask.has_value(), "a mask");
   refuse(!specimen.columns.specimen.empty() || specimen.columns.specimen_number,
@@ -73,8 +73,8 @@ void refuse_what_is_not_made(const std::string& where, const io::SpecimenFiles& 
   refuse(!specimen.columns.columns.empty() || !specimen.columns.units.empty(), "columns");
 }
 
-// All files must lie below the study's folder and differ, or the copy would write where nobody
-// looks, or over its own.
+// All files must lie in the study's folder or below it, and none may be named twice. Otherwise the
+// copy would write outside its own folder or overwrite its own files.
 std::vector<io::Problem> problems_of(const fs::path& study, const io::StudyFile& file) {
   std::vector<io::Problem> problems;
   std::set<fs::path> to_be_made{"study.toml", "truth.json"};
@@ -144,8 +144,8 @@ calib::Study as_tested(const io::StudyFile& file) {
   return study;
 }
 
-// One specimen with its sections, scene and test; safe to run in parallel, as its files are its
-// own.
+// One specimen with its sections, scene and test. Specimens share no file, so that they can be made
+// in parallel.
 Made make_specimen(const fs::path& study, const OutputFolder& output, const io::StudyFile& file,
                    std::size_t s) {
   const std::uint64_t seed = calib::specimen_seed(file.study.calibrate.seed, s);
@@ -154,7 +154,7 @@ Made make_specimen(const fs::path& study, const OutputFolder& output, const io::
 
   calib::Study one = file.study;
   calib::Specimen& specimen = one.specimens[s];
-  // Sections first: the scatter and modulus of the scene follow from what was drawn.
+  // Sections come first: the scatter and the modulus of the scene depend on them.
   specimen.sections = draw_sections(study, output, file, s, seed);
   specimen.test.strain_rate = calib::strain_rate(bar, laboratory);
   calib::SpecimenModel model = calib::model_of(one, s);
@@ -167,7 +167,7 @@ Made make_specimen(const fs::path& study, const OutputFolder& output, const io::
   if (!calib::is_test(made.simulation)) return made;  // nothing to record
   calib::RawTest record = calib::record_test(made.simulation, bar, laboratory, seed);
   record.specimen_id = specimen.id;
-  // What `fit` would say of it.
+  // Why `fit` could not use the test.
   made.problems = calib::reduce_test(record, file.reduction).problems;
   io::write_bluehill(output.stage(place(study, file.specimens[s].test)), record);
   return made;
@@ -181,7 +181,7 @@ std::vector<Made> make_all(const fs::path& study, const OutputFolder& output,
   return made;
 }
 
-// What a fit of the study should find: the parameters, and each specimen's own values.
+// What a fit should find: the parameters of the study, and the values of each specimen.
 nlohmann::json truth_of(const io::StudyFile& file, const std::vector<Made>& made) {
   nlohmann::json parameters;
   const bool one_scatter = file.study.porosity.to_scatter == calib::ToScatter::none;
@@ -214,7 +214,7 @@ nlohmann::json truth_of(const io::StudyFile& file, const std::vector<Made>& made
           {"specimens", specimens}};
 }
 
-// In words that name the setting to change, where there is one.
+// If a setting can be changed to help, it is named.
 std::string why_no_test(const Made& made) {
   if (made.simulation.status == sim::SimulationStatus::strain_limit)
     return fmt::format("does not break within model.loading.max_strain = {:g} %: raise it",
@@ -247,7 +247,7 @@ int run_synthesize(const SynthesizeArguments& arguments, const CommonOptions& co
   io::StudyFile file = io::read_study(arguments.study, common.set, io::Files::will_be_written);
   if (common.seed) file.study.calibrate.seed = *common.seed;
   std::vector<io::Problem> problems = problems_of(arguments.study, file);
-  // A scene can be judged only of a study that is sound.
+  // Scenes can be checked only if the study itself has no problems.
   if (problems.empty()) problems = scene_problems(as_tested(file), arguments.study);
   if (!problems.empty()) throw io::InputError(std::move(problems));
   catch_interrupts();
@@ -258,7 +258,7 @@ int run_synthesize(const SynthesizeArguments& arguments, const CommonOptions& co
                                                                : place(arguments.study, input)));
 
   const std::vector<Made> made = make_all(arguments.study, output, file);
-  // A study that lacks one of its tests could not be read.
+  // A copy of the study without one of its tests would be of no use.
   if (!all_are_tests(made))
     return without_result(common, interrupted() ? "cancelled" : "failed", "nothing was written");
   for (const Made& one : made)

@@ -16,16 +16,16 @@ namespace havers::reports {
 /// Whether this build can make pages.
 bool available();
 
-/// What the page of one run shows. Reports refer to results and must not outlive them.
+/// What the page of one run shows. Reports hold references: results must live longer than they do.
 struct SimulationReport {
   const sim::Scene& scene;
-  const sim::Assembly& assembly;  ///< Of the scene, as the run had it.
+  const sim::Assembly& assembly;  ///< That of the scene, before the load.
   const sim::Simulation& simulation;
   calib::Provenance provenance;
   std::string file{};  ///< Of the scene; empty: the page does without its name.
 };
 
-/// What the page of a fit shows, or one part of a comparison.
+/// What the page of a fit shows, or what a comparison shows of one of its fits.
 struct FitReport {
   const calib::Study& study;
   const calib::CalibrationResult& result;
@@ -35,7 +35,7 @@ struct FitReport {
   std::map<std::string, std::vector<std::string>> tests{};
 };
 
-/// A test as read and as used; `test` has no curve where it could not be reduced.
+/// A test as read and as used. If it could not be reduced, `test` has no curve.
 struct ImportReport {
   std::string file;
   const calib::RawTest& raw;
@@ -44,7 +44,7 @@ struct ImportReport {
   const calib::ClockFit* clocks = nullptr;  ///< Of a second logger, where there is one.
 };
 
-/// Sections of one bone; all lists are in the order of `sections`.
+/// Sections and their mean; all lists are in the order of `sections`.
 struct PorosityReport {
   std::vector<calib::SectionPorosity> sections;
   std::vector<std::vector<std::uint8_t>> overlays;  ///< PNG, one per section.
@@ -67,11 +67,11 @@ std::string test_svg(const ImportReport& report, const std::string& id = "test")
 /// The clocks of machine and logger: both signals as recorded, aligned, and what is left. SVG.
 std::string clocks_svg(const calib::ClockFit& clocks, const std::string& id = "clocks");
 
-/// The pages: whole HTML that needs nothing beside it. A figure that cannot be drawn is a sentence
-/// in its place.
+/// The pages: complete HTML that needs no other file. If a figure cannot be drawn, a sentence
+/// stands in its place.
 std::string simulation_page(const SimulationReport& report);
 std::string fit_page(const FitReport& report);
-/// A test each, in their order.
+/// One part for each test, in the order of `reports`.
 std::string import_page(const std::vector<ImportReport>& reports,
                         const calib::Provenance& provenance);
 std::string porosity_page(const PorosityReport& report);

@@ -1,5 +1,5 @@
-// Stands in for the pages in a build without mstch: the same interface, every page one line that
-// names the packages. Who asks `available` first never gets here.
+// Stands in for the pages in a build without mstch: each function returns one line that names the
+// missing packages. Callers that ask available() first never see it.
 #include "reports/bench_pages.hpp"
 #include "reports/pages.hpp"
 #include "reports/sweep/sweep_page.hpp"

@@ -1,5 +1,5 @@
-// (I5) A sawn bar is told by its outline alone: by how well a rectangle holds it and whether its
-// sides are straight.
+// (I5) A sawn bar is recognised by its outline alone: by how well its hull fills a rectangle and by
+// how straight its sides are.
 #include "io/images/bars.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ bool has_straight_sides(const Contour& border) {
   cv::convexHull(border, hull);
   const cv::RotatedRect rectangle = cv::minAreaRect(hull);
   const double longest = std::max(rectangle.size.width, rectangle.size.height);
-  // What lies no deeper below the hull than this is on a side of it. [px]
+  // A pixel of the outline is on a side if it lies no deeper below the hull than this. [px]
   const double near = std::max(2.0, 0.005 * longest);
   const double c = std::cos(rectangle.angle * CV_PI / 180.0);
   const double s = std::sin(rectangle.angle * CV_PI / 180.0);

@@ -1,5 +1,5 @@
-// Porosity as it is commonly measured, to compare with: a threshold of the whole grey scale, and
-// Otsu's, outside of the bone too or within the outline that ours finds.
+// Porosity as it is commonly measured, to compare with: by the middle of the grey scale and by
+// Otsu's threshold, both over the whole image, and by Otsu's inside the outline of find_bone.
 #include <array>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -42,7 +42,7 @@ double by_otsu_in_bone(const cv::Mat& grey) {
   return by_otsu(cv::Mat(inside));
 }
 
-// CPU time with the reading of the file, as ours has it in it too.
+// The CPU time includes reading the file, as that of measure_sections does.
 calib::PorosityReading timed(const std::filesystem::path& image,
                              double (*measure)(const cv::Mat&)) {
   const sim::Stopwatch stopwatch;

@@ -1,5 +1,5 @@
-// Formats state in several places how much should follow; that is compared with the file's length,
-// and no pixel is decoded.
+// No pixel is decoded to tell whether a file is whole: a JPEG must have its end marker, a BMP the
+// length that its header asks for, a PNG its check sums, a TIFF no more pages than were read.
 #include "io/images/cut_off.hpp"
 
 #include <fmt/format.h>
@@ -27,9 +27,9 @@ std::size_t pages_of_tiff(const std::filesystem::path& file) {
   const Offset version = bytes.number(2, 2);
   if ((order != "MM" && order != "II") || (version != 42 && version != 43)) return 0;
   const bool large = version == 43;  // BigTIFF
-  // Bytes of a place, of the number of tags and of a tag.
+  // Bytes of an offset, of the number of tags, and of one tag.
   const std::size_t place = large ? 8 : 4, count = large ? 8 : 2, tag = large ? 20 : 12;
-  // Zero ends the list; so does a directory met before, as damaged files may go round in circles.
+  // Offset 0 ends the list. So does a directory met before: in a damaged file they may form a loop.
   std::set<Offset> passed{0};
   for (Offset at = bytes.number(place, place); passed.insert(at).second;)
     at = bytes.number(at + count + tag * bytes.number(at, count), place);
@@ -51,7 +51,7 @@ bool is_cut_off_bmp(const std::filesystem::path& file) {
   FileBytes bytes(file);
   if (bytes.text(0, 2) != "BM") return false;
   bytes.set_big_endian(false);
-  // Headers older than that have no field for compression.
+  // Headers shorter than 40 bytes, of older versions, do not state a compression.
   if (bytes.number(14, 4) < 40 || bytes.number(30, 4) != 0) return false;
   const Offset row = (bytes.number(18, 4) * bytes.number(28, 2) + 31) / 32 * 4;
   const std::int64_t height = static_cast<std::int32_t>(bytes.number(22, 4));
@@ -74,7 +74,7 @@ bool is_damaged_png(const std::filesystem::path& file) {
   for (std::size_t at = 8; at + 12 <= bytes.size();) {
     const std::size_t length = number_at(at), sum = at + 8 + length;
     if (sum + 4 > bytes.size()) return true;
-    // Bit 5 of a letter tells small from capital.
+    // Bit 5 of an ASCII letter is set in a small letter and not in a capital.
     const bool needed = (static_cast<unsigned char>(bytes[at + 4]) & 0x20U) == 0;
     if (needed && libdeflate_crc32(0, &bytes[at + 4], length + 4) != number_at(sum)) return true;
     if (bytes.compare(at + 4, 4, "IEND") == 0) return false;

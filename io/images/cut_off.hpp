@@ -7,7 +7,7 @@
 
 namespace havers::images {
 
-/// To be asked before decoding. Of formats that are none of these it says nothing.
+/// Call it before decoding. Files of other formats pass unchecked.
 /// @throws io::InputError when a JPEG or BMP has no end, or a PNG is cut off or damaged.
 void check_is_whole(const std::filesystem::path& file);
 

@@ -1,5 +1,5 @@
-// (I13) A line of density over grey level by least squares; two references determine it, a third
-// one tells how good it is.
+// (I13) A line of density over grey level by least squares. Two references determine it; only from
+// a third one on does it have a residual.
 #include "io/images/density.hpp"
 
 #include <fmt/format.h>
@@ -49,10 +49,10 @@ void add_density(const cv::Mat& whole, const cv::Mat& bone_grey, const PoreMap& 
   const auto at = [&](double g) { return level[0] + common / spread * (g - middle[0]); };
   for (std::size_t i = 0; i < grey.size(); ++i) squares += std::pow(density[i] - at(grey[i]), 2);
   const cv::Mat solid = solid_bone(map);
-  // Density stays NaN, which the doubts then say.
+  // Density stays NaN, and add_doubts warns of it.
   if (cv::countNonZero(solid) == 0) return;
   section.density = at(cv::mean(bone_grey, solid)[0]);
-  // References that are exchanged make such a line.
+  // Such a line results, for instance, where the densities of two references are swapped.
   if (section.density < 0.0)
     throw io::InputError(
         section.file,

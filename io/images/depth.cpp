@@ -1,5 +1,6 @@
-// (I6) Depths are compared without being computed: the grey level that is as deep as a threshold is
-// found for a row, and pixels are compared with that, in whole numbers where they are whole.
+// (I6) No depth is computed to compare it with a threshold. Instead the grey levels that are as
+// deep as the threshold are computed for every fourth row, and pixels are compared with these
+// limits, as integers where the pixels are integers.
 #include "io/images/depth.hpp"
 
 #include <cstdint>
@@ -59,8 +60,7 @@ cv::Mat darker_or_brighter(const Depth& depth, double threshold, bool darker,
       return beyond<std::uint8_t, std::int16_t>(depth, threshold, darker, within);
     case CV_16U:
       return beyond<std::uint16_t, std::int32_t>(depth, threshold, darker, within);
-    // Of smoothed bytes, whose largest is 255 · 128: a limit cut off at 16 bits is beyond that
-    // still.
+    // Smoothed bytes reach from 0 to 255 · 128: a limit that saturates at 16 bits is still beyond.
     case CV_16S:
       return beyond<std::int16_t, std::int16_t>(depth, threshold, darker, within);
     default:
@@ -91,9 +91,9 @@ void smooth(const cv::Mat& image, double sigma, Depth& depth, const cv::Mat& wit
   depth.grey = image;
   if (sigma == 0.0) return;
   const bool bytes = image.depth() == CV_8U;
-  // Smoothed bytes are no whole levels: 128 steps of each fill 16 bits.
+  // Smoothed bytes are not whole numbers: with 128 steps a level they still fit into 16 bits.
   depth.unit = bytes ? 128.0 : 1.0;
-  // Three deviations to each side.
+  // The kernel reaches three standard deviations to each side.
   const cv::Mat kernel = cv::getGaussianKernel(cvRound(6.0 * sigma) | 1, sigma, CV_32F);
   cv::sepFilter2D(within.empty() ? image : bone_beyond(within, image, depth.levels), depth.grey,
                   bytes ? CV_16S : CV_32F, depth.unit * kernel, kernel, {-1, -1}, 0.0,

@@ -20,18 +20,19 @@ struct Levels {
   double usual = 1.0;                ///< Contrast in the median, where it was fitted.
   double noise = 0.0;                ///< SD of a pixel. [grey levels]
 
-  /// C, at least a thousandth of its mean once it is fitted, so that no depth is infinite.
+  /// C. After fit_contrast it is at least `least`, so that no depth is infinite.
   [[nodiscard]] double contrast(double bone_level) const {
     return std::max(offset + slope * bone_level, least);
   }
-  /// (I6) 0 at the bone's level and 1 at the pores', whichever side these are on.
+  /// (I6) 0 at the level of bone and 1 at that of pores, be they darker or brighter than bone.
   [[nodiscard]] double depth(double bone_level, double grey) const {
     return sign * (bone_level - grey) / contrast(bone_level);
   }
 };
 
-/// Sets `levels`' contrast from pixels known to be pores or background; without any it stays. It is
-/// negative where these lie on the other side of bone than `levels.sign` says.
+/// Sets `levels`' contrast from pixels known to be pores or background; without such pixels it
+/// stays as it is. It becomes negative if they lie on the other side of bone than `levels.sign`
+/// says.
 void fit_contrast(const cv::Mat& grey, const cv::Mat& pores, Levels& levels);
 
 /// What depths are read from.
@@ -42,8 +43,9 @@ struct Depth {
   Levels levels;       ///< In grey levels, not in steps of `grey`.
 };
 
-/// Makes `depth.grey` of the image, unless it is that already, which `sigma` alone tells. Where
-/// `within` is not set, as if bone went on. A `sigma` of 0 shares the image's memory.
+/// Makes `depth.grey` of the image, unless it is not empty and was made with the same `sigma`;
+/// image and `within` are not compared. Outside `within` the image is taken to be at the bone's
+/// level. With a `sigma` of 0 `depth.grey` shares the image's memory.
 void smooth(const cv::Mat& image, double sigma, Depth& depth, const cv::Mat& within = {});
 
 /// 255 in `within` where depth is more, or less, than `threshold`.

@@ -1,5 +1,5 @@
-// (I17), (I18) One function a reason. Each sentence says what was seen, and what to do if it is not
-// what was meant.
+// (I17), (I18) One function for each group of reasons. Most sentences say what was seen, and what
+// to do if that is not what was meant.
 #include "io/images/doubts.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ void warn_of_canals(const calib::SectionPorosity& section, Warnings& warnings) {
                     1e6 * calib::usual_pore_diameter(section), 1e6 * section.pixel_size));
 }
 
-// No background, or bone that looks as pores do: little of the image, in many parts.
+// No background; or bone that may be pores, as it is little of the image or in many parts.
 void warn_of_bone(const PoreMap& map, bool outlined, cv::Size image,
                   const io::SectionOptions& options, Warnings& warnings) {
   if (options.mask || options.fills_image) return;
@@ -75,7 +75,7 @@ bool warn_of_strips(const PoreMap& map, cv::Rect box, cv::Size image, Warnings& 
     const bool stands =
         at.height > image.height - blur && (at.x < blur || at.br().x > image.width - blur);
     if (!lies && !stands) continue;
-    // More than a third of the image: a bar that spans it.
+    // A strip of more than a third of the image is a bar that spans it, not a label.
     if (all && widest_label * at.area() > image.area()) continue;
     warnings.push_back(
         fmt::format("{} is a strip along an edge of the image: if it is a label, cut it off or "
@@ -99,7 +99,7 @@ void warn_of_sides_of_frame(const Regions& regions, io::Pores known, Warnings& w
       bright ? "bright" : "dark", bright ? "bright" : "dark", bright ? "bright" : "dark"));
 }
 
-// Nine tenths of the bone with channels less than a sixteenth of the range apart.
+// Whether more than nine tenths of the bone have channels less than a sixteenth of the range apart.
 bool is_grey(const PoreMap& map, const cv::Mat& colours) {
   return colours.empty() ||
          cv::countNonZero((colours < 16) & map.bone) > 0.9 * cv::countNonZero(map.bone);
@@ -134,7 +134,8 @@ void warn_of_greys(const PoreMap& map, bool like_background, Warnings& warnings)
         100.0 * map.half_deep / cv::countNonZero(map.bone)));
 }
 
-// No pores at all, pores where the background is not, and what lies as far to the other side.
+// No pores; pores on the other side of bone than the background; much of the bone as far from its
+// level as pores are, but on their other side.
 void warn_of_side(const PoreMap& map, bool like_background, io::Pores known, Warnings& warnings) {
   const std::string_view side = map.dark ? "dark" : "bright", other = map.dark ? "bright" : "dark";
   if (map.areas.empty() && map.crack_count + map.specks == 0)
@@ -166,7 +167,7 @@ void warn_of_objects(const PoreMap& map, Warnings& doubts, Warnings& warnings) {
                              : "were taken for cracks and do not count as pores"));
 }
 
-// A pore too large for one, and (I7) against (I8).
+// A pore that is too large to be one; (I7) and (I8) that differ.
 void warn_of_size(const PoreMap& map, const calib::SectionPorosity& section, Warnings& warnings) {
   const double bone = cv::countNonZero(map.bone);
   const double largest = map.areas.empty() ? 0.0 : std::ranges::max(map.areas);
@@ -222,7 +223,7 @@ void add_doubts(const Findings& found, const io::SectionOptions& options, Warnin
   const cv::Mat colours = all_colours.empty() ? all_colours : all_colours(regions.box);
   const bool like_background = map.dark == regions.dark_pores;
   Warnings warnings;
-  // Bone that is all a strip has its doubt: that it is little of the image says no more.
+  // If all of the bone is a strip, that it is little of the image adds nothing.
   if (!warn_of_strips(map, regions.box, whole.size(), doubts))
     warn_of_bone(map, regions.outlined, whole.size(), options, doubts);
   warn_of_sides_of_frame(regions, options.pores, doubts);
@@ -237,7 +238,7 @@ void add_doubts(const Findings& found, const io::SectionOptions& options, Warnin
   if (!options.density.empty() && std::isnan(section.density))
     warnings.emplace_back(
         "density stays unknown: nowhere is bone two pixels from its surface, pores and cracks");
-  // Only what is said until here doubts the porosity itself.
+  // `warnings` do not question the porosity itself: they do not make the section doubtful.
   section.doubtful = !doubts.empty();
   std::ranges::move(warnings, std::back_inserter(doubts));
   section.warnings = std::move(doubts);

@@ -11,10 +11,10 @@
 
 namespace havers::images {
 
-/// Sentences for the user: what was seen, and what to do about it.
+/// Sentences for the user.
 using Warnings = std::vector<std::string>;
 
-/// A pixel size that is not known, or coarse; of a file, before its pages are looked at.
+/// Warns of a pixel size that is not known or too coarse. It is that of a file, for all its pages.
 void warn_of_scale(const io::SectionOptions& options, Warnings& warnings);
 
 /// What was found in an image.

@@ -1,5 +1,5 @@
-// Synthetic sections of known porosity: circles in a bar or a ring, counted before anything spoils
-// the picture.
+// Synthetic sections of known porosity: circles in a bar or a ring. Their area is measured before
+// blur, shade and noise are added.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -26,7 +26,7 @@ double uniform(std::mt19937_64& random) {
   return static_cast<double>(random() >> 11U) * 0x1p-53;
 }
 
-// By Box and Muller.
+// Standard normal, by the method of Box and Muller.
 double normal(std::mt19937_64& random) {
   const double r = std::sqrt(-2.0 * std::log(1.0 - uniform(random)));
   return r * std::cos(2.0 * std::numbers::pi * uniform(random));
@@ -64,7 +64,7 @@ std::vector<double> radii(const io::SectionDrawing& drawing, double area, std::m
   const double s = std::sqrt(std::log(1.0 + radius_variation * radius_variation));
   std::vector<double> drawn;
   double left = area / std::numbers::pi;
-  // What is left at the end, less than a quarter of a mean pore, is not drawn.
+  // An area that is at most a quarter of a pore of mean radius is not drawn.
   while (left > 0.25 * mean * mean) {
     const double r = mean * std::exp(s * normal(random) - 0.5 * s * s);
     drawn.push_back(std::min(r, std::sqrt(left)));
@@ -123,13 +123,13 @@ cv::Mat photograph(const PoreMap& truth, const io::SectionDrawing& drawing,
     for (int x = 0; x < image.cols; ++x) {
       const double u = (x - middle) / middle, v = (y - middle) / middle;
       auto& value = image.at<double>(y, x);
-      // u² + v² is 2 in the corner.
+      // In the corners u² + v² is 2: there the image is darker by the whole of `shading`.
       value *= 1.0 - 0.5 * drawing.shading * (u * u + v * v);
       value += drawing.noise * contrast * normal(random);
     }
   image.convertTo(image, CV_8U);
   if (!drawing.stain) return image;
-  // Blue and green have half of red's contrast.
+  // OpenCV's order is blue, green, red: blue and green have half of red's contrast.
   const cv::Mat pale = 0.5 * image + 50.0;
   cv::merge(std::vector<cv::Mat>{pale, pale, image}, image);
   return image;
@@ -147,9 +147,9 @@ calib::SectionPorosity draw_section(const std::filesystem::path& image,
   const double area = drawing.porosity * cv::countNonZero(truth.bone);
   truth.pores = cv::Mat::zeros(truth.bone.size(), CV_8U);
   draw_pores(place(radii(drawing, area, random), shape, random), truth.pores);
-  // Counts, areas and perimeter; no circle is a crack.
+  // A slenderness of 0: no circle is a crack.
   sort_objects(0.0, truth);
-  // Nothing is blurred in the truth: (I7) and (I8) are one.
+  // Nothing is blurred in the truth, so that (I7) and (I8) give the same area.
   truth.area_by_grey = truth.area;
 
   std::vector<std::uint8_t> png;

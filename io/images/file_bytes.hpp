@@ -9,21 +9,21 @@
 
 namespace havers::images {
 
-/// From the file's start. [byte]
+/// A place in a file, counted from its start. [byte]
 using Offset = std::uint64_t;
 
-/// Beyond the file's end numbers are zero and text is none, so that walks along a damaged file's
-/// places end by themselves. Not for use by two threads at once.
+/// Beyond the file's end a number is zero and a text is empty, so that a reader that follows the
+/// offsets of a damaged file need not check them. Not for use by two threads at once.
 class FileBytes {
  public:
   explicit FileBytes(const std::filesystem::path& file) : in_(file, std::ios::binary) {}
-  /// Order of bytes from here on; big endian at first, as PNG has it.
+  /// Sets the order of bytes for the numbers read after it; at first big endian, as in PNG.
   void set_big_endian(bool big) { big_endian_ = big; }
 
   /// At most 4096 bytes: a length read from a damaged file may be anything.
   std::string text(Offset at, std::size_t length) {
     std::string found(std::min<std::size_t>(length, 4096), '\0');
-    // A read that met the end of the file leaves a state in which no other one works.
+    // After a read that met the end of the file all others fail until the state is cleared.
     in_.clear();
     in_.seekg(static_cast<std::streamoff>(at));
     in_.read(found.data(), static_cast<std::streamsize>(found.size()));

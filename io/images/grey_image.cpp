@@ -1,5 +1,5 @@
-// Files to channels. PNG goes by libdeflate where it can, all else by OpenCV. What a file may be
-// wrong in is found before its pixels are used: decoders fill in what is missing without a word.
+// Files to channels: PNG by libdeflate where it can, all else by OpenCV. Damage is looked for
+// before pixels are used, as decoders fill in what is missing without a word.
 #include "io/images/grey_image.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@
 namespace havers::images {
 namespace {
 
-// Decoders call all of these unreadable alike: here each gets its own complaint.
+// Decoders only say that a file is unreadable: here each reason for that has its own message.
 void check_file(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::status(file, error).type() == std::filesystem::file_type::not_found)
@@ -45,12 +45,12 @@ std::vector<cv::Mat> decoded(const std::filesystem::path& file) {
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending == ".png")
-    // Empty may mean damage, which the check below puts into words.
+    // An empty image may mean a damaged file, of which check_is_whole complains.
     if (cv::Mat image = read_png(file); !image.empty()) return {image};
   check_is_whole(file);
   const Silence silence;
   std::vector<cv::Mat> pages;
-  // imread takes the first page alone.
+  // imread reads only the first page.
   if (ending == ".tif" || ending == ".tiff")
     cv::imreadmulti(file.string(), pages, cv::IMREAD_UNCHANGED);
   else
@@ -67,7 +67,7 @@ double full_of(const cv::Mat& channels) {
   return highest;
 }
 
-// 255 where a fourth channel is less than half opaque.
+// 255 where the fourth channel, alpha, is less than half opaque.
 cv::Mat hidden_in(const cv::Mat& image) {
   cv::Mat alpha;
   cv::extractChannel(image, alpha, 3);
@@ -85,13 +85,13 @@ cv::Mat without_alpha(const cv::Mat& image) {
   cv::bitwise_not(hidden, visible);
   const cv::Scalar mean = cv::mean(colour, visible);
   const double full = full_of(colour);
-  // Half of three full channels parts bright from dark.
+  // A mean is bright if its three channels add up to more than half of three full ones.
   const double paper = mean[0] + mean[1] + mean[2] > 1.5 * full ? 0.0 : full;
   colour.setTo(cv::Scalar::all(paper), hidden);
   return colour;
 }
 
-// Grey and alpha as four channels.
+// An image of grey and alpha as blue, green, red and alpha.
 cv::Mat grey_with_alpha(const cv::Mat& image) {
   cv::Mat colour(image.size(), CV_MAKETYPE(image.depth(), 4));
   cv::mixChannels({image}, {colour}, {0, 0, 0, 1, 0, 2, 1, 3});
@@ -106,21 +106,21 @@ cv::Mat along_main_colour(cv::Mat colour) {
     cv::extractChannel(colour, grey, 0);
     return grey;
   }
-  // Floats have no full level of their own: their range becomes that of 16 bits.
+  // Floats have no full level: their own range is stretched to 16 bits.
   if (colour.depth() == CV_32F)
     cv::normalize(colour, colour, 0.0, 65535.0, cv::NORM_MINMAX, CV_16U);
-  // As few pixels as tell the axis.
+  // A copy of at most 100 × 100 pixels is enough to find the axis.
   cv::Mat few;
   cv::resize(colour, few, fitted(colour.size(), 100), 0.0, 0.0, cv::INTER_NEAREST);
   few.convertTo(few, CV_32F);
   const cv::PCA axes(few.reshape(1, static_cast<int>(few.total())), cv::noArray(),
                      cv::PCA::DATA_AS_ROW, 1);
   cv::Mat weights = axes.eigenvectors.clone();
-  // An eigenvector may point either way.
+  // The sign of an eigenvector is arbitrary: brighter shall be more.
   if (cv::sum(weights)[0] < 0.0) weights *= -1.0;
   // In strips, or floats of all channels would take many times the image's own memory.
   const double scale = colour.depth() == CV_8U ? 100.0 : 0.25;  // √3 · 65535 · 0.25 fits
-  // What a colour half way between black and white projects to becomes the middle of 16 bits.
+  // The colour half way between black and white becomes the middle of 16 bits.
   const double middle = cv::sum(weights)[0] * (colour.depth() == CV_8U ? 127.5 : 32767.5);
   cv::Mat grey(colour.size(), CV_16U), bands, line;
   for (int y = 0; y < colour.rows; y += 32) {
@@ -147,7 +147,7 @@ std::vector<cv::Mat> read_pages(const std::filesystem::path& file) {
     throw io::InputError(file.string(), "is not a readable image",
                          "use PNG, TIFF, JPEG, BMP or DICOM");
   check_all_was_read(file, pages.size());
-  // Later steps know 8 bits, 16 bits and float; one NaN would spoil every mean.
+  // Later steps handle 8 bits, 16 bits and float only; one NaN would spoil every mean.
   for (cv::Mat& page : pages) {
     if (page.depth() == CV_8U || page.depth() == CV_16U) continue;
     page.convertTo(page, CV_32F);
@@ -221,14 +221,14 @@ cv::Mat read_mask(const std::filesystem::path& file, cv::Size size,
   cv::minMaxLoc(mask, nullptr, &highest);
   if (highest == 0.0)
     throw io::InputError(file.string(), "the mask marks nothing", "paint the bone white");
-  // A blurred edge is grey, a photograph given for its mask is grey all over.
+  // A blurred edge is grey; a photograph given instead of its mask is grey nearly everywhere.
   const double grey = cv::countNonZero((mask > 0.1 * highest) & (mask < 0.9 * highest));
   if (const double part = grey / size.area(); part > 0.05)  // more than the blur of its edges
     warnings.push_back(fmt::format(
         "{:.0f} % of the mask {} are neither black nor white: what is brighter than half of its "
         "brightest is taken for bone",
         100.0 * part, file.string()));
-  // Of its own brightest, so that masks of 0 and 1 serve too.
+  // Relative to its own brightest pixel, so that masks of 0 and 1 serve too.
   return mask > 0.5 * highest;
 }
 

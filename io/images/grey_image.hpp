@@ -13,8 +13,8 @@ namespace havers::images {
 /// @throws io::InputError when it is missing or not an image.
 std::vector<cv::Mat> read_pages(const std::filesystem::path& file);
 
-/// One channel: 8 bit, 16 bit or float as it is, or, from colour, 16 bit along the main axis of
-/// colour (I1). What is transparent becomes background. `name` is for complaints.
+/// One channel: of a grey image its own 8 bit, 16 bit or float, of a coloured one 16 bit along the
+/// main axis of colour (I1). What is transparent becomes background. `name` is for complaints.
 /// @throws io::InputError when it is of one grey level only.
 cv::Mat to_grey(const cv::Mat& image, const std::string& name);
 

@@ -1,4 +1,4 @@
-// The door of the library: C's name is found by dlsym, all behind it is typed.
+// The only function that dlsym looks up; the functions that it returns have types.
 #include "io/images/image_library.hpp"
 
 extern "C" const havers::images::ImageLibrary* havers_images() {

@@ -18,7 +18,8 @@ calib::SectionPorosity draw_section(const std::filesystem::path& image,
 std::array<calib::PorosityReading, 3> measure_by_common_practice(
     const std::filesystem::path& image);
 
-/// Its functions, by type: one name to look up, and the compiler checks the rest.
+/// The library's functions with their types: only one name has to be looked up at run time, and the
+/// compiler checks all calls.
 struct ImageLibrary {
   decltype(&images::measure_sections) measure_sections;
   decltype(&images::draw_section) draw_section;

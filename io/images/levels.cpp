@@ -1,5 +1,5 @@
-// Grey levels of bone, background and pores (I6): B and its noise from the coarse division, the
-// contrast C from pixels that are known to be something else.
+// Grey levels of bone, background and pores (I6): B and the noise from pixels that the coarse
+// division calls bone, the contrast C from pixels known to be pores or background.
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -13,7 +13,7 @@ namespace {
 // Second difference in both directions: blind to levels and slopes, 6 times the noise [Immerkær].
 double noise_at(const cv::Mat& grey, const cv::Mat& mask) {
   const cv::Matx33f kernel(1, -2, 1, -2, 4, -2, 1, -2, 1);
-  // Rows enough for a median, each with its two neighbours, which is all that the kernel sees.
+  // 64 rows are enough for a median; each is filtered with its two neighbours, as the kernel needs.
   const int strips = 64, height = std::min(3, grey.rows);
   std::vector<float> found;
   cv::Mat difference;
@@ -78,7 +78,8 @@ void fit_contrast(const cv::Mat& grey, const cv::Mat& pores, Levels& levels) {
   const double slope = spread > 0.0 ? common / spread : 0.0;
   const double unexplained = std::max(0.0, total - slope * common);
   const double slope_error = std::sqrt(unexplained / std::max(spread * n, 1e-300));
-  // The slope must stand out of its own error, and leave a contrast three deviations of B away.
+  // The slope must exceed three of its standard errors, and must not use up the contrast within
+  // three standard deviations of B.
   const bool determined = std::abs(slope) > 3.0 * slope_error &&
                           std::abs(slope) * 3.0 * std::sqrt(spread) < std::abs(d);
   levels.slope = determined ? slope : 0.0;

@@ -1,5 +1,5 @@
-// Areas and lengths come from borders, not from counted pixels: one walk around every object gives
-// all of it.
+// Areas and lengths come from borders, not from counted pixels: one walk around an object gives
+// both.
 #include "io/images/masks.hpp"
 
 #include <algorithm>
@@ -21,7 +21,8 @@ double sides(const Contour& border) {
   return found;
 }
 
-// Lattice points on a border, B of Pick's theorem; a single pixel is a polygon without any length.
+// Lattice points on a border, B of Pick's theorem. A single pixel is a polygon of no length: B is
+// 0.
 double steps(const Contour& border) {
   return border.size() == 1 ? 0.0 : static_cast<double>(border.size());
 }
@@ -40,7 +41,7 @@ cv::Mat dilated(const cv::Mat& mask, int side) {
   return result;
 }
 
-// Distances in pixels, exact, as a rim may be hundreds wide.
+// Distances are exact: the error of a small distance mask would grow with a rim's width.
 cv::Mat eroded_by(const cv::Mat& mask, int reach) {
   cv::Mat distance;
   cv::distanceTransform(mask, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
@@ -90,8 +91,8 @@ std::vector<Blob> blobs_of(const cv::Mat& mask) {
   std::vector<cv::Vec4i> family;
   cv::findContours(mask, contours, family, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
   std::vector<Blob> blobs;
-  // `family` names of each border: the next one beside it, the one before, the first hole, the
-  // whole.
+  // `family` holds for each border: the next one on its level, the previous one, the first hole,
+  // the border around it.
   for (int i = contours.empty() ? -1 : 0; i >= 0; i = family[static_cast<std::size_t>(i)][0]) {
     const auto outer = static_cast<std::size_t>(i);
     Blob blob{.area = enclosed_area(contours[outer]), .edges = sides(contours[outer]) + 4.0};
@@ -114,14 +115,14 @@ double slenderness(const Blob& blob) {
   const double length = 1.0 + std::max(sides_of_box.width, sides_of_box.height);
   if (length * blob.perimeter() < 8.0 * blob.area) return 1.0;  // mean width 2A/P
   const cv::Rect box = cv::boundingRect(blob.border);
-  // A frame of nothing around it, or there were no pixels outside that a distance leads to.
+  // With a frame of unset pixels, so that distances to the outside exist everywhere.
   cv::Mat alone = cv::Mat::zeros(box.size() + cv::Size(2, 2), CV_8U), distance;
   cv::drawContours(alone, std::vector<Contour>{blob.border}, 0, 255, cv::FILLED, cv::LINE_8,
                    cv::noArray(), 0, cv::Point(1, 1) - box.tl());
   cv::distanceTransform(alone, distance, cv::DIST_L2, 3);
   double greatest = 0.0;
   cv::minMaxLoc(distance, nullptr, &greatest);
-  // Distances are to the middle of the first pixel outside: half a pixel too long on each side.
+  // A distance leads to the middle of the first pixel outside and is half a pixel too long.
   return length / std::max(1.0, 2.0 * greatest - 1.0);
 }
 

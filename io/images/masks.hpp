@@ -9,7 +9,8 @@
 
 namespace havers::images {
 
-/// The pixels of a border in their order; every one of them where a mask was followed. [px]
+/// The pixels of a border in their order: all of them if it was traced on a mask, only the corners
+/// of a hull or a rectangle. [px]
 using Contour = std::vector<cv::Point>;
 
 /// Calls `use(x)` for every set pixel of a row. Most pixels of a mask are not set: eight at a time
@@ -27,8 +28,8 @@ void for_each_set(const cv::Mat& mask, int y, Use use) {
   }
 }
 
-/// With a square of `side` pixels, odd: by (side − 1)/2 pixels all around. Beyond the image nothing
-/// takes away or adds.
+/// With a square of `side` pixels, odd: by (side − 1)/2 pixels all around. The image's edge neither
+/// erodes nor dilates.
 cv::Mat eroded(const cv::Mat& mask, int side);
 cv::Mat dilated(const cv::Mat& mask, int side);
 
@@ -65,7 +66,7 @@ std::vector<Blob> blobs_of(const cv::Mat& mask);
 /// Length over greatest width of a blob; 1 when it is plainly no crack.
 double slenderness(const Blob& blob);
 
-/// Of the circle of an area; in the unit whose square the area has.
+/// Diameter of the circle of that area; from pixels in pixels, from m² in m.
 double diameter_of(double area);
 
 /// Sets what a border encloses to `value`.

@@ -1,6 +1,6 @@
-// The whole chain, page by page: grey, regions, levels, bone, pores, quantities, doubts. What
-// follows from a step is kept to the box of the bone, as images may be large and bones small in
-// them.
+// The whole chain, page by page: grey, regions, levels, bone, pores, quantities, doubts. Once the
+// regions are known, most steps see only the box around the bone, which may be a small part of the
+// image.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 namespace havers::images {
 namespace {
 
-// Takes the rim off all surfaces of the bone, the marrow's too; the image's edge is none.
+// Takes the rim off all surfaces of the bone, also at the marrow. The image's edge is no surface.
 void leave_out_rim(const io::SectionOptions& options, const std::string& name, cv::Mat& bone) {
   if (options.rim == 0.0) return;
   if (!options.pixel_size)
@@ -50,7 +50,7 @@ std::string method_of(io::Threshold threshold) {
   return "half-maximum after flat field, corrected for blur";
 }
 
-// The user's mask, the whole image, or what is found, in that order of precedence.
+// The user's mask comes first, then that bone fills the image; without either, bone is looked for.
 Regions regions_of(const cv::Mat& whole, const io::SectionOptions& options, Warnings& warnings) {
   if (options.mask)
     return divide(whole, read_mask(*options.mask, whole.size(), warnings), options.pores);
@@ -84,11 +84,11 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
   const cv::Mat whole = to_grey(image, name);
   refuse_levels_of_colour(image, name, options.density);
   const cv::Mat colours = colourfulness(image);
-  // The image's own memory, before what is made of it adds up.
+  // Frees the memory of a colour image, as the next steps need their own.
   image.release();
   Warnings doubts;
   Regions regions = regions_of(whole, options, doubts);
-  // A view, not a copy: what follows sees the box only.
+  // A view, not a copy.
   const cv::Mat grey = whole(regions.box);
   Depth depth{.levels = bone_levels(grey, regions)};
   cv::Mat bone = find_bone(grey, regions, depth);
@@ -103,7 +103,7 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
                                  depth);
   refuse_nothing(map, regions, name, options);
 
-  // Bone and pores are known; doubts come last, as they look at what is stated of both.
+  // Doubts come last, as they also look at the quantities and the density.
   io::SectionMeasurement measured{.porosity = section_quantities(map, regions.outlined, options)};
   measured.porosity.file = name;
   measured.porosity.method = method_of(options.threshold);
@@ -121,7 +121,7 @@ std::vector<io::SectionMeasurement> measure_sections(const std::filesystem::path
                                                      const io::SectionOptions& given) {
   io::SectionOptions options = given;
   Warnings warnings;
-  // The file's scale is the same for all of its pages, and so is what is said of it.
+  // All pages of a file have the same pixel size, and therefore the same warnings of it.
   options.pixel_size = pixel_size_of(image, given, warnings);
   warn_of_scale(options, warnings);
   std::vector<cv::Mat> pages = read_pages(image);

@@ -28,7 +28,8 @@ struct DensityReference {
   double density = 0.0;  ///< [kg/m³]
 };
 
-/// How a section is measured; the defaults find all that they can from the file itself.
+/// How a section is measured. By default the pixel size is the file's own, and bone and pores are
+/// found in the image.
 struct SectionOptions {
   std::optional<double> pixel_size = std::nullopt;  ///< Default: the file's own tag. [m]
   bool any_pixel_size = false;    ///< Whether sizes outside 0.1 to 200 µm are meant.
@@ -45,7 +46,7 @@ struct SectionOptions {
   bool pictures = true;                        ///< Whether to draw overlay and histogram.
 };
 
-/// One section: its numbers, and what there is to look at.
+/// One section: its numbers, and the pictures of them if these are asked for.
 struct SectionMeasurement {
   calib::SectionPorosity porosity;
   std::vector<std::uint8_t>

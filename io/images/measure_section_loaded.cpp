@@ -18,7 +18,7 @@ const images::ImageLibrary* load() {
 }
 
 const images::ImageLibrary& library() {
-  // Once, whichever thread is first; it stays loaded to the end.
+  // Loaded once, by whichever thread comes first, and never unloaded.
   static const images::ImageLibrary* const loaded = load();
   return *loaded;
 }

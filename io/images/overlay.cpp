@@ -9,7 +9,7 @@
 namespace havers::images {
 namespace {
 
-// Cells more than half of whose pixels are set.
+// 255 for cells of which at least half the pixels are set.
 cv::Mat cells_of(const cv::Mat& mask, int factor) {
   return averaged(mask, factor, cv::BORDER_CONSTANT) > 127.0;
 }
@@ -39,7 +39,7 @@ std::vector<std::uint8_t> draw_overlay(const cv::Mat& grey, const PoreMap& map,
   inside.setTo(cv::Scalar(48, 48, 224), aligned(map.pores));
   if (!map.cracks.empty()) inside.setTo(cv::Scalar(32, 208, 240), aligned(map.cracks));
   std::vector<Contour> outlines;
-  // With its holes, so that the marrow's border is drawn too.
+  // Holes included, so that the border of the marrow is drawn too.
   cv::findContours(bone, outlines, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
   cv::drawContours(inside, outlines, -1, cv::Scalar(224, 128, 0), 1);
   std::vector<std::uint8_t> png;
@@ -49,7 +49,7 @@ std::vector<std::uint8_t> draw_overlay(const cv::Mat& grey, const PoreMap& map,
 
 calib::DepthHistogram histogram_of(const Depth& depth, const PoreMap& map) {
   constexpr int bins = 80;
-  // From half a contrast short of bone to half of one beyond pores; the rest is in the last bins.
+  // Depths from −0.5 to 1.5; what lies outside is in the first and the last bin.
   constexpr double from = -0.5, width = 2.0 / bins;
   calib::DepthHistogram histogram{.share = std::vector<double>(bins, 0.0),
                                   .threshold = map.threshold};

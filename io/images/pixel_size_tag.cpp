@@ -1,5 +1,5 @@
-// (I15) Tags are read byte by byte. All numbers of a file may be wrong: each way ends in a size of
-// 0, or in one that is not finite, and both mean unknown.
+// (I15) Tags are read byte by byte. Numbers of a damaged file may be anything; a size that comes
+// out as 0 or as not finite means that it is unknown.
 #include "io/images/pixel_size_tag.hpp"
 
 #include <fmt/format.h>
@@ -17,12 +17,12 @@ namespace {
 
 constexpr double inch = 25.4e-3;
 
-// (I15) Sizes that are taken without being told that they are meant. [m]
+// (I15) Sizes that are accepted without `any_pixel_size`. [m]
 bool plausible(double size) {
   return size >= 0.1e-6 && size <= 200e-6;
 }
 
-// A double, so that division by it is infinite where it is zero, not a crash.
+// As a double, so that a division by zero is infinite and no crash.
 double real(FileBytes& bytes, Offset at) {
   return static_cast<double>(bytes.number(at, 4));
 }
@@ -58,7 +58,7 @@ double unit_of(const std::string& description) {
   constexpr std::string_view key = "unit=";
   const auto start = description.find(key);
   if (start == std::string::npos) return 0.0;
-  // As long as the longest name below.
+  // Six characters, as long as the longest name below.
   const std::string unit = description.substr(start + key.size(), 6);
   for (const auto& [name, metres] : {std::pair{"micron", 1e-6},
                                      {"um", 1e-6},
@@ -97,11 +97,11 @@ double tiff_pixel(FileBytes& bytes) {
     }
   }
   const double resolution = square(across, down > 0.0 ? down : across);
-  // ImageJ's unit is the one that its resolution is in, whatever the tag says.
+  // If ImageJ describes a unit, the resolution is in that one, whatever ResolutionUnit says.
   return resolution > 0.0 ? (described > 0.0 ? described : unit) / resolution : 0.0;
 }
 
-// Text of a spacing: "rows\columns", in mm. [m]
+// Of a text "rows\columns", or of one number; the text is in mm, the result in metres. [m]
 double spacing_in(const std::string& text) {
   char* end = nullptr;
   const double rows = 1e-3 * std::strtod(text.c_str(), &end);
@@ -115,14 +115,15 @@ double dicom_pixel(FileBytes& bytes) {
   bytes.set_big_endian(false);
   bool typed = true;
   double at_the_detector = 0.0;
-  // Behind a preamble of 128 bytes and "DICM".
+  // Elements begin behind a preamble of 128 bytes and the four letters "DICM".
   for (Offset at = 132; bytes.text(at, 8).size() == 8;) {
     const Offset group = bytes.number(at, 2), element = bytes.number(at + 2, 2);
     if (group == 0x7FE0) break;  // the pixels
     const std::string type = bytes.text(at + 4, 2);
     Offset data = at + 8;
     Offset length = bytes.number(at + 4, 4);
-    // The file's head is typed in every syntax; marks of items (FFFE) are in none.
+    // Elements of the file's head (group 2) have types in every syntax, marks of items (FFFE) in
+    // none.
     if ((typed || group == 2) && group != 0xFFFE) {
       constexpr std::string_view long_types = "OB OW OF OD OL OV SQ UC UR UT UN";
       const bool is_long = long_types.find(type) != std::string_view::npos;
@@ -133,11 +134,11 @@ double dicom_pixel(FileBytes& bytes) {
                                  ? bytes.text(data, std::min<Offset>(length, 64))
                                  : "";
     if (group == 2 && element == 0x10)  // transfer syntax
-      // Implicit little endian is the only syntax without types; text is filled up with a zero.
+      // This is implicit little endian, the only syntax without types. Texts may end in a zero.
       typed = text.substr(0, text.find('\0')) != "1.2.840.10008.1.2";
     if (group == 0x28 && element == 0x30) return spacing_in(text);
     if (group == 0x18 && element == 0x1164) at_the_detector = spacing_in(text);
-    // Sequences and items of unknown length, and all items, are entered, not passed over.
+    // Items, and whatever has an unknown length, are entered; all else is passed over.
     const bool inside = length == 0xFFFFFFFFU || (group == 0xFFFE && element == 0xE000);
     at = inside ? data : data + length;
   }
@@ -148,7 +149,7 @@ double dicom_pixel(FileBytes& bytes) {
 
 std::optional<double> tagged_pixel_size(const std::filesystem::path& file) {
   FileBytes bytes(file);
-  // To the end of DICOM's mark, which lies farthest from the start.
+  // As far as the end of "DICM", the mark that lies farthest from the start.
   const std::string head = bytes.text(0, 132);
   double size = 0.0;
   if (head.starts_with("\x89PNG")) size = png_pixel(bytes);
@@ -170,7 +171,7 @@ std::optional<double> pixel_size_of(const std::filesystem::path& image,
         "pixel_size_um is the side of one pixel in µm; if it is meant, add --any-pixel-size (in a "
         "study any_pixel_size = true in [sections])");
   const std::optional<double> own = tagged_pixel_size(image);
-  // Both are known and differ: one of them is wrong, and only the user can tell which.
+  // If both are known and differ, one is wrong, and only the user can tell which.
   if (given && own && std::abs(*given / *own - 1.0) > 0.01)
     warnings.push_back(
         fmt::format("the file states pixels of {:.4g} µm; {:.4g} µm are used, as given", *own * 1e6,

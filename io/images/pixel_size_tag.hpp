@@ -15,9 +15,10 @@ namespace havers::images {
 /// count as none, as do pixels that are not square. [m]
 std::optional<double> tagged_pixel_size(const std::filesystem::path& file);
 
-/// Given or the file's own; nullopt where neither is known or usable. The given one counts. Adds
-/// to `warnings` which one is used where the file states one that is not simply taken. [m]
-/// @throws io::InputError when the given one is not plausible and nobody said that it is meant.
+/// The given size, otherwise the file's own; nullopt where there is neither, or the file's own is
+/// not plausible. Adds a warning where the file's own is used, not plausible, or unlike the given
+/// one. [m]
+/// @throws io::InputError when the given one is not plausible and `any_pixel_size` is not set.
 std::optional<double> pixel_size_of(const std::filesystem::path& image,
                                     const io::SectionOptions& options,
                                     std::vector<std::string>& warnings);

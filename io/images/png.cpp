@@ -1,6 +1,6 @@
-// A PNG is a list of chunks; its data are one packed stream of rows, each stored as its difference
-// from a guess by the pixels before it. All of that is undone here for the kinds that sections come
-// in, and whatever is rare or unsound is left to OpenCV.
+// A PNG is a list of chunks. Its pixels are one compressed stream of rows, and each byte is stored
+// as its difference from a guess by the bytes before it. That is undone here for the common kinds
+// of PNG; what is rare or damaged is left to OpenCV.
 #include "io/images/png.hpp"
 
 #include <libdeflate.h>
@@ -28,7 +28,7 @@ struct PngFile {
   std::vector<std::uint8_t> packed;  // The data of all its chunks.
 };
 
-// Of four bytes, the highest first.
+// The number of four bytes, the highest first.
 std::uint32_t number_at(const std::uint8_t* place) {
   return (std::uint32_t{place[0]} << 24U) | (std::uint32_t{place[1]} << 16U) |
          (std::uint32_t{place[2]} << 8U) | place[3];
@@ -59,7 +59,7 @@ PngFile chunks_of(ByteSpan file) {
   for (std::size_t at = 8; at + 12 <= file.size();) {
     const std::size_t length = number_at(&file[at]);
     const std::string_view name(reinterpret_cast<const char*>(&file[at + 4]), 4);
-    // A file that is cut off, or levels made transparent.
+    // Left to OpenCV: a file that is cut off, and one that makes a level transparent (tRNS).
     if (file.size() - at - 12 < length || name == "tRNS") return {};
     const ByteSpan data = file.subspan(at + 8, length);
     if (name == "IHDR" && length == 13) read_header(data.data(), png);
@@ -75,19 +75,19 @@ cv::Mat unpacked(const PngFile& png) {
       static_cast<std::size_t>(CV_ELEM_SIZE(png.type)) * static_cast<std::size_t>(png.size.width) +
       1;
   const std::size_t size = length * static_cast<std::size_t>(png.size.height);
-  // A header may lie: nothing is allocated that the data cannot fill.
+  // A header may be wrong: no more is allocated than the data can fill.
   if (size / 1032 > png.packed.size()) return {};  // No data can be packed closer.
   cv::Mat rows(png.size.height, static_cast<int>(length), CV_8U);
   const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> reader(
       libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-  // Without a place for the length it finds, it accepts exactly `size` bytes.
+  // As the last argument is null, any other length than `size` is an error.
   const libdeflate_result result = libdeflate_zlib_decompress(
       reader.get(), png.packed.data(), png.packed.size(), rows.data, size, nullptr);
   return result == LIBDEFLATE_SUCCESS ? rows : cv::Mat();
 }
 
-// What is stored is the difference, modulo 256, from a guess by the neighbours: `step` bytes, one
-// pixel, to the left and a row up. Beyond the left edge they are zero.
+// What is stored is the difference, modulo 256, from a guess by the neighbours: those `step` bytes,
+// that is, one pixel to the left, and a row up. Beyond the left edge neighbours are zero.
 template <std::size_t step, class Guess>
 void add_guess(ByteSpan stored, const std::uint8_t* above, std::uint8_t* row, Guess guess) {
   std::array<int, step> left{}, corner{};
@@ -100,8 +100,8 @@ void add_guess(ByteSpan stored, const std::uint8_t* above, std::uint8_t* row, Gu
     }
 }
 
-// Of the three the one nearest to left + up − corner (Paeth's); among equals the first of left, up,
-// corner, as the standard has it.
+// Paeth's guess: of left, up and corner the one nearest to left + up − corner. Of equally near ones
+// it is the first in this order, as the standard demands.
 int nearest(int left, int up, int corner) {
   const int to_left = std::abs(up - corner), to_up = std::abs(left - corner);
   const int to_corner = std::abs(left + up - 2 * corner);
@@ -117,13 +117,13 @@ bool restore_row(int filter, ByteSpan stored, const std::uint8_t* above, std::ui
   if (filter == 2) with([](int, int up, int) { return up; });
   if (filter == 3) with([](int left, int up, int) { return (left + up) / 2; });
   if (filter == 4) with(nearest);
-  // The standard knows no other filter: the data are damaged.
+  // The standard has no filter beyond 4: such data are damaged.
   return filter <= 4;
 }
 
 template <std::size_t step>
 bool restore(const cv::Mat& rows, cv::Mat& image) {
-  // Above the first row all counts as zero.
+  // The neighbours above the first row are zero.
   const std::vector<std::uint8_t> nothing(static_cast<std::size_t>(rows.cols));
   const std::uint8_t* above = nothing.data();
   for (int y = 0; y < image.rows; ++y) {
@@ -135,7 +135,7 @@ bool restore(const cv::Mat& rows, cv::Mat& image) {
   return true;
 }
 
-// As much of a file as a matrix can count; of a longer one decoding fails, and OpenCV has it.
+// At most as many bytes as a matrix can have; a longer file fails to decode and is left to OpenCV.
 cv::Mat bytes_of(const std::filesystem::path& file) {
   constexpr std::uintmax_t most = std::numeric_limits<int>::max();
   cv::Mat bytes(1, static_cast<int>(std::min(std::filesystem::file_size(file), most)), CV_8U);
@@ -163,7 +163,7 @@ cv::Mat read_png(const std::filesystem::path& file) {
   if (png.type < 0) return {};
   const cv::Mat rows = unpacked(png);
   if (rows.empty()) return {};
-  // Bytes a pixel are known to the compiler, so that its loops over them are unrolled.
+  // Bytes a pixel are a template's argument, so that the compiler can unroll loops over them.
   static constexpr std::array<decltype(&restore<1>), 4> restore_by_step{restore<1>, restore<2>,
                                                                         restore<3>, restore<4>};
   cv::Mat image(png.size, png.type);

@@ -95,7 +95,7 @@ cv::Mat find_pore_level(const cv::Mat& grey, const cv::Mat& bone, Levels& levels
 
   Levels found = levels;
   const std::vector<Sample> samples = sample(grey, clean_bone(bone - pores), 20000);
-  // Fewer do not determine a quartic: the level of the coarse division stays.
+  // From fewer samples a quartic would be uncertain: the level of the coarse division stays.
   if (samples.size() >= 500) found.bone = fit_surface(samples, grey.size(), 4);
   cv::Mat cores = cores_of(pores);
   fit_contrast(grey, cores, found);
@@ -124,7 +124,7 @@ double threshold_without_blur(const Depth& depth, const cv::Mat& cores, PoreMap&
   cv::Mat surroundings = dilated(map.pores, 7);
   surroundings &= map.bone;
   const DepthCount about(depth, surroundings);
-  // A straight edge under the blur σ falls from depth 0.7 to 0.3 within 1.0488 σ.
+  // Across a straight edge of blur σ the depth falls from 0.7 to 0.3 within 1.0488 σ.
   const double blur = (about.above(0.3) - about.above(0.7)) / (1.0488 * map.perimeter);
   const double own_blur = std::sqrt(std::max(0.0, blur * blur - smoothing * smoothing));
   map.full_depth = 1.0 / depth_left_in(cores, map.pores, own_blur);
@@ -198,8 +198,9 @@ PoreMap pores_of_one_side(const cv::Mat& grey, const cv::Mat& bone, const PoreOp
   const bool half_maximum = options.threshold == io::Threshold::half_maximum;
   double next = options.threshold == io::Threshold::otsu ? otsu_threshold(depth, bone) : 0.5;
   bool settled = false;
-  // Thresholding and correcting in turns, as the correction needs the number and the perimeter of
-  // the pores that it moves. Other rules are cut once; theirs is for the area by grey level alone.
+  // Thresholds and corrections take turns, as a correction depends on the number and the perimeter
+  // of the pores and changes both. Other rules cut once; for them threshold_without_blur is called
+  // only because it sets the area by grey level.
   for (int round = 0; round < 4; ++round) {
     map.threshold = next;
     map.pores = options.threshold == io::Threshold::sauvola ? below_sauvola(depth, bone)
@@ -228,7 +229,7 @@ cv::Mat find_bone(const cv::Mat& grey, Regions& regions, Depth& depth) {
   fit_contrast(grey, background, depth.levels);
   if (!(depth.levels.contrast(depth.levels.bone.coefficients[0]) > 0.0)) return {};
   smooth(grey, enough_smoothing(depth.levels), depth);
-  // Half way to the background (I4), in the rim that the coarse division leaves open.
+  // Half way to the background (I4), inside the hull of the coarse bone and a little around it.
   return outline(shallower(depth, 0.5, search));
 }
 

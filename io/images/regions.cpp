@@ -1,5 +1,6 @@
-// What is bone is decided on a small copy (I2, I3), where noise is averaged away and all images
-// cost the same; on the image itself, only where a border runs.
+// What is bone is decided on a small copy (I2, I3), where noise averages out and all images cost
+// the same. Only samples of the image itself are needed for that, and its pixels for the outline
+// (I4).
 #include "io/images/regions.hpp"
 
 #include <algorithm>

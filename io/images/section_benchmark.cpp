@@ -44,7 +44,6 @@ std::vector<SectionCase> section_cases(int seeds) {
           next.drawing.ring = ring;
           next.drawing.porosity = porosity;
           next.drawing.seed = ++seed;
-          // 8 or 15 pixels, in turns.
           next.drawing.pore_radius = (seed % 2 == 0 ? 8.0 : 15.0) * next.drawing.pixel_size;
           cases.push_back(next);
         }

@@ -1,4 +1,5 @@
-// Pixels become SI units here. An unknown pixel size is NaN, and so is then all that depends on it.
+// Pixels become SI units here. An unknown pixel size is NaN, and so is all that is computed from
+// it.
 #include "io/images/section_quantities.hpp"
 
 #include <algorithm>
@@ -63,12 +64,12 @@ void add_sizes(const PoreMap& map, double pixel, calib::SectionPorosity& section
   section.pore_area_sd = area.sd * pixel * pixel;
   section.mean_pore_diameter = diameter.mean * pixel;
   section.pore_diameter_sd = diameter.sd * pixel;
-  // a* = Σ a²/Σ a (K2); without pores zero, not unknown.
+  // a* = Σ a²/Σ a (K2); without pores it is zero, not NaN.
   section.pore_area_ratio = map.area > 0.0 ? squares / map.area * pixel * pixel : 0.0;
   if (std::isfinite(pixel)) section.classes = classes_of(map.areas, pixel);
 }
 
-// Inside the outer outlines, holes included. [px]
+// Area inside the outer borders, holes included. [px]
 double filled_area(const cv::Mat& mask) {
   double area = 0.0;
   for (const Contour& border : outer_contours(mask)) area += enclosed_area(border);
@@ -101,7 +102,7 @@ calib::SectionPorosity section_quantities(const PoreMap& map, bool outlined,
   section.speck_count = map.specks;
   section.zones = zones_of(map.bone, map.pores, outlined);
   for (calib::Zone& zone : section.zones) zone.bone_area *= pixel_area;
-  // NaN without a pixel size, as that is.
+  // Stays NaN if the pixel size is unknown.
   WindowSpread spread{.sd = pixel, .standard_error = pixel};
   if (options.pixel_size)
     spread = window_spread(map.bone, map.pores, options.window_length / pixel,

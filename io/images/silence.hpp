@@ -9,8 +9,8 @@
 namespace havers::images {
 
 /// While one lives, what is written to stderr is lost: OpenCV and libpng say there what is wrong
-/// with a file, and a caller's answer says it again. One at a time; others wait. The descriptor is
-/// turned, not a stream, for libraries in C write past std::cerr.
+/// with a file, and the caller's own message says it again. Only one exists at a time; other
+/// threads wait. It redirects the file descriptor, not std::cerr, which libraries in C do not use.
 class Silence {
  public:
   Silence() : kept_(dup(STDERR_FILENO)) {
@@ -29,9 +29,9 @@ class Silence {
 
  private:
   static inline std::mutex only_one;
-  /// Declared before `kept_`: held before stderr is put aside, and until it is back.
+  /// Declared before `kept_`, so that it is locked before stderr is saved and until it is restored.
   std::lock_guard<std::mutex> alone_{only_one};
-  int kept_;  ///< stderr as it was; negative where there is none.
+  int kept_;  ///< A copy of stderr's descriptor; negative if it could not be copied.
 };
 
 }  // namespace havers::images

@@ -1,5 +1,5 @@
-// Polynomials by normal equations. These are sums of products of uⁱ and vʲ, and v is one number
-// along a row: so powers of u are summed pixel by pixel, and the products are made once a row.
+// Polynomials by normal equations. Their entries are sums of products of uⁱ and vʲ, and v is the
+// same all along a row: so powers of u are summed for each pixel, products made once for each row.
 #include "io/images/surface.hpp"
 
 #include <Eigen/Cholesky>
@@ -25,7 +25,7 @@ constexpr std::array<Monomial, 15> monomials = [] {
   return all;
 }();
 
-// A position on 0 to `extent`, as −1 to 1: powers of pixels would spoil the equations' condition.
+// Maps 0 to `extent` onto −1 to 1: with powers of pixels the equations would be ill-conditioned.
 double scaled(double position, int extent) {
   return 2.0 * position / extent - 1.0;
 }
@@ -94,7 +94,7 @@ std::vector<float> values_at(const Surface& surface, const std::vector<Sample>& 
 
 Surface fit_surface(const std::vector<Sample>& samples, cv::Size size, int degree) {
   const auto terms = [&degree] { return (degree + 1) * (degree + 2) / 2; };
-  // By twos: a quartic becomes quadratic, and that a constant.
+  // A quartic becomes a quadratic, and that a constant.
   while (degree > 0 && std::ssize(samples) / terms() < 10) degree -= 2;
   Surface surface{.size = size};
   if (samples.empty()) return surface;
@@ -129,13 +129,13 @@ Surface fit_majority(const std::vector<Sample>& samples, cv::Size size) {
     const auto middle = static_cast<float>(quantile(deviation, 0.5));
     for (std::size_t i = 0; i < used.size(); ++i) deviation[i] = std::abs(residual[i] - middle);
     std::vector<float> sorted = deviation;
-    // 2.5 deviations, by the median of their sizes, which outliers hardly move.
+    // 2.5 standard deviations, estimated by the median deviation, which outliers hardly change.
     const double reach = 2.5 * 1.4826 * quantile(sorted, 0.5);
     std::vector<Sample> kept;
     kept.reserve(used.size());
     for (std::size_t i = 0; i < used.size(); ++i)
       if (deviation[i] <= reach) kept.push_back(used[i]);
-    // Quadratic until the minority is out: that bends to it less than a quartic does.
+    // Quadratic until the minority is left out: a quadratic bends towards it less than a quartic.
     surface = fit_surface(kept, size, round < 3 ? 2 : 4);
   }
   return surface;

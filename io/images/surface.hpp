@@ -12,7 +12,7 @@ struct Sample {
   float x = 0.0F, y = 0.0F, value = 0.0F;
 };
 
-/// A surface along one row: a quartic in x, in floats, for loops over pixels.
+/// A surface along one row: a quartic in x, in floats, as it is evaluated at every pixel.
 struct SurfaceRow {
   float scale = 0.0F;        ///< 2 over the image's width. [1/px]
   std::array<float, 5> c{};  ///< Coefficients of u⁰…u⁴, u = scale x − 1.
@@ -38,17 +38,17 @@ struct Surface {
 /// Values of the surface at samples, which come row by row.
 std::vector<float> values_at(const Surface& surface, const std::vector<Sample>& samples);
 
-/// Least squares over samples, which come row by row. Fewer than ten samples a coefficient: a lower
-/// degree, by twos. Zero everywhere without samples.
+/// Least squares over samples, which come row by row. With fewer than ten samples a coefficient the
+/// degree is reduced, by two at a time. Without samples the surface is zero.
 Surface fit_surface(const std::vector<Sample>& samples, cv::Size size, int degree);
 
-/// The surface of the majority, where a minority (pores) lies to one side; degree 4 (I6).
+/// The surface of the majority, where a minority (pores) lies to one side; of degree 4 (I6).
 Surface fit_majority(const std::vector<Sample>& samples, cv::Size size);
 
 /// About `count` pixels of a one-channel image where `mask` is set, on a square grid.
 std::vector<Sample> sample(const cv::Mat& image, const cv::Mat& mask, int count);
 
-/// Quantile of values (reordered), share from 0 to 1; NaN without any. O(n).
+/// Quantile of values (reordered), share from 0 to 1; NaN without any. O(n) on average.
 double quantile(std::vector<float>& values, double share);
 
 }  // namespace havers::images

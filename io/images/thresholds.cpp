@@ -1,4 +1,4 @@
-// Thresholds are sought in depths, so that a shade is out of them.
+// Thresholds are found from depths, not from grey levels, so that a shade does not affect them.
 #include "io/images/thresholds.hpp"
 
 #include <algorithm>
@@ -23,8 +23,8 @@ double DepthCount::above(double depth) const {
   return found;
 }
 
-// OpenCV's is of bytes: 85 steps to a depth of 1. Bytes are rounded, so that the last one below
-// ends half a step on.
+// OpenCV's Otsu works on bytes: 85 steps are a depth of 1. It returns the last byte below the
+// threshold; as depths are rounded to bytes, the threshold is half a step above that.
 double otsu_threshold(const Depth& depth, const cv::Mat& mask) {
   std::vector<std::uint8_t> bytes;  // from −1 to 2
   for (const float value : sample_depths(depth, mask, 200000))
@@ -49,7 +49,7 @@ cv::Mat below_sauvola(const Depth& source, const cv::Mat& within) {
     const auto *d = depth.ptr<float>(y), *m = mean.ptr<float>(y), *q = squares.ptr<float>(y);
     auto* out = below.ptr<std::uint8_t>(y);
     for (int x = 0; x < depth.cols; ++x) {
-      // Rounding may take the difference of two means below zero.
+      // By rounding, the difference may be below zero.
       const double deviation = std::sqrt(std::max(0.0F, q[x] - m[x] * m[x]));
       const double threshold = (1.0 - m[x]) * (1.0 + k * (deviation / range - 1.0));
       out[x] = 1.0 - d[x] < threshold ? 255 : 0;

@@ -9,7 +9,8 @@
 
 namespace havers::images {
 
-/// How many pixels are how deep, where a mask is set: counted once, in O(pixels), asked often.
+/// How many pixels are how deep, where a mask is set. Counting is O(pixels); after that every
+/// question is answered from the counts.
 class DepthCount {
  public:
   DepthCount(const Depth& depth, const cv::Mat& mask);
@@ -29,8 +30,8 @@ class DepthCount {
 /// Otsu's threshold of the depths where `mask` is set (I11); from a sample of them. [-]
 double otsu_threshold(const Depth& depth, const cv::Mat& mask);
 
-/// 255 in `within` where depth is beyond Sauvola's local threshold (I11). What lies outside
-/// `within` counts in the windows too.
+/// 255 in `within` where depth is beyond Sauvola's local threshold (I11). Its
+/// windows include what lies outside `within`.
 cv::Mat below_sauvola(const Depth& source, const cv::Mat& within);
 
 }  // namespace havers::images

@@ -1,6 +1,6 @@
-// (I2) Two means, each a smooth surface instead of a number: pixels and surfaces are assigned and
-// fitted in turns. That finds a minimum near its start only, so it runs from two starts, the image
-// as it is and flattened.
+// (I2) Two-means clustering in which each mean is a smooth surface instead of a number: pixels are
+// assigned and surfaces fitted in turns. That finds only a minimum near its start, so it runs from
+// two starts: Otsu's split of the image as it is, and of the flattened image.
 #include "io/images/two_levels.hpp"
 
 #include <algorithm>
@@ -15,7 +15,6 @@
 namespace havers::images {
 namespace {
 
-// The surface, one value a pixel.
 cv::Mat values_of(const Surface& surface) {
   cv::Mat values(surface.size, CV_32F);
   for (int y = 0; y < values.rows; ++y) surface.evaluate_row(y, values.ptr<float>(y));
@@ -28,8 +27,8 @@ Surface fit_where(const cv::Mat& image, const cv::Mat& mask) {
   return fit_surface(sample(image, mask, 4000), image.size(), wide ? 2 : 0);
 }
 
-// Otsu's split, the start of a search. What is not in the mask takes its mean, which widens no
-// range.
+// Otsu's split, the start of a search. Pixels outside the mask are set to the mean inside it, so
+// that they do not widen the range of grey levels.
 cv::Mat otsu(const cv::Mat& image, const cv::Mat& mask) {
   cv::Mat bytes = image.clone();
   bytes.setTo(cv::mean(image, mask), ~mask);
@@ -54,7 +53,7 @@ struct Split {
 // Each level's surface from its pixels, each pixel to the nearer surface, until hardly any moves.
 Split refine(const cv::Mat& image, const cv::Mat& mask, cv::Mat bright) {
   Split split;
-  // A level below `fewest` has died out; moves of fewer than `few` pixels are taken for none.
+  // A level of fewer than `fewest` pixels has died out; moves of up to `few` pixels are ignored.
   const int all = cv::countNonZero(mask), fewest = all / 200, few = fewest / 10;
   for (int round = 0; round < 20; ++round) {
     const int count = cv::countNonZero(bright & mask);
@@ -66,7 +65,7 @@ Split refine(const cv::Mat& image, const cv::Mat& mask, cv::Mat bright) {
     const bool settled = cv::countNonZero(next != bright) <= few;
     bright = next;
     split.deviation = cv::norm(cv::min(to_upper, to_lower), cv::NORM_L2, mask) / std::sqrt(all);
-    // Where most pixels have their level's very value the median is zero: the RMS holds it up.
+    // If most pixels have exactly their level's value the median is 0: 0.6 of the RMS is the least.
     const double most = std::max(split.deviation, 1e-6);
     split.levels.separation =
         cv::mean(cv::abs(upper - lower), mask)[0] /
@@ -89,7 +88,7 @@ TwoLevels split_levels(const cv::Mat& image, const cv::Mat& mask) {
 // Noise cut in halves has a separation of 2.65; a shade cut along a contour has no jump across it.
 bool is_a_step(const TwoLevels& levels, const cv::Mat& image, const cv::Mat& mask) {
   if (levels.bright.empty() || levels.separation < 4.5) return false;
-  // Rings of the pixels beside the border, on either side, without the border itself.
+  // Sides of squares [px]: the second and third pixel on either side of the border are compared.
   constexpr int near = 3, far = 7;
   const cv::Mat inside = eroded(levels.bright, near) & ~eroded(levels.bright, far) & mask;
   const cv::Mat outside = dilated(levels.bright, far) & ~dilated(levels.bright, near) & mask;

@@ -12,8 +12,8 @@ struct TwoLevels {
 };
 
 /// Splits a float image into two levels, each a smooth surface through pixels where `mask` is set
-/// (I2). `bright` is empty where a level dies out, that is, keeps less than half a percent of the
-/// pixels.
+/// (I2). `bright` is empty if from both starts a level dies out, that is, keeps less than half a
+/// percent of the pixels.
 TwoLevels split_levels(const cv::Mat& image, const cv::Mat& mask);
 
 /// Whether the levels differ by a step and not by a slope of the shade or by noise.

@@ -1,5 +1,5 @@
-// (I9) and (I10). Windows are counted from sums along columns, O(1) a window once the rows that it
-// covers are summed up; no integral image of the whole section is kept.
+// (I9) and (I10). For each row of windows, set pixels are counted column by column and summed from
+// left to right; a window then costs O(1), and no integral image of the whole section is kept.
 #include "io/images/windows.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int parts = 4;  // Along each side of the grid of blocks.
 
-// Of windows: how many, Σ q and Σ q² of their porosities q.
+// The number of windows, and Σ q and Σ q² of their porosities q.
 struct Sums {
   double n = 0.0, q = 0.0, qq = 0.0;
 };
@@ -108,7 +108,8 @@ WindowSpread window_spread(const cv::Mat& bone, const cv::Mat& pores, double len
   const double mean = all.q / all.n;
   const double variance = std::max(0.0, all.qq / all.n - mean * mean);
   double squares = 0.0, used = 0.0;
-  // A part's own variance about the mean of all, by its share of the windows.
+  // `own` is a part's variance about the mean of all windows; its weight is the part's share of
+  // them.
   for (const Sums& block : blocks) {
     if (block.n == 0.0) continue;
     const double own = (block.qq - 2.0 * mean * block.q) / block.n + mean * mean;
@@ -117,7 +118,7 @@ WindowSpread window_spread(const cv::Mat& bone, const cv::Mat& pores, double len
   }
   WindowSpread spread{.sd = std::sqrt(variance)};
   if (used > 1.0 && spread.sd > 0.0)
-    // From the variance's error to that of its root.
+    // The error of the variance, divided by 2 SD, is that of the SD.
     spread.standard_error = std::sqrt(used / (used - 1.0) * squares) / (2.0 * spread.sd);
   return spread;
 }
@@ -131,7 +132,7 @@ double porosity_standard_error(const cv::Mat& bone, const cv::Mat& pores) {
     const cv::Rect block(
         cv::Point(box.x + box.width * i / parts, box.y + box.height * j / parts),
         cv::Point(box.x + box.width * (i + 1) / parts, box.y + box.height * (j + 1) / parts));
-    // w (p_i − p) of the part, w its share of the bone.
+    // w (p_i − p) of (I10), w the part's share of the bone.
     const double area = cv::countNonZero(bone(block));
     squares += std::pow((cv::countNonZero(pores(block)) - mean * area) / all, 2);
     used += area > 0.0 ? 1.0 : 0.0;

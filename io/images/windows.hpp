@@ -5,7 +5,7 @@
 
 namespace havers::images {
 
-/// Both are NaN where no window fits.
+/// Local porosity: how far it varies.
 struct WindowSpread {
   double sd = 0.0;              ///< [-]
   double standard_error = 0.0;  ///< Of the SD. [-]

@@ -1,5 +1,5 @@
-// (I12) All on the coarse copy, whose cells hold shares of bone and pores: sums of these are as
-// exact as of pixels, only the zones' borders are coarse.
+// (I12) All is done on the coarse copy, whose cells hold shares of bone and pores. Sums of shares
+// are as exact as sums of pixels; only the borders between zones are coarse.
 #include "io/images/zones.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ cv::Mat relative_depth(const cv::Mat& share) {
   const cv::Mat bone = share >= 0.5;
   cv::Mat filled = cv::Mat::zeros(bone.size(), CV_8U), from_outside, from_marrow;
   for (const Contour& border : outer_contours(bone)) fill(filled, border, 255);
-  // Bone that the image cuts off has its outer surface there.
+  // A frame of unset cells: where the image cuts the bone off, its edge is the outer surface.
   cv::Mat padded;
   cv::copyMakeBorder(filled, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
   cv::distanceTransform(padded, from_outside, cv::DIST_L2, 3);
@@ -56,7 +56,7 @@ std::vector<calib::Zone> zones_of(const cv::Mat& bone, const cv::Mat& pores, boo
     for (int x = 0; x < bones.cols; ++x) {
       const float b = bones.at<float>(y, x), p = holes.at<float>(y, x);
       const double right = x - x0, up = y0 - y;
-      // Quarters lie about the axes: the right one from −45° to 45°.
+      // The axes are in the middle of quarters: the right one reaches from −45° to 45°.
       const bool sideways = std::abs(right) > std::abs(up);
       add(quarters[sideways ? (right > 0.0 ? 0U : 2U) : (up > 0.0 ? 1U : 3U)], b, p);
       if (outlined)

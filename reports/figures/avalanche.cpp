@@ -1,5 +1,5 @@
-// One path holds the joints of a moment, so that the file stays small; SMIL shows the paths in
-// turns, without a script, and viewers that know none of it show all.
+// One path holds all joints of one moment, so that the file stays small. SMIL shows the paths one
+// after the other, without a script; viewers without SMIL show all at once.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,14 +17,14 @@ namespace {
 constexpr double width = 760.0;       // of the specimen [px]
 constexpr double turn_seconds = 8.0;  // of one turn of the animation [s]
 constexpr double part_shown = 0.8;    // of it, while joints break; then the crack stands still
-constexpr std::size_t moments = 48;   // Paths at the most, whatever the number of joints.
+constexpr std::size_t moments = 48;   // At most so many paths, however many joints break.
 
 struct Broken {
   std::size_t joint = 0;
   double strain = 0.0;
 };
 
-// By strain; joints of one strain stay in the order of the assembly.
+// Sorted by strain; joints that broke at the same strain stay in the order of the assembly.
 std::vector<Broken> in_order(const sim::Simulation& simulation) {
   std::vector<Broken> broken;
   for (std::size_t i = 0; i < simulation.joints.size(); ++i)
@@ -46,7 +46,7 @@ std::string colour_at(double part) {
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
-// A joint where it was before the load, y downwards.
+// A joint at its place before the load; y points downwards in SVG.
 std::string line_of(const sim::Assembly& assembly, std::size_t index, double scale) {
   const sim::Joint& joint = assembly.joints[index];
   const Eigen::Vector2d half = 0.5 * scale * joint.length * joint.tangent();
@@ -87,7 +87,8 @@ std::string avalanche_svg(const sim::Assembly& assembly, const sim::Simulation& 
   const double scale = width / assembly.width, height = scale * assembly.height;
   std::string bonds, breaks;
   for (std::size_t i = 0; i < assembly.joints.size(); ++i) bonds += line_of(assembly, i, scale);
-  // By number and not by strain: an avalanche breaks most joints at one strain.
+  // Moments hold equal numbers of joints, not equal strains: in an avalanche many joints break at
+  // nearly one strain.
   const std::size_t chunk = (broken.size() + moments - 1) / moments;
   for (std::size_t at = 0; at < broken.size(); at += chunk) {
     std::string path;

@@ -1,5 +1,5 @@
-// Error against cost on logarithmic axes, a line a chain; the default's with its spread over the
-// studies.
+// Error against cost on logarithmic axes, a line for each chain; the default chain with the band of
+// its spread over the studies.
 #include <fmt/format.h>
 
 #include <array>
@@ -37,7 +37,7 @@ Figure chains_figure(const calib::ChainBenchmark& benchmark, ChainCost cost,
     std::vector<double> at, low, median, high;
     for (const calib::Progress& step : steps) {
       at.push_back(step.cost);
-      low.push_back(step.error[0] / in::percent);  // 10 %, then 50 and 90.
+      low.push_back(step.error[0] / in::percent);  // Quantiles: 10, 50, 90 %.
       median.push_back(step.error[1] / in::percent);
       high.push_back(step.error[2] / in::percent);
     }

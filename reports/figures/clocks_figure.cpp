@@ -1,5 +1,5 @@
-// Three panels: signals by their own recorder's time, both on the machine's clock, and their
-// difference, which has no row at the break.
+// Three panels: each signal over its own recorder's time, both over the machine's, and their
+// difference up to the break.
 #include <fmt/format.h>
 
 #include "reports/figures/figures.hpp"
@@ -34,7 +34,6 @@ plot $residual using 1:($2*100) with points pt 7 ps 0.2 lc rgb blue
 unset multiplot
 )gnuplot";
 
-// A trace thinned, its peaks kept.
 std::string block(std::string_view name, const calib::ClockTrace& trace) {
   const Points points = thin(trace.time, trace.part, 1000);
   return data_block(name, {points.x, points.y});

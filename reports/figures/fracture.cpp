@@ -1,4 +1,4 @@
-// Written as SVG and not drawn by gnuplot: thousands of outlines fill a few paths.
+// Written as SVG without gnuplot: the outlines of all fibres are one path, the joints a few more.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct Drawing {
 
   [[nodiscard]] Point displacement(int node) const {
     const Eigen::Index i = 2 * static_cast<Eigen::Index>(node);
-    // A run without a row has none, a run that went astray no finite ones.
+    // A run without a row has no displacements; those of a run that diverged may not be finite.
     if (i + 1 >= simulation.displacements.size()) return Point::Zero();
     const Point u = simulation.displacements.segment<2>(i);
     return u.allFinite() ? u : Point::Zero();
@@ -64,7 +64,7 @@ std::vector<int> outline(const sim::Assembly& assembly, const sim::Body& body) {
     }
   std::vector<int> nodes;
   if (next.empty()) return nodes;
-  // Triangles go round one way, so that every edge of the outline leads on to the next.
+  // All triangles have the same sense of rotation: each edge of the outline ends where one begins.
   for (int node = next.begin()->first; nodes.size() < next.size(); node = next[node])
     nodes.push_back(node);
   return nodes;
@@ -89,7 +89,7 @@ std::string gaps(const Drawing& drawing, const std::vector<sim::Joint>& joints) 
   for (const sim::Joint& joint : joints) {
     const Point a = drawing.at(joint.edge_a.front()), b = drawing.at(joint.edge_a.back());
     Point c = drawing.at(joint.edge_b.front()), d = drawing.at(joint.edge_b.back());
-    // Both edges run the same way: the second is turned, or the path would cross itself.
+    // If both edges run the same way the second is reversed, or the path would cross itself.
     if ((b - a).dot(d - c) > 0.0) std::swap(c, d);
     path += fmt::format("M{}L{}L{}L{}Z", coordinates(a), coordinates(b), coordinates(c),
                         coordinates(d));
@@ -141,7 +141,7 @@ std::string legend(const Drawing& drawing, std::size_t head_tail, std::size_t fl
                      278.0 + drawing.scale * bar, setting(bar / in::um));
 }
 
-// Classes are those of the style below.
+// `name` is a class of fracture_style.
 std::string path(std::string_view name, const std::string& data) {
   return fmt::format("<path class=\"{}\" d=\"{}\"/>\n", name, data);
 }
@@ -172,9 +172,9 @@ std::string fracture_svg(const sim::Assembly& assembly, const sim::Simulation& s
   const auto head_tail = broken_joints(drawing, sim::JointKind::head_tail);
   const auto flank = broken_joints(drawing, sim::JointKind::flank);
   const auto [low, high] = extent(drawing);
-  // Room for the arrows, and for the legend below. [px]
+  // Margins: for the arrows on the sides, for the legend below. [px]
   constexpr double side = 54.0, above = 8.0, below = 60.0;
-  // As wide as the legend at least, the specimen in the middle.
+  // At least as wide as the legend, with the specimen in the middle.
   const double width = std::max(high.x() - low.x() + 2.0 * side, 600.0);
   const double x = 0.5 * (low.x() + high.x() - width);
   return fmt::format(

@@ -1,5 +1,5 @@
-// A figure is a script for gnuplot on its standard input and an SVG on its standard output, made
-// fit to stand inside a page. Whatever goes wrong on the way becomes a sentence in its place.
+// gnuplot reads a figure's script from its standard input and writes an SVG to its standard output,
+// which is then made fit to stand inside a page. If that fails, a sentence stands in its place.
 #include "reports/figures/gnuplot.hpp"
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ dark = '#222222'
 grey = '#888888'
 )";
 
-// For HTML and SVG, by the rules of the pages' own templates.
+// Escaped for HTML and SVG as the templates of the pages do it.
 std::string escaped(const std::string& text) {
   return mstch::render("{{text}}", mstch::map{{"text", text}});
 }
@@ -137,7 +137,7 @@ std::string x_range(std::initializer_list<std::span<const double>> values, doubl
         high = std::max(high, value * scale);
       }
   if (low > high) return {};
-  // A single value needs a range too.
+  // A range must have a length, also around a single value.
   const double margin = high > low ? 0.02 * (high - low) : 1.0;
   return fmt::format("set xrange [{:.6g}:{:.6g}]\n", low - margin, high + margin);
 }

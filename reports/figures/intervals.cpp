@@ -1,4 +1,5 @@
-// Intervals of several fits, a panel a parameter, and the small bar that a table shows of one.
+// The intervals of several fits, a panel for each parameter; and the small bar of one interval in a
+// table.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,7 +38,7 @@ std::string panel_commands(const std::vector<Estimate>& estimates, std::size_t n
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const auto& [fit, parameter] : estimates) {
     const auto [low, high] = parameter->interval_95;
-    // Without an interval the point alone.
+    // Without an interval only the point is drawn.
     const bool known = std::isfinite(low) && std::isfinite(high);
     const double from = known ? low : parameter->value, to = known ? high : parameter->value;
     data += fmt::format("{:.6g} {} {:.6g} {:.6g}\n", parameter->value, fit + 1, from, to);
@@ -64,7 +65,7 @@ std::string fit_names(const std::vector<FitReport>& fits) {
   std::string tics;
   for (std::size_t i = 0; i < fits.size(); ++i)
     tics += fmt::format("{}'{}' {}", i > 0 ? ", " : "", shortened(fits[i].study.name), i + 1);
-  // The first fit on top.
+  // The range is turned round, so that the first fit is on top.
   return fmt::format("set ytics noenhanced ({})\nset yrange [{}.5:0.5]\n", tics, fits.size());
 }
 
@@ -72,8 +73,8 @@ std::string fit_names(const std::vector<FitReport>& fits) {
 
 Figure intervals_figure(const std::vector<FitReport>& fits, const std::string& id) {
   const auto panels = by_parameter(fits);
-  // The figure grows with what it holds: pixels of an axis with its label, and of the rows of a
-  // panel.
+  // Heights of an axis with its label and of a panel's rows; the figure has one of both for each
+  // parameter. [px]
   const double axis = 62.0, rows = 26.0 * static_cast<double>(fits.size()) + 12.0;
   const double height = static_cast<double>(panels.size()) * (axis + rows);
   Figure figure{.id = id,
@@ -96,7 +97,7 @@ std::string interval_bar(const calib::CalibratedParameter& parameter) {
   constexpr double left = 4.0, width = 192.0;
   const double low = parameter.bounds[0], high = parameter.bounds[1];
   if (!std::isfinite(parameter.value) || !(high > low)) return {};
-  // Bounds are the ends of the bar; what lies beyond is cut off there.
+  // The ends of the bar are the bounds; an interval that reaches beyond is cut off there.
   const auto at = [&](double value) {
     return left + width * std::clamp((value - low) / (high - low), 0.0, 1.0);
   };

@@ -45,8 +45,8 @@ Figure methods_figure(const calib::MethodComparison& comparison, const std::stri
     const std::string name = fmt::format("method{}", i);
     std::vector<double> time, error;
     for (const calib::PorosityTrial& trial : comparison.trials) {
-      // A time too short to be counted would be 0, which a logarithmic axis has not. [ms a million
-      // pixels]
+      // A time too short to be measured is 0, which has no place on a logarithmic axis.
+      // Milliseconds for a million pixels.
       time.push_back(std::max(1e-5, trial.readings.at(i).cpu) * 1e9 / trial.pixels);
       error.push_back(std::max(smallest, trial.error(method) / in::percent));
     }

@@ -1,4 +1,4 @@
-// By posix_spawn and without a shell, whose rules for quotes would be one more thing to get wrong.
+// By posix_spawn without a shell, so that no argument has to be quoted.
 #include "reports/figures/process.hpp"
 
 #include <fcntl.h>
@@ -72,7 +72,7 @@ int status_of(pid_t pid) {
   for (int status = 0;;) {
     const pid_t ended = waitpid(pid, &status, WNOHANG);
     if (ended != 0) return ended == pid && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    // The whole group, with what the program may have started.
+    // Kills the whole process group, with whatever the program has started.
     if (std::chrono::steady_clock::now() - begin > patience) kill(-pid, SIGKILL);
     std::this_thread::sleep_for(1ms);
   }
@@ -102,7 +102,7 @@ ProcessResult run_process(std::vector<std::string> command, const std::string& i
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), write, 0600);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), write, 0600);
 
-  // As exec wants them: writable, and ended by a null.
+  // As exec demands: not constant, and a null pointer behind the last one.
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);
   for (std::string& argument : command) arguments.push_back(argument.data());

@@ -8,7 +8,7 @@ namespace havers::reports {
 
 /// How a program ended, and all that it wrote.
 struct ProcessResult {
-  bool started = false;  ///< False too where there is no folder for its streams.
+  bool started = false;  ///< False also if its input cannot be written to a file.
   int status = -1;       ///< Exit status; -1 when it did not end by itself.
   std::string output, errors;
 };

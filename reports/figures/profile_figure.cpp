@@ -1,4 +1,5 @@
-// How the cost rises off its minimum along each parameter, and from which starts it was found.
+// How the cost rises from its minimum along each parameter, and the costs that the search started
+// from and ended at.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace havers::reports {
 namespace {
 
-// The dashed line is where the 95 % interval ends.
+// Where the profile crosses the dashed line the 95 % interval ends.
 std::string profile_panel(const calib::Profile& profile, std::size_t number) {
   return data_block(fmt::format("profile{}", number), {profile.value, profile.rise}) +
          fmt::format(
@@ -23,7 +24,7 @@ std::string profile_panel(const calib::Profile& profile, std::size_t number) {
 }  // namespace
 
 Figure profile_figure(const std::vector<calib::Profile>& profiles, const std::string& id) {
-  // In pixels; the figure grows by one of each a parameter.
+  // The figure has one of both for each parameter. [px]
   constexpr double panel_height = 170.0, axis = 62.0;
   const double height = static_cast<double>(profiles.size()) * (panel_height + axis);
   Figure figure{.id = id,

@@ -1,5 +1,5 @@
-// Three panels over one strain axis: stress, broken joints by kind, energies. Rows are not equally
-// far apart: what lies between them is drawn as it is known to go, not as a straight line.
+// Three panels over one strain axis: stress, broken joints by kind, energies. Rows may be far
+// apart: between them a curve is drawn as it must run there, which need not be a straight line.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace havers::reports {
 namespace {
 
-constexpr std::size_t most_points = 2000;  // Rows of a curve; those at breaks stay beside them.
+constexpr std::size_t most_points = 2000;  // Of a curve, besides those at which a joint broke.
 
 constexpr std::string_view simulation_commands = R"gnuplot(
 set multiplot
@@ -49,7 +49,7 @@ std::vector<sim::CurvePoint> with_parabolas(const sim::Simulation& simulation) {
   const bool dynamic = simulation.regime == sim::Regime::dynamic;
   if (dynamic && simulation.leapt_strain == 0.0) return simulation.curve;
   constexpr int parts = 60;
-  // Pieces are as long all along the axis, whatever rows lie on it.
+  // All pieces have the same length in strain.
   const double piece = simulation.curve.back().strain / parts;
   std::vector<sim::CurvePoint> curve;
   for (const sim::CurvePoint& end : simulation.curve) {
@@ -65,7 +65,7 @@ std::vector<sim::CurvePoint> with_parabolas(const sim::Simulation& simulation) {
       point.strain = strain;
       point.stress_right = std::lerp(begin.stress_right, end.stress_right, part);
       point.stress_left = std::lerp(begin.stress_left, end.stress_left, part);
-      // From zero at no strain, by its square; the row at the end fixes the factor.
+      // Grows with the square of the strain up to the value of the next row.
       point.elastic = end.elastic * (strain * strain) / (end.strain * end.strain);
       const double grown =
           dynamic ? part : part * (strain + begin.strain) / (end.strain + begin.strain);

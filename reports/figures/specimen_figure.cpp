@@ -1,4 +1,4 @@
-// A specimen's curve measured and simulated, with the band of its replicates; below, the
+// The measured and the simulated curve of a specimen, with the band of its replicates; below, their
 // difference.
 #include <fmt/format.h>
 

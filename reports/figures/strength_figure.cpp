@@ -1,5 +1,5 @@
-// gnuplot does not keep labels apart, so names of specimens are placed here, by a rough picture of
-// where points and letters come to lie.
+// gnuplot does not keep labels apart. Names of specimens are therefore placed here, by an estimate
+// of where points and letters are on the figure.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ Groups groups_of(const std::vector<calib::SpecimenResult>& specimens) {
   return groups;
 }
 
-// An error bar of no length where no error is known.
+// An unknown error is drawn as a bar of no length.
 double or_zero(double error) {
   return std::isfinite(error) ? error : 0.0;
 }
@@ -76,7 +76,7 @@ struct Box {
 };
 
 Box point_box(const calib::SpecimenResult& specimen, const Range& range) {
-  // Pixels that the strengths span, nearly.
+  // About as many pixels as the range of strengths has on the figure, and the size of a symbol.
   constexpr double along = 350.0, up = 280.0, symbol = 12.0;
   const auto part = [&](double stress) {
     const double value = stress / in::MPa;
@@ -198,7 +198,7 @@ int legend_room(const Groups& groups, bool stopped) {
                           });
   const int entries = 1 + static_cast<int>(groups.size()) + (stopped ? 1 : 0);
   const int in_a_row = long_names ? 2 : 4, rows = (entries + in_a_row - 1) / in_a_row;
-  // Two rows have room.
+  // A figure of usual height has room for two rows.
   return 20 * std::max(0, rows - 2);
 }
 

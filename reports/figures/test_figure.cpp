@@ -1,5 +1,5 @@
-// A test on stress-strain axes, as read and as used over each other; where it cannot be reduced,
-// what was recorded.
+// A test on stress-strain axes: as read, and drawn over that, as used. If it cannot be reduced, its
+// record is shown.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ plot $raw_steps using 1:2 with points pt 7 ps 0.45 lc rgb '#b0b0b0', \
 unset multiplot
 )gnuplot";
 
-// From each row to the next, over time. [s]
+// Time steps from row to row, over time. [s, s]
 Points steps_of(const std::vector<double>& time) {
   Points steps;
   for (std::size_t i = 1; i < time.size(); ++i) {
@@ -158,7 +158,7 @@ Figure test_figure(const ImportReport& report, const std::string& id) {
   const auto [lowest, highest] = std::ranges::minmax(stresses);
   const Points line = modulus_line(test);
   const std::array<double, 1> peak_strain{test.failure_strain}, peak_stress{test.strength};
-  // A second panel shows what was made of rows that share a time.
+  // If rows share a time, a second panel shows how they were spread over it.
   const bool shared_times = std::ranges::adjacent_find(report.raw.time) != report.raw.time.end();
   if (shared_times) figure.height = 580;
   figure.commands =

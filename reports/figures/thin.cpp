@@ -26,7 +26,7 @@ Points thin(std::span<const double> x, std::span<const double> y, std::size_t li
     kept.x.push_back(all.x[i]);
     kept.y.push_back(all.y[i]);
   };
-  // Two points of each, in the order in which they come.
+  // Each stretch keeps two points.
   const std::size_t stretches = limit / 2;
   for (std::size_t s = 0; s < stretches; ++s) {
     const auto begin = all.y.begin() + static_cast<std::ptrdiff_t>(s * all.y.size() / stretches);

@@ -6,7 +6,7 @@
 
 namespace havers::reports {
 
-/// Of a curve, x and y equally many.
+/// Points of a curve: as many x as y.
 struct Points {
   std::vector<double> x, y;
 };

@@ -1,5 +1,5 @@
 // Two panels of error against CPU time. Each series is a way to solve; a line joins rows that
-// differ in the step alone.
+// differ only in the time step.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr double smallest_error = 1e-15;
 struct Series {
   std::string_view title, size, colour;
   int point;
-  // Null: what has another mesh than the reference.
+  // Null: the series of settings with another mesh than the reference.
   bool (*holds)(const sim::BenchSetting& setting);
 };
 
@@ -74,7 +74,7 @@ class ErrorPanel {
       add_lines(series);
       add_points(series);
     }
-    // Below this line an error may be the reference's own.
+    // A line at what the reference itself may err by: smaller errors cannot be told.
     if (const double error = (study_.reference_errors.*error_).high; error > 0.0)
       plots_ += fmt::format(", {:.4g} with lines dt 2 lc rgb grey notitle", drawn(error));
     return data_.empty() ? std::string() : data_ + plots_ + "\n";
@@ -113,14 +113,14 @@ class ErrorPanel {
       plot(data, fmt::format("using 1:2:3:4:5:6 with xyerrorbars lw 1.2 pt {} ps {} lc rgb {} {}",
                              series.point - 1 + full, series.size, series.colour,
                              title.empty() ? "notitle" : fmt::format("title '{}'", title)));
-      // Named once in the legend, by whichever of the two there is.
+      // The legend names a series only once, even if it has full and hollow points.
       if (!data.empty()) title = {};
     }
   }
 
   void plot(const std::string& data, const std::string& how) {
     if (data.empty()) return;
-    // Numbered by the blocks before it, which keeps their names apart.
+    // Each block before this one has one "$" in data_: their count makes a new name.
     const std::string block = fmt::format("${}{}", name_, std::ranges::count(data_, '$'));
     data_ += fmt::format("{} << EOD\n{}EOD\n", block, data);
     plots_ += fmt::format("{}{} {}", plots_.empty() ? "plot " : ", ", block, how);

@@ -1,4 +1,4 @@
-// Pages of two benches: settings of a solver by error and time, and scenes whose answer is known.
+// Pages of two benches: error and time of a solver's settings, and scenes whose answer is known.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ mstch::node grade_of(const sim::WorkPrecision& study) {
                cheapest_for_failure(study).has_value());
 }
 
-// Medians over the seeds; the row of the reference has no errors.
+// Medians over the seeds.
 mstch::map work_row(const sim::BenchRow& row, bool reference, double time_limit) {
   return {{"setting", text(setting_text(row.setting) + (reference ? " (reference)" : ""))},
           {"state", text(state_of(row, time_limit))},
@@ -63,7 +63,7 @@ mstch::map work_row(const sim::BenchRow& row, bool reference, double time_limit)
           {"iterations", text(whole(row.iterations.median))}};
 }
 
-// A reference that errs by more than the target can tell nothing of it.
+// If the reference itself may err by more than the target, no setting can be judged by it.
 std::string setting_text(const sim::CheapestSetting& cheapest, const sim::BenchRow* row) {
   if (row != nullptr) return setting_text(row->setting);
   if (cheapest.reference_error <= cheapest.target) return "no setting reaches it";
@@ -103,7 +103,7 @@ std::string what_errors_are_of(const sim::WorkPrecision& study) {
       what_reference_errs_by(study.reference_errors));
 }
 
-// A scene that was refused has no numbers.
+// A scene that was refused was not run and has no numbers.
 mstch::map stability_row(const sim::StabilityResult& result) {
   const bool ran = result.outcome != sim::StabilityOutcome::refused;
   const auto if_ran = [&](double value) { return text(ran ? error_text(value) : "–"); };

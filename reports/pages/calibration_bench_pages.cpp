@@ -29,7 +29,7 @@ std::string rate_text(const calib::Rate& rate) {
 }
 
 mstch::map chain_row(const calib::ChainSummary& chain, bool usual) {
-  // Whole numbers: no part of a simulation is told.
+  // Rounded: a part of a simulation means nothing.
   const auto& [low, median, high] = chain.simulations;
   const std::string range = low == high ? "" : fmt::format(" ({:.0f} to {:.0f})", low, high);
   return {{"chain", text(chain.chain + (usual ? " (default)" : ""))},

@@ -1,5 +1,5 @@
-// Fits side by side. A comparison is worth something only if it says in what fits differ: each is
-// compared with the first of the page.
+// Fits side by side. Their outcomes can be compared only if it is known in what the fits differ: of
+// each fit the page says how it differs from the first.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -126,7 +126,7 @@ std::string program_of(const FitReport& fit) {
 // In what a fit differs from the first of the page, but for its outcome.
 std::string differs_in(const FitReport& fit, const FitReport& first) {
   std::vector<std::string> parts;
-  // By what is shown of each, so that a difference is one that a reader sees.
+  // Texts are compared as they are shown, so that a reader sees every difference that is stated.
   const auto compare = [&](const char* what, std::string (*of)(const FitReport&)) {
     if (of(fit) != of(first)) parts.push_back(fmt::format("{}: {}", what, of(fit)));
   };
@@ -175,7 +175,7 @@ std::string comparison_page(const std::vector<FitReport>& reports) {
   Footer footer;
   for (const FitReport& fit : reports) {
     fits.emplace_back(fit_content(fit, reports.front()));
-    // Each fit's origin under its name, as files may be called alike.
+    // With the name of the study, as files of different fits may have the same name.
     footer.add(fit.provenance, fit.study.name + ": ");
   }
   mstch::map content = verdict_of_fits(reports);

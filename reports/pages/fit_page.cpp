@@ -1,5 +1,5 @@
-// The page of a fit: verdict and checks, parameters, specimens, then how well all of it is known
-// and what the search took.
+// The page of a fit: verdict and checks, parameters, specimens, then how well the parameters are
+// determined and how the search went.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ std::vector<std::string> asked_for(const calib::CalibrationResult& result) {
   return names;
 }
 
-// A parameter that was left out is held at its value, and shows why.
+// A parameter that was left out of the fit is held at its value; its row says why.
 mstch::map parameter_row(const calib::CalibratedParameter& p,
                          const std::vector<std::string>& parameters) {
   const bool held = !p.left_out_because.empty();
@@ -88,7 +88,7 @@ bool has_bootstrap(const calib::CalibrationResult& result) {
   });
 }
 
-// By how many standard errors each fitted parameter would move without the specimen.
+// By how many standard errors each fitted parameter would move without that specimen.
 mstch::array influence_rows(const calib::CalibrationResult& result) {
   mstch::array rows;
   for (const calib::SpecimenResult& specimen : result.specimens) {

@@ -1,4 +1,4 @@
-// A specimen on the page of a fit: a row of the overview, and a part of its own.
+// A specimen on the page of a fit: its row in the overview, and the part about it alone.
 #include "reports/pages/fit_specimen.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ std::vector<Compared> compared(const calib::SpecimenResult& s) {
            s.failure_strain, s.residual[2], !s.measured.broke}};
 }
 
-// Of a test that was stopped the largest values are bounds.
+// Strength and failure strain of a test that was stopped before the break are lower bounds.
 std::string or_more(const Compared& c, const std::string& value) {
   return c.bound && std::isfinite(c.measured) ? "≥ " + value : value;
 }
@@ -58,7 +58,7 @@ mstch::array comparison_rows(const calib::SpecimenResult& specimen) {
   });
 }
 
-// In the order of the overview's columns: measured and simulated by turns.
+// In the order of the overview's columns: measured and simulated alternate.
 mstch::array overview_cells(const calib::SpecimenResult& specimen) {
   mstch::array cells;
   for (const Compared& c : compared(specimen)) {
@@ -97,7 +97,7 @@ std::string logarithm_of(const std::string& term) {
   return term;
 }
 
-// What the cost is made of, each term by its share.
+// The terms of the cost, each with its share.
 mstch::array term_rows(const calib::SpecimenResult& specimen) {
   return list_of(specimen.terms, [](const calib::TermResult& term) {
     return mstch::map{{"term", text(logarithm_of(term.term))},

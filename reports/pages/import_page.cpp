@@ -1,4 +1,5 @@
-// One part a test: what was read, what was corrected, what came of it; or why it cannot be used.
+// One part for each test: what was read, what was corrected and the result, or why it cannot be
+// used.
 #include <fmt/format.h>
 
 #include <limits>
@@ -27,9 +28,9 @@ Facts facts_of(const ImportReport& report) {
   Facts sizes{{"Width, thickness", fmt::format("{}, {}", length(raw.width), length(raw.thickness))},
               {"Area", area_of(raw)},
               {"Gauge length", length(raw.gauge_length)}};
-  // Not reduced: the sizes tell what is missing.
+  // Of a test that was not reduced only the sizes are shown: one of them may be missing.
   if (test.strain.empty()) return sizes;
-  // Of a test that was stopped these are bounds.
+  // Of a test that was stopped before the break these are lower bounds.
   const auto bounded = [&](const std::string& name) {
     return test.broke ? name : name + ", at least";
   };
@@ -56,7 +57,7 @@ double known(const ImportReport& report, double value) {
   return report.test.strain.empty() ? std::numeric_limits<double>::quiet_NaN() : value;
 }
 
-// Both clocks in words, with their errors, or why they could not be joined.
+// How the two clocks are related, with errors, or why they cannot be aligned.
 std::string clocks_caption(const calib::ClockFit& clocks) {
   if (!clocks.problem.empty())
     return fmt::format(
@@ -86,7 +87,7 @@ mstch::node clocks_section(const ImportReport& report, std::size_t index) {
   return section(figures);
 }
 
-// One test: its row of the table and its part of the page.
+// Everything the page shows of one test, in the table and in its own part.
 mstch::map content_of(const ImportReport& report, std::size_t index) {
   const calib::MeasuredTest& test = report.test;
   const std::string least = test.broke || test.strain.empty() ? "" : "≥ ";

@@ -1,4 +1,4 @@
-// Ways to measure porosity side by side, over all sections and by hardship; ours is the last.
+// Ways to measure porosity side by side, over all sections and by hardship.
 #include <fmt/format.h>
 
 #include "calib/count.hpp"

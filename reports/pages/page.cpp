@@ -1,4 +1,5 @@
-// Pieces that pages share. Templates know no logic: what is shown, and whether, is decided here.
+// Pieces that pages share. Templates have no logic: whether and how something is shown is decided
+// in code.
 #include "reports/pages/page.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@
 namespace havers::reports {
 namespace {
 
-// In the order of calib::Outcome; a check that was not done has no outcome.
+// Marks are in the order of calib::Outcome; a check that was not done has a dash.
 std::string mark_of(const calib::Check& check) {
   constexpr std::array marks{"✓", "△", "✗"};
   return check.done ? marks.at(static_cast<std::size_t>(check.outcome)) : "–";
@@ -31,7 +32,7 @@ mstch::array fact_list(const Facts& facts) {
   });
 }
 
-// A template leaves out what is false, heading and all.
+// If the node is false, the template leaves the section out with its heading.
 mstch::node section(mstch::array items) {
   if (items.empty()) return mstch::node{false};
   return mstch::map{{"items", std::move(items)}};
@@ -62,7 +63,7 @@ mstch::node check_section(const std::vector<calib::Check>& checks) {
   }));
 }
 
-// One of one is not counted.
+// A single one is not counted: "The test can be used".
 std::string how_many_can(const std::string& verb, const std::string& noun, std::size_t all,
                          const std::vector<std::string>& cannot) {
   if (all == 1) return fmt::format("The {} can{} {}", noun, cannot.empty() ? "" : "not", verb);
@@ -133,7 +134,7 @@ void Footer::add(const calib::Provenance& provenance, const std::string& whose) 
   const auto add_fact = [&](const char* name, const std::string& value) {
     facts.emplace_back(whose + name, value);
   };
-  // Results that were read back may know less of themselves.
+  // Results that were read back from files may lack some of these.
   if (!provenance.command.empty()) add_fact("Command", provenance.command);
   if (!provenance.havers.empty())
     add_fact("Program", fmt::format("havers {}, {}", provenance.havers, provenance.compiler));
@@ -146,7 +147,7 @@ void Footer::add(const calib::Provenance& provenance, const std::string& whose) 
 
 std::string render_page(const std::string& title, const std::string& name, mstch::map content,
                         const Footer& footer) {
-  // The body first, on its own, then the frame around it.
+  // The body is rendered first, then the frame around it.
   const std::string body = mstch::render(templates().at(name), content, templates());
   return mstch::render(
       templates().at("page"),

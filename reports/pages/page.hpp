@@ -38,8 +38,8 @@ mstch::array fact_list(const Facts& facts);
 /// A list for a section of a template that vanishes with it: {items}, or nothing when it is empty.
 mstch::node section(mstch::array items);
 
-/// Sections of what most results carry: simplifications with their reasons, checks with their
-/// outcomes, sentences, corrections. Each vanishes when it is empty.
+/// Sections that several pages have: simplifications with their reasons, checks with their
+/// outcomes, sentences, corrections. An empty one vanishes.
 mstch::node left_out_section(const std::vector<sim::LeftOut>& left_out);
 mstch::node check_section(const std::vector<calib::Check>& checks);
 mstch::node text_section(const std::vector<std::string>& sentences);

@@ -1,5 +1,5 @@
-// Sections in one table, then each with its overlay and histogram, so that a reader sees what was
-// taken for a pore before believing its porosity.
+// All sections in one table, then each with its overlay and histogram, so that a reader can check
+// what was taken for a pore.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Every number of a run stands with what is to be said of it: its step error, that it is a bound,
-// or what was left out on the way to it.
+// The page of one run. A number stands with what limits it: its error by the time step, that it is
+// only a bound, or that not all breaks were counted.
 #include <fmt/format.h>
 
 #include <array>
@@ -15,8 +15,8 @@ namespace {
 
 using Status = sim::SimulationStatus;
 
-// Behind a value: its relative error by the time step; nothing where that is no more than asked
-// for.
+// Stands behind a value: its relative error by the time step. Nothing if the error is within the
+// accuracy that was asked for.
 std::string by_step(double error) {
   return error > 0.0
              ? fmt::format(" (±\u00a0{} of it by the step)", quantity(error / in::percent, "%", 2))
@@ -125,7 +125,7 @@ Facts key_numbers(const SimulationReport& report) {
               {dynamic ? "Time steps" : "Events", steps_of(s)},
               {"Contact iterations", std::to_string(s.iterations)}};
   if (!std::isnan(s.strength_over_a_wave))
-    // Beside the strength, which it explains.
+    // Right behind the strength, which it explains.
     facts.insert(facts.begin() + 1, {"Strength without waves that ring",
                                      quantity(s.strength_without_ringing() / in::MPa, "MPa") +
                                          by_step(s.error_beyond_accuracy().over_a_wave)});
@@ -151,7 +151,7 @@ std::string gaps_of(const sim::Simulation& s) {
   return s.missing_joints() > 0 ? " Joints that are missing from the start leave gaps." : "";
 }
 
-// How far down the run went after its strength.
+// Down to which part of its strength the run was followed.
 std::string followed_to(const SimulationReport& report) {
   const std::string part = setting(report.simulation.end_fraction_used, "", 3);
   return ends_early(report) ? fmt::format("{} of the strength ({} where nothing is left out)", part,
@@ -184,8 +184,8 @@ std::string unusual(const sim::JointOptions& joints) {
   return words;
 }
 
-// The whole scene in a few lines; a key that nearly all scenes leave alone shows only where it is
-// set.
+// The whole scene in a few lines; settings that scenes seldom change are shown only if they are
+// changed.
 Facts scene_facts(const SimulationReport& report) {
   const auto& [assembly, material, joints, loading, solver] = report.scene;
   return {

@@ -1,5 +1,5 @@
-// A figure of a sweep is split twice: into panels by one key, and in each into series by another.
-// What is left of the points of a series is a line.
+// A figure of a sweep is split twice: into panels by the values of one key, and each panel into
+// series by those of another. The points of a series in a panel make a line.
 #include "reports/sweep/sweep_figure.hpp"
 
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ std::string title_of(const Panel& panel, const std::string& value) {
   return panel.wanted.series.empty() ? "" : plain(typeset(value));
 }
 
-// Several panels share a row of the page. [px]
+// Panels are narrower than a single figure, as several share a row of the page. [px]
 double width_of(const calib::SweepFigure& wanted) {
   return wanted.per.empty() ? 640 : 420;
 }
@@ -64,7 +64,7 @@ std::string key_of(const Panel& panel) {
       edge, edge + 0.01, plain(name_of_key(panel.wanted.series)));
 }
 
-// The series of the whole figure without the points of other panels; some may be empty.
+// All series of the figure, but only their points in this panel; some may be empty.
 std::vector<PointGroup> series_of(const Panel& panel) {
   std::vector<PointGroup> all =
       calib::groups_of(panel.result.points, panel.sweep.plan, panel.wanted.series);
@@ -94,7 +94,7 @@ bool go_one_way(const calib::SweepResult& result, const std::vector<std::size_t>
 Line line_of(const Panel& panel, std::vector<std::size_t> points) {
   const std::size_t column = panel.sweep.plan.column(panel.wanted.x);
   const auto x_of = [&](std::size_t point) { return panel.result.points[point].numbers[column]; };
-  // Points of the same x keep the plan's order.
+  // Points of the same x keep their order.
   std::ranges::stable_sort(points, {}, x_of);
   const double scale = calib::words_of(panel.wanted.response).scale;
   Line line{.joined = go_one_way(panel.result, points)};
@@ -104,7 +104,7 @@ Line line_of(const Panel& panel, std::vector<std::size_t> points) {
     // Where some did not break, the others are the weaker ones.
     const bool some_open = summary.unbroken > 0 && calib::needs_break(panel.wanted.response);
     if (s.n == 0 || some_open) continue;
-    // A mean of one run has no interval.
+    // The mean of a single run has no interval: NaN.
     const double half = s.n > 1 ? s.half_width() : std::numeric_limits<double>::quiet_NaN();
     line.x.push_back(x_of(point));
     line.mean.push_back(s.mean / scale);
@@ -147,7 +147,7 @@ std::string axes(const std::vector<Line>& lines) {
     y.take(line.low);
     y.take(line.high);
   }
-  // About a single value of x.
+  // The margin around a single value of x.
   const double alone = x.high != 0.0 ? 0.1 * std::abs(x.high) : 1.0;
   const double margin = x.high > x.low ? 0.04 * (x.high - x.low) : alone;
   return (x.many_decades() ? log_axis('x', x)
@@ -167,10 +167,10 @@ std::string mean_commands(const Panel& panel) {
   std::vector<Line> lines;
   const bool sample = is_sample(panel.sweep.plan.sampling);
   const std::vector<PointGroup> all = series_of(panel);
-  for (std::size_t i = 0; i < all.size(); ++i) {  // alike in all panels, whatever these lack
+  for (std::size_t i = 0; i < all.size(); ++i) {  // `i` fixes its look in all panels
     const Line line = line_of(panel, all[i].points);
     if (line.x.empty()) continue;
-    // Points of a sample are neighbours by chance.
+    // Points of a random sample are not joined: they are neighbours by chance.
     const bool joined = line.joined && !sample;
     const std::string_view colour = colours.at(i % colours.size());
     data += data_block(fmt::format("s{}", i), {line.x, line.mean, line.low, line.high});
@@ -234,7 +234,7 @@ std::vector<SweepPanel> sweep_figures(const calib::Sweep& sweep, const calib::Sw
                                .description = wanted.caption,
                                .width = static_cast<int>(width_of(wanted)),
                                .height = wanted.per.empty() ? 360 : 340}};
-    // Without a key for the axis the runs themselves are wanted.
+    // A figure without a key for its x axis shows stress-strain curves of runs.
     made.figure.commands = wanted.x.empty() ? curve_commands(panel) : mean_commands(panel);
     if (!made.figure.commands.empty())  // as much room as the labels of the tics ask for
       made.figure.commands =

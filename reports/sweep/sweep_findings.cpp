@@ -1,5 +1,5 @@
-// Findings are claims that a sweep was asked about. One claim may have rows of several sweeps and
-// places: the sentence counts claims, the table shows rows.
+// Findings test claims on the runs of a sweep. A claim, known by its id, may be tested in several
+// sweeps and at several values: the table shows each test as a row, the sentence counts claims.
 #include "reports/sweep/sweep_findings.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace {
 
 using calib::FindingOutcome;
 
-// What was judged: a mean in its unit, or anything else in percent.
+// What was judged, with its interval: a mean in its own unit, all else in percent.
 std::string value_of(const calib::Finding& finding) {
   const calib::MeasureWords words = calib::words_of(finding.response);
   const bool absolute = judges_means(finding.test);
@@ -34,7 +34,7 @@ std::string value_of(const calib::Finding& finding) {
                     absolute ? words.unit : "%", calib::extra_digits(finding, scale)));
 }
 
-// The inertia numbers of the runs that it rests on.
+// The least and the largest inertia number of the runs that the finding rests on.
 std::string inertia_of(const calib::Finding& finding) {
   const std::string low = number(finding.inertia_low, 2), high = number(finding.inertia_high, 2);
   return "I = " + (low == high ? low : fmt::format("{} to {}", low, high));
@@ -72,7 +72,7 @@ std::vector<FindingRow> findings_of(const std::vector<SweepReport>& sweeps) {
   for (const SweepReport& report : sweeps)
     for (const calib::Finding& finding : report.result.findings)
       rows.push_back({&finding, &report.sweep});
-  // Within an id the order of the sweeps stays.
+  // Rows of the same id stay in the order of the sweeps.
   std::ranges::stable_sort(rows, {}, [](const FindingRow& row) { return row.finding->id; });
   return rows;
 }
@@ -102,7 +102,7 @@ std::string findings_sentence(const std::vector<FindingRow>& rows) {
   std::array<std::string, 4> names;  // agree, disagree, undecided, one row so and another so
   std::array<int, 4> counts{};
   for (const auto& [id, set] : outcomes) {
-    // Outcomes are numbered as `names` is.
+    // The first three of `names` are in the order of FindingOutcome.
     const std::size_t kind = set.size() == 1 ? static_cast<std::size_t>(*set.begin()) : 3;
     names.at(kind) += (names.at(kind).empty() ? "" : ", ") + id;
     ++counts.at(kind);

@@ -9,7 +9,7 @@
 
 namespace havers::reports {
 
-/// A finding and the sweep that it was found in; both belong to the reports.
+/// A finding and the sweep that it was found in; both must live longer than the row.
 struct FindingRow {
   const calib::Finding* finding;
   const calib::Sweep* sweep;
@@ -18,7 +18,7 @@ struct FindingRow {
 /// All findings by id, in the order of sweeps within one.
 std::vector<FindingRow> findings_of(const std::vector<SweepReport>& sweeps);
 
-/// For the table of the template "sweep".
+/// The rows of the table in the template "sweep".
 mstch::array finding_rows(const std::vector<FindingRow>& rows);
 
 /// Which ids hold, their rows all agreeing; which are contradicted, all disagreeing; the rest is

@@ -40,7 +40,7 @@ std::string law_text(const calib::Law& law) {
                      terms.substr(0, terms.size() - 2));
 }
 
-// Each with its 95 % interval, in the unit of what the law is of.
+// Each coefficient with its 95 % interval; the response is in the unit of the law's heading.
 std::string coefficients_of(const calib::Law& law) {
   if (law.status != calib::LawStatus::fitted) return explain(law.status);
   const double scale = words_of(law.request.response).scale;
@@ -53,7 +53,7 @@ std::string coefficients_of(const calib::Law& law) {
     all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", name,
                        with_interval(value, value - half, value + half));
   }
-  // Of calling a law wrong that fits.
+  // The risk of rejecting a law that is right.
   constexpr double risk = 0.05;
   if (law.lack_of_fit_p < risk)
     all +=
@@ -61,7 +61,7 @@ std::string coefficients_of(const calib::Law& law) {
   return all;
 }
 
-// The ratio, and how likely chance alone makes it as large.
+// The ratio, and the probability that chance alone makes it as large.
 std::string lack_of_fit(const calib::Law& law) {
   const std::string ratio = number(law.lack_of_fit, 3);
   return std::isfinite(law.lack_of_fit) ? fmt::format("{} ({})", ratio, chance(law.lack_of_fit_p))
@@ -81,7 +81,7 @@ bool has_reservations(const SweepReport& report) {
   return !report.result.most_reserved_because.empty();
 }
 
-// Columns are those of `point_row`, in its order.
+// In the same order as the cells of `point_row`.
 mstch::array point_heads(const SweepReport& report) {
   mstch::array heads;
   const auto head = [&heads](const std::string& name) {
@@ -101,7 +101,7 @@ mstch::array point_heads(const SweepReport& report) {
   return heads;
 }
 
-// One point of the plan over its seeds.
+// A row for one point of the plan: what came of its seeds.
 mstch::node point_row(const SweepReport& report, std::size_t i) {
   const calib::SweepPoint& point = report.result.points[i];
   const calib::PointSummary& summary = report.result.summaries[i];
@@ -130,7 +130,7 @@ std::string ended(const std::string& text) {
   return text.empty() ? "" : typeset(text) + (text.ends_with('.') ? " " : ". ");
 }
 
-// Every figure with its caption, and what its bars or curves are.
+// Every figure with its caption, and a sentence on what its bars or curves are.
 mstch::array figures_of(const SweepReport& report) {
   mstch::array figures;
   for (const calib::SweepFigure& wanted : report.sweep.figures) {
@@ -152,7 +152,8 @@ mstch::array figures_of(const SweepReport& report) {
   return figures;
 }
 
-// The user's words, how many runs, and why most of those with something to say did.
+// The user's description, the number of runs, and the most frequent reasons of failures and of
+// reservations.
 std::string about(const SweepReport& report) {
   const std::string& why = report.result.most_failed_because;
   const std::string& but_for = report.result.most_reserved_because;

@@ -9,14 +9,14 @@
 
 namespace havers::reports {
 
-/// One sweep of the page; refers to what was asked and what came of it.
+/// One sweep of the page; holds references to the sweep and its results.
 struct SweepReport {
   std::string id;  ///< Unique on the page, a word.
   const calib::Sweep& sweep;
   const calib::SweepResult& result;
 };
 
-/// The findings of all sweeps first, then each with its figures, laws and points. HTML.
+/// HTML: the findings of all sweeps, then each sweep with its figures, laws and points.
 std::string sweep_page(const std::string& title, const std::vector<SweepReport>& sweeps,
                        const calib::Provenance& provenance);
 

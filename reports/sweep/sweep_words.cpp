@@ -1,4 +1,4 @@
-// Keys of a scene as a reader knows them: symbol, unit, and what stands before "= 45°".
+// Keys of a scene in words for a reader, with their symbols and units.
 #include "reports/sweep/sweep_words.hpp"
 
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ KeyWords words_of(const std::string& key) {
       {"solver.step_s", {"step", "s"}}};
   const auto found = known.find(key);
   if (found != known.end()) return found->second;
-  // Any other key in its own words, which hold its unit, if it has one.
+  // Any other key is shown by its own name, in which its unit, if it has one, is spelled out.
   std::string name = key.substr(key.rfind('.') + 1);
   std::ranges::replace(name, '_', ' ');
   return {name, ""};

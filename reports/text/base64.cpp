@@ -11,7 +11,8 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    // Three bytes are four letters of six bits; what is missing at the end is zero bits, then "=".
+    // Three bytes make four letters of six bits. At the end missing bits are 0, missing letters
+    // "=".
     const std::size_t taken = std::min<std::size_t>(3, bytes.size() - i);
     std::uint32_t group = 0;
     for (std::size_t k = 0; k < 3; ++k) group = group << 8U | (k < taken ? bytes[i + k] : 0U);

@@ -1,5 +1,5 @@
-// Numbers to text. All that a reader must not trip over is done here once: rounding that carries,
-// the minus of a zero, true minus signs, blanks that do not break.
+// Numbers to text. Details are settled here once for all pages: rounding that adds a digit, zeros
+// without a minus, true minus signs, spaces that do not break.
 #include "reports/text/format.hpp"
 
 #include <fmt/format.h>
@@ -42,7 +42,7 @@ std::string superscript(std::string_view exponent) {
   return text;
 }
 
-// "1e-08" is 10⁻⁸, without a factor that says nothing.
+// "1e-08" becomes 10⁻⁸: a factor of 1 is left out.
 std::string power_of_ten(const std::string& mantissa, int exponent) {
   const std::string factor =
       mantissa == "1" ? "" : fmt::format("{}\u00a0×\u00a0", with_minus(mantissa));
@@ -68,7 +68,7 @@ int decimals_for(double width) {
   return std::max(0, 1 - exponent_of(width, 2));
 }
 
-// Whether decimals, and no powers of ten, show the value to two digits of the width.
+// Whether a value can be shown to two digits of the width without powers of ten.
 bool shows_plainly(double value, double width) {
   return std::abs(value) < 1e6 && decimals_for(width) <= 7;
 }
@@ -99,8 +99,8 @@ std::string typeset(const std::string& sentence) {
       exponent(R"(\^(-?\d+(?:\.\d+)?))"), minus(R"((^|[\s(\[=])-(?=\d))"), degree(R"((\d) deg\b)");
   static const std::regex unit(R"((\d) (?=(%|1/s|[kMG]?Pa|(µ|[mnp])?[ms]|k?N|k?J|kg)(?!\w)))"),
       error(R"(± (?=\d))");
-  // Blanks first, as the units are told by the plain digits before them; powers before exponents
-  // and minus signs, which would take theirs apart.
+  // The order matters. Units are found by plain digits before them: their spaces come first. Powers
+  // of ten come before exponents and minus signs, which would change parts of them.
   const std::string held =
       std::regex_replace(std::regex_replace(sentence, unit, "$1\u00a0"), error, "±\u00a0");
   std::string text = replaced(held, power, [](const std::smatch& found) {
@@ -112,7 +112,7 @@ std::string typeset(const std::string& sentence) {
 }
 
 std::string quantity(double value, std::string_view unit, int digits) {
-  // A dash has no unit.
+  // The dash for an unknown number has no unit.
   if (!std::isfinite(value) || unit.empty()) return number(value, digits);
   return fmt::format("{}\u00a0{}", number(value, digits), unit);
 }
@@ -136,7 +136,7 @@ std::string interval(double low, double high, int more) {
 }
 
 std::string with_interval(double value, double low, double high, std::string_view unit, int more) {
-  // The value takes the decimals of its interval, so that the three can be compared by eye.
+  // The value has as many decimals as its interval, so that the three numbers compare easily.
   const double width = high - low, most = std::max(std::abs(low), std::abs(high));
   const bool plainly = std::isfinite(value) && std::isfinite(width) && width > 0.0 &&
                        shows_plainly(std::max(std::abs(value), most), width);

@@ -1,4 +1,3 @@
-// Parameters are named "key[level]" by the fit; calib knows each key's symbol and unit.
 #include "reports/text/parameter_label.hpp"
 
 #include <fmt/format.h>
@@ -37,7 +36,7 @@ std::string with_symbols(std::string sentence, std::vector<std::string> paramete
     const std::string symbol = symbol_of(parameter);
     for (std::size_t at = 0; (at = sentence.find(parameter, at)) != std::string::npos;) {
       const std::size_t end = at + parameter.size();
-      // A part of a longer word or of a dotted key is another name.
+      // Not inside a longer word or behind the dot of a longer key: that is another name.
       const bool alone = (at == 0 || (!in_word(sentence[at - 1]) && sentence[at - 1] != '.')) &&
                          (end == sentence.size() || !in_word(sentence[end]));
       if (alone) sentence.replace(at, parameter.size(), symbol);
