@@ -66,17 +66,20 @@ struct PorosityFindings {
 io::DensityReference reference_of(const std::string& text) {
   io::DensityReference known;
   std::istringstream in(text);
-  char comma = 0;
   const bool is_phantom = text.find(',') != std::string::npos;
+  const auto comma = [](std::istream& from) -> std::istream& {
+    if (char mark = 0; !(from >> mark) || mark != ',') from.setstate(std::ios::failbit);
+    return from;
+  };
   if (is_phantom)
-    in >> known.x >> comma >> known.y >> comma >> known.width >> comma >> known.height;
+    comma(comma(comma(in >> known.x) >> known.y) >> known.width) >> known.height;
   else
     in >> known.grey;
   char equals = 0;
   in >> equals >> known.density;
-  // Nothing may follow. Of the commas only the last one is known here.
-  if (!in || !(in >> std::ws).eof() || (is_phantom && comma != ',') || equals != '=' ||
-      known.density < 0.0 || (is_phantom && (known.width < 1 || known.height < 1)))
+  // Nothing may follow.
+  if (!in || !(in >> std::ws).eof() || equals != '=' || known.density < 0.0 ||
+      (is_phantom && (known.width < 1 || known.height < 1)))
     throw io::InputError("--density " + text, "is not understood",
                          "write GREY=DENSITY or X,Y,WIDTH,HEIGHT=DENSITY, in kg/m³, 0 or more");
   return known;

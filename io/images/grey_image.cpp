@@ -211,6 +211,7 @@ cv::Mat read_mask(const std::filesystem::path& file, cv::Size size,
                          fmt::format("the mask is {} × {} pixels, its image {} × {}", mask.cols,
                                      mask.rows, size.width, size.height),
                          "draw the mask on the image itself");
+  if (mask.channels() == 2) mask = grey_with_alpha(mask);
   if (mask.channels() == 4) {  // what is not seen is not bone
     const cv::Mat hidden = hidden_in(mask);
     cv::cvtColor(mask, mask, cv::COLOR_BGRA2BGR);

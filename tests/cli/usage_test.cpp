@@ -49,7 +49,8 @@ TEST(Usage, SettingsThatSetNothingAreRefused) {
 }
 
 TEST(Usage, KnownDensitiesAreZeroOrMore) {
-  for (const std::string wrong : {"30=-5", "30=800,5", "30=80kg", "1,2,3,4=5=6", "30"})
+  for (const std::string wrong :
+       {"30=-5", "30=800,5", "30=80kg", "1,2,3,4=5=6", "1:2:3,4=1900", "30"})
     EXPECT_TRUE(
         run_havers(own_folder(), "porosity --density 140=1200 --density " + wrong + " a.png")
             .err.starts_with("havers: --density " + wrong + ": is not understood (write "))
