@@ -243,20 +243,17 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
     bodies_->ports_in(on_ports, group).noalias() = op.recovery.transpose() * on_class;
   }
   const VectorXd prescribed = offsets;
-  // A jump moves side b beyond its unknown; where nothing holds, given forces are loads.
   for (int unknown = 0; unknown < 2 * static_cast<int>(joints()); ++unknown) {
     const auto& [a, b] = bodies_->ends()[static_cast<std::size_t>(unknown)];
     if (holds(unknown)) {
-      offsets(b) += loads.jumps(unknown);
-    } else if (loads.given.size() > 0) {
+      offsets(b) += loads.jumps(unknown);  // side b moves beyond its unknown
+    } else if (loads.given.size() > 0) {   // forces where nothing holds are loads
       on_ports(b) += loads.given(unknown);
       on_ports(a) -= loads.given(unknown);
     }
   }
-
   PortState start{std::move(offsets), {}, VectorXd::Zero(bodies_->compatibilities()), 0, 0.0};
-  // Corrections start from the answer nearby: from its ports as they are held here, less what is
-  // imposed.
+  // Corrections start from the answer nearby: its ports as held here, less what is imposed.
   if (loads.near != nullptr) {
     start.displacements += as_held(bodies_->port_displacements(loads.near->displacements) -
                                    (start.displacements - prescribed));
@@ -275,8 +272,7 @@ StructureResponse Structure::solve(const StructureLoads& loads) const {
     }
     bodies_->scatter(moved, group, displacements);
   }
-  // Where a joint is not held its reaction is the given one, and friction comes on top where it
-  // slides.
+  // Joints that are not held bear what is given, those that slide friction on top.
   VectorXd reactions = reactions_of(state.forces);
   for (int unknown = 0; unknown < reactions.size() && loads.given.size() > 0; ++unknown)
     if (!holds(unknown)) reactions(unknown) = loads.given(unknown);
