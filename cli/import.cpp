@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "calib/decimals.hpp"
 #include "calib/experiment/join_logger.hpp"
 #include "cli/command.hpp"
 #include "cli/number_check.hpp"
@@ -154,7 +155,7 @@ ImportFindings import_all(const ImportArguments& arguments, const io::ImportSett
       found.read.push_back(path);
     } catch (const io::InputError& error) {
       found.entries.push_back({{"file", path.string()}, {"error", error.what()}});
-      found.problems.insert(found.problems.end(), error.problems().begin(), error.problems().end());
+      io::collect(found.problems, error.problems());
     }
   }
   return found;
@@ -171,7 +172,7 @@ void print_columns(const io::TestFile& file) {
 // To the second digit of the error.
 std::string with_error(double value, double error) {
   if (!(error > 0.0) || !std::isfinite(error)) return fmt::format("{:.4g} +- -", value);
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9);
+  const int decimals = std::min(calib::decimals_for(error), 9);
   return fmt::format("{:.{}f} +- {:.{}f}", value, decimals, error, decimals);
 }
 

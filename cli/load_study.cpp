@@ -32,10 +32,6 @@ struct Outcome {
   std::size_t number_in_file = 1;  // of the specimen in its test's file
 };
 
-void collect(std::vector<io::Problem>& all, const std::vector<io::Problem>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
 // What a file complains of, with its place in the study.
 void collect(Outcome& outcome, const std::vector<io::Problem>& more,
              const std::filesystem::path& file, const char* key) {

@@ -118,7 +118,7 @@ PorosityFindings measure_all(const PorosityArguments& arguments) {
     if (const auto& problems = outcomes[i].problems; !problems.empty()) {
       found.entries.push_back(
           {{"file", image.string()}, {"error", io::InputError(problems).what()}});
-      found.problems.insert(found.problems.end(), problems.begin(), problems.end());
+      io::collect(found.problems, problems);
       continue;
     }
     found.read.push_back(image);

@@ -65,7 +65,7 @@ std::vector<FinishedFit> read_all(const std::vector<fs::path>& results) {
       fits.push_back(read_fit(path));
       folders.push_back(folder_of_fit(path));
     } catch (const io::InputError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+      io::collect(problems, error.problems());
     }
   }
   if (!problems.empty()) throw io::InputError(std::move(problems));

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "calib/count.hpp"
+#include "calib/decimals.hpp"
 #include "calib/sweep/measure_words.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
@@ -64,7 +65,7 @@ std::vector<Done> read_all(const SweepArguments& arguments, const CommonOptions&
         note(common, fmt::format("note: {}: {}", file.string(), warning));
       all.push_back({file.stem().string(), std::move(read.inputs), std::move(read.sweep), {}});
     } catch (const io::InputError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+      io::collect(problems, error.problems());
     }
   }
   if (!problems.empty()) throw io::InputError(std::move(problems));
@@ -139,8 +140,8 @@ std::string found(const calib::Finding& finding) {
                                                               : calib::MeasureWords{"", "%", 0.01};
   const double width = (finding.high - finding.low) / scale;
   const bool known = std::isfinite(width) && width > 0.0;
-  const int two = known ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(width)))) : 3;
-  const int decimals = two + calib::extra_digits(finding, scale);
+  const int decimals =
+      (known ? calib::decimals_for(width) : 3) + calib::extra_digits(finding, scale);
   const auto shown = [&, scale = scale](double number) {
     const std::string text = fmt::format("{:.{}f}", number / scale, decimals);
     const bool zero = text.find_first_not_of("-0.") == std::string::npos;

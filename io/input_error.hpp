@@ -36,4 +36,9 @@ class InputError : public std::exception {
   std::string text_;
 };
 
+/// Goes on collecting after an input that was refused.
+inline void collect(std::vector<Problem>& all, const std::vector<Problem>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
 }  // namespace havers::io

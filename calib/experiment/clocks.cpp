@@ -10,7 +10,6 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "calib/experiment/channel_noise.hpp"

@@ -1,7 +1,6 @@
 #include "calib/fit/left_out.hpp"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "calib/fit/search.hpp"

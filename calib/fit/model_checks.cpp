@@ -5,9 +5,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -158,8 +156,9 @@ std::string percent_text(double part) {
 }
 
 // No test is good enough for a smaller one.
-std::string chance_text(double p) {
-  return p < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p);
+std::string chance_text(std::optional<double> p) {
+  if (!p) return "too few to tell";
+  return *p < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", *p);
 }
 
 std::string in_its_scale(const ParameterInfo& info) {
@@ -233,12 +232,9 @@ Check check_orientations(const FitProblem& problem, const Answer& answer) {
     return {name, Outcome::fail, modulus_off(problem, answer, *stiffness)};
   if (breaking && *breaking < significance)
     return {name, Outcome::fail, strength_off(problem, answer, *breaking)};
-  const auto words = [](const std::optional<double>& p) {
-    return p ? chance_text(*p) : std::string("too few to tell");
-  };
   return {name, Outcome::pass,
           fmt::format("Residuals do not differ between orientations (modulus: {}, strength: {}).",
-                      words(stiffness), words(breaking))};
+                      chance_text(stiffness), chance_text(breaking))};
 }
 
 }  // namespace havers::calib

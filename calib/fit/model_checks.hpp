@@ -16,7 +16,7 @@ std::string two_digits(double value);
 std::string percent_text(double part);
 
 /// "p = 0.03", "p < 1e-6": the probability of a test.
-std::string chance_text(double p);
+std::string chance_text(std::optional<double> p);
 
 /// " in logarithms", or nothing: behind a ratio of widths, which is one in the scale of the search.
 std::string in_its_scale(const ParameterInfo& info);

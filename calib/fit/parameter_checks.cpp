@@ -13,6 +13,7 @@
 #include "calib/count.hpp"
 #include "calib/experiment/robust_line.hpp"
 #include "calib/fit/model_checks.hpp"
+#include "calib/fit/statistics.hpp"
 
 namespace havers::calib {
 namespace {
@@ -97,34 +98,24 @@ std::optional<double> steepening(const MeasuredTest& test) {
 /// That of the tests that share a modulus.
 struct Toes {
   std::string parameter;
-  int tests = 0;
-  double mean = 0.0, error = 0.0;  // [-]
-  double known_to = 0.0;           // half width of the modulus's interval [-]
+  Statistics part;        // [-]
+  double known_to = 0.0;  // half width of the modulus's interval [-]
 
   // Three standard errors; more where few tests tell these.
   [[nodiscard]] bool plain() const {
-    const double certain = std::max(3.0, gsl_cdf_tdist_Qinv(significance, tests - 1.0));
-    return mean >= certain * error && mean >= known_to;
+    const double certain =
+        std::max(3.0, gsl_cdf_tdist_Qinv(significance, static_cast<double>(part.n - 1)));
+    return part.mean >= certain * part.standard_error() && part.mean >= known_to;
   }
 };
 
 Toes toes_of(const FitProblem& problem, const Unknown& modulus_of, double known_to) {
-  Toes toes{.parameter = modulus_of.label, .known_to = known_to};
-  double sum = 0.0, squares = 0.0;
+  std::vector<double> parts;
   for (const std::size_t s : problem.fitted) {
     if (std::ranges::find(modulus_of.specimens, s) == modulus_of.specimens.end()) continue;
-    const auto part = steepening(problem.study.specimens[s].test);
-    if (!part) continue;
-    ++toes.tests;
-    sum += *part;
-    squares += *part * *part;
+    if (const auto part = steepening(problem.study.specimens[s].test)) parts.push_back(*part);
   }
-  const auto n = static_cast<double>(toes.tests);
-  toes.mean = sum / n;
-  // The standard error of the mean, by the scatter between tests; NaN of a single test, which
-  // check_toe leaves out.
-  toes.error = std::sqrt(std::max(0.0, squares / n - toes.mean * toes.mean) / (n - 1.0));
-  return toes;
+  return {modulus_of.label, statistics_of(parts), known_to};
 }
 
 }  // namespace
@@ -243,7 +234,7 @@ Check check_toe(const FitProblem& problem, const Answer& answer) {
       // E is searched in its logarithm: half widths are parts of E, as the steepening is.
       groups.push_back(toes_of(problem, unknown, answer.uncertainty.half_width[i]));
   if (groups.empty()) return not_checked(name, "young_GPa has no interval.");
-  std::erase_if(groups, [](const Toes& one) { return one.tests < 3; });
+  std::erase_if(groups, [](const Toes& one) { return one.part.n < 3; });
   if (groups.empty()) return not_checked(name, "it takes three tests with rows enough.");
   const auto plain = std::ranges::find_if(groups, &Toes::plain);
   if (plain == groups.end())
@@ -256,8 +247,8 @@ Check check_toe(const FitProblem& problem, const Answer& answer) {
                   "after toes that no single test shows: {} is too low by about as much, "
                   "and its interval, ± {}, does not contain that. Raise reduction.window_low "
                   "and window_high.",
-                  percent_text(plain->mean), percent_text(plain->error), plain->parameter,
-                  percent_text(plain->known_to))};
+                  percent_text(plain->part.mean), percent_text(plain->part.standard_error()),
+                  plain->parameter, percent_text(plain->known_to))};
 }
 
 Check check_strain(const FitProblem& problem, const Answer& answer) {

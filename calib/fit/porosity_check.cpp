@@ -159,7 +159,7 @@ Check check_porosity(const FitProblem& problem, const Answer& answer) {
               trend_sentence(porosity_law(problem.study.porosity, q), *trend);
   if (!text.empty()) return {name, Outcome::fail, text};
   const auto words = [](const std::optional<PorosityTrend>& trend) {
-    return trend ? chance_text(trend->chance) : std::string("too few to tell");
+    return chance_text(trend ? std::optional(trend->chance) : std::nullopt);
   };
   return {name, Outcome::pass,
           fmt::format("Residuals do not follow porosity (modulus: {}, strength: {}).",

@@ -8,27 +8,20 @@
 #include "calib/fit/curve_band.hpp"
 #include "calib/fit/replicate_spread.hpp"
 #include "calib/fit/specimen_slopes.hpp"
+#include "calib/fit/statistics.hpp"
 
 namespace havers::calib {
 namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-/// Responses that answered, and one of their numbers over them.
+// One of the numbers of the responses that answered; a single one has no spread that is known.
 Spread spread_of(const std::vector<Response>& responses, double Response::*number) {
-  Spread spread;
-  double n = 0.0;
-  for (const auto& response : responses) {
-    if (response.failed) continue;
-    spread.mean += response.*number;
-    ++n;
-  }
-  if (n == 0.0) return {no_number, no_number};
-  spread.mean /= n;
+  std::vector<double> values;
   for (const auto& response : responses)
-    if (!response.failed) spread.sd += std::pow(response.*number - spread.mean, 2);
-  spread.sd = std::sqrt(spread.sd / std::max(n - 1.0, 1.0));
-  return spread;
+    if (!response.failed) values.push_back(response.*number);
+  const Statistics statistics = statistics_of(values);
+  return {statistics.mean, statistics.n == 1 ? 0.0 : statistics.sd};
 }
 
 std::vector<ReplicateResult> replicates_of(const std::vector<sim::Scene>& scenes,

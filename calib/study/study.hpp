@@ -66,11 +66,8 @@ struct CalibrateOptions {
   std::uint64_t seed = 1;  ///< Of the replicates' seeds and of the optimisers' random starts.
   int threads = 0;         ///< 0: as many as the machine has. Never changes a number.
 
-  /// A complaint: the key of a study's [calibrate] it is about ("options.replicates"), what is
-  /// wrong.
-  struct Problem {
-    std::string key, what;
-  };
+  /// Its key is one of a study's [calibrate]: "options.replicates".
+  using Problem = sim::Scene::Problem;
   /// All that is wrong; empty when usable.
   [[nodiscard]] std::vector<Problem> problems() const;
 };

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "calib/count.hpp"
+#include "calib/decimals.hpp"
 #include "calib/sweep/comparison.hpp"
 #include "calib/sweep/measure_words.hpp"
 
@@ -229,9 +230,7 @@ int extra_digits(const Finding& finding, double scale) {
   if (!std::isfinite(width) || width <= 0.0) return 0;
   // The page rounds to the second digit of the interval's width, but never coarser than whole
   // units.
-  const std::string two_digits = fmt::format("{:.1e}", width);
-  const int exponent = std::stoi(two_digits.substr(two_digits.find('e') + 1));
-  const double unit = scale * std::pow(10.0, std::min(0, exponent - 1));
+  const double unit = scale * std::pow(10.0, -decimals_for(width));
   const auto steps = [unit](double value) { return std::round(value / unit); };
   // An end that lies beyond what was asked, but is rounded to it or inside, would contradict the
   // outcome.

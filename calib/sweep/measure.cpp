@@ -1,7 +1,5 @@
 #include "calib/sweep/measure.hpp"
 
-#include <gsl/gsl_cdf.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -67,32 +65,6 @@ std::array<double, measure_count> measures_of(const Response& response, const si
   set(Measure::crack_span, pattern->span);
   set(Measure::crack_linked, pattern->linked);
   return measures;
-}
-
-double Statistics::standard_error() const {
-  return n > 1 ? sd / std::sqrt(static_cast<double>(n)) : not_measured;
-}
-
-double Statistics::half_width(double risk) const {
-  if (n < 2) return not_measured;
-  return gsl_cdf_tdist_Qinv(0.5 * risk, static_cast<double>(n - 1)) * standard_error();
-}
-
-// In one pass; plain sums of squares would lose the spread of values that are nearly equal.
-Statistics statistics_of(const std::vector<double>& values) {
-  Statistics statistics{.n = 0, .mean = 0.0, .sd = 0.0};
-  double squares = 0.0;  // of the deviations [Welford 1962]
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    ++statistics.n;
-    const double step = value - statistics.mean;
-    statistics.mean += step / static_cast<double>(statistics.n);
-    squares += step * (value - statistics.mean);
-  }
-  if (statistics.n == 0) statistics.mean = not_measured;
-  statistics.sd =
-      statistics.n > 1 ? std::sqrt(squares / static_cast<double>(statistics.n - 1)) : not_measured;
-  return statistics;
 }
 
 bool is_share(Measure m) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calib/fit/evaluation_store.hpp"
+#include "calib/fit/statistics.hpp"
 #include "calib/sweep/pattern.hpp"
 #include "calib/sweep/plan.hpp"
 #include "sim/scene.hpp"
@@ -67,19 +68,6 @@ struct SweepRun {
 /// The measures of a scene's response; those of the pattern where there is one.
 std::array<double, measure_count> measures_of(const Response& response, const sim::Scene& scene,
                                               const Pattern* pattern);
-
-struct Statistics {
-  long n = 0;
-  double mean = 0.0, sd = 0.0;  ///< NaN without enough runs.
-
-  /// Of the mean. NaN for fewer than two values, as is the half width.
-  [[nodiscard]] double standard_error() const;
-  /// Half width of the interval of confidence 1 − `risk`, by Student's t.
-  [[nodiscard]] double half_width(double risk = 0.05) const;
-};
-
-/// Of the values that are numbers.
-Statistics statistics_of(const std::vector<double>& values);
 
 /// The runs of one point together.
 struct PointSummary {

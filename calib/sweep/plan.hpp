@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/scene.hpp"
+
 namespace havers::calib {
 
 /// list: the first values of all keys, the second ones, ...; grid: every combination; the samples
@@ -35,10 +37,8 @@ struct SweepPlan {
   int seeds = 20;          ///< Runs for each point, every run with a seed of its own.
   std::uint64_t seed = 1;  ///< Of the first run, and of the Latin hypercube.
 
-  /// A complaint: the key of [sweep] it is about, what is wrong.
-  struct Problem {
-    std::string key, what;
-  };
+  /// Its key is one of [sweep].
+  using Problem = sim::Scene::Problem;
   /// All that is wrong; empty when it can be run.
   [[nodiscard]] std::vector<Problem> problems() const;
   /// The place of a key; the number of keys for one that does not vary.

@@ -122,7 +122,7 @@ toml::table parse_toml(const std::filesystem::path& file, const Overrides& overr
     try {
       merge(table, parse_override(text));
     } catch (const InputError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+      collect(problems, error.problems());
     }
   }
   if (!problems.empty()) throw InputError(std::move(problems));

@@ -8,12 +8,10 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
-#include <utility>
 
 #include "io/input_error.hpp"
 #include "io/machine/column_hints.hpp"
 #include "io/machine/column_notes.hpp"
-#include "io/machine/excerpt.hpp"
 #include "io/machine/fact_names.hpp"
 #include "io/machine/quantity.hpp"
 #include "io/machine/vocabulary.hpp"
@@ -77,11 +75,9 @@ std::optional<double> gauge_length_of(const calib::RawTest& test, const ReadOpti
   return own ? test.extensometer_length : test.gauge_length;
 }
 
-InputError without_gauge_length(const std::string& where, const Column& column) {
-  return {
-      where,
-      fmt::format("column \"{}\" is an elongation, and the gauge length is unknown", column.name),
-      "say gauge_length_mm"};
+std::string without_gauge_length(const Column& column) {
+  return fmt::format("column \"{}\" is an elongation, and the gauge length is unknown",
+                     column.name);
 }
 
 // Factor to SI; the warnings say what was assumed. An elongation's factor makes a strain of it.
@@ -95,7 +91,7 @@ double factor(const Column& column, const std::string& where, const ReadOptions&
         fmt::format("column \"{}\" has no unit, taken as {}", column.name, assumed));
   if (column.quantity == Quantity::strain && unit->dimension == Dimension::length) {
     const std::optional<double> length = gauge_length_of(test, options);
-    if (!length) throw without_gauge_length(where, column);
+    if (!length) throw InputError(where, without_gauge_length(column), "say gauge_length_mm");
     if (!test.extensometer_length && !options.gauge_length)
       test.warnings.push_back(fmt::format(
           "column \"{}\" is an elongation, divided by the gauge length, {:g} mm: of an "
@@ -179,9 +175,7 @@ void choose(TestFile& file, const std::vector<Candidate>& candidates, const Read
       column.quantity = candidates[i].quantity;
       if (column.quantity == Quantity::other) continue;
       if (!is_usable(column, file.test, options))
-        file.test.warnings.push_back(
-            fmt::format("column \"{}\" is an elongation, and the gauge length is unknown: not used",
-                        column.name));
+        file.test.warnings.push_back(without_gauge_length(column) + ": not used");
       else if (const auto [first, fresh] = chosen.try_emplace(column.quantity, i);
                !fresh && !hinted.contains(column.quantity) &&
                (column.quantity != Quantity::strain ||
@@ -228,7 +222,7 @@ void need_gauge(const TestFile& file, const std::string& where, const ReadOption
                 const Chosen& chosen) {
   for (const Column& column : file.columns)
     if (column.quantity == Quantity::strain && !is_usable(column, file.test, options))
-      throw without_gauge_length(where, column);
+      throw InputError(where, without_gauge_length(column), "say gauge_length_mm");
   const bool measures = std::ranges::any_of(chosen, [](const auto& entry) {
     return entry.first != Quantity::time && entry.first != Quantity::stress;
   });

@@ -28,15 +28,13 @@ namespace {
 constexpr std::size_t longest_cell = 1U << 20U;   // [byte]; beyond it a quote was left open
 constexpr int between_rows = 0, inside_cell = 2;  // libcsv's states, which csv.h does not name
 
-template <typename State>
-void hand_on(State& state) {
+void hand_on(CsvRows::State& state) {
   // A blank line is counted by the caller, but not handed on.
   const bool blank = state.cells.empty() || (state.cells.size() == 1 && state.cells[0].empty());
   if (state.wanted && !blank) state.wanted = state.take({state.line, state.cells});
 }
 
-template <typename State>
-void hand_on_parsed(State& state) {
+void hand_on_parsed(CsvRows::State& state) {
   state.cells.clear();
   std::size_t begin = 0;
   for (const std::size_t end : state.ends) {
@@ -51,25 +49,22 @@ void hand_on_parsed(State& state) {
   state.ends.clear();
 }
 
-template <typename State>
 void on_cell(void* cell, std::size_t length, void* data) {
-  auto& state = *static_cast<State*>(data);
+  auto& state = *static_cast<CsvRows::State*>(data);
   state.text.append(static_cast<const char*>(cell), length);
   state.ends.push_back(state.text.size());
 }
 
-template <typename State>
 void on_row(int end, void* data) {
-  auto& state = *static_cast<State*>(data);
+  auto& state = *static_cast<CsvRows::State*>(data);
   if (!state.ends.empty()) hand_on_parsed(state);
   // CR and LF of one line end are both reported, but only one of them counts a line.
   if (end == state.line_end) ++state.line;
 }
 
-template <typename State>
-void parse(State& state, std::string_view text) {
+void parse(CsvRows::State& state, std::string_view text) {
   const std::size_t used =
-      csv_parse(&state.parser, text.data(), text.size(), on_cell<State>, on_row<State>, &state);
+      csv_parse(&state.parser, text.data(), text.size(), on_cell, on_row, &state);
   if (used != text.size()) throw std::bad_alloc();  // libcsv fails on nothing else unless strict
 }
 
@@ -82,8 +77,7 @@ std::string_view trimmed(std::string_view cell) {
 
 // Cuts a line as libcsv does, in a fraction of the time, where its quotes are plain:
 // `a,"1,004.5",c`. False where they are not.
-template <typename State>
-bool cut_plain(State& state, std::string_view line) {
+bool cut_plain(CsvRows::State& state, std::string_view line) {
   while (line.ends_with('\r')) line.remove_suffix(1);
   // A line end of the other kind inside the line would be one for libcsv.
   const char other_end = state.line_end == '\n' ? '\r' : '\n';
@@ -143,7 +137,7 @@ bool CsvRows::feed(std::string_view block) {
 }
 
 void CsvRows::finish() {
-  csv_fini(&state_->parser, on_cell<State>, on_row<State>, state_.get());
+  csv_fini(&state_->parser, on_cell, on_row, state_.get());
 }
 
 std::size_t CsvRows::open_quote_line() const {

@@ -18,6 +18,7 @@ struct Row {
 /// lines are counted but not handed on.
 class CsvRows {
  public:
+  struct State;
   /// `take` is called once per row; false: no more rows are wanted.
   CsvRows(char delimiter, std::function<bool(const Row&)> take);
   ~CsvRows();
@@ -36,7 +37,6 @@ class CsvRows {
   [[nodiscard]] std::size_t open_quote_line() const;
 
  private:
-  struct State;
   std::unique_ptr<State> state_;
 };
 

@@ -1,10 +1,12 @@
 #include "io/machine/encoding.hpp"
 
+#include <iconv.h>
 #include <uchardet/uchardet.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
 
 namespace havers::io {
 namespace {
@@ -29,25 +31,16 @@ std::string utf16_by_zeros(std::string_view bytes) {
   return {};
 }
 
-// Bytes that follow a first byte of UTF-8; -1 where it cannot be a first byte: 0x80 to 0xBF
-// continue a character, 0xC0, 0xC1 and those from 0xF5 on are in none.
-int following_bytes(unsigned char first) {
-  if (first < 0x80) return 0;
-  if (first >= 0xC2 && first < 0xE0) return 1;
-  if (first >= 0xE0 && first < 0xF0) return 2;
-  if (first >= 0xF0 && first < 0xF5) return 3;
-  return -1;
-}
-
 // A character cut off by the end of the block is no fault.
-bool is_utf8(std::string_view bytes) {
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    int following = following_bytes(static_cast<unsigned char>(bytes[i]));
-    if (following < 0) return false;
-    for (; following > 0 && i + 1 < bytes.size(); --following)
-      if ((static_cast<unsigned char>(bytes[++i]) & 0xC0U) != 0x80U) return false;
-  }
-  return true;
+bool is_utf8(std::string text) {
+  const iconv_t check = iconv_open("UTF-16", "UTF-8");
+  std::string converted(2 * text.size() + 2, '\0');
+  char *in = text.data(), *out = converted.data();
+  std::size_t in_left = text.size(), out_left = converted.size();
+  const bool whole = iconv(check, &in, &in_left, &out, &out_left) != static_cast<std::size_t>(-1);
+  const bool cut_off = !whole && errno == EINVAL;
+  iconv_close(check);
+  return whole || cut_off;
 }
 
 // Only lines with accents: a thousand lines of digits would drown the few that tell.
@@ -109,7 +102,7 @@ Encoding find_encoding(std::string_view bytes) {
   if (std::ranges::any_of(bytes, is_control)) return {};
   if (std::ranges::all_of(bytes, [](char c) { return static_cast<signed char>(c) >= 0; }))
     return {"ASCII", false, 0};
-  if (is_utf8(bytes)) return {"UTF-8", false, 0};
+  if (is_utf8(std::string(bytes))) return {"UTF-8", false, 0};
   return {guess(bytes), true, 0};
 }
 

@@ -50,9 +50,7 @@ HeaderLine header_line(std::string_view text) {
   if (colon == std::string_view::npos)
     // A heading without a name has an empty value, which is passed over.
     return {"specimen number", std::string(name_in_heading(text)), {}};
-  std::string_view value = text.substr(colon + 1);
-  while (value.starts_with(' ') || value.starts_with('\t')) value.remove_prefix(1);
-  return value_and_unit(text.substr(0, colon), value);
+  return value_and_unit(text.substr(0, colon), without_blanks(text.substr(colon + 1)));
 }
 
 // A row is a line, or, where it is one cell, as many as the cell has.

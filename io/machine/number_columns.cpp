@@ -8,7 +8,6 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "io/machine/excerpt.hpp"
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdint>
 
 #include "io/input_error.hpp"
 #include "io/machine/encoding.hpp"

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <locale>
 #include <optional>
 #include <vector>
 
-#include "io/input_error.hpp"
 #include "io/machine/read_test.hpp"
+#include "io/results/result_files.hpp"
 
 namespace havers::io {
 namespace {
@@ -87,11 +86,7 @@ void write_bluehill(const std::filesystem::path& file, const calib::RawTest& tes
       return quoted(locale, column.values[i] * column.per_unit, column.decimals);
     });
 
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  // A full disk may show only when the rest is flushed.
-  stream.close();
-  if (!stream) throw InputError(file.string(), "cannot be written");
+  write_file(file, text);
 }
 
 }  // namespace havers::io

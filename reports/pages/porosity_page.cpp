@@ -88,7 +88,6 @@ mstch::map detail(const PorosityReport& report, std::size_t i) {
       {"facts", fact_list(facts_of(s))},
       {"zones", section(list_of(s.zones, zone_row))},
       {"classes", section(list_of(s.classes, class_row))},
-      {"corrections", section({})},
       {"warnings", text_section(s.warnings)}};
 }
 

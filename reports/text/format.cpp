@@ -9,16 +9,14 @@
 #include <cmath>
 #include <regex>
 
+#include "calib/decimals.hpp"
+
 namespace havers::reports {
 namespace {
 
-constexpr std::string_view unknown = "–";
+using calib::decimals_for, calib::exponent_of;
 
-// Exponent of ten after rounding to `digits`, so that 9.9996 counts as 10.00.
-int exponent_of(double value, int digits) {
-  const std::string text = fmt::format("{:.{}e}", value, digits - 1);
-  return std::stoi(text.substr(text.find('e') + 1));
-}
+constexpr std::string_view unknown = "–";
 
 // A true minus sign, as wide as a plus.
 std::string with_minus(const std::string& text) {
@@ -61,11 +59,6 @@ std::string replaced(const std::string& sentence, const std::regex& pattern,
     done = at + static_cast<std::size_t>(found->length());
   }
   return text + sentence.substr(done);
-}
-
-// Decimals that show two significant digits of `width`.
-int decimals_for(double width) {
-  return std::max(0, 1 - exponent_of(width, 2));
 }
 
 // Whether a value can be shown to two digits of the width without powers of ten.

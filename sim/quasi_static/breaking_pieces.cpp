@@ -1,7 +1,6 @@
 // What of a breaking specimen hangs together.
 #include <algorithm>
 #include <span>
-#include <utility>
 
 #include "sim/quasi_static/breaking_run.hpp"
 #include "sim/structure/pieces.hpp"
