@@ -68,9 +68,15 @@ TEST(StoppedTest, IsALowerBoundOfTheFit) {
 TEST(FitSummary, TicksNoCheckThatWasNotDoneAndCountsSimulationsOnce) {
   HAVERS_SLOW;
   const fs::path folder = folder_with_tests();
-  EXPECT_THAT(run_havers(folder, "fit made/study.toml -o out").out,
-              HasSubstr("\n  -    held-out specimens: Not checked"));
+  const auto answer = run_havers(folder, "fit made/study.toml -o out -v");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_THAT(answer.out, HasSubstr("\n  -    held-out specimens: Not checked"));
   const auto result = nlohmann::json::parse(test::contents(folder / "out/result.json"));
+  ASSERT_FALSE(result["left_out"].empty());
+  for (const auto& one : result["left_out"])
+    EXPECT_THAT(answer.out,
+                HasSubstr(fmt::format("\nleft out: {}: {}\n", one["what"].get<std::string>(),
+                                      one["why"].get<std::string>())));
   EXPECT_THAT(result["left_out"].dump(),
               HasSubstr(fmt::format(" of {} simulations", result["evaluations"].get<long>())));
 }
@@ -95,7 +101,9 @@ TEST(FitSummary, NamesTheChecksThatFailed) {
   const fs::path folder = folder_with_tests();
   const auto answer =
       run_havers(folder, "fit made/study.toml -o out --set model.loading.max_strain=0.0002");
+  EXPECT_EQ(answer.exit_code, 1);
   EXPECT_THAT(answer.out, testing::StartsWith("NOT to be trusted: "));
+  EXPECT_THAT(answer.out, testing::Not(HasSubstr("\nleft out: ")));  // but by -v
   EXPECT_THAT(answer.out, HasSubstr(" checks failed (simulations break"));
   EXPECT_THAT(answer.out, HasSubstr("raise model.loading.max_strain"));
 }

@@ -25,6 +25,32 @@ inline std::vector<std::string> after(const std::string& text, std::string_view 
   return found;
 }
 
+/// The rows of all tables of a page as a reader sees them: "E|13.1 ± 0.2|GPa". Pictures are left
+/// out, and spaces that do not break are plain ones.
+inline std::vector<std::string> table_rows(const std::string& page) {
+  static const std::string begin = "<tr", end = "</tr>", svg = "</svg>";
+  std::vector<std::string> rows;
+  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
+    const std::size_t last = page.find(end, at);
+    std::string& row = rows.emplace_back();
+    while (at < last) {
+      if (page.compare(at, 4, "<svg") == 0) {
+        at = page.find(svg, at) + svg.size();
+      } else if (page[at] == '<') {
+        const std::string tag = page.substr(at, page.find('>', at) + 1 - at);
+        if (tag == "</td>" || tag == "</th>") row += '|';
+        at += tag.size();
+      } else {
+        const bool held = page.compare(at, 2, "\u00a0") == 0;
+        if (page[at] != '\n') row += held ? ' ' : page[at];
+        at += held ? 2 : 1;
+      }
+    }
+    if (!row.empty()) row.pop_back();
+  }
+  return rows;
+}
+
 inline std::vector<std::string> attributes(const std::string& page, const std::string& name) {
   std::vector<std::string> found = after(page, name + "=\"", "\"");
   for (std::string& value : after(page, name + "='", "'")) found.push_back(std::move(value));

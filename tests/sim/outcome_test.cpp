@@ -72,11 +72,6 @@ TEST(Summarise, TakesTheModulusFromTheSlope) {
   EXPECT_NEAR(simulation.modulus, 13e9, 1.0);
 }
 
-TEST(Summarise, LeavesWithoutABreakWhatItHasNotSeen) {
-  EXPECT_TRUE(std::isnan(Simulation{}.first_break_strain));
-  EXPECT_TRUE(std::isnan(JointOutcome{}.broken_at_strain));
-}
-
 TEST(Worse, ForgetsNoNumberThatIsNone) {
   EXPECT_EQ(worse(1.0, 2.0), 2.0);
   EXPECT_EQ(worse(2.0, 1.0), 2.0);
@@ -100,13 +95,16 @@ TEST(LargestMeanStress, WeighsTwoStretchesOfStrainByATriangle) {
   EXPECT_TRUE(std::isnan(largest_mean_stress(curve, 0.6))) << "longer than the curve";
 }
 
-// σ = 1 and waves that take a stretch, a third of it and 2.5 of it: their part of 1 that is left.
+// σ = 1 and waves of which so many pass in a stretch: a mean leaves sin(πn)/(πn) of each, a mean of
+// means the square of that.
 TEST(LargestMeanStress, LeavesLittleOfWaves) {
-  for (const auto& [times, left] : {std::pair{1.0, 0.0}, {3.0, 0.0}, {0.4, 0.573}, {5.5, 0.0034}}) {
+  for (const double times : {1.0, 3.0, 0.4, 5.5}) {
     std::vector<std::pair<double, double>> points;
     for (int i = 0; i <= 20000; ++i)
       points.emplace_back(5e-5 * i, 1.0 + std::sin(times * 2.0 * std::numbers::pi * 1e-3 * i));
-    EXPECT_NEAR(largest_mean_stress(curve_through(points), 0.05) - 1.0, left, 1e-3) << times;
+    const double of_one = std::sin(std::numbers::pi * times) / (std::numbers::pi * times);
+    EXPECT_NEAR(largest_mean_stress(curve_through(points), 0.05) - 1.0, of_one * of_one, 2e-6)
+        << times;
   }
 }
 

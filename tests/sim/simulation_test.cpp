@@ -92,6 +92,62 @@ TEST(Simulation, IsNotTrustedUnlessItsChecksHold) {
   EXPECT_THAT(simulation.why_not_trusted(), HasSubstr("not known"));
 }
 
+// In the limit pieces that swing leave fewer digits to forces than steps in time do.
+TEST(Simulation, IsNotTrustedWhereItsEnergyDoesNotCloseToWhatItsRegimeCan) {
+  Simulation simulation;
+  simulation.status = SimulationStatus::broken;
+  const auto trusted = [&](Regime regime, double defect) {
+    simulation.regime = regime;
+    simulation.energy_defect = defect;
+    const std::string why = simulation.why_not_trusted();
+    EXPECT_TRUE(why.empty() || why == "the energy balance does not close") << why;
+    return why.empty();
+  };
+  EXPECT_TRUE(trusted(Regime::dynamic, 0.9e-10));
+  EXPECT_FALSE(trusted(Regime::dynamic, 2e-10));
+  EXPECT_TRUE(trusted(Regime::quasi_static, 2e-10));
+  EXPECT_TRUE(trusted(Regime::quasi_static, 0.9e-7));
+  EXPECT_FALSE(trusted(Regime::quasi_static, 2e-7));
+  EXPECT_FALSE(trusted(Regime::dynamic, std::numeric_limits<double>::quiet_NaN()));
+}
+
+TEST(Simulation, IsNotTrustedWhereItsStrengthIsNoNumber) {
+  Simulation simulation;
+  simulation.status = SimulationStatus::broken;
+  for (const double none :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    simulation.strength = none;
+    EXPECT_EQ(simulation.why_not_trusted(), explain(SimulationStatus::not_finite));
+  }
+}
+
+// Failure at a strain of 0.004, which a constant rate reaches after 4 µs.
+TEST(Simulation, IsNotTrustedWhereAStepIsATenthOfTheWayToFailure) {
+  Simulation simulation;
+  simulation.status = SimulationStatus::broken;
+  simulation.failure_strain = 0.004;
+  simulation.broken_joints = 1;
+  simulation.curve = {{}, {.time = 5e-6, .strain = 0.005}};
+  simulation.step = 0.099 * 4e-6;
+  EXPECT_EQ(simulation.why_not_trusted(), "");
+  simulation.step = 0.101 * 4e-6;
+  EXPECT_THAT(simulation.why_not_trusted(),
+              HasSubstr("longer than a tenth of the time to failure"));
+  simulation.broken_joints = 0;
+  EXPECT_EQ(simulation.why_not_trusted(), "") << "nothing failed";
+}
+
+TEST(StepInWords, TakesTheUnitThatLeavesLessThanAThousand) {
+  EXPECT_EQ(step_in_words(2e-12), "2 ps");
+  EXPECT_EQ(step_in_words(0.9994e-9), "999 ps");
+  EXPECT_EQ(step_in_words(0.9996e-9), "1 ns");
+  EXPECT_EQ(step_in_words(0.9997e-6), "1 µs");
+  EXPECT_EQ(step_in_words(0.9994e-3), "999 µs");
+  EXPECT_EQ(step_in_words(0.9996e-3), "1 ms");
+  EXPECT_EQ(step_in_words(0.9996), "1 s");
+  EXPECT_EQ(step_in_words(12.0), "12 s");
+}
+
 TEST(Simulation, IsTrustedButForAStepThatWasGiven) {
   Simulation simulation;
   simulation.status = SimulationStatus::broken;
@@ -132,7 +188,11 @@ TEST(Simulation, IsTrustedButForTheModulusOfAShock) {
   EXPECT_EQ(simulation.reservation(),
             "the modulus: the wave of the start, which crosses the specimen 5 times while it is "
             "measured, changes it by up to 12 %");
-  simulation.crossings = 0.8;
+  simulation.crossings = 2.1;
+  EXPECT_FALSE(simulation.has_modulus_of_a_shock());
+  EXPECT_THAT(simulation.reservation(), HasSubstr("crosses the specimen 2.1 times"));
+  simulation.crossings = 1.9;
+  EXPECT_TRUE(simulation.has_modulus_of_a_shock());
   EXPECT_THAT(simulation.reservation(), HasSubstr("the modulus and the strength: they are those"));
   simulation.strength_over_a_wave = 1e6;
   EXPECT_THAT(simulation.reservation(), HasSubstr("the modulus: it is that of a shock"));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <random>
 #include <string>
@@ -16,6 +17,18 @@
 #include "calib/study/study.hpp"
 
 namespace havers::test {
+
+/// A standard normal number that is a function of the seed alone, by the mixer of SplitMix64: to
+/// seed a Mersenne twister would take longer than all else of a simulation.
+inline double normal_of(std::uint64_t seed) {
+  const auto uniform = [seed](std::uint64_t turn) {
+    std::uint64_t x = seed + turn * 0x9e3779b97f4a7c15U;
+    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+    return (static_cast<double>((x ^ (x >> 31U)) >> 11U) + 0.5) * 0x1p-53;
+  };
+  return std::sqrt(-2.0 * std::log(uniform(1))) * std::cos(2.0 * std::numbers::pi * uniform(2));
+}
 
 /// A brittle law with the shape of the fibre model: strength = σ₁ (1 − d/2) g(θ, r) (1 + noise by
 /// seed), modulus = E, straight up to the break. g is 1 at 0°, falls with r at 45° and does not
@@ -32,14 +45,12 @@ struct ClosedForm {
   }
 
   calib::Response operator()(const sim::Scene& scene) const {
-    std::mt19937_64 random(scene.joints.seed);
-    std::normal_distribution<double> normal;
     calib::Response response;
     response.failed = false;
     response.broke = true;
     response.modulus = scene.material.young;
     response.strength = scene.joints.head_tail * (1.0 - 0.5 * scene.joints.scatter) *
-                        orientation_factor(scene) * std::exp(noise * normal(random));
+                        orientation_factor(scene) * std::exp(noise * normal_of(scene.joints.seed));
     response.failure_strain = response.strength / response.modulus;
     response.strain = {0.0, response.failure_strain, response.failure_strain};
     response.stress = {0.0, response.strength, 0.0};
@@ -123,6 +134,42 @@ inline calib::Study synthetic_study(const std::vector<double>& degrees, const Tr
     }
   }
   return study;
+}
+
+/// Twice as many specimens along the fibres as `pairs`, known alike, and a parameter of which one
+/// term tells its own logarithm: the answer is a mean.
+inline calib::Study one_mean_study(std::size_t pairs, const std::string& parameter,
+                                   const std::string& term, const Truth& truth, unsigned draw = 1,
+                                   const ClosedForm& law = {}) {
+  calib::Study study = synthetic_study(std::vector<double>(pairs, 0.0), truth, draw, law);
+  study.calibrate.parameters = {parameter};
+  study.calibrate.terms = {term};
+  return study;
+}
+
+inline calib::Study modulus_study(std::size_t pairs, unsigned draw = 1) {
+  return one_mean_study(pairs, "young_GPa", "modulus", {.specimen_effect = 0.05}, draw);
+}
+
+inline double mean_of(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+/// Standard deviation by n − 1.
+inline double deviation_of(const std::vector<double>& values) {
+  double squares = 0.0;
+  for (const double value : values) squares += std::pow(value - mean_of(values), 2);
+  return std::sqrt(squares / (static_cast<double>(values.size()) - 1.0));
+}
+
+/// That of the logarithms of the moduli measured.
+inline double deviation_of_moduli(const calib::Study& study) {
+  std::vector<double> logarithms;
+  for (const auto& specimen : study.specimens)
+    logarithms.push_back(std::log(specimen.test.modulus));
+  return deviation_of(logarithms);
 }
 
 inline const std::vector<double> three_orientations{0.0, 45.0, 90.0};

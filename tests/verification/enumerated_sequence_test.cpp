@@ -112,8 +112,10 @@ INSTANTIATE_TEST_SUITE_P(OrientationSidesAndSeed, FirstEvents,
 
 TEST_P(FirstEvents, AreThoseOfTheEnumeratedStates) {
   const auto [degrees, lateral, seed] = GetParam();
-  Scene scene = test::small_scene(degrees, 2, 2);
-  scene.assembly.fibre_height = 0.25 * scene.assembly.fibre_length;
+  // Across the load two fibres lie side by side: one alone is gone with the first break.
+  const bool across = degrees == 90.0;
+  Scene scene = test::small_scene(degrees, across ? 4 : 2, across ? 1 : 2);
+  scene.assembly.fibre_height = (across ? 0.5 : 0.25) * scene.assembly.fibre_length;
   scene.loading.lateral = lateral;
   scene.joints.scatter = 1.0;
   scene.joints.seed = seed;
@@ -126,7 +128,7 @@ TEST_P(FirstEvents, AreThoseOfTheEnumeratedStates) {
         events.push_back({progress.point, progress.joints()});
       },
       [&] { return events.size() == 3; });
-  ASSERT_FALSE(events.empty());
+  int compared = 0;
   for (std::size_t e = 0; e < events.size(); ++e) {
     const Watched& now = events[e];
     std::vector<std::size_t> broken;
@@ -137,6 +139,7 @@ TEST_P(FirstEvents, AreThoseOfTheEnumeratedStates) {
           now.joints[j].reaction_tangent;
     }
     if (broken.size() > 4 || now.point.stress_right < 0.01 * run.strength) break;
+    ++compared;
     const auto answers = statics.answers(broken);
     ASSERT_FALSE(answers.empty()) << "event " << e;
     double nearest = INFINITY;
@@ -153,6 +156,7 @@ TEST_P(FirstEvents, AreThoseOfTheEnumeratedStates) {
                   events[e + 1].point.strain, 1e-9 * now.point.strain);
     }
   }
+  EXPECT_GE(compared, degrees == 30.0 ? 1 : 3) << "what bears nothing is not compared";
 }
 
 }  // namespace

@@ -78,6 +78,7 @@ TEST(Calibrate, GivesIntervalsThatHoldTheTruthWhereFewSpecimensTellHowMuchTheyDi
     const auto [low, high] = test::parameter_of(test::fit(study), "head_tail_MPa").interval_95;
     inside += low <= 60.0 && 60.0 <= high ? 1 : 0;
   }
+  RecordProperty("inside", inside);
   EXPECT_GE(inside, 91);
 }
 

@@ -1,12 +1,13 @@
 // What is said of the answer after it is found: other intervals, other specimens, other seeds.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
+#include <numbers>
 
-#include "calib/fit/answer_checks.hpp"
 #include "calib/fit/calibrate.hpp"
 #include "tests/support/studies.hpp"
 
@@ -52,17 +53,6 @@ TEST(Hindsight, EndsIntervalsAtTheBoundsWithoutProfilesToo) {
   EXPECT_EQ(parameter.interval_95[0], 50.0);
 }
 
-TEST(Hindsight, BootstrapIntervalsAreLikeTheOthersOrSayWhyTheyAreMissing) {
-  auto study = test::synthetic_study({0.0, 0.0, 0.0, 45.0, 45.0, 45.0, 90.0, 90.0, 90.0},
-                                     {.specimen_effect = 0.05});
-  const auto many = test::parameter_of(test::fit(study), "young_GPa");
-  ASSERT_TRUE(many.bootstrap_missing.empty()) << many.bootstrap_missing;
-  EXPECT_NEAR(log_width(many.bootstrap_95) / log_width(many.interval_95), 1.0, 0.4);
-  const auto few = test::parameter_of(test::fit(test::synthetic_study({0.0})), "young_GPa");
-  EXPECT_NE(few.bootstrap_missing.find("too few"), std::string::npos);
-  EXPECT_TRUE(std::isnan(few.bootstrap_95[0]));
-}
-
 // One step with the slopes says what a fit without the specimen finds.
 TEST(Hindsight, TellsHowTheAnswerMovesWithoutASpecimen) {
   const auto study = test::synthetic_study(test::three_orientations, {.specimen_effect = 0.05});
@@ -83,12 +73,13 @@ TEST(Hindsight, TellsExactlyHowOneMeanMovesWithoutASpecimen) {
     study.calibrate.parameters = {"young_GPa"};
     study.calibrate.terms = {"modulus"};
     const auto result = test::fit(study);
-    const auto young = test::parameter_of(result, "young_GPa");
+    const auto parameter = test::parameter_of(result, "young_GPa");
     for (const auto& specimen : result.specimens) {
-      const double above = std::log(specimen.measured.modulus / (1e9 * young.value));
+      const double above = std::log(specimen.measured.modulus / (1e9 * parameter.value));
       const double exact = -above / (static_cast<double>(result.specimens.size()) - 1.0);
-      EXPECT_NEAR(specimen.influence.front().shift * young.standard_error / young.value / exact,
-                  1.0, 0.01);
+      EXPECT_NEAR(
+          specimen.influence.front().shift * parameter.standard_error / parameter.value / exact,
+          1.0, 0.01);
     }
   }
 }
@@ -118,74 +109,38 @@ TEST(Hindsight, IsTheSameForSpecimensInAnyOrder) {
   }
 }
 
+// Strengths of two specimens at 0 degrees go with σ₁, of two at 45 with σ₁/(1 + r): in logarithms J
+// has the rows (1, 0) and (1, −q), q = r/(1 + r), over s. (JᵀJ)⁻¹ goes as (q², q; q, 2), and its
+// roots are those of λ² − (2 + q²) λ + q².
 TEST(Hindsight, SaysInWordsWhatIsDetermined) {
-  const auto result = test::fit(test::synthetic_study(test::three_orientations));
-  ASSERT_EQ(result.directions.size(), 4U);
-  EXPECT_EQ(result.directions[0], "The specimens determine 3 of 3 directions.");
-  EXPECT_THAT(result.directions[1], testing::EndsWith(" % (one standard error)."));
-  ASSERT_EQ(result.correlation.size(), 3U);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(result.correlation[i][i], 1.0, 1e-12);
-  EXPECT_NEAR(result.correlation[0][1], result.correlation[1][0], 1e-12);
-}
+  auto study = test::synthetic_study({0.0, 45.0}, {.specimen_effect = 0.01});
+  study.calibrate.parameters = {"head_tail_MPa", "ratio"};
+  study.calibrate.terms = {"strength"};
+  study.calibrate.profiles = false;
+  const auto result = test::fit(study, {.noise = 0.0});
+  ASSERT_EQ(result.fitted, study.calibrate.parameters);
+  ASSERT_EQ(result.correlation.size(), 2U);
+  for (const std::size_t i : {0U, 1U}) EXPECT_NEAR(result.correlation[i].at(i), 1.0, 1e-12);
+  EXPECT_NEAR(result.correlation[0].at(1), 1.0 / std::numbers::sqrt2, 1e-3);
+  EXPECT_EQ(result.correlation[0].at(1), result.correlation[1].at(0));
 
-// The closed form's noise is a factor of the seed alone: common seeds cancel it altogether.
-TEST(Hindsight, LooksAtTheAnswerWithFreshSeeds) {
-  const auto result = test::fit(test::synthetic_study(test::three_orientations));
-  EXPECT_TRUE(std::isinf(result.randomness.common_gain));
-  EXPECT_GT(result.randomness.fresh_shift, 0.0);
-  EXPECT_LT(result.randomness.fresh_shift, 1.5);
-  EXPECT_GT(result.randomness.simulator_share, 0.0);
-  EXPECT_LT(result.randomness.simulator_share, 0.5);
-  EXPECT_NEAR(std::log(result.randomness.fresh_width), 0.0, std::log(3.0));
-}
-
-TEST(Hindsight, WarnsWhereFreshSeedsMakeOtherIntervals) {
-  CalibrationResult result;
-  result.fitted = {"young_GPa"};
-  result.randomness = {.replicates = 8,
-                       .replicates_needed = 4,
-                       .simulator_share = 0.1,
-                       .fresh_cost = 3.0,
-                       .fresh_shift = 0.1};
-  for (const auto& [width, outcome] : {std::pair(1.0, Outcome::pass),
-                                       {1.9, Outcome::pass},
-                                       {4.7, Outcome::warn},
-                                       {0.2, Outcome::warn}}) {
-    result.randomness.fresh_width = width;
-    EXPECT_EQ(check_randomness(result).outcome, outcome) << width;
-  }
-}
-
-// Seeds of each point's own: differences keep all of the noise, and the slopes are worse.
-TEST(Hindsight, DoesWithoutCommonRandomNumbersAndSaysWhatThatCosts) {
-  auto study = test::synthetic_study(test::three_orientations);
-  study.calibrate.common_seeds = false;
-  const auto result = test::fit(study);
-  EXPECT_GT(result.randomness.common_gain, 0.5);
-  EXPECT_LT(result.randomness.common_gain, 2.0);
-  EXPECT_NEAR(test::parameter_of(result, "head_tail_MPa").value, 60.0, 1.0);
-}
-
-TEST(Hindsight, TakesAsManyReplicatesAsItNeeds) {
-  auto study = test::synthetic_study(test::three_orientations);
-  study.calibrate.replicates = replicates_by_need;
-  const auto few = test::fit(study, {.noise = 1e-5});
-  const auto many = test::fit(study, {.noise = 0.02});
-  EXPECT_EQ(few.randomness.replicates, 4);
-  EXPECT_GT(many.randomness.replicates, 8);
-  EXPECT_NEAR(test::parameter_of(many, "head_tail_MPa").value, 60.0, 2.0);
-}
-
-// Strengths known to 10 %, but for that at which a test was stopped: it tells nothing.
-TEST(Hindsight, NeedsNoReplicatesForABoundThatNothingContradicts) {
-  auto study = test::synthetic_study(test::three_orientations);
-  for (auto& specimen : study.specimens)
-    specimen.test.strength_standard_error = 0.1 * specimen.test.strength;
-  study.specimens.push_back(study.specimens[0]);
-  study.specimens.back().id = "stopped";
-  study.specimens.back().broke = false;
-  study.specimens.back().test = test::straight_test(14e9, 25e6, 2e-3, 2e-3);
-  EXPECT_EQ(test::fit(study, {.noise = 0.02}).randomness.replicates_needed, 4);
+  const double sd = result.specimens[0].terms.at(0).sd;
+  const double r = test::parameter_of(result, "ratio").value, q = r / (1.0 + r);
+  const double root = std::sqrt(std::pow(2.0 + q * q, 2) - 4.0 * q * q);
+  const double large = 0.5 * (2.0 + q * q + root), small = 0.5 * (2.0 + q * q - root);
+  // The smaller exponent of either direction, which stand at right angles; two specimens each.
+  const double exponent = (large - 2.0) / q;
+  const auto part = [&](double eigenvalue) {
+    return 100.0 * sd * std::hypot(1.0, exponent) / std::sqrt(2.0 * eigenvalue);
+  };
+  EXPECT_THAT(
+      result.directions,
+      testing::ElementsAre(
+          "The specimens determine 2 of 2 directions.",
+          fmt::format("head_tail_MPa × ratio^{:.2g} is known to ± {:.2g} % (one standard error).",
+                      -exponent, part(large)),
+          fmt::format("head_tail_MPa^{:.2g} × ratio is known to ± {:.2g} % (one standard error).",
+                      exponent, part(small))));
 }
 
 TEST(Hindsight, TermsAddUpToTheCost) {

@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <sstream>
 
 #include "tests/support/slow.hpp"
@@ -56,30 +57,31 @@ std::vector<Certified> certified_sets() {
   return sets;
 }
 
-using Model = double (*)(const VectorXd& b, double x);
+// Of plain numbers: these tests are not optimised, and an Eigen element is a chain of calls then.
+using Model = double (*)(const double* b, double x);
 
-double decays(const VectorXd& b, double x) {
+double decays(const double* b, double x) {
   return b[0] * std::exp(-b[1] * x) + b[2] * std::exp(-b[3] * x) + b[4] * std::exp(-b[5] * x);
 }
 
-double peaks(const VectorXd& b, double x) {
+double peaks(const double* b, double x) {
   return b[0] * std::exp(-b[1] * x) + b[2] * std::exp(-std::pow((x - b[3]) / b[4], 2)) +
          b[5] * std::exp(-std::pow((x - b[6]) / b[7], 2));
 }
 
-double cubic_over_cubic(const VectorXd& b, double x) {
+double cubic_over_cubic(const double* b, double x) {
   return (b[0] + x * (b[1] + x * (b[2] + x * b[3]))) / (1.0 + x * (b[4] + x * (b[5] + x * b[6])));
 }
 
-double saturation(const VectorXd& b, double x) {
+double saturation(const double* b, double x) {
   return b[0] * (1.0 - std::exp(-b[1] * x));
 }
 
-double decay_over_line(const VectorXd& b, double x) {
+double decay_over_line(const double* b, double x) {
   return std::exp(-b[0] * x) / (b[1] + b[2] * x);
 }
 
-double seasons(const VectorXd& b, double x) {
+double seasons(const double* b, double x) {
   const double turn = 2.0 * std::numbers::pi * x;
   return b[0] + b[1] * std::cos(turn / 12.0) + b[2] * std::sin(turn / 12.0) +
          b[4] * std::cos(turn / b[3]) + b[5] * std::sin(turn / b[3]) +
@@ -89,14 +91,14 @@ double seasons(const VectorXd& b, double x) {
 const std::map<std::string, Model>& models() {
   static const std::map<std::string, Model> table{
       {"Bennett5",
-       [](const VectorXd& b, double x) { return b[0] * std::pow(b[1] + x, -1.0 / b[2]); }},
+       [](const double* b, double x) { return b[0] * std::pow(b[1] + x, -1.0 / b[2]); }},
       {"BoxBOD", saturation},
       {"Chwirut1", decay_over_line},
       {"Chwirut2", decay_over_line},
-      {"DanWood", [](const VectorXd& b, double x) { return b[0] * std::pow(x, b[1]); }},
+      {"DanWood", [](const double* b, double x) { return b[0] * std::pow(x, b[1]); }},
       {"ENSO", seasons},
       {"Eckerle4",
-       [](const VectorXd& b, double x) {
+       [](const double* b, double x) {
          return b[0] / b[1] * std::exp(-0.5 * std::pow((x - b[2]) / b[1], 2));
        }},
       {"Gauss1", peaks},
@@ -104,47 +106,56 @@ const std::map<std::string, Model>& models() {
       {"Gauss3", peaks},
       {"Hahn1", cubic_over_cubic},
       {"Kirby2",
-       [](const VectorXd& b, double x) {
+       [](const double* b, double x) {
          return (b[0] + x * (b[1] + x * b[2])) / (1.0 + x * (b[3] + x * b[4]));
        }},
       {"Lanczos1", decays},
       {"Lanczos2", decays},
       {"Lanczos3", decays},
-      {"MGH09", [](const VectorXd& b,
+      {"MGH09", [](const double* b,
                    double x) { return b[0] * (x * x + x * b[1]) / (x * x + x * b[2] + b[3]); }},
-      {"MGH10", [](const VectorXd& b, double x) { return b[0] * std::exp(b[1] / (x + b[2])); }},
+      {"MGH10", [](const double* b, double x) { return b[0] * std::exp(b[1] / (x + b[2])); }},
       {"MGH17",
-       [](const VectorXd& b, double x) {
+       [](const double* b, double x) {
          return b[0] + b[1] * std::exp(-x * b[3]) + b[2] * std::exp(-x * b[4]);
        }},
       {"Misra1a", saturation},
-      {"Misra1b", [](const VectorXd& b,
+      {"Misra1b", [](const double* b,
                      double x) { return b[0] * (1.0 - std::pow(1.0 + 0.5 * b[1] * x, -2.0)); }},
-      {"Misra1c", [](const VectorXd& b,
+      {"Misra1c", [](const double* b,
                      double x) { return b[0] * (1.0 - 1.0 / std::sqrt(1.0 + 2.0 * b[1] * x)); }},
-      {"Misra1d", [](const VectorXd& b, double x) { return b[0] * b[1] * x / (1.0 + b[1] * x); }},
-      {"Rat42",
-       [](const VectorXd& b, double x) { return b[0] / (1.0 + std::exp(b[1] - b[2] * x)); }},
+      {"Misra1d", [](const double* b, double x) { return b[0] * b[1] * x / (1.0 + b[1] * x); }},
+      {"Rat42", [](const double* b, double x) { return b[0] / (1.0 + std::exp(b[1] - b[2] * x)); }},
       {"Rat43",
-       [](const VectorXd& b, double x) {
+       [](const double* b, double x) {
          return b[0] * std::pow(1.0 + std::exp(b[1] - b[2] * x), -1.0 / b[3]);
        }},
       {"Roszman1",
-       [](const VectorXd& b, double x) {
+       [](const double* b, double x) {
          return b[0] - b[1] * x - std::atan(b[2] / (x - b[3])) / std::numbers::pi;
        }},
       {"Thurber", cubic_over_cubic}};
   return table;
 }
 
-VectorXd residuals_of(const Certified& set, const VectorXd& b) {
-  VectorXd residuals(set.y.size());
-  for (Index i = 0; i < set.y.size(); ++i)
-    residuals[i] =
-        set.name == "Nelson"
-            ? b[0] - b[1] * set.x(i, 0) * std::exp(-b[2] * set.x(i, 1)) - std::log(set.y[i])
-            : models().at(set.name)(b, set.x(i, 0)) - set.y[i];
-  return residuals;
+double nelson(const double* b, double time, double temperature) {
+  return b[0] - b[1] * time * std::exp(-b[2] * temperature);
+}
+
+VectorXd residuals_of(const Certified& set, const VectorXd& point) {
+  const double* const b = point.data();
+  const auto rows = static_cast<std::size_t>(set.y.size());
+  const std::span<const double> x(set.x.data(), rows), y(set.y.data(), rows);
+  std::vector<double> residuals(rows);
+  if (set.name == "Nelson") {
+    const std::span<const double> second(set.x.col(1).data(), rows);
+    for (std::size_t i = 0; i < rows; ++i)
+      residuals[i] = nelson(b, x[i], second[i]) - std::log(y[i]);
+  } else {
+    const Model model = models().at(set.name);
+    for (std::size_t i = 0; i < rows; ++i) residuals[i] = model(b, x[i]) - y[i];
+  }
+  return VectorXd::Map(residuals.data(), set.y.size());
 }
 
 LeastSquares problem_of(const Certified& set) {

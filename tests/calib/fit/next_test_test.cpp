@@ -1,7 +1,10 @@
 // What one more test would tell, before it is made.
+#include "calib/fit/next_test.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "calib/fit/calibrate.hpp"
 #include "tests/support/studies.hpp"
@@ -22,7 +25,7 @@ TEST(NextTest, KnowsWhichFurtherTestTellsMost) {
 }
 
 // Strength that follows the modulus would tell of it too; these tests are asked for the modulus
-// alone.
+// alone. Of two the mean has an error of s/√2, of three one of s/√3.
 TEST(NextTest, ExpectsOfAFurtherTestWhatTheOthersAreAskedFor) {
   auto study = test::synthetic_study({0.0});
   study.calibrate.parameters = {"young_GPa"};
@@ -35,9 +38,8 @@ TEST(NextTest, ExpectsOfAFurtherTestWhatTheOthersAreAskedFor) {
       {.quasi_static = false});
   const auto result = calibrate_with(simulator, study);
   ASSERT_EQ(result.next_tests.size(), 3U);
-  const double like_the_others = result.next_tests[0].width.at(0);
   for (const auto& test : result.next_tests)
-    EXPECT_NEAR(test.width.at(0), like_the_others, 1e-3) << test.what;
+    EXPECT_NEAR(test.width.at(0), std::sqrt(2.0 / 3.0), 1e-3) << test.what;
 }
 
 // "auto" tries the scatter where no specimen has porosity. One has here, that at 90 degrees is made
@@ -76,6 +78,30 @@ TEST(NextTest, IsLikeOneThatBroke) {
                                                  result.fitted.begin());
   ASSERT_LT(strength, result.fitted.size());
   EXPECT_LT(result.next_tests[0].width[strength], 0.9);
+}
+
+// The variance of a mean over n sections falls from 1/n to 1/(n + 1). Of specimens with one and
+// with three of them, known to 5 %, of which the scatter's error makes 4 %.
+TEST(NextTest, KnowsWhatOneMoreSectionWouldTell) {
+  auto study = test::synthetic_study({0.0});
+  study.calibrate.parameters = {"head_tail_MPa"};
+  study.specimens[0].sections.resize(1);
+  study.specimens[1].sections.resize(3);
+  const FitProblem problem = make_problem(study);
+  SimulationBatch batch(test::ClosedForm{}.simulator(), nullptr, 1);
+  Answer answer{.active = {0}, .replicates = 1};
+  answer.best.point = start_point(problem.unknowns);
+  answer.weights.scatter.assign(2, Landmarks(Landmarks::Zero()));
+  answer.weights.sd.assign(2, Landmarks(Landmarks::Constant(0.05)));
+  for (Landmarks& scatter : answer.weights.scatter) scatter[strength] = 0.04;
+  answer.slopes.jacobian = Eigen::MatrixXd::Zero(2 * landmark_count, 1);
+  for (const std::size_t f : {0U, 1U})
+    answer.slopes.jacobian(first_row(f) + strength, 0) = 1.0 / 0.05;
+  const auto tests = next_tests(batch, problem, answer);
+  ASSERT_EQ(tests.size(), 4U);  // after one more specimen at 0, 45 and 90 degrees
+  EXPECT_EQ(tests.back().what, "one more section of every specimen");
+  const double now = 2.0 / 25e-4, then = 1.0 / (25e-4 - 16e-4 / 2.0) + 1.0 / (25e-4 - 16e-4 / 4.0);
+  EXPECT_NEAR(tests.back().width.at(0), std::sqrt(now / then), 1e-9);
 }
 
 }  // namespace

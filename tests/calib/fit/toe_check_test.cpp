@@ -23,12 +23,12 @@ Check check_of_bars(double toe) {
                                                 .strain_rate = 2e-4,
                                                 .seed = ++seed}));
   const CalibrationResult result = test::fit(study);
-  const CalibratedParameter young = test::parameter_of(result, "young_GPa");
-  const bool holds = young.interval_95[0] <= 15.0 && 15.0 <= young.interval_95[1];
+  const CalibratedParameter parameter = test::parameter_of(result, "young_GPa");
+  const bool holds = parameter.interval_95[0] <= 15.0 && 15.0 <= parameter.interval_95[1];
   const Check check = test::check_of(result, "modulus clear of toes");
   EXPECT_TRUE(check.done);
   EXPECT_EQ(holds, check.outcome == Outcome::pass)
-      << young.interval_95[0] << " to " << young.interval_95[1] << ": " << check.text;
+      << parameter.interval_95[0] << " to " << parameter.interval_95[1] << ": " << check.text;
   return check;
 }
 

@@ -84,10 +84,10 @@ TEST(Unknowns, EndAtTheBoundsAsTheStudyGivesThem) {
   auto study = test::synthetic_study({0.0, 90.0});
   study.calibrate.parameters = {"young_GPa"};
   study.calibrate.bounds["young_GPa"] = {0.1, 12.0};
-  const auto young = test::parameter_of(test::fit(study), "young_GPa");
-  EXPECT_EQ(young.bounds, (std::array{0.1, 12.0}));
-  EXPECT_TRUE(young.at_bound);
-  EXPECT_EQ(young.value, 12.0);
+  const auto parameter = test::parameter_of(test::fit(study), "young_GPa");
+  EXPECT_EQ(parameter.bounds, (std::array{0.1, 12.0}));
+  EXPECT_TRUE(parameter.at_bound);
+  EXPECT_EQ(parameter.value, 12.0);
 }
 
 TEST(Unknowns, OfAutoLeaveTheScatterToWhatPorosityTells) {

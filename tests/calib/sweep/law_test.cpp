@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/calib/sweep/student_tail.hpp"
 #include "tests/support/sweeps.hpp"
 
 namespace havers::calib {
@@ -42,6 +43,29 @@ TEST(Law, StandardErrorIsTheTextbookOne) {
   for (int k = 0; k < 20; ++k) squares += 2.0 * deviation(k) * deviation(k);
   EXPECT_NEAR(law.standard_errors[0], std::sqrt(squares / 38.0) / std::sqrt(40 * 0.25), 1e-12);
   EXPECT_NEAR(law.coefficients[0], 5.0, 1e-12);
+}
+
+// 5x ± 1 at 0 and 1: the residuals' squares add up to 4, those about the mean of all to 29.
+TEST(Law, StatesScatterExplainedPartAndConfidence) {
+  const KnownSweep known({{"d", {"0", "1"}}}, 2, [](const SweepPoint& p, int k) {
+    return 5.0 * p.numbers[0] + 2.0 * k - 1.0;
+  });
+  const Law law = only_law({Measure::strength, {"d"}, ""}, known);
+  EXPECT_EQ(law.runs, 4);
+  EXPECT_NEAR(law.residual_sd, std::sqrt(4.0 / 2.0), 1e-12);
+  EXPECT_NEAR(law.explained, 1.0 - 4.0 / 29.0, 1e-12);
+  EXPECT_NEAR(test::student_tail(law.confidence_factor, 2), 0.025, 1e-12);
+}
+
+// (W2) Means 100, 130, 100 lie 10, 20, 10 off their level line: 2·600 for one degree of freedom;
+// two runs 10 above and below each mean give 600 for three. F of 1 and 3 is t² of 3.
+TEST(Law, LackOfFitIsTheTextbookOne) {
+  const KnownSweep known({{"d", {"0", "1", "2"}}}, 2, [](const SweepPoint& p, int k) {
+    return (p.numbers[0] == 1.0 ? 130.0 : 100.0) + 20.0 * k - 10.0;
+  });
+  const Law law = only_law({Measure::strength, {"d"}, ""}, known);
+  EXPECT_NEAR(law.lack_of_fit, 6.0, 1e-10);
+  EXPECT_NEAR(law.lack_of_fit_p, 2.0 * test::student_tail(std::sqrt(6.0), 3), 1e-10);
 }
 
 TEST(Law, LackOfFitIsSeenInAParabolaAndNotInALine) {

@@ -160,9 +160,21 @@ TEST(RunSweep, TheScaleAboveHasTheStrengthsAsThresholds) {
   const sim::JointOptions& above = result.points[3].scene.joints;
   EXPECT_EQ(result.points[3].level, 2);
   EXPECT_EQ(above.head_tail, below.mean);
+  EXPECT_EQ(above.distribution, sim::Distribution::weibull);
   EXPECT_NEAR(above.scatter / std::sqrt(12.0), below.sd / below.mean, 1e-12);
   EXPECT_NEAR(sim::ratio(result.points[3].scene.assembly, above),
               sim::ratio(sweep.points[1].scene.assembly, sweep.points[1].scene.joints), 1e-12);
+}
+
+// (W7) A d of 2 or more would ask for strengths below 0.
+TEST(RunSweep, TheScaleAboveHasItsScatterHeldBelowTwo) {
+  PointSummary below;
+  Statistics& strength = below.measures.front();
+  strength = {.n = 5, .mean = 10e6, .sd = 5e6};
+  const sim::Scene scene;
+  EXPECT_NEAR(scale_above(scene, below).joints.scatter, 0.5 * std::sqrt(12.0), 1e-12);
+  strength.sd = 6e6;
+  EXPECT_EQ(scale_above(scene, below).joints.scatter, 1.99);
 }
 
 // Stronger joints give waves more time: I = ε̇ (W/c) / (σ₁/E).

@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <numbers>
-
 #include "tests/io/complaints.hpp"
 
 namespace havers::io {
@@ -11,7 +9,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
-using testing::Pair;
 
 class ReadStudy : public testing::Test {
  protected:
@@ -57,117 +54,6 @@ largest_noise = 0.1
   EXPECT_DOUBLE_EQ(file.reduction.machine_compliance, 20e-9);
   EXPECT_DOUBLE_EQ(file.reduction.largest_noise, 0.1);
   EXPECT_EQ(complaints(one_specimen + "[reduction]\nbreak_part = 1.5\n").size(), 1U);
-}
-
-TEST_F(ReadStudy, TakesEveryKeyInItsUnit) {
-  for (const char* name : {"a/A1.csv", "A1_gauge.csv", "s1.png", "s2.png"}) folder.write(name, "");
-  const StudyFile file = read(R"(
-[study]
-name = "bovine femur A"
-[[specimen]]
-id = "A1"
-test = "a/A1.csv"
-gauge = "A1_gauge.csv"
-width_mm = 4.0
-thickness_mm = 2
-gauge_length_mm = 25.0
-orientation_deg = 45
-sections = ["s1.png", "s2.png"]
-pixel_size_um = 5.0
-porosity = 0.05
-use = "validate"
-[[specimen]]
-id = "A2"
-test = "a/A1.csv"
-[model.assembly]
-layers = 12
-[model.joints]
-resultant_MPa = 100.0
-ratio = 2.0
-[model.output]
-snapshots = 0
-[porosity]
-to_scatter = "linear"
-to_modulus = "power"
-strength_exponent = 1.5
-linear_offset = 0.1
-linear_slope = 2.0
-modulus_exponent = 3.0
-[calibrate]
-parameters = ["young_GPa", "friction"]
-[calibrate.bounds]
-young_GPa = [5.0, 30]
-[calibrate.level]
-young_GPa = "orientation"
-[calibrate.options]
-replicates = 4
-budget = 100
-seed = 9
-[synthesize]
-force_noise_N = 0.25
-strain_noise = 1e-6
-preload_N = 5.0
-toe_strain = 2e-4
-sampling_s = 0.05
-crosshead_mm_per_min = 6.0
-pore_radius_um = 10.0
-modulus_cv = 0.02
-section_pixels = 256
-)",
-                              {}, Files::must_exist);
-  EXPECT_EQ(file.study.name, "bovine femur A");
-  ASSERT_EQ(file.specimens.size(), 2U);
-  const SpecimenFiles& specimen = file.specimens[0];
-  EXPECT_EQ(specimen.id, "A1");
-  EXPECT_EQ(specimen.test, folder.path() / "a/A1.csv");
-  EXPECT_EQ(specimen.gauge, folder.path() / "A1_gauge.csv");
-  EXPECT_EQ(specimen.width, 4e-3);
-  EXPECT_EQ(specimen.thickness, 2e-3);
-  EXPECT_EQ(specimen.gauge_length, 25e-3);
-  EXPECT_EQ(specimen.orientation, std::numbers::pi / 4.0);
-  EXPECT_THAT(specimen.sections, ElementsAre(folder.path() / "s1.png", folder.path() / "s2.png"));
-  EXPECT_EQ(specimen.pixel_size, 5e-6);
-  EXPECT_EQ(specimen.porosity, 0.05);
-  EXPECT_EQ(specimen.use, calib::Use::validate);
-  EXPECT_EQ(file.specimens[1].use, calib::Use::fit);
-  EXPECT_FALSE(file.specimens[1].width || file.specimens[1].gauge || file.specimens[1].porosity);
-
-  ASSERT_EQ(file.study.specimens.size(), 2U);
-  EXPECT_EQ(file.study.specimens[0].id, "A1");
-  EXPECT_EQ(file.study.specimens[0].use, calib::Use::validate);
-  EXPECT_EQ(file.study.specimens[0].orientation, std::numbers::pi / 4.0);
-  EXPECT_EQ(file.study.specimens[0].porosity, 0.05);
-
-  const sim::Scene& model = file.study.model;
-  EXPECT_EQ(model.assembly.layers, 12);
-  EXPECT_DOUBLE_EQ(sim::resultant(model.assembly, model.joints), 100e6);
-  EXPECT_DOUBLE_EQ(sim::ratio(model.assembly, model.joints), 2.0);
-
-  EXPECT_EQ(file.study.porosity.to_scatter, calib::ToScatter::linear);
-  EXPECT_EQ(file.study.porosity.to_modulus, calib::ToModulus::power);
-  EXPECT_EQ(file.study.porosity.strength_exponent, 1.5);
-  EXPECT_EQ(file.study.porosity.linear_offset, 0.1);
-  EXPECT_EQ(file.study.porosity.linear_slope, 2.0);
-  EXPECT_EQ(file.study.porosity.modulus_exponent, 3.0);
-
-  const calib::CalibrateOptions& calibrate = file.study.calibrate;
-  EXPECT_THAT(calibrate.parameters, ElementsAre("young_GPa", "friction"));
-  EXPECT_FALSE(calibrate.automatic);
-  EXPECT_THAT(calibrate.bounds, ElementsAre(Pair("young_GPa", Pair(5.0, 30.0))));
-  EXPECT_THAT(calibrate.level, ElementsAre(Pair("young_GPa", calib::Level::orientation)));
-  EXPECT_EQ(calibrate.replicates, 4);
-  EXPECT_EQ(calibrate.budget, 100);
-  EXPECT_EQ(calibrate.seed, 9U);
-
-  EXPECT_EQ(file.synthesize.laboratory.force_noise, 0.25);
-  EXPECT_EQ(file.synthesize.laboratory.strain_noise, 1e-6);
-  EXPECT_EQ(file.synthesize.laboratory.preload, 5.0);
-  EXPECT_EQ(file.synthesize.laboratory.toe_strain, 2e-4);
-  EXPECT_EQ(file.synthesize.laboratory.sampling, 0.05);
-  EXPECT_DOUBLE_EQ(file.synthesize.laboratory.crosshead_rate, 1e-4);
-  EXPECT_EQ(file.synthesize.pore_radius, 10e-6);
-  EXPECT_EQ(file.synthesize.modulus_cv, 0.02);
-  EXPECT_EQ(file.synthesize.section_pixels, 256);
 }
 
 TEST_F(ReadStudy, TakesAutoAsTheChoiceOfParameters) {

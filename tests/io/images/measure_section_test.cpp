@@ -247,21 +247,5 @@ TEST(Section, CutsByOtsuAndSauvolaWhereAsked) {
   }
 }
 
-TEST(Section, DrawsWhatItFoundInASmallPicture) {
-  const auto drawn =
-      test::draw({.width = 1400, .height = 900, .largest_radius = 20.0, .noise = 0.1});
-  const auto png = measure_sections(test::write(drawn.image, "overlay.png"), {.pixel_size = pixel})
-                       .front()
-                       .overlay_png;
-  const cv::Mat overlay = cv::imdecode(png, cv::IMREAD_COLOR);
-  ASSERT_EQ(overlay.cols, 467);  // a third: whole pixels become one, at most 640
-  EXPECT_LT(png.size(), 200000U);
-  cv::Mat red;
-  cv::inRange(overlay, cv::Scalar(48, 48, 224), cv::Scalar(48, 48, 224), red);
-  const double scale = 1.0 / 3.0;
-  EXPECT_NEAR(cv::countNonZero(red), scale * scale * cv::sum(drawn.pores)[0],
-              0.1 * cv::countNonZero(red));
-}
-
 }  // namespace
 }  // namespace havers::io

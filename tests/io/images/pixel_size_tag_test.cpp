@@ -114,23 +114,40 @@ TEST_F(PixelSizeTag, OfATiffIsInItsUnitInEitherOrderOfBytes) {
 }
 
 TEST_F(PixelSizeTag, OfImageJIsInTheUnitOfItsDescription) {
-  for (const auto& [unit, size] : {std::pair{"micron", 2.0}, {"um", 2.0}, {"nm", 0.002}})
+  struct Unit {
+    const char* name;
+    double per_unit, size;
+  };
+  for (const auto& [name, per_unit, size] : {Unit{"micron", 0.5, 2.0},
+                                             {"um", 0.5, 2.0},
+                                             {"\\u00B5m", 0.5, 2.0},
+                                             {"nm", 0.5, 0.002},
+                                             {"mm", 250.0, 4.0},
+                                             {"cm", 2500.0, 4.0},
+                                             {"inch", 5080.0, 5.0}})
     EXPECT_NEAR(
-        size_of(tiff(Order::little, 0.5, 1, "ImageJ=1.53\nunit=" + std::string(unit) + "\n")), size,
-        1e-9)
-        << unit;
+        size_of(tiff(Order::little, per_unit, 1, "ImageJ=1.53\nunit=" + std::string(name) + "\n")),
+        size, 1e-9)
+        << name;
+  EXPECT_TRUE(std::isnan(size_of(tiff(Order::little, 0.5, 1, "ImageJ=1.53\nunit=pixel\n"))));
 }
 
 TEST_F(PixelSizeTag, OfAPrinterOrScreenIsNone) {
-  for (const double dots : {72.0, 96.0, 150.0, 300.0, 600.0})
+  for (const double dots : {72.0, 96.0, 150.0, 300.0, 600.0, 2400.0})
     EXPECT_TRUE(std::isnan(size_of(tiff(Order::little, dots, 2, "")))) << dots;
   EXPECT_TRUE(std::isnan(size_of(png(2835, 1))));  // 72 dots an inch
+  EXPECT_NEAR(size_of(tiff(Order::little, 2540.0, 2, "")), 10.0, 1e-9);
+  EXPECT_NEAR(size_of(tiff(Order::little, 4800.0, 2, "")), 25400.0 / 4800.0, 1e-9);
 }
 
-TEST_F(PixelSizeTag, OfAFileCutShortIsNone) {
+// Before the entry of its resolution, and behind all that tells it.
+TEST_F(PixelSizeTag, OfAFileCutShortIsNoneOrTheSame) {
   const std::string whole = tiff(Order::little, 2500.0, 3, "");
-  for (std::size_t length = 0; length < whole.size(); length += 5)
-    EXPECT_FALSE(size_of(whole.substr(0, length)) > 4.1) << length;
+  const std::size_t entry = 22, end = 58;
+  for (std::size_t length = 0; length <= entry; length += 5)
+    EXPECT_TRUE(std::isnan(size_of(whole.substr(0, length)))) << length;
+  for (std::size_t length = end; length <= whole.size(); ++length)
+    EXPECT_NEAR(size_of(whole.substr(0, length)), 4.0, 1e-9) << length;
 }
 
 TEST_F(PixelSizeTag, OfADicomSliceComesWithItsPixels) {
@@ -149,6 +166,24 @@ TEST_F(PixelSizeTag, OfADicomSliceIsTheOneThatIsCalibrated) {
   const cv::Mat image(4, 4, CV_8U, cv::Scalar(9));
   EXPECT_NEAR(size_of(dicom("0.0082\\0.0082", image, "0.01\\0.01")), 8.2, 1e-9);
   EXPECT_NEAR(size_of(dicom("", image, "0.01\\0.01")), 10.0, 1e-9);
+}
+
+// Without types, as the oldest syntax is; and inside a sequence whose length is not told.
+TEST_F(PixelSizeTag, OfADicomSliceIsFoundInEverySyntax) {
+  const auto n = [](std::uint32_t value, int size) { return number(value, size, Order::little); };
+  const std::string start = std::string(128, '\0') + "DICM";
+  const std::string spacing = "0.0082\\0.0082 ";
+  const auto untyped = [&](std::uint32_t group, std::uint32_t element, const std::string& data) {
+    return n(group, 2) + n(element, 2) + n(static_cast<std::uint32_t>(data.size()), 4) + data;
+  };
+  EXPECT_NEAR(size_of(start + dicom_element(2, 0x10, "UI", "1.2.840.10008.1.2") +
+                      untyped(8, 0x70, "maker ") + untyped(0x28, 0x30, spacing)),
+              8.2, 1e-9);
+  const std::string endless = n(0xFFFFFFFFU, 4);
+  EXPECT_NEAR(size_of(start + dicom_element(2, 0x10, "UI", "1.2.840.10008.1.2.1") + n(0x5200, 2) +
+                      n(0x9229, 2) + "SQ" + n(0, 2) + endless + n(0xFFFE, 2) + n(0xE000, 2) +
+                      endless + dicom_element(0x28, 0x30, "DS", spacing)),
+              8.2, 1e-9);
 }
 
 // What is given counts; what the file says is compared with it.

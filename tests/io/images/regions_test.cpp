@@ -173,6 +173,20 @@ TEST(Bone, OfABarHasItsLargestPoreCounted) {
   EXPECT_THAT(measured.warnings, Contains(HasSubstr("marrow cavity")));
 }
 
+// Above a tenth of what the outline encloses, the marrow is none of the bone.
+TEST(Bone, HasNoMarrowBelowATenthOfIt) {
+  for (const bool marrow : {false, true}) {
+    cv::Mat image(600, 700, CV_8U, cv::Scalar(51));
+    cv::circle(image, {350, 300}, 270, 204, cv::FILLED);
+    const double whole = cv::countNonZero(image == 204);
+    cv::circle(image, {350, 300}, marrow ? 90 : 80, 51, cv::FILLED);  // 11.1 and 8.8 %
+    const double solid = cv::countNonZero(image == 204);
+    const auto measured = found_in(image);
+    EXPECT_NEAR(measured.porosity, marrow ? 0.0 : 1.0 - solid / whole, 1e-3);
+    EXPECT_NEAR(area_in_pixels(measured), marrow ? solid : whole, 2e-3 * whole);
+  }
+}
+
 // A section cut by three sides of the image: bone has most of the frame, and the pores.
 TEST(Bone, OnMostOfTheFrameIsToldByItsPores) {
   for (const bool negative : {false, true})

@@ -54,14 +54,22 @@ TEST(SectionDoubt, IsOfThePorosityAndNotOfItsScale) {
   EXPECT_FALSE(measure(filled, "said.png", {.pixel_size = pixel, .fills_image = true}).doubtful);
 }
 
+// Of three pixels, that is; four make a pore.
 TEST(SectionDoubt, LeavesOutSpecksAndSaysSo) {
-  auto drawn = test::draw({.largest_radius = 8.0});
-  for (int i = 0; i < 7; ++i) drawn.image(cv::Rect(250 + 40 * i, 300, 1, 1)).setTo(51);
-  const auto without = measure(test::draw({.largest_radius = 8.0}), "no_specks.png");
-  const auto measured = measure(drawn, "specks.png");
-  EXPECT_LE(measured.pore_count, without.pore_count);
-  EXPECT_NEAR(measured.porosity, without.porosity, 1e-4);
-  EXPECT_TRUE(warns(measured, "below 4 pixels were left out"));
+  auto drawn = test::draw({.porosity = 0.0});
+  cv::circle(drawn.image, {350, 300}, 12, 51, cv::FILLED);
+  const auto without = measure(drawn, "no_specks.png");
+  EXPECT_EQ(without.pore_count, 1);
+  for (int i = 0; i < 7; ++i) drawn.image(cv::Rect(200 + 40 * i, 200, 3, 1)).setTo(51);
+  const auto specks = measure(drawn, "specks.png");
+  EXPECT_EQ(specks.pore_count, 1);
+  EXPECT_EQ(specks.speck_count, 7);
+  EXPECT_EQ(specks.porosity, without.porosity);
+  EXPECT_TRUE(warns(specks, "7 objects below 4 pixels were left out"));
+  drawn.image(cv::Rect(500, 400, 2, 2)).setTo(51);
+  const auto pore = measure(drawn, "pore.png");
+  EXPECT_EQ(pore.pore_count, 2);
+  EXPECT_NEAR(pore.pore_area - without.pore_area, 4.0 * pixel * pixel, 1e-6 * pixel * pixel);
 }
 
 TEST(SectionDoubt, WithoutAPixelSizeHasPorosityButNoWindows) {
@@ -88,12 +96,14 @@ TEST(SectionDoubt, WarnsOfPoresThatNoCanalHas) {
   }
 }
 
+// Above a twentieth of the bone.
 TEST(SectionDoubt, WarnsOfAPoreThatMayBeMarrow) {
-  auto drawn = test::draw({.porosity = 0.0});
-  cv::circle(drawn.image, {350, 300}, 70, 51, cv::FILLED);
-  const auto measured = measure(drawn, "big_pore.png");
-  EXPECT_NEAR(measured.porosity, std::numbers::pi * 4900.0 / cv::sum(drawn.bone)[0], 2e-3);
-  EXPECT_TRUE(warns(measured, "marrow cavity"));
+  for (const bool large : {false, true}) {
+    auto drawn = test::draw({.porosity = 0.0});
+    const int radius = large ? 63 : 58;  // 5.5 and 4.6 %
+    cv::circle(drawn.image, {350, 300}, radius, 51, cv::FILLED);
+    EXPECT_EQ(warns(measure(drawn, "big_pore.png"), "marrow cavity"), large);
+  }
 }
 
 // In the straight side of a bar they are notches, as pores are that the saw went through.

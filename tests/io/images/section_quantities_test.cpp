@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "io/images/measure_section.hpp"
+#include "io/images/windows.hpp"
 #include "io/input_error.hpp"
 #include "tests/support/sections.hpp"
 
@@ -36,16 +37,86 @@ TEST(SectionQuantities, NamesItsAreasSizesAndZones) {
   EXPECT_NEAR(quarters, measured.bone_area, 0.01 * measured.bone_area);
 }
 
-// Pores in the left half alone, none near the outer surface.
+// Around a marrow cavity of radius 132 px a third of the bone's depth are 46 px.
 TEST(SectionQuantities, FindsThePoresOfEachZone) {
-  auto drawn = test::draw({.outline = test::Outline::ring, .porosity = 0.0, .blur = 0.8});
-  for (const int y : {240, 300, 360}) cv::circle(drawn.image, {150, y}, 12, 51, cv::FILLED);
-  const auto measured = measure(drawn, "zoned.png");
-  const double pores = 3.0 * std::numbers::pi * 144.0 * pixel * pixel;
-  for (const calib::Zone& zone : measured.zones) {
-    const bool holds_all = zone.name == "left" || zone.name == "middle third";
-    EXPECT_NEAR(zone.porosity * zone.bone_area, holds_all ? pores : 0.0, 0.06 * pores) << zone.name;
+  struct Place {
+    cv::Point middle;
+    const char *quarter, *third;
+  };
+  for (const auto& [middle, quarter, third] :
+       {Place{{150, 300}, "left", "middle third"}, Place{{505, 300}, "right", "inner third"},
+        Place{{350, 145}, "top", "inner third"}, Place{{350, 547}, "bottom", "outer third"}}) {
+    auto drawn = test::draw({.outline = test::Outline::ring, .porosity = 0.0, .blur = 0.8});
+    cv::circle(drawn.image, middle, 12, 51, cv::FILLED);
+    const auto measured = measure(drawn, "zoned.png");
+    const double pore = std::numbers::pi * 144.0 * pixel * pixel;
+    for (const calib::Zone& zone : measured.zones) {
+      const bool holds_it = zone.name == quarter || zone.name == third;
+      EXPECT_NEAR(zone.porosity * zone.bone_area, holds_it ? pore : 0.0, 0.12 * pore)
+          << zone.name << middle;
+    }
   }
+}
+
+// Five pores and three, all as they were drawn: what is said of them is known to the pixel.
+TEST(SectionQuantities, TellTheSizesOfPores) {
+  auto drawn = test::draw({.porosity = 0.0});
+  cv::Mat small = cv::Mat::zeros(drawn.image.size(), CV_8U), large = small.clone();
+  for (int i = 0; i < 5; ++i) cv::circle(small, {150 + 80 * i, 200}, 8, 255, cv::FILLED);
+  for (int i = 0; i < 3; ++i) cv::circle(large, {150 + 80 * i, 400}, 16, 255, cv::FILLED);
+  drawn.image.setTo(51, small | large);
+  const double a = cv::countNonZero(small) / 5.0, b = cv::countNonZero(large) / 3.0;
+  const double da = 2.0 * std::sqrt(a / std::numbers::pi), db = da * std::sqrt(b / a);
+  // Of a share 3/8 of the larger: the SD is √(15)/8 of the difference.
+  const double sd = std::sqrt(15.0) / 8.0;
+  // Radii of 8 and 16 px: at 0.7 µm lacunae and canals, at 7 µm canals and cavities.
+  for (const double side : {0.7e-6, 7e-6}) {
+    const auto measured = measure(drawn, "sizes.png", {.pixel_size = side});
+    const double area = side * side;
+    EXPECT_NEAR(measured.mean_pore_area, (5.0 * a + 3.0 * b) / 8.0 * area, 1e-6 * area);
+    EXPECT_NEAR(measured.pore_area_sd, sd * (b - a) * area, 1e-6 * area);
+    EXPECT_NEAR(measured.mean_pore_diameter, (5.0 * da + 3.0 * db) / 8.0 * side, 1e-6 * side);
+    EXPECT_NEAR(measured.pore_diameter_sd, sd * (db - da) * side, 1e-6 * side);
+    EXPECT_NEAR(measured.pore_area_ratio, (5.0 * a * a + 3.0 * b * b) / (5.0 * a + 3.0 * b) * area,
+                1e-6 * area);
+    ASSERT_EQ(measured.classes.size(), 3U);
+    const std::size_t first = side < 1e-6 ? 0 : 1;
+    EXPECT_EQ(measured.classes[first].count, 5);
+    EXPECT_NEAR(measured.classes[first].area, 5.0 * a * area, 1e-6 * area);
+    EXPECT_EQ(measured.classes[first + 1].count, 3);
+    EXPECT_EQ(measured.classes[0].name, "lacunae");
+    EXPECT_EQ(measured.classes[2].name, "cavities");
+  }
+}
+
+// A slit of 9 pixels: 85 are less than ten times as long, 95 more.
+TEST(SectionQuantities, TellCracksByTenTimesTheirWidth) {
+  for (const int length : {85, 95}) {
+    auto drawn = test::draw({.porosity = 0.0});
+    drawn.image(cv::Rect(200, 300, length, 9)).setTo(51);
+    const auto measured = measure(drawn, "slit.png");
+    EXPECT_EQ(measured.crack_count, length > 90 ? 1 : 0);
+    EXPECT_NEAR(measured.crack_area + measured.pore_area, 9.0 * length * pixel * pixel,
+                1e-6 * pixel * pixel);
+  }
+}
+
+// (I10) Bright fringes let the two ways to measure the pores differ.
+TEST(SectionQuantities, HaveAnErrorOfBlocksAndOfTwoWaysToMeasurePores) {
+  auto drawn = test::draw({.porosity = 0.0});
+  const cv::Mat bone = drawn.image > 128;
+  cv::Mat pores = cv::Mat::zeros(bone.size(), CV_8U);
+  for (int i = 0; i < 24; ++i) {
+    const cv::Point middle(120 + 80 * (i % 6), 130 + 90 * (i / 6));
+    cv::circle(drawn.image, middle, 19, 250, cv::FILLED);
+    cv::circle(pores, middle, 16, 255, cv::FILLED);
+  }
+  drawn.image.setTo(51, pores);
+  const auto measured = measure(drawn, "fringes.png");
+  const double half = 0.5 * std::abs(measured.porosity - measured.porosity_by_grey);
+  const double blocks = images::porosity_standard_error(bone, pores);
+  EXPECT_GT(half, 0.4 * blocks);
+  EXPECT_NEAR(measured.porosity_standard_error, std::hypot(blocks, half), 0.01 * blocks);
 }
 
 TEST(SectionQuantities, LeavesOutTheRimOfTheBone) {

@@ -106,20 +106,7 @@ TEST(CalibrationJson, HoldsTheKeysOfTheContract) {
                                                 {"outcome", "warn"},
                                                 {"text", "12 of 4128 simulations failed"},
                                                 {"done", true}}));
-  const nlohmann::json& parameter = json["parameters"][2];
-  for (const char* key : {"name", "value", "unit", "standard_error", "interval_95", "bounds",
-                          "at_bound", "identifiable", "left_out_because"})
-    EXPECT_TRUE(parameter.contains(key)) << key;
-  EXPECT_TRUE(parameter["interval_95"][0].is_null());
-  const nlohmann::json& specimen = json["specimens"][0];
-  for (const char* key : {"id", "use", "modulus_Pa", "strength_Pa", "failure_strain", "porosity",
-                          "scatter", "measured", "simulated", "residual"})
-    EXPECT_TRUE(specimen.contains(key)) << key;
-  EXPECT_EQ(specimen["strength_Pa"], fit.result.specimens[0].measured.strength);
-  EXPECT_EQ(specimen["simulated"]["strength_Pa"]["mean"], fit.result.specimens[0].strength.mean);
-  EXPECT_EQ(specimen["residual"]["failure_strain"], 0.31);
-  EXPECT_EQ(json["evaluations"], 4128);
-  EXPECT_EQ(json["failed_simulations"], 12);
+  EXPECT_TRUE(json["parameters"][2]["interval_95"][0].is_null());
   EXPECT_EQ(json["wall_s"], 4.5);
   EXPECT_EQ(json["scene"]["material"]["young_GPa"], 13.1234);
   EXPECT_EQ(json["scene"]["joints"]["reinforced_boundary"], true);  // the default at 0°, filled in
@@ -210,24 +197,6 @@ TEST(ImportJson, TellsAZeroFromWhatIsNotKnown) {
   EXPECT_TRUE(json["strain_rate_per_s"].is_null());
   reduction.problems = {"no modulus"};
   EXPECT_TRUE(import_json(TestFile{}, reduction)["modulus_standard_error_Pa"].is_null());
-}
-
-TEST(PorosityJson, HoldsTheKeysOfTheContract) {
-  const nlohmann::json json = porosity_json(test::section_sample("s.png"), 0.4);
-  const nlohmann::json contract{{"file", "s.png"},
-                                {"pixel_size_um", 5.0},
-                                {"method", "half maximum"},
-                                {"threshold", 0.49},
-                                {"porosity", 0.048},
-                                {"porosity_standard_error", 0.0021},
-                                {"pore_count", 213},
-                                {"pore_area_um2", 310000.0},
-                                {"bone_area_um2", 6500000.0},
-                                {"window_sd", 0.11},
-                                {"scatter", 0.4},
-                                {"warnings", nlohmann::json::array()}};
-  for (const auto& [key, value] : contract.items()) EXPECT_EQ(json[key], value) << key;
-  EXPECT_EQ(json["missing_joints"], 0.0);
 }
 
 // (K5) Of pores that take joints away no fit would use a scatter.

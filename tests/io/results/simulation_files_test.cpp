@@ -98,6 +98,13 @@ TEST(SimulationJson, HoldsTheKeysOfTheContract) {
   simulation.first_break_strain = test::nan;
   simulation.joints.front() = {.threshold = {0.0, 0.0}, .broken = true};
   simulation.worst_penetration = std::numeric_limits<double>::infinity();
+  simulation.step_error =
+      sim::StepError{.failure_strain = 1e-4, .strength = 2e-4, .over_a_wave = 3e-4};
+  simulation.strength_over_a_wave = 37e6;
+  simulation.ringing = 0.25;
+  simulation.rounding_error = 4e-12;
+  simulation.numerical_loss = 5e-3;
+  simulation.energy_gain = 6e-3;
   calib::Provenance provenance;
   provenance.havers = "0.1.0";
   provenance.compiler = "GNU 12.2.0";
@@ -125,10 +132,15 @@ TEST(SimulationJson, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(json["wall_s"], 1.5);
   EXPECT_EQ(json["regime"], "dynamic");
   EXPECT_EQ(json["step_s"], 2e-8);
-  EXPECT_EQ(json["step_error"], 0.0);
-  EXPECT_EQ(json["step_error_of_strength"], 0.0);
-  EXPECT_EQ(json["step_error_over_a_wave"], 0.0);
-  EXPECT_EQ(json["strength_without_ringing_Pa"], json["strength_Pa"]);
+  EXPECT_EQ(json["step_error"], 1e-4);
+  EXPECT_EQ(json["step_error_of_strength"], 2e-4);
+  EXPECT_EQ(json["step_error_over_a_wave"], 3e-4);
+  EXPECT_EQ(json["strength_over_a_wave_Pa"], 37e6);
+  EXPECT_EQ(json["strength_without_ringing_Pa"], 38.9e6 / 1.25);
+  EXPECT_EQ(json["rounding_error"], 4e-12);
+  EXPECT_EQ(json["numerical_loss"], 5e-3);
+  EXPECT_EQ(json["energy_gain"], 6e-3);
+  EXPECT_EQ(json["iterations"], 5127);
   EXPECT_EQ(json["left_out"][0]["what"], "snapshots");
   EXPECT_EQ(json["left_out"][0]["why"], "none were asked for");
   EXPECT_EQ(json["scene"]["assembly"]["layers"], 4);
@@ -139,6 +151,18 @@ TEST(SimulationJson, HoldsTheKeysOfTheContract) {
   EXPECT_EQ(json["provenance"]["command"], "havers simulate s.toml -o r");
   EXPECT_EQ(json["provenance"]["inputs"]["s.toml"], "abcd");
   EXPECT_EQ(json["provenance"]["cpu_s"], 2.5);
+}
+
+TEST(SimulationJson, HasNoNumberForWhatIsNotKnown) {
+  const sim::Scene scene = small_scene();
+  sim::Simulation simulation =
+      test::simulation_sample(build_assembly(scene.assembly, scene.loading.lateral));
+  simulation.step_error.reset();  // a step was given
+  simulation.status = sim::SimulationStatus::strain_limit;
+  const nlohmann::json json = simulation_json({.scene = scene}, simulation, {});
+  for (const char* key : {"step_error", "step_error_of_strength", "step_error_over_a_wave",
+                          "strength_over_a_wave_Pa", "failure_strain"})
+    EXPECT_TRUE(json.at(key).is_null()) << key;
 }
 
 TEST(Thresholds, MustNameEveryJointOnce) {

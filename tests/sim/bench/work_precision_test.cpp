@@ -6,27 +6,18 @@
 #include <cmath>
 
 #include "sim/simulate.hpp"
+#include "tests/sim/bench/tiny_scene.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
 
-Scene tiny(Regime regime) {
-  Scene scene = test::small_scene(0.0, 4, 3);
-  scene.solver.regime = regime;
-  if (regime == Regime::quasi_static) return scene;
-  scene.loading.strain_rate = 1e5;  // breaks after 20 steps that Gauss-Seidel is quick with
-  scene.solver.step = 2e-9;
-  scene.solver.step_accuracy = 0.1;  // chosen steps stay long, and with them the reference's
-  return scene;
-}
-
 TEST(WorkPrecision, FindsTheReferenceWithoutErrorAndTheDirectSolverExactBeforeTheFirstBreak) {
   HAVERS_SLOW;
-  const WorkPrecision study = compare_settings(tiny(Regime::dynamic), {.seeds = 2});
+  const WorkPrecision study = compare_settings(test::tiny(Regime::dynamic), {.seeds = 2});
   EXPECT_TRUE(study.complete);
-  EXPECT_EQ(study.rows.size(), bench_settings(tiny(Regime::dynamic)).size() + 2);
+  EXPECT_EQ(study.rows.size(), bench_settings(test::tiny(Regime::dynamic)).size() + 2);
   const BenchRow& reference = study.rows.front();
   EXPECT_LT(reference.errors.bonded_forces.high, 1e-9);  // against the closed form
   EXPECT_TRUE(study.closed_form);
@@ -49,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Regime, BenchOmissions,
 
 TEST_P(BenchOmissions, ChangeNothingAndHaveACost) {
   HAVERS_SLOW;
-  const WorkPrecision study = compare_settings(tiny(GetParam()), {.seeds = 2});
+  const WorkPrecision study = compare_settings(test::tiny(GetParam()), {.seeds = 2});
   ASSERT_TRUE(study.omissions);
   EXPECT_EQ(study.omissions->setting.regime, GetParam());
   EXPECT_TRUE(study.omissions->setting.leave_out);
@@ -70,9 +61,9 @@ TEST(WorkPrecision, TakesTheCostOfOmissionsFromRunsNotFromSteps) {
   EXPECT_DOUBLE_EQ(study.omissions->cpu_ratio, whole.cpu.median / row.cpu.median);
 }
 
-TEST(WorkPrecision, NamesTheCheapestSettingThatReachesATarget) {
+TEST(WorkPrecision, NamesSettingsThatReachTheirTargetsForEverySeed) {
   HAVERS_SLOW;
-  const WorkPrecision study = compare_settings(tiny(Regime::quasi_static), {.seeds = 3});
+  const WorkPrecision study = compare_settings(test::tiny(Regime::quasi_static), {.seeds = 3});
   ASSERT_EQ(study.cheapest.size(), 15U);
   for (const CheapestSetting& cheapest : study.cheapest) {
     if (!cheapest.row) continue;
@@ -102,7 +93,7 @@ TEST(WorkPrecision, NamesTheCheapestSettingThatReachesATarget) {
 
 TEST(WorkPrecision, TakesForItsReferenceTheFinestRunAndLeapsOverUniformMotion) {
   HAVERS_SLOW;
-  Scene scene = tiny(Regime::dynamic);
+  Scene scene = test::tiny(Regime::dynamic);
   scene.solver.step.reset();
   scene.solver.step_accuracy = 1e-2;
   const double chosen = simulate(scene).step;
@@ -123,7 +114,7 @@ TEST(WorkPrecision, TakesForItsReferenceTheFinestRunAndLeapsOverUniformMotion) {
 
 TEST(WorkPrecision, TellsWavesThatRingFromTheStrength) {
   HAVERS_SLOW;
-  Scene scene = tiny(Regime::dynamic);
+  Scene scene = test::tiny(Regime::dynamic);
   scene.loading.strain_rate = 1000.0;
   scene.solver.step = 2e-8;
   const WorkPrecision study = compare_settings(scene, {.seeds = 1});
@@ -140,15 +131,40 @@ TEST(WorkPrecision, TellsWavesThatRingFromTheStrength) {
     }
 }
 
+// Of the difference of two curves up to the reference's failure, over its strength. Stresses are
+// linear from row to row.
+double root_mean_square(const Simulation& run, const Simulation& reference) {
+  const auto stress = [](const Simulation& of, double strain) {
+    std::size_t i = 1;
+    while (i + 1 < of.curve.size() && of.curve[i].strain < strain) ++i;
+    const CurvePoint &before = of.curve[i - 1], &after = of.curve[i];
+    const double part = (strain - before.strain) / (after.strain - before.strain);
+    return before.stress_right + part * (after.stress_right - before.stress_right);
+  };
+  constexpr int points = 2000;
+  double squares = 0.0;
+  for (int i = 0; i < points; ++i) {
+    const double strain = reference.failure_strain * (i + 0.5) / points;
+    squares += std::pow(stress(run, strain) - stress(reference, strain), 2);
+  }
+  return std::sqrt(squares / points) / reference.strength;
+}
+
 // A run of twice its step tells what the reference's own error is about.
 TEST(WorkPrecision, NamesNothingForWhatItsReferenceIsNotKnownTo) {
   HAVERS_SLOW;
-  const WorkPrecision study = compare_settings(tiny(Regime::dynamic), {.seeds = 1});
+  const WorkPrecision study = compare_settings(test::tiny(Regime::dynamic), {.seeds = 1});
   const auto twice = std::ranges::find_if(study.rows, [&](const BenchRow& row) {
     return row.setting.step && *row.setting.step == 2.0 * *study.reference.step;
   });
   ASSERT_NE(twice, study.rows.end());
   EXPECT_EQ(study.reference_errors.strength.high, twice->errors.strength.high);
+  const Scene scene = test::tiny(Regime::dynamic);
+  EXPECT_NEAR(
+      twice->errors.curve.median / root_mean_square(simulate(with_setting(twice->setting, scene)),
+                                                    simulate(with_setting(study.reference, scene))),
+      1.0, 0.02);
+  EXPECT_EQ(study.rows.front().errors.curve.high, 0.0);
   EXPECT_GT(study.reference_errors.strength.high, 1e-4);
   for (const CheapestSetting& cheapest : study.cheapest)
     if (cheapest.reference_error > cheapest.target) {
@@ -159,7 +175,7 @@ TEST(WorkPrecision, NamesNothingForWhatItsReferenceIsNotKnownTo) {
 // A specimen that missing joints sever is answered in the limit, without steps.
 TEST(WorkPrecision, TakesNoStepFromASpecimenThatIsSevered) {
   HAVERS_SLOW;
-  Scene scene = tiny(Regime::dynamic);
+  Scene scene = test::tiny(Regime::dynamic);
   scene.solver.step.reset();
   scene.joints.missing = 0.55;
   while (simulate(scene).status != SimulationStatus::severed) ++scene.joints.seed;
@@ -170,7 +186,7 @@ TEST(WorkPrecision, TakesNoStepFromASpecimenThatIsSevered) {
 TEST(WorkPrecision, EndsWhenAskedTo) {
   int asked = 0;
   const WorkPrecision study =
-      compare_settings(tiny(Regime::dynamic), {}, [&](const std::string& next) {
+      compare_settings(test::tiny(Regime::dynamic), {}, [&](const std::string& next) {
         EXPECT_NE(next, "");
         return ++asked < 3;
       });
@@ -182,7 +198,7 @@ TEST(WorkPrecision, NamesNothingBeforeItKnowsItsReferencesError) {
   HAVERS_SLOW;
   bool reference_has_run = false;
   const WorkPrecision study =
-      compare_settings(tiny(Regime::dynamic), {.seeds = 1}, [&](const std::string& next) {
+      compare_settings(test::tiny(Regime::dynamic), {.seeds = 1}, [&](const std::string& next) {
         const bool whole = next.find("nothing left out") != std::string::npos;
         reference_has_run = reference_has_run || whole;
         return whole || !reference_has_run;  // before that of twice its step
@@ -196,35 +212,9 @@ TEST(WorkPrecision, NamesNothingBeforeItKnowsItsReferencesError) {
     }
 }
 
-TEST(WorkPrecision, SaysUpToWhereOmissionsAreComparedWithRunsThatWereStopped) {
-  EXPECT_EQ(explain(Omissions{{.step = 2e-8}, 1.3e-13, 5.2, 0.00214}),
-            "With nothing left out runs were stopped at the time limit. Until a strain of 0.214 % "
-            "joint forces differ by 1.3e-13 at most, and a step takes 5.2 times the CPU time: "
-            "active set, h = 20 ns, 8 triangles a fibre.");
-}
-
-TEST(WorkPrecision, NamesTheNearestWhereNothingReachesTheTarget) {
-  HAVERS_SLOW;
-  WorkPrecision study = compare_settings(tiny(Regime::quasi_static), {.seeds = 1});
-  for (CheapestSetting& cheapest : study.cheapest) cheapest.row.reset();
-  EXPECT_FALSE(cheapest_for_failure(study));
-  for (BenchRow& row : study.rows) row.errors.failure_strain = {0.001, 0.001, 0.02, row.runs};
-  study.rows[2].errors.failure_strain.high = 0.0042;               // the worst seed counts
-  study.rows[3].errors.failure_strain = {0.001, 0.001, 0.001, 0};  // and so does one without
-  EXPECT_TRUE(
-      summary(study).starts_with("On the reference's mesh no other setting gives the failure "
-                                 "strain to 0.1 % for every seed; the nearest comes to 0.42 %: " +
-                                 to_string(study.rows[2].setting)))
-      << summary(study);
-  study.reference_errors.failure_strain.high = 0.0096;
-  EXPECT_EQ(summary(study),
-            "The reference's own failure strain may err by 0.96 %, which a step twice as long "
-            "changes it by: which setting gives it to 0.1 % cannot be told.");
-}
-
 TEST(WorkPrecision, ComparesForcesBeforeAnySeedBreaks) {
   HAVERS_SLOW;
-  Scene scene = tiny(Regime::dynamic);
+  Scene scene = test::tiny(Regime::dynamic);
   scene.joints.scatter = 1.9;
   const auto first_break = [&](std::uint64_t seed) {
     Scene seeded = scene;
@@ -243,7 +233,7 @@ TEST(WorkPrecision, ComparesForcesBeforeAnySeedBreaks) {
 // From rest waves run before the first break.
 TEST(WorkPrecision, MeasuresForcesAgainstTheReferenceWhereTheyHaveNoClosedForm) {
   HAVERS_SLOW;
-  Scene scene = tiny(Regime::dynamic);
+  Scene scene = test::tiny(Regime::dynamic);
   scene.loading.start = Start::rest;
   const WorkPrecision study = compare_settings(scene, {.seeds = 1});
   EXPECT_TRUE(study.complete);
@@ -254,7 +244,7 @@ TEST(WorkPrecision, MeasuresForcesAgainstTheReferenceWhereTheyHaveNoClosedForm) 
 TEST(WorkPrecision, StopsAtTheTimeLimitAllButTheReferenceAndLeavesTheOtherSeeds) {
   HAVERS_SLOW;
   const WorkPrecision stopped =
-      compare_settings(tiny(Regime::dynamic), {.seeds = 2, .time_limit = 0.0});
+      compare_settings(test::tiny(Regime::dynamic), {.seeds = 2, .time_limit = 0.0});
   EXPECT_TRUE(std::isnan(stopped.rows.front().stopped_at.median)) << "the reference has no limit";
   EXPECT_EQ(stopped.rows.front().runs, 2);
   EXPECT_EQ(stopped.reference.step, 5e-10) << "a quarter of the longest, as none ended in time";
@@ -263,42 +253,6 @@ TEST(WorkPrecision, StopsAtTheTimeLimitAllButTheReferenceAndLeavesTheOtherSeeds)
   ASSERT_NE(row, stopped.rows.end());
   EXPECT_EQ(row->runs, 1);
   EXPECT_EQ(row->stopped_at.median, row->reached.median);
-}
-
-TEST(BenchSetting, HasStepsWhereNothingBreaks) {
-  Scene scene = tiny(Regime::quasi_static);
-  scene.joints.head_tail = scene.joints.flank = 1e18;
-  EXPECT_LE(base_step(scene) * scene.loading.strain_rate, 1e-2 * scene.loading.max_strain);
-}
-
-TEST(BenchSetting, RefinesTheMeshAtTheLongestAndTheShortestStep) {
-  const Scene scene = tiny(Regime::dynamic);
-  double longest = 0.0, shortest = base_step(scene);
-  std::vector<double> with_finer_mesh;
-  for (const BenchSetting& setting : bench_settings(scene)) {
-    if (setting.refinement > 1) {
-      ASSERT_TRUE(setting.step);
-      with_finer_mesh.push_back(*setting.step);
-    } else if (setting.step) {
-      longest = std::max(longest, *setting.step);
-      shortest = std::min(shortest, *setting.step);
-    }
-  }
-  EXPECT_EQ(with_finer_mesh, (std::vector{longest, shortest, longest, shortest}));
-}
-
-TEST(BenchSetting, IsSaidInWords) {
-  EXPECT_EQ(to_string({.step = 2e-8}), "active set, h = 20 ns, 8 triangles a fibre");
-  EXPECT_EQ(to_string({.contact = ContactMethod::gauss_seidel, .tolerance = 1e-6, .step = 5e-9}),
-            "Gauss-Seidel 1e-06, h = 5 ns, 8 triangles a fibre");
-  EXPECT_EQ(to_string({.regime = Regime::quasi_static, .refinement = 4, .leave_out = false}),
-            "quasi-static, nothing left out, 128 triangles a fibre");
-  EXPECT_EQ(to_string({.step = 2e-8, .leave_out = false}),
-            "active set, h = 20 ns, nothing left out, 8 triangles a fibre");
-  EXPECT_EQ(to_string({.step = 4.577e-3}), "active set, h = 4.58 ms, 8 triangles a fibre");
-  EXPECT_EQ(to_string({.step = 2e-12, .leap = true}),
-            "active set, h = 2 ps from the first break on, 8 triangles a fibre");
-  EXPECT_EQ(to_string({.step = 3.5e-6}), "active set, h = 3.5 µs, 8 triangles a fibre");
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 // Joints that pores have taken away (M13): who is missing, and what the wall does without them.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <vector>
 
 #include "sim/joint/thresholds.hpp"
 #include "sim/simulation.hpp"
@@ -100,12 +103,38 @@ TEST_P(WithMissingJoints, TheyAreBrokenFromTheStartButAreNoBreaks) {
     ++missing;
     EXPECT_TRUE(joint.broken);
     EXPECT_EQ(joint.broken_at_strain, 0.0);
-    EXPECT_LE(std::abs(joint.reaction_tangent), 0.31 * std::max(0.0, joint.reaction_normal) + 1e-6);
   }
   EXPECT_GT(missing, 0);
   EXPECT_EQ(simulation.broken_joints, broken - missing);
   EXPECT_EQ(simulation.curve.front().broken_joints, 0);
   EXPECT_GT(simulation.first_break_strain, 0.0);
+}
+
+// Some that are pressed together slide, and none bears more than that.
+TEST_P(WithMissingJoints, TheyRubByTheFrictionOfTheScene) {
+  for (const double friction : {0.1, 0.6}) {
+    Scene scene = scene_of(0.15);
+    scene.assembly.layers = scene.assembly.fibres = 4;
+    scene.loading.strain_rate = 1000.0;
+    if (scene.solver.step) scene.solver.step = 2e-8;
+    scene.joints.friction = friction;
+    int sliding = 0;
+    double largest = 0.0, most = 0.0;
+    simulate(scene, [&](const Progress& progress) {
+      const std::vector<JointOutcome> joints = progress.joints();
+      for (const JointOutcome& joint : joints)
+        largest = std::max(largest, std::abs(joint.reaction_normal));
+      for (const JointOutcome& joint : joints) {
+        // Of next to no pressure the solver's tolerance is a large part.
+        if (!is_missing(joint.threshold) || joint.reaction_normal < 1e-3 * largest) continue;
+        const double part = std::abs(joint.reaction_tangent) / joint.reaction_normal;
+        most = std::max(most, part);
+        sliding += std::abs(part - friction) < 1e-6 ? 1 : 0;
+      }
+    });
+    EXPECT_GT(sliding, 0) << friction;
+    EXPECT_LT(most, friction + 1e-6);
+  }
 }
 
 TEST_P(WithMissingJoints, TheirThresholdsReadBackGiveTheSameCurve) {
@@ -116,8 +145,14 @@ TEST_P(WithMissingJoints, TheirThresholdsReadBackGiveTheSameCurve) {
   scene.joints.missing = 0.0;
   ASSERT_TRUE(scene.problems().empty());
   const Simulation given = simulate(scene);
-  EXPECT_EQ(given.strength, drawn.strength);
-  EXPECT_EQ(given.failure_strain, drawn.failure_strain);
+  ASSERT_EQ(given.curve.size(), drawn.curve.size());
+  EXPECT_GT(given.curve.size(), 3U);
+  for (std::size_t i = 0; i < given.curve.size(); ++i) {
+    EXPECT_EQ(given.curve[i].strain, drawn.curve[i].strain) << i;
+    EXPECT_EQ(given.curve[i].stress_right, drawn.curve[i].stress_right) << i;
+    EXPECT_EQ(given.curve[i].stress_left, drawn.curve[i].stress_left) << i;
+    EXPECT_EQ(given.curve[i].broken_joints, drawn.curve[i].broken_joints) << i;
+  }
 }
 
 // Slow loading and none: one modulus, and nearly one strength.
@@ -184,12 +219,18 @@ TEST(MissingJoints, SeverAChain) {
 // Of two layers of two fibres there are left the lower left fibre, the upper middle one, hung on it
 // at the middle of its lower side, and the upper right half, which ends that one half a height
 // further up: what is pulled turns the middle one and meets no resistance.
+// Where the material hardly changes its volume, rounding of that is large.
 TEST(MissingJoints, MayLeaveHingesThatBearNothing) {
-  for (const Regime regime : {Regime::quasi_static, Regime::dynamic}) {
+  for (const auto& [regime, plane, poisson] :
+       {std::tuple{Regime::quasi_static, Plane::stress, 0.33},
+        {Regime::dynamic, Plane::stress, 0.33},
+        {Regime::quasi_static, Plane::strain, 0.4999}}) {
     Scene scene = test::dynamic_scene();
     scene.assembly.layers = scene.assembly.fibres = 2;
     scene.loading.lateral = Lateral::free;
     scene.solver.regime = regime;
+    scene.material.plane = plane;
+    scene.material.poisson = poisson;
     const AssemblyOptions& wall = scene.assembly;
     for (const Joint& joint : build_assembly(wall, scene.loading.lateral).joints) {
       const Eigen::Vector2d at(joint.position.x() / wall.fibre_length,
@@ -209,28 +250,39 @@ TEST(MissingJoints, MayLeaveHingesThatBearNothing) {
 }
 
 // Digits are lost where nothing is left to bear and the material hardly changes its volume: what is
-// left of the force may be less than nothing, and then its energy is too.
-TEST(MissingJoints, LeaveNoTrustInARunOfNegativeEnergy) {
-  Scene scene = test::small_scene(0.0, 1, 2);
-  scene.material.plane = Plane::strain;
-  scene.material.poisson = 0.4999;
-  scene.material.layer_contrast = 0.1;
-  scene.joints.missing = 0.9;
-  scene.loading.lateral = Lateral::free;
-  for (const double length : {20e-6, 50e-6, 100e-6, 150e-6}) {
-    scene.assembly.fibre_length = length;
-    const Simulation simulation = simulate(scene);
-    EXPECT_TRUE(simulation.modulus == 0.0 || !simulation.trusted()) << simulation.modulus;
-  }
-}
-
-TEST(MissingJoints, CannotBeAllOrLessThanNone) {
-  for (const double fraction : {-0.1, 1.0}) {
-    Scene scene = test::small_scene();
-    scene.joints.missing = fraction;
-    ASSERT_EQ(scene.problems().size(), 1U);
-    EXPECT_EQ(scene.problems().front().key, "joints.missing");
-  }
+// left of the force is rounding of either sign. A chain either hangs together or does not.
+TEST(MissingJoints, LeaveNothingOfAChainThatHardlyChangesItsVolume) {
+  int severed = 0, whole = 0;
+  for (const double length : {20e-6, 50e-6, 100e-6, 150e-6})
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+      Scene scene = test::small_scene(0.0, 1, 3);
+      scene.assembly.fibre_length = length;
+      scene.material.plane = Plane::strain;
+      scene.material.poisson = 0.4999;
+      scene.joints.missing = 0.4;
+      scene.joints.seed = seed;
+      scene.loading.lateral = Lateral::free;
+      const Simulation run = simulate(scene);
+      SCOPED_TRACE(testing::Message() << length << ", seed " << seed);
+      EXPECT_EQ(run.why_not_trusted(), "");
+      double weakest = INFINITY;
+      for (const JointOutcome& joint : run.joints)
+        weakest = std::min(weakest, joint.threshold.normal);
+      const double strength = weakest / scene.assembly.fibre_height;
+      if (weakest == 0.0) {
+        EXPECT_EQ(run.status, SimulationStatus::severed);
+        EXPECT_EQ(run.strength, 0.0);
+        EXPECT_EQ(run.modulus, 0.0);
+        ++severed;
+      } else {
+        EXPECT_EQ(run.status, SimulationStatus::broken);
+        EXPECT_NEAR(run.strength, strength, 1e-9 * strength);
+        ++whole;
+      }
+      for (const CurvePoint& row : run.curve) EXPECT_GE(row.elastic, 0.0);
+    }
+  EXPECT_GT(severed, 0);
+  EXPECT_GT(whole, 0);
 }
 
 }  // namespace

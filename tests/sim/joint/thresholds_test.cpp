@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "sim/simulation.hpp"
 #include "tests/support/scenes.hpp"
@@ -59,28 +61,54 @@ TEST(ThresholdFactor, FillsTheWholeIntervalWhenUniform) {
   EXPECT_NEAR(m.greatest, 1.4, 1e-4);
 }
 
-// Weibull of coefficient of variation 1 is the exponential law; its median is ln 2.
-TEST(ThresholdFactor, HasTheTailsOfItsDistribution) {
-  int below_uniform = 0, below_weibull = 0, below_lognormal = 0;
-  const double d = 0.9 * 2.0, cv = d / std::sqrt(12.0), s = std::sqrt(std::log1p(cv * cv));
-  for (std::uint64_t joint = 0; joint < draws; ++joint) {
-    below_uniform += ThresholdFactors(3, d, Distribution::uniform)(joint) < 1.0 - 0.25 * d ? 1 : 0;
-    below_weibull += ThresholdFactors(3, d, Distribution::weibull)(joint) < 0.2 ? 1 : 0;
-    const double one_deviation_below = std::exp(-0.5 * s * s - s);
-    below_lognormal +=
-        ThresholdFactors(3, d, Distribution::lognormal)(joint) < one_deviation_below ? 1 : 0;
+// Philox2x64-10 [SMDS11], written out: the numbers that all draws come from.
+std::uint64_t philox(std::uint64_t joint, std::uint64_t stream, std::uint64_t seed) {
+  constexpr std::uint64_t multiplier = 0xD2B74407B1CE6E93, weyl = 0x9E3779B97F4A7C15;
+  constexpr std::uint64_t low_half = 0xFFFFFFFF;
+  for (int round = 0; round < 10; ++round, seed += weyl) {
+    const std::uint64_t a = multiplier >> 32U, b = multiplier & low_half;
+    const std::uint64_t c = joint >> 32U, d = joint & low_half;
+    const std::uint64_t middle = a * d + ((b * d) >> 32U);
+    const std::uint64_t carried = b * c + (middle & low_half);
+    const std::uint64_t high = a * c + (middle >> 32U) + (carried >> 32U);
+    joint = std::exchange(stream, multiplier * joint);
+    joint ^= high ^ seed;
   }
-  const double error = 4.0 * 0.5 / std::sqrt(draws);
-  EXPECT_NEAR(below_uniform / double(draws), 0.25, error);
-  EXPECT_NEAR(below_lognormal / double(draws), 0.158655, error);
-  // Shape 2.0146 gives cv = 0.5196: P(w < 0.2) = 1 − exp(−(0.2 Γ(1+1/k))^k).
-  double low = 1.0, high = 5.0;
-  for (int i = 0; i < 60; ++i) {
-    const double k = 0.5 * (low + high), g = std::tgamma(1.0 + 1.0 / k);
-    (std::tgamma(1.0 + 2.0 / k) / (g * g) - 1.0 > cv * cv ? low : high) = k;
+  return joint;
+}
+
+// A scene of today is the same specimen tomorrow.
+TEST(ThresholdFactor, IsDrawnFromTheNumbersOfPhilox) {
+  EXPECT_EQ(philox(0, 0, 0), 0xCA00A0459843D731U);  // of its authors' table, as are these
+  EXPECT_EQ(philox(~std::uint64_t{0}, ~std::uint64_t{0}, ~std::uint64_t{0}), 0x65B021D60CD8310FU);
+  EXPECT_EQ(philox(0x243F6A8885A308D3, 0x13198A2E03707344, 0xA4093822299F31D0),
+            0x0A5E742C2997341CU);
+  EXPECT_DOUBLE_EQ(ThresholdFactors(0, 1.0, Distribution::uniform)(0),
+                   0.5 + open_uniform(0xCA00A0459843D731));
+  for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{1}, ~std::uint64_t{0}})
+    for (const std::uint64_t joint : {0U, 1U, 12345U}) {
+      EXPECT_DOUBLE_EQ(ThresholdFactors(seed, 1.0, Distribution::uniform)(joint),
+                       0.5 + open_uniform(philox(joint, 0, seed)));
+      const double missing_above = open_uniform(philox(joint, 1, seed));
+      EXPECT_FALSE(is_drawn_missing(seed, joint, missing_above));
+      EXPECT_TRUE(is_drawn_missing(seed, joint, std::nextafter(missing_above, 1.0)));
+    }
+}
+
+// The uniform number u that it was drawn from is the part of the distribution below it.
+TEST(ThresholdFactor, HasThePartOfItsDistributionBelowItThatWasDrawn) {
+  // Rayleigh's law is Weibull's of shape 2: mean √π/2, coefficient of variation √(4/π − 1).
+  const double cv = std::sqrt(4.0 / std::numbers::pi - 1.0), d = cv * std::sqrt(12.0);
+  const double s = std::sqrt(std::log1p(cv * cv));
+  for (std::uint64_t joint = 0; joint < 100; ++joint) {
+    const double u = open_uniform(philox(joint, 0, 3));
+    EXPECT_NEAR(ThresholdFactors(3, d, Distribution::uniform)(joint), 1.0 + d * (u - 0.5), 1e-14);
+    const double rayleigh = ThresholdFactors(3, d, Distribution::weibull)(joint);
+    EXPECT_NEAR(-std::expm1(-0.25 * std::numbers::pi * rayleigh * rayleigh), u, 1e-11);
+    const double deviations =
+        (std::log(ThresholdFactors(3, d, Distribution::lognormal)(joint)) + 0.5 * s * s) / s;
+    EXPECT_NEAR(0.5 * std::erfc(-deviations / std::numbers::sqrt2), u, 1e-11);
   }
-  EXPECT_NEAR(below_weibull / double(draws),
-              -std::expm1(-std::pow(0.2 * std::tgamma(1.0 + 1.0 / low), low)), error);
 }
 
 TEST(ThresholdFactor, DependsOnSeedAndJointAlone) {
@@ -199,6 +227,17 @@ TEST(HeadTailStrength, OfTwoJointsIsTheMeanOfBoth) {
   const double f1 = scene.joints.head_tail * scene.assembly.fibre_height;
   scene.joints.thresholds = {{.normal = f1, .tangent = f1}, {.normal = 3.0 * f1, .tangent = f1}};
   EXPECT_DOUBLE_EQ(head_tail_strength(scene), 2.0 * scene.joints.head_tail);
+}
+
+// Thresholds of 0 say nothing of σ₁.
+TEST(HeadTailStrength, PassesOverMissingJoints) {
+  Scene scene = test::small_scene(0.0, 1, 4);
+  scene.joints.reinforced_boundary = false;
+  const double f1 = scene.joints.head_tail * scene.assembly.fibre_height;
+  scene.joints.thresholds = {{}, {.normal = 2.0 * f1, .tangent = f1}, {}};
+  EXPECT_DOUBLE_EQ(head_tail_strength(scene), 2.0 * scene.joints.head_tail);
+  scene.joints.thresholds.assign(3, {});
+  EXPECT_EQ(head_tail_strength(scene), scene.joints.head_tail) << "nothing else is known";
 }
 
 }  // namespace

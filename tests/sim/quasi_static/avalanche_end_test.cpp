@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "sim/quasi_static/breaking_sequence.hpp"
 #include "tests/support/scenes.hpp"
@@ -81,9 +83,41 @@ TEST(AvalancheEnd, IsThatOfTheSceneWhereTurnedWallsHaveWideIntervals) {
   scene.joints.scatter = 1.6;
   EXPECT_NEAR(end_fraction_used(scene), 1.0 - 0.005 - 2.2 * 25.0 / 630 - 0.128 - 0.06, 1e-12);
   scene.assembly.orientation = 0.1;
-  EXPECT_EQ(end_fraction_used(scene), scene.loading.end_fraction);
+  EXPECT_EQ(end_fraction_used(scene), 0.3);
   scene.joints.scatter = 1.0;
   EXPECT_NEAR(end_fraction_used(scene), 1.0 - 0.005 - 25.0 / 630 - 0.05, 1e-12);
+  scene.loading.end_fraction = 0.95;
+  EXPECT_EQ(end_fraction_used(scene), 0.95) << "the scene asks for more";
+}
+
+// Any one of these, and the walls that the rule was found with do not tell.
+TEST(AvalancheEnd, IsThatOfTheSceneWhereItIsOtherThanTheRulesWalls) {
+  using Change = void (*)(Scene&);
+  const Scene wall = test::small_scene(0.0, 30, 21);
+  const double of_the_rule = 1.0 - 0.005 - 25.0 / 630 - 0.002;  // d = 0.2
+  EXPECT_NEAR(end_fraction_used(wall), of_the_rule, 1e-12);
+  const std::vector<std::pair<const char*, Change>> changes{
+      {"thresholds",
+       [](Scene& s) {
+         s.joints.thresholds.assign(1, {500.0, 500.0});
+       }},
+      {"head-tail shear", [](Scene& s) { s.joints.head_tail_shear = 50e6; }},
+      {"flank tension", [](Scene& s) { s.joints.flank_tension = 10e6; }},
+      {"layers' contrast", [](Scene& s) { s.material.layer_contrast = 0.99; }},
+      {"Weibull", [](Scene& s) { s.joints.distribution = Distribution::weibull; }},
+      {"log-normal", [](Scene& s) { s.joints.distribution = Distribution::lognormal; }},
+      {"missing joints", [](Scene& s) { s.joints.missing = 0.01; }},
+      {"nothing left out", [](Scene& s) { s.solver.leave_out = false; }}};
+  for (const auto& [what, change] : changes) {
+    Scene other = wall;
+    change(other);
+    EXPECT_EQ(end_fraction_used(other), 0.3) << what;
+  }
+  for (const auto& [r, part] : {std::pair{0.19, 0.3}, {0.21, of_the_rule}}) {
+    Scene other = wall;
+    other.joints.flank = flank_from_ratio(other.assembly, other.joints.head_tail, r);
+    EXPECT_NEAR(end_fraction_used(other), part, 1e-12) << r;
+  }
 }
 
 }  // namespace

@@ -75,6 +75,7 @@ TEST(BreakingSequence, FindsTheFirstBreakOfEveryOrientation) {
   for (const double degrees : test::orientations) {
     Scene scene = test::small_scene(degrees);
     scene.joints.seed = 3;
+    scene.solver.leave_out = false;  // the limit would take that stress for what it has solved for
     const Assembly assembly = build_assembly(scene.assembly, scene.loading.lateral);
     const auto thresholds = draw_thresholds(scene, assembly);
     double first = INFINITY;
@@ -112,6 +113,8 @@ TEST(BreakingSequence, AccountsForTheEnergyOfEachBreak) {
     EXPECT_NEAR(now.point.elastic, stored, 1e-10 * largest) << "event " << ++watched;
   });
   ASSERT_GT(simulation.steps, 5);
+  EXPECT_NEAR(simulation.curve.back().elastic,
+              scene.material.young * intact->energy(simulation.displacements), 1e-10 * largest);
   double work = 0.0, friction = 0.0;
   for (std::size_t i = 1; i + 1 < simulation.curve.size(); i += 2) {
     const CurvePoint &from = simulation.curve[i - 1], &before = simulation.curve[i],

@@ -1,8 +1,9 @@
 // Quasi-static runs at whose end pieces swing by much more than the specimen stretches.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "sim/simulate.hpp"
@@ -27,7 +28,7 @@ TEST(SwingingPieces, KeepTheEnergyBalance) {
 }
 
 // Weak flanks and missing joints: more than a hundred loose joints between layers of which many
-// swing, and an event after the strength whose contact has no answer that is found.
+// swing.
 TEST(SwingingPieces, LeaveARunTrustedWhereLayersComeLoose) {
   HAVERS_SLOW;
   struct Wall {
@@ -85,6 +86,35 @@ TEST(SwingingPieces, AreHeldWhereManyJointsChangeAtOnce) {
   }
 }
 
+// Columns that wedge as soon as they rub: next to half of these walls have no answer with friction
+// in some event. After the strength that is said, before it the strength is not to be trusted.
+TEST(SwingingPieces, SayInHowManyEventsTheirContactWasLeftOut) {
+  int before = 0, after = 0, none = 0;
+  Scene scene = test::small_scene(89.99, 5, 2);
+  scene.material.poisson = 0.49;
+  scene.joints.scatter = 1.0;
+  scene.joints.friction = 100.0;
+  for (scene.joints.seed = 1; scene.joints.seed <= 5; ++scene.joints.seed) {
+    const Simulation run = simulate(scene);
+    ASSERT_EQ(run.status, SimulationStatus::broken) << scene.joints.seed;
+    std::string said;
+    for (const LeftOut& part : run.left_out)
+      if (part.what.starts_with("contact of broken joints")) said += part.what;
+    if (run.events_without_contact == 0) {
+      EXPECT_EQ(said, "") << scene.joints.seed;
+      ++none;
+      continue;
+    }
+    EXPECT_EQ(said, "contact of broken joints in " + std::to_string(run.events_without_contact) +
+                        " of " + std::to_string(run.steps) + " events");
+    EXPECT_EQ(run.trusted(), run.without_contact_to_strength == 0) << run.why_not_trusted();
+    ++(run.trusted() ? after : before);
+  }
+  EXPECT_GT(before, 0);
+  EXPECT_GT(after, 0);
+  EXPECT_GT(none, 0);
+}
+
 // A missing joint that the load passes by bears rounding alone, and that obeys no law.
 TEST(SwingingPieces, DoNotHideThatAMissingJointBearsNothing) {
   Scene scene = test::small_scene(90.0, 8, 3);
@@ -97,10 +127,11 @@ TEST(SwingingPieces, DoNotHideThatAMissingJointBearsNothing) {
 }
 
 // What columns that hang on hinges resist bending with is rounding, which factors took for a
-// stiffness where it was positive.
+// stiffness where it was positive. The modulus is the one that was solved for.
 TEST(SwingingPieces, AreNoStiffnessWhereColumnsHangOnHinges) {
   for (const int fibres : {7, 9, 11, 18}) {
-    const Scene scene = test::small_scene(90.0, 5, fibres);
+    Scene scene = test::small_scene(90.0, 5, fibres);
+    scene.solver.leave_out = false;
     const Simulation simulation = simulate(scene);
     EXPECT_TRUE(simulation.trusted()) << fibres << ": " << simulation.why_not_trusted();
     EXPECT_NEAR(simulation.modulus / scene.material.young, 1.0, 1e-9) << fibres;
@@ -184,17 +215,32 @@ TEST(SwingingPieces, AreSolvedWithCareWhereAnEventHasNoAnswerWithout) {
   }
 }
 
-// The law is met, and the energy does not close.
-TEST(SwingingPieces, AreSolvedWithCareWhereTheEnergyDoesNotClose) {
-  Scene scene = test::small_scene(0.0, 8, 6);
+// Layers far apart in strength at a small angle.
+Scene with_weak_flanks() {
+  Scene scene = test::small_scene(0.1, 4, 3);
+  scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 4.0);
   scene.joints.scatter = 1.2;
-  scene.joints.friction = 1.0;
+  scene.joints.friction = 0.9;
   scene.loading.lateral = Lateral::free;
-  scene.loading.end_fraction = 0.05;
-  for (const unsigned seed : {71U, 1568U, 3162U}) {
+  scene.loading.end_fraction = 0.0;
+  return scene;
+}
+
+// The law is met, and the energy does not close (the first two), or the contact of an event before
+// the strength has no answer: with more care these walls are trusted.
+TEST(SwingingPieces, AreSolvedWithCareWhereTheEnergyDoesNotClose) {
+  Scene scene = with_weak_flanks();
+  int done_again = 0;
+  for (const unsigned seed : {717U, 6111U, 2711U, 4014U}) {
     scene.joints.seed = seed;
-    EXPECT_EQ(simulate(scene).why_not_trusted(), "") << seed;
+    std::size_t last = 0;
+    const Simulation run = simulate(scene, [&](const Progress& progress) {
+      done_again += progress.row < last ? 1 : 0;
+      last = progress.row;
+    });
+    EXPECT_EQ(run.why_not_trusted(), "") << seed;
   }
+  EXPECT_GT(done_again, 0);
 }
 
 // What rounding leaves is more than that: the residual says so, and the answer stays the same.
@@ -228,16 +274,10 @@ TEST(SwingingPieces, AreSolvedWithCareWhereTheToleranceAsksForIt) {
   EXPECT_GT(met, 0);
 }
 
-// Layers far apart in strength at a small angle: a run is done again with more care, and its first
-// answer is now and then the better one.
+// A run is done again with more care, and its first answer is now and then the better one.
 TEST(SwingingPieces, AreWatchedLastAsTheyAreAnswered) {
   HAVERS_SLOW;
-  Scene scene = test::small_scene(0.1, 4, 3);
-  scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 4.0);
-  scene.joints.scatter = 1.2;
-  scene.joints.friction = 0.9;
-  scene.loading.lateral = Lateral::free;
-  scene.loading.end_fraction = 0.0;
+  Scene scene = with_weak_flanks();
   int done_again = 0;
   for (scene.joints.seed = 1; scene.joints.seed <= 30; ++scene.joints.seed) {
     std::size_t row = 0;  // the last one seen

@@ -225,6 +225,25 @@ TEST_P(TinyStructure, BearsNothingWhereNothingActsWhereverItStarts) {
   }
 }
 
+// What it says of its error is not far below what that is, however little accuracy is asked for.
+// Friction in every second joint makes corrections many.
+TEST_P(TinyStructure, ErrsByLittleMoreThanItSays) {
+  std::vector<Held> held(assembly.joints.size(), Held::fully);
+  StructureLoads loads = random_loads(bodies, 1);
+  loads.friction = VectorXd::Zero(static_cast<Index>(held.size()));
+  for (std::size_t j = 1; j < held.size(); j += 2) {
+    held[j] = Held::normal;
+    loads.friction(static_cast<Index>(j)) = j % 4 == 1 ? 0.3 : -0.3;
+  }
+  const VectorXd truth = dense.solve(loads, held).reactions;
+  for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
+    loads.accuracy = accuracy;
+    const StructureResponse found = Structure(bodies, held).solve(loads);
+    EXPECT_LT(found.residual, accuracy);
+    EXPECT_LT((found.reactions - truth).norm(), (10.0 * found.residual + 1e-10) * truth.norm());
+  }
+}
+
 TEST_P(TinyStructure, HoldsNothingTogetherWhenAllIsDetached) {
   const std::vector<Held> all(assembly.joints.size(), Held::not_at_all);
   const Structure structure(bodies, all);
