@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 
 #include "io/input_error.hpp"
 #include "io/machine/encoding.hpp"
