@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "calib/experiment/measured_test.hpp"
+#include "calib/experiment/robust_line.hpp"
 #include "tests/support/machine_files.hpp"
 #include "tests/support/reduction.hpp"
 #include "tests/support/slow.hpp"
@@ -21,6 +23,19 @@ using test::detail_of;
 using test::record;
 using test::reduced;
 using test::TensileTruth;
+
+// Least squares by the normal equations.
+double slope_of(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto n = static_cast<double>(x.size());
+  const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / n;
+  const double mean_y = std::accumulate(y.begin(), y.end(), 0.0) / n;
+  double squares = 0.0, products = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    squares += (x[i] - mean_x) * (x[i] - mean_x);
+    products += (x[i] - mean_x) * (y[i] - mean_y);
+  }
+  return products / squares;
+}
 
 // A slope that fades from the start leaves the modulus to a convention, and that is said.
 TEST(Modulus, TakesTheStandardWindowWhereNothingIsStraight) {
@@ -36,6 +51,20 @@ TEST(Modulus, TakesTheStandardWindowWhereNothingIsStraight) {
   EXPECT_NE(test.warnings[0].find("ISO 527-1"), std::string::npos);
   EXPECT_NEAR(test.window_low, 0.0005, 2e-5);
   EXPECT_NEAR(test.window_high, 0.0025, 2e-5);
+
+  // (X6) The plain line, whose error is also what a robust one draws otherwise.
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i < test.strain.size(); ++i)
+    if (test.strain[i] >= 5e-4 && test.strain[i] <= 25e-4) {
+      x.push_back(test.strain[i]);
+      y.push_back(test.stress[i]);
+    }
+  const double slope = slope_of(x, y);
+  EXPECT_NEAR(test.modulus, slope, 1e-9 * slope);
+  const Line plain = with_true_error(fit_plain_line(x, y), x, y);
+  EXPECT_NEAR(test.modulus_standard_error,
+              std::hypot(plain.slope_standard_error, slope - fit_robust_line(x, y).slope),
+              1e-9 * slope);
 }
 
 TEST(Modulus, SaysWhenNotEvenTheStandardWindowServes) {
@@ -187,6 +216,22 @@ TEST(Modulus, CountsTheCurvatureThatItAcceptsAsError) {
       EXPECT_NEAR(test.modulus, fast.young, 2.0 * test.modulus_standard_error)
           << length << ", " << softness;
     }
+}
+
+// Two lines that meet in the middle of the window, the upper one steeper by two parts in a hundred:
+// that is the error, with but little for the line that goes through both.
+TEST(Modulus, CountsTheCurvatureThatItAcceptsOnce) {
+  const TensileTruth truth{.strength = 100e6};
+  RawTest raw = record(truth);
+  const double kink = 0.25 * truth.strength, steeper = 1.02;
+  for (std::size_t i = 0; i < raw.rows(); ++i) {
+    const double stress = raw.force[i] / truth.area();
+    raw.strain[i] = (std::min(stress, kink) + std::max(stress - kink, 0.0) / steeper) / truth.young;
+  }
+  const MeasuredTest test = reduced(raw, {.remove_toe = false});
+  EXPECT_TRUE(test.warnings.empty());
+  EXPECT_GT(test.modulus_standard_error, 0.0199 * truth.young);
+  EXPECT_LT(test.modulus_standard_error, 0.025 * truth.young);
 }
 
 // Stationary noise of which each row keeps a part of the one before, added to the force. [N]

@@ -46,6 +46,9 @@ TEST(ReduceTest, RemovesToeAndPreload) {
   EXPECT_NE(detail_of(test, "toe").find("so that the modulus line passes through zero"),
             std::string::npos);
   EXPECT_GE(test.strain.front(), 0.0);
+  // The window is given in the strain without the toe, whose line passes through zero.
+  EXPECT_NEAR(test.window_low * truth.young, 0.1 * truth.strength, 0.004 * truth.strength);
+  EXPECT_NEAR(test.window_high * truth.young, 0.4 * truth.strength, 0.004 * truth.strength);
 
   const MeasuredTest kept = reduced(record(truth), {.remove_toe = false});
   EXPECT_GT(std::abs(kept.failure_strain - truth.failure_strain()), 1e-6);

@@ -56,17 +56,17 @@ TEST(SectionDoubt, IsOfThePorosityAndNotOfItsScale) {
 
 // Of three pixels, that is; four make a pore.
 TEST(SectionDoubt, LeavesOutSpecksAndSaysSo) {
-  auto drawn = test::draw({.porosity = 0.0});
-  cv::circle(drawn.image, {350, 300}, 12, 51, cv::FILLED);
+  auto drawn = test::draw({.width = 400, .height = 350, .porosity = 0.0});
+  cv::circle(drawn.image, {200, 175}, 12, 51, cv::FILLED);
   const auto without = measure(drawn, "no_specks.png");
   EXPECT_EQ(without.pore_count, 1);
-  for (int i = 0; i < 7; ++i) drawn.image(cv::Rect(200 + 40 * i, 200, 3, 1)).setTo(51);
+  for (int i = 0; i < 7; ++i) drawn.image(cv::Rect(60 + 40 * i, 90, 3, 1)).setTo(51);
   const auto specks = measure(drawn, "specks.png");
   EXPECT_EQ(specks.pore_count, 1);
   EXPECT_EQ(specks.speck_count, 7);
   EXPECT_EQ(specks.porosity, without.porosity);
   EXPECT_TRUE(warns(specks, "7 objects below 4 pixels were left out"));
-  drawn.image(cv::Rect(500, 400, 2, 2)).setTo(51);
+  drawn.image(cv::Rect(250, 250, 2, 2)).setTo(51);
   const auto pore = measure(drawn, "pore.png");
   EXPECT_EQ(pore.pore_count, 2);
   EXPECT_NEAR(pore.pore_area - without.pore_area, 4.0 * pixel * pixel, 1e-6 * pixel * pixel);
@@ -99,9 +99,9 @@ TEST(SectionDoubt, WarnsOfPoresThatNoCanalHas) {
 // Above a twentieth of the bone.
 TEST(SectionDoubt, WarnsOfAPoreThatMayBeMarrow) {
   for (const bool large : {false, true}) {
-    auto drawn = test::draw({.porosity = 0.0});
-    const int radius = large ? 63 : 58;  // 5.5 and 4.6 %
-    cv::circle(drawn.image, {350, 300}, radius, 51, cv::FILLED);
+    auto drawn = test::draw({.width = 350, .height = 300, .porosity = 0.0});
+    const int radius = large ? 32 : 29;  // 5.6 and 4.6 %
+    cv::circle(drawn.image, {175, 150}, radius, 51, cv::FILLED);
     EXPECT_EQ(warns(measure(drawn, "big_pore.png"), "marrow cavity"), large);
   }
 }

@@ -75,9 +75,9 @@ TEST_P(SlidJoints, GoOnFromWhereTheyAre) {
   const std::vector<VectorXd> solutions = test::all_solutions(problem);
   ASSERT_FALSE(solutions.empty());
 
-  ActiveSetSolver active_set(wall.bodies);
-  GaussSeidelSolver gauss_seidel(wall.bodies, 1e-11, 200000);
-  for (JointSolver* solver : std::initializer_list<JointSolver*>{&active_set, &gauss_seidel}) {
+  ActiveSetSolver by_sets(wall.bodies);
+  GaussSeidelSolver by_sweeps(wall.bodies, 1e-11, 200000);
+  for (JointSolver* solver : std::initializer_list<JointSolver*>{&by_sets, &by_sweeps}) {
     const JointStepResult result = solver->solve(wall.step);
     ASSERT_TRUE(result.converged);
     const VectorXd found = (result.gaps - wall.step.predicted) / gap;

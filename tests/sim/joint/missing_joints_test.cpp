@@ -103,6 +103,8 @@ TEST_P(WithMissingJoints, TheyAreBrokenFromTheStartButAreNoBreaks) {
     ++missing;
     EXPECT_TRUE(joint.broken);
     EXPECT_EQ(joint.broken_at_strain, 0.0);
+    EXPECT_LE(std::abs(joint.reaction_tangent),
+              scene_of(0.15).joints.friction * std::max(0.0, joint.reaction_normal) + 1e-6);
   }
   EXPECT_GT(missing, 0);
   EXPECT_EQ(simulation.broken_joints, broken - missing);
