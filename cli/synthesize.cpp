@@ -13,6 +13,7 @@
 #include "calib/synthetic/laboratory_record.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/load_study.hpp"
 #include "cli/output_folder.hpp"
 #include "io/config/key_unit.hpp"
 #include "io/config/read_study.hpp"

@@ -61,30 +61,27 @@ StepError larger_of(const StepError& change, const StepError& before) {
           std::fmax(change.over_a_wave, before.over_a_wave)};
 }
 
-// The step that was chosen, once more.
-void run_again(const Scene& scene, Stepping stepping, const Observer& observer,
-               const StopAsked& stop_asked, Simulation& run) {
+// A watcher sees the answer last.
+void show_again(const Scene& scene, Stepping stepping, const Observer& observer,
+                const StopAsked& stop_asked, Simulation& run) {
+  if (!observer) return;
   const StepError error = *run.step_error;
   stepping.step = run.step;
   run = run_in_steps(scene, stepping, observer, stop_asked);
   run.step_error = has_ended(run) ? error : never_compared;
 }
 
-bool moves_uniformly(const Scene& scene) {
-  return scene.loading.start == Start::uniform;
-}
-
 }  // namespace
 
 bool may_leap(const Scene& scene) {
   const SolverOptions& solver = scene.solver;
-  return solver.leave_out && moves_uniformly(scene) && (!solver.step || solver.leap);
+  return solver.leave_out && scene.loading.start == Start::uniform && (!solver.step || solver.leap);
 }
 
 double first_step(const Scene& scene) {
   const double wave = wave_speed(scene.material);
-  const double transit = moves_uniformly(scene) ? 0.25 * scene.assembly.fibre_height / wave
-                                                : 0.5 * scene.assembly.fibre_length / wave;
+  const double transit = may_leap(scene) ? 0.25 * scene.assembly.fibre_height / wave
+                                         : 0.5 * scene.assembly.fibre_length / wave;
   const double strain =
       std::min(head_tail_strength(scene) / scene.material.young, scene.loading.max_strain);
   return std::min(transit, 0.02 * strain / scene.loading.strain_rate);
@@ -106,8 +103,7 @@ std::string doubt_about_steps(const Scene& scene) {
 
 Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer,
                                const StopAsked& stop_asked) {
-  // The search leaps even where nothing is to be left out of the answer: the step is the same then.
-  Stepping stepping{.step = first_step(scene), .leap = moves_uniformly(scene)};
+  Stepping stepping{.step = first_step(scene), .leap = may_leap(scene)};
   Simulation run;
   run.failure_strain = run.strength = never_compared.strength;
   std::string finer_failed;
@@ -124,8 +120,7 @@ Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer,
       if (++without_answer == 1 && halving < most_halvings) continue;
       finer_failed =
           fmt::format("; runs of shorter ones have no answer: {}", explain(finer.status));
-      // A watcher sees the answer last.
-      if (observer) run_again(scene, stepping, observer, stop_asked, run);
+      show_again(scene, stepping, observer, stop_asked, run);
       break;
     }
     // Beside a run of twice the step or, where that has no answer, four times.
@@ -137,10 +132,6 @@ Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer,
     agreed = change.largest() < 0.5 * scene.solver.step_accuracy ? agreed + 1 : 0;
     if (!has_ended(run) || agreed == 2) break;
     if (!first && 2.0 * run.steps > most_steps(run)) break;
-  }
-  if (!scene.solver.leave_out && run.leapt_strain > 0.0 && has_ended(run)) {
-    stepping.leap = false;
-    run_again(scene, stepping, observer, stop_asked, run);
   }
   run.regime_ground = ground_of(run, scene.solver.step_accuracy, finer_failed);
   return run;

@@ -11,9 +11,9 @@ namespace havers::sim {
 /// rest the motion is a shock, and without leaving out every step is taken.
 bool may_leap(const Scene& scene);
 
-/// Where halving starts: a quarter of the time a wave takes across a fibre or, from rest, where
-/// steps cannot be leapt over, half of that along it; at most a fiftieth of the strain σ₁/E, and of
-/// the strain limit, a step. [s]
+/// Where halving starts: a quarter of the time a wave takes across a fibre or, where steps cannot
+/// be leapt over, half of that along it; at most a fiftieth of the strain σ₁/E, and of the
+/// strain limit, a step. [s]
 double first_step(const Scene& scene);
 
 /// That a run in chosen steps may end before its specimen breaks, as a sentence; empty where it has
@@ -23,8 +23,7 @@ std::string doubt_about_steps(const Scene& scene);
 /// Runs a scene with first_step and ever half of it, until two halvings in turn have changed the
 /// failure strain and the strength by less than half of `step_accuracy`: implicit Euler is of first
 /// order, so what is left is about the last change. Ends as well where a further run would be too
-/// long, or where two lengths in turn have no answer. With `leave_out = false` the step found is
-/// run once more without a leap. The last run that came to its end is the
+/// long, or where two lengths in turn have no answer. The last run that came to its end is the
 /// answer, or the one that was cancelled; `step_error` and `regime_ground` say what its last two
 /// halvings changed at most.
 Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer = {},

@@ -42,24 +42,6 @@ TEST_P(SameRun, InTimeWhenNothingIsLeftOut) {
   }
 }
 
-TEST_P(SameRun, InChosenStepsWhenNothingIsLeftOut) {
-  for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    Scene scene = test::dynamic_scene(GetParam());
-    scene.solver.step.reset();
-    scene.loading.strain_rate = 3e4;
-    scene.joints.seed = seed;
-    const Simulation quick = simulate(scene);
-    scene.solver.leave_out = false;
-    const Simulation all = simulate(scene);
-    EXPECT_GT(quick.leapt_strain, 0.0);
-    EXPECT_EQ(all.leapt_strain, 0.0);
-    EXPECT_EQ(quick.step, all.step);
-    EXPECT_EQ(test::broken_joints(quick.joints), test::broken_joints(all.joints));
-    EXPECT_NEAR(quick.strength / all.strength, 1.0, 1e-9);
-    EXPECT_NEAR(quick.failure_strain / all.failure_strain, 1.0, 1e-9);
-  }
-}
-
 // A run that leaves out the end of its avalanche has broken what the whole one had by then.
 TEST_P(SameRun, InTheQuasiStaticLimitAsFarAsItGoes) {
   for (const double scatter : {0.2, 1.0}) {
