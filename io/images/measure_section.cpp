@@ -22,8 +22,19 @@
 namespace havers::images {
 namespace {
 
+// Beyond its box there is no bone, but where the image ends more of it may follow.
+cv::Mat eroded_in(const cv::Rect& box, cv::Size image, const cv::Mat& bone, int reach) {
+  const int left = std::min(box.x, 1), top = std::min(box.y, 1),
+            right = std::min(image.width - box.br().x, 1),
+            bottom = std::min(image.height - box.br().y, 1);
+  cv::Mat framed;
+  cv::copyMakeBorder(bone, framed, top, bottom, left, right, cv::BORDER_CONSTANT, 0);
+  return eroded_by(framed, reach)(cv::Rect({left, top}, bone.size())).clone();
+}
+
 // Takes the rim off all surfaces of the bone, also at the marrow. The image's edge is no surface.
-void leave_out_rim(const io::SectionOptions& options, const std::string& name, cv::Mat& bone) {
+void leave_out_rim(const io::SectionOptions& options, const std::string& name, const cv::Rect& box,
+                   cv::Size image, cv::Mat& bone) {
   if (options.rim == 0.0) return;
   if (!options.pixel_size)
     throw io::InputError(name, "the rim to leave out is in µm, but no pixel size is known",
@@ -33,7 +44,7 @@ void leave_out_rim(const io::SectionOptions& options, const std::string& name, c
   if (reach == 0)
     throw io::InputError(name, "the rim to leave out is less than half a pixel",
                          "give more, or none");
-  bone = eroded_by(bone, reach);
+  bone = eroded_in(box, image, bone, reach);
   if (cv::countNonZero(bone) == 0)
     throw io::InputError(name, "the rim to leave out takes all of the bone", "give less, or none");
 }
@@ -92,7 +103,7 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
   const cv::Mat grey = whole(regions.box);
   Depth depth{.levels = bone_levels(grey, regions)};
   cv::Mat bone = find_bone(grey, regions, depth);
-  if (!bone.empty()) leave_out_rim(options, name, bone);
+  if (!bone.empty()) leave_out_rim(options, name, regions.box, whole.size(), bone);
   if (bone.empty() || cv::countNonZero(bone) == 0)
     throw io::InputError(name, "no bone was found", "give a mask that is white where the bone is");
   const PoreMap map = find_pores(grey, bone,

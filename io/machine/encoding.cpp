@@ -33,7 +33,7 @@ std::string utf16_by_zeros(std::string_view bytes) {
 
 // A character cut off by the end of the block is no fault.
 bool is_utf8(std::string text) {
-  const iconv_t check = iconv_open("UTF-16", "UTF-8");
+  iconv_t check = iconv_open("UTF-16", "UTF-8");
   std::string converted(2 * text.size() + 2, '\0');
   char *in = text.data(), *out = converted.data();
   std::size_t in_left = text.size(), out_left = converted.size();

@@ -95,6 +95,20 @@ TEST(Porosity, IsMeasuredByAStudyAsByItsOwnCommand) {
     EXPECT_EQ(value, key == "file" ? value : section.at(key)) << key;  // to the last bit
 }
 
+// The mask ends within the bone on its right.
+TEST(Porosity, LeavesTheRimOutBelowAllSidesOfAMask) {
+  if (!test::reads_images()) GTEST_SKIP() << "this build reads no images";
+  const fs::path folder = own_folder();
+  write_bmp(folder / "s.bmp", bone_with_pores);
+  write_bmp(folder / "m.bmp",
+            [](int x, int y) { return x >= 30 && x < 120 && y >= 30 && y < 210 ? 255 : 0; });
+  const auto answer =
+      run_havers(folder, "porosity s.bmp --pixel-size-um 5 --mask m.bmp --rim-um 30 --json");
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const auto section = nlohmann::json::parse(answer.out)["sections"][0];
+  EXPECT_NEAR(section["bone_area_um2"].get<double>(), 25.0 * (90 - 12) * (180 - 12), 1e-6);
+}
+
 // A line through 0 at grey level 10 and 1100 at the material's 120 has 1700 at the bone's 180.
 TEST(Porosity, TellsDensityByAGreyLevelAndARectangle) {
   if (!test::reads_images()) GTEST_SKIP() << "this build reads no images";

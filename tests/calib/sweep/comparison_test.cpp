@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/calib/sweep/student_tail.hpp"
+#include "tests/calib/student_tail.hpp"
 #include "tests/support/sweeps.hpp"
 
 namespace havers::calib {

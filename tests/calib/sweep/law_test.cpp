@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/calib/sweep/student_tail.hpp"
+#include "tests/calib/student_tail.hpp"
 #include "tests/support/sweeps.hpp"
 
 namespace havers::calib {
