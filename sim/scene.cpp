@@ -182,11 +182,6 @@ void check_joints(const JointOptions& joints, Checker& checker) {
 
 void check_loading(const Loading& loading, Checker& checker) {
   checker.positive("loading.strain_rate_per_s", loading.strain_rate);
-  // A rate that is not above 0 has been complained about already.
-  checker.require(
-      !(loading.strain_rate > 0.0) || std::isfinite(loading.max_strain / loading.strain_rate),
-      "loading.strain_rate_per_s", loading.strain_rate,
-      "so fast that the time to max_strain is a number");
   checker.require(loading.max_strain > 0.0 && loading.max_strain <= 1.0, "loading.max_strain",
                   loading.max_strain, "above 0 and at most 1", "a fraction, not per cent");
   checker.require(loading.end_fraction >= 0.0 && loading.end_fraction < 1.0, "loading.end_fraction",

@@ -64,6 +64,7 @@ TEST(FibreModel, HasNoAnswerWhereNoJointIsLeft) {
 
 // A sweep has its strength, and no modulus; a fit cannot use it.
 TEST(FibreModel, HasNoModulusInAShock) {
+  HAVERS_SLOW;
   Study study = test::synthetic_study({0.0});
   study.model = small_scene(0.0);
   study.model.loading.start = sim::Start::rest;

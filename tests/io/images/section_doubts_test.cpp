@@ -7,6 +7,7 @@
 #include "io/images/measure_section.hpp"
 #include "tests/io/complaints.hpp"
 #include "tests/support/sections.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::io {
 namespace {
@@ -108,6 +109,7 @@ TEST(SectionDoubt, WarnsOfAPoreThatMayBeMarrow) {
 
 // In the straight side of a bar they are notches, as pores are that the saw went through.
 TEST(SectionDoubt, WarnsOfChipsAndSawCuts) {
+  HAVERS_SLOW;
   const auto bar = [](unsigned seed) {
     return test::draw(
         {.porosity = 0.08, .largest_radius = 12.0, .noise = 0.04, .blur = 0.8, .seed = seed});

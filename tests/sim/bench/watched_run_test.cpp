@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
@@ -56,6 +57,7 @@ TEST(WatchedRun, TakesTheForcesAtTheStrainAskedFor) {
 
 // Steps of 20 ps would be 200 000 to the first break.
 TEST(WatchedRun, TakesTheForcesOfARunThatLeapsFromTheRowsAroundTheLeap) {
+  HAVERS_SLOW;
   for (const double viscosity : {0.0, 1e-7}) {
     Scene scene = test::dynamic_scene(30.0);
     scene.loading.strain_rate = 1000.0;
