@@ -33,12 +33,12 @@ struct Mode {
   const char* name;  // Its flag, but for the mode of a SCENE.
   const char* help;
   BenchMode run;
-  std::array<std::string_view, 3> uses{};  // Of `options`.
+  std::array<std::string_view, 2> uses{};  // Of `options`.
 };
 
-constexpr std::array options{"SCENE", "--seed", "--seeds", "--studies", "--costly"};
+constexpr std::array options{"SCENE", "--seeds", "--studies", "--costly"};
 
-constexpr Mode of_scene{"a SCENE alone", "", bench_scene, {"SCENE", "--seed", "--seeds"}};
+constexpr Mode of_scene{"a SCENE alone", "", bench_scene, {"SCENE", "--seeds"}};
 
 // A new mode needs an entry here and a function in bench.hpp.
 constexpr std::array flags{

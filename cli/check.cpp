@@ -64,7 +64,7 @@ void print_json(const std::filesystem::path& file, const Findings& findings) {
 }
 
 int run_check(const std::filesystem::path& file, const CommonOptions& common) {
-  refuse_seed(common, "havers check runs nothing");
+  note_idle_seed(common, "havers check runs nothing");
   const Findings findings = look_at(file, common.set);
   // The JSON holds the problems: if they were thrown, `main` would print a second JSON.
   if (common.json) {
@@ -85,7 +85,7 @@ Command check_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser =
       add_command(app, common, "check", "every problem of a study, scene or sweep, nothing run",
                   check_examples);
-  say_refused(*parser, {"--seed"});
+  say_seed_is_idle(*parser);
   const auto file = std::make_shared<std::filesystem::path>();
   parser->add_option("INPUT", *file, "study, scene or sweep file (TOML)")->required();
   return {parser, [file, &common] { return run_check(*file, common); }};

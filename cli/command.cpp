@@ -50,9 +50,13 @@ CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& n
   return command;
 }
 
-void say_refused(CLI::App& command, std::initializer_list<const char*> options) {
-  for (const char* option : options)
-    command.get_option(option)->description("sets nothing here, and is refused");
+void say_seed_is_idle(CLI::App& command) {
+  command.get_option("--seed")->description("changes nothing here");
+}
+
+void say_settings_are_refused(CLI::App& command) {
+  command.get_option("--set")->description("sets nothing here, and is refused");
+  say_seed_is_idle(command);
 }
 
 CLI::Option* add_output(CLI::App& command, std::filesystem::path& folder, const std::string& help) {
@@ -64,18 +68,16 @@ CLI::Option* add_output(CLI::App& command, std::filesystem::path& folder, const 
       ->check(CLI::Validator(complaint, ""));
 }
 
-// A user would believe that an option without any effect had one: it is refused.
-void refuse_seed(const CommonOptions& common, const std::string& what) {
-  if (common.seed)
-    throw io::InputError(fmt::format("--seed {}", *common.seed), "sets nothing: " + what,
-                         "leave it out, -h shows the options that there are");
+void note_idle_seed(const CommonOptions& common, const std::string& what) {
+  if (common.seed) note(common, "note: --seed changes nothing: " + what);
 }
 
+// A key that a command does not have is refused like any that is not known.
 void refuse_settings(const CommonOptions& common, const std::string& what) {
+  note_idle_seed(common, what);
   if (!common.set.empty())
     throw io::InputError("--set " + common.set.front(), "sets nothing: " + what,
                          "leave it out, -h shows the options that there are");
-  refuse_seed(common, what);
 }
 
 // On stderr, as stdout is for the result.

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -66,16 +65,19 @@ Command bench_command(CLI::App& app, CommonOptions& common);
 CLI::App* add_command(CLI::App& app, CommonOptions& common, const std::string& name,
                       const std::string& sentence, const std::string& examples);
 
-/// Says in the -h of a command that it refuses these options, though every command takes them.
-void say_refused(CLI::App& command, std::initializer_list<const char*> options);
+/// Says in the -h of a command that draws nothing what --seed does there.
+void say_seed_is_idle(CLI::App& command);
+
+/// The same of --set and --seed where a command has nothing to set.
+void say_settings_are_refused(CLI::App& command);
 
 /// Adds -o,--output DIR, which names a folder.
 CLI::Option* add_output(CLI::App& command, std::filesystem::path& folder, const std::string& help);
 
-/// @throws io::InputError where --seed is given to a command that draws nothing.
-void refuse_seed(const CommonOptions& common, const std::string& what);
+/// Notes where --seed is given to a command that draws nothing.
+void note_idle_seed(const CommonOptions& common, const std::string& what);
 
-/// @throws io::InputError where --set or --seed is given to a command that has nothing to set.
+/// The same, and @throws io::InputError where --set is given to a command that has nothing to set.
 void refuse_settings(const CommonOptions& common, const std::string& what);
 
 /// A note for the user on stderr; silent with -q.

@@ -241,7 +241,7 @@ void write_results(const OutputFolder& output, const ImportArguments& arguments,
 
 int run_import(const ImportArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
-  refuse_seed(common, "havers import draws nothing");
+  note_idle_seed(common, "havers import draws nothing");
   io::ImportSettings settings = io::read_import_settings(common.set);
   give_sizes(settings.columns, arguments);
   give_sizes(settings.gauge_columns, arguments);
@@ -268,7 +268,7 @@ int run_import(const ImportArguments& arguments, const CommonOptions& common) {
 Command import_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(app, common, "import",
                                  "what is in a test file, as read and as used", import_examples);
-  say_refused(*parser, {"--seed"});
+  say_seed_is_idle(*parser);
   parser->get_option("--set")->description(
       "how files are read: columns.KEY, gauge_columns.KEY, specimen_in_file or reduction.KEY, as "
       "in a study; repeatable");

@@ -237,7 +237,7 @@ void add_words(CLI::App& parser, const std::string& name, E& value, const std::s
 Command porosity_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(
       app, common, "porosity", "porosity of sections, measured on their images", porosity_examples);
-  say_refused(*parser, {"--seed", "--set"});
+  say_settings_are_refused(*parser);
   const auto arguments = std::make_shared<PorosityArguments>();
   io::SectionOptions& options = arguments->options;
   parser->add_option("IMAGE", arguments->images, "PNG, TIFF, JPEG, BMP or DICOM")->required();

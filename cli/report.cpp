@@ -119,7 +119,7 @@ int run_report(const ReportArguments& arguments, const CommonOptions& common) {
 Command report_command(CLI::App& app, CommonOptions& common) {
   CLI::App* parser = add_command(
       app, common, "report", "a fit's page again, or several fits side by side", report_examples);
-  say_refused(*parser, {"--seed", "--set"});
+  say_settings_are_refused(*parser);
   const auto arguments = std::make_shared<ReportArguments>();
   parser->add_option("RESULT", arguments->results, "folder of a fit, or its result.json")
       ->required();

@@ -1,6 +1,7 @@
 // Whether the model may be believed: the checks of the verdict that compare it with the tests.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,7 +16,7 @@ std::string two_digits(double value);
 /// "2.6 %", "280 %": a part in plain digits.
 std::string percent_text(double part);
 
-/// "p = 0.03", "p < 1e-6": the probability of a test.
+/// "p = 0.03", "p < 1e-6": the probability of a test; "too few to tell" without one.
 std::string chance_text(std::optional<double> p);
 
 /// " in logarithms", or nothing: behind a ratio of widths, which is one in the scale of the search.

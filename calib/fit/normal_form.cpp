@@ -11,7 +11,7 @@ namespace {
 
 // Raised whenever the same scene gives another response than before: older stores are then not
 // used.
-constexpr std::string_view model_version = "havers-model-16";
+constexpr std::string_view model_version = "havers-model-17";
 
 // Reference values (F3). Any would do; with these a joint breaks at a strain of some 1e-5, so that
 // the largest strain limit that a scene may have is far away, and the limit asked for can be

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/machine/units.hpp"
+
 namespace havers::io {
 
 struct CsvRows::State {
@@ -68,13 +70,6 @@ void parse(CsvRows::State& state, std::string_view text) {
   if (used != text.size()) throw std::bad_alloc();  // libcsv fails on nothing else unless strict
 }
 
-std::string_view trimmed(std::string_view cell) {
-  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
-  while (!cell.empty() && is_blank(cell.front())) cell.remove_prefix(1);
-  while (!cell.empty() && is_blank(cell.back())) cell.remove_suffix(1);
-  return cell;
-}
-
 // Cuts a line as libcsv does, in a fraction of the time, where its quotes are plain:
 // `a,"1,004.5",c`. False where they are not.
 bool cut_plain(CsvRows::State& state, std::string_view line) {
@@ -90,7 +85,7 @@ bool cut_plain(CsvRows::State& state, std::string_view line) {
     // Inside quotes a delimiter is text; an open quote takes the rest of the line.
     std::size_t end = quoted ? std::min(line.find('"', 1), line.size() - 1) + 1 : 0;
     while (end < line.size() && line[end] != delimiter) ++end;
-    std::string_view cell = trimmed(line.substr(0, end));
+    std::string_view cell = without_blanks(line.substr(0, end));
     // A quote that is not closed, is followed by text, or stands inside a cell is left to libcsv.
     if (quoted && (cell.size() < 2 || !cell.ends_with('"'))) return false;
     if (quoted) cell = cell.substr(1, cell.size() - 2);

@@ -18,7 +18,7 @@ struct Row {
 /// lines are counted but not handed on.
 class CsvRows {
  public:
-  struct State;
+  struct State;  ///< What libcsv's callbacks share.
   /// `take` is called once per row; false: no more rows are wanted.
   CsvRows(char delimiter, std::function<bool(const Row&)> take);
   ~CsvRows();

@@ -22,7 +22,7 @@ std::optional<Unit> find_unit(std::string_view text);
 /// Whether nothing but a strain is measured in it, as in microstrain; % has many uses.
 bool is_of_strain_alone(const Unit& unit);
 
-/// Text without the blanks around it.
+/// Text without the blanks and tabs around it.
 std::string_view without_blanks(std::string_view text);
 
 /// And without one pair of brackets around it, nor blanks inside that.

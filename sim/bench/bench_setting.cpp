@@ -34,10 +34,11 @@ std::vector<BenchSetting> settings_of_limit(const BenchSetting& own, double h) {
   return settings;
 }
 
-// Of a scene in time. What is left out shows at a given step: a chosen one starts from a longer one
-// where nothing is left out. A finer mesh is shown at the longest step, where what it changes is
-// mostly the step's error drawn anew (failure strains of data_samples/scenes/bench.toml: 1 to 10 %,
-// by the step alone 3 %), and at the shortest, where the mesh shows (0.3 to 0.4 %, 0.2 %).
+// Of a scene in time. What is left out shows at a given step: a chosen one is many runs, each of
+// which would take every step to the first break. A finer mesh is shown at the longest step, where
+// what it changes is mostly the step's error drawn anew (failure strains of
+// data_samples/scenes/bench.toml: 1 to 10 %, by the step alone 3 %), and at the shortest, where the
+// mesh shows (0.3 to 0.4 %, 0.2 %).
 std::vector<BenchSetting> settings_in_time(const BenchSetting& own, double h) {
   std::vector<BenchSetting> settings{without_omissions(stepped(own, h))};
   for (const double step : {h, h / 4.0, h / 16.0}) settings.push_back(stepped(own, step));

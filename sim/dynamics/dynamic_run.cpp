@@ -3,6 +3,7 @@
 #include "sim/dynamics/dynamic_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "sim/contact/active_set.hpp"
@@ -193,8 +194,11 @@ double DynamicRun::leap() {
   if (std::ranges::any_of(joints_, &JointOutcome::broken) ||
       acceleration_force_ > uniform * motion_.Kq.norm())
     return 0.0;
-  const double time = beyond * time_to_first_break() - h_;
-  if (!(time > h_)) return 0.0;
+  const double whole = beyond * time_to_first_break() - h_;
+  if (!(whole > h_)) return 0.0;
+  // Where nothing is left out each whole step is taken, and only the rest goes at once, so that a
+  // step ends on the break all the same.
+  const double time = scene_.solver.leave_out ? whole : std::fmod(whole, h_);
   // Viscous stress is constant on the way, and so is its power.
   energy_.viscous += scene_.material.viscosity * time * motion_.v.dot(motion_.Kv);
   motion_.q += time * motion_.v;
@@ -204,7 +208,7 @@ double DynamicRun::leap() {
   // The account starts anew from here: no step tells the work that the leap took.
   energy_.start(motion_, bodies_.mass());
   leapt_ += time;
-  return scene_.loading.strain_rate * time;
+  return scene_.loading.strain_rate * whole;
 }
 
 CurvePoint DynamicRun::point() const {

@@ -23,7 +23,8 @@ class DynamicRun {
   /// One step on; false when the joints' problem was not solved, or its solver was stopped.
   bool advance();
   /// After two or more steps of uniform motion, whose reactions change linearly: on to one step
-  /// before the first break. Returns the strain leapt over. [-]
+  /// before the first break or, where nothing is left out, to a whole number of steps before it.
+  /// Returns the strain that is left up to that last step, 0 where the motion is another. [-]
   double leap();
 
   /// The row of the last step; before the first, the start. Stresses are the machine's forces over

@@ -27,6 +27,12 @@ double most_steps(const Simulation& run) {
   return std::max(of_any, of_all_joints / static_cast<double>(run.joints.size() + 1));
 }
 
+// Without those that a run which leaves nothing out takes and another leaps over, so that both have
+// the same length.
+double steps_that_count(const Simulation& run, double strain_rate) {
+  return run.steps - std::floor((run.uniform_strain - run.leapt_strain) / (strain_rate * run.step));
+}
+
 constexpr StepError never_compared{.failure_strain = std::numeric_limits<double>::quiet_NaN(),
                                    .strength = std::numeric_limits<double>::quiet_NaN(),
                                    .over_a_wave = std::numeric_limits<double>::quiet_NaN()};
@@ -73,15 +79,18 @@ void show_again(const Scene& scene, Stepping stepping, const Observer& observer,
 
 }  // namespace
 
+bool knows_first_break(const Scene& scene) {
+  return scene.loading.start == Start::uniform && (!scene.solver.step || scene.solver.leap);
+}
+
 bool may_leap(const Scene& scene) {
-  const SolverOptions& solver = scene.solver;
-  return solver.leave_out && scene.loading.start == Start::uniform && (!solver.step || solver.leap);
+  return scene.solver.leave_out && knows_first_break(scene);
 }
 
 double first_step(const Scene& scene) {
   const double wave = wave_speed(scene.material);
-  const double transit = may_leap(scene) ? 0.25 * scene.assembly.fibre_height / wave
-                                         : 0.5 * scene.assembly.fibre_length / wave;
+  const double transit = knows_first_break(scene) ? 0.25 * scene.assembly.fibre_height / wave
+                                                  : 0.5 * scene.assembly.fibre_length / wave;
   const double strain =
       std::min(head_tail_strength(scene) / scene.material.young, scene.loading.max_strain);
   return std::min(transit, 0.02 * strain / scene.loading.strain_rate);
@@ -103,7 +112,7 @@ std::string doubt_about_steps(const Scene& scene) {
 
 Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer,
                                const StopAsked& stop_asked) {
-  Stepping stepping{.step = first_step(scene), .leap = may_leap(scene)};
+  Stepping stepping{.step = first_step(scene), .leap = knows_first_break(scene)};
   Simulation run;
   run.failure_strain = run.strength = never_compared.strength;
   std::string finer_failed;
@@ -131,7 +140,7 @@ Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer,
     // Two halvings in turn: waves may let two steps agree by chance.
     agreed = change.largest() < 0.5 * scene.solver.step_accuracy ? agreed + 1 : 0;
     if (!has_ended(run) || agreed == 2) break;
-    if (!first && 2.0 * run.steps > most_steps(run)) break;
+    if (!first && 2.0 * steps_that_count(run, scene.loading.strain_rate) > most_steps(run)) break;
   }
   run.regime_ground = ground_of(run, scene.solver.step_accuracy, finer_failed);
   return run;

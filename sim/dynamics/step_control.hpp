@@ -7,13 +7,15 @@
 
 namespace havers::sim {
 
-/// Whether a run leaps to its first break: in chosen steps, or where the scene asks for it. From
-/// rest the motion is a shock, and without leaving out every step is taken.
+/// Whether steps are placed so that one ends on the first break of uniform motion: in chosen steps,
+/// or where the scene asks for it. From rest the motion is a shock.
+bool knows_first_break(const Scene& scene);
+
+/// Whether a run leaps to that break, too: where nothing is left out every step is taken.
 bool may_leap(const Scene& scene);
 
-/// Where halving starts: a quarter of the time a wave takes across a fibre or, where steps cannot
-/// be leapt over, half of that along it; at most a fiftieth of the strain σ₁/E, and of the
-/// strain limit, a step. [s]
+/// Where halving starts: a quarter of the time a wave takes across a fibre or, from rest, half of
+/// that along it; at most a fiftieth of the strain σ₁/E, and of the strain limit, a step. [s]
 double first_step(const Scene& scene);
 
 /// That a run in chosen steps may end before its specimen breaks, as a sentence; empty where it has

@@ -57,19 +57,21 @@ SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepp
       return SimulationStatus::broken;
     if (run.steps() == stepping.most) return SimulationStatus::step_limit;
     // Steps may be so short that rounding looks like acceleration in the first of them.
-    const bool may_leap = stepping.leap && simulation.leapt_strain == 0.0;
-    if (may_leap && run.steps() > 1 && std::has_single_bit(static_cast<unsigned>(run.steps())))
-      simulation.leapt_strain = run.leap();
+    const bool may_leap = stepping.leap && simulation.uniform_strain == 0.0;
+    if (may_leap && run.steps() > 1 && std::has_single_bit(static_cast<unsigned>(run.steps()))) {
+      simulation.uniform_strain = run.leap();
+      if (scene.solver.leave_out) simulation.leapt_strain = simulation.uniform_strain;
+    }
   }
   return SimulationStatus::strain_limit;
 }
 
 // Uniform motion is one of equilibrium where the stress does not change along the load, and a
-// specimen that leapt had it; missing joints and unlike layers across the load set waves free.
+// specimen that could leap had it; missing joints and unlike layers across the load set waves free.
 bool starts_with_waves(const Scene& scene, const Simulation& simulation) {
   if (scene.loading.start == Start::rest) return true;
   const bool unlike = scene.material.layer_contrast != 1.0 && scene.assembly.orientation != 0.0;
-  return simulation.leapt_strain == 0.0 && (simulation.missing_joints() > 0 || unlike);
+  return simulation.uniform_strain == 0.0 && (simulation.missing_joints() > 0 || unlike);
 }
 
 // After the last break what is left only swings; before a period has passed its mean is that of
@@ -106,7 +108,8 @@ void tell_waves(const Scene& scene, Simulation& simulation) {
 Simulation simulate_dynamic(const Scene& scene, const Observer& observer,
                             const StopAsked& stop_asked) {
   if (!scene.solver.step) return run_in_chosen_steps(scene, observer, stop_asked);
-  Simulation run = run_in_steps(scene, {*scene.solver.step, may_leap(scene)}, observer, stop_asked);
+  Simulation run =
+      run_in_steps(scene, {*scene.solver.step, knows_first_break(scene)}, observer, stop_asked);
   run.regime_ground = fmt::format(
       "; the step of {} is given, and its error is not known: a run without step_s chooses its own "
       "and says it",

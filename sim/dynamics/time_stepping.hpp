@@ -12,7 +12,8 @@ inline constexpr int most_steps_of_a_run = 10'000'000;
 /// How one run is stepped.
 struct Stepping {
   double step = 0.0;               ///< h. [s]
-  bool leap = false;               ///< Whether uniform motion before the first break is leapt over.
+  bool leap = false;               ///< Whether a step ends on the first break of uniform motion;
+                                   ///< with `leave_out` those before are leapt over.
   int most = most_steps_of_a_run;  ///< After so many it ends, broken or not.
 };
 

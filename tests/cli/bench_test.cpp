@@ -54,7 +54,6 @@ TEST(Bench, RefusesWhatItsModeDoesNotUse) {
       {"--porosity --studies 3 --costly 2",
        refused("--studies", "--porosity") + refused("--costly", "--porosity")},
       {"scene.toml --stability", refused("SCENE", "--stability")},
-      {"--coverage --seed 3", refused("--seed", "--coverage")},
       {"--stability --seeds 3", refused("--seeds", "--stability")},
       {"--coverage --costly 2", refused("--costly", "--coverage")},
       {"--calibration --seeds 3", refused("--seeds", "--calibration")},

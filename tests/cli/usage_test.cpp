@@ -42,10 +42,19 @@ TEST(Usage, SettingsThatSetNothingAreRefused) {
     EXPECT_TRUE(answer.err.starts_with("havers: --set joints.scatter=0.4: sets nothing: "))
         << arguments << answer.err;
   }
-  for (const char* arguments : {"porosity a.png", "report out", "import a.csv", "check a.toml"})
-    EXPECT_TRUE(run_havers(folder, std::string(arguments) + " --seed 3")
-                    .err.starts_with("havers: --seed 3: sets nothing: "))
-        << arguments;
+}
+
+TEST(Usage, ASeedThatChangesNothingIsNoted) {
+  const auto folder = own_folder();
+  for (const char* arguments : {"porosity a.png", "report out", "import a.csv", "check a.toml",
+                                "bench --calibration --set a=1 -o out"}) {
+    const std::string with_seed = std::string(arguments) + " --seed 3";
+    const auto answer = run_havers(folder, with_seed);
+    const std::string without = run_havers(folder, arguments).err;
+    EXPECT_THAT(answer.err, testing::MatchesRegex("note: --seed changes nothing: .*\n.*"));
+    EXPECT_TRUE(answer.err.ends_with("\n" + without)) << arguments << answer.err;
+    EXPECT_EQ(run_havers(folder, with_seed + " -q").err, without) << arguments;
+  }
 }
 
 TEST(Usage, KnownDensitiesAreZeroOrMore) {

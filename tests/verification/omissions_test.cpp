@@ -9,6 +9,7 @@
 #include "sim/simulation.hpp"
 #include "tests/support/broken_joints.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/slow.hpp"
 
 namespace havers::sim {
 namespace {
@@ -40,6 +41,32 @@ TEST_P(SameRun, InTimeWhenNothingIsLeftOut) {
     EXPECT_EQ(test::broken_joints(quick.joints), test::broken_joints(all.joints));
     expect_same_curve(quick, all);
   }
+}
+
+// Steps to the first break are taken or leapt over, and halved as often.
+TEST_P(SameRun, InChosenStepsWhenNothingIsLeftOut) {
+  HAVERS_SLOW;
+  Scene scene = test::small_scene(GetParam(), 4, 3);
+  scene.solver.regime = Regime::dynamic;
+  scene.loading.strain_rate = 1e4;
+  scene.solver.step_accuracy = 0.02;
+  const Simulation quick = simulate(scene);
+  scene.solver.leave_out = false;
+  const Simulation all = simulate(scene);
+  EXPECT_GT(quick.leapt_strain, 0.0);
+  EXPECT_GT(all.steps, 2 * quick.steps);
+  EXPECT_EQ(quick.step, all.step);
+  EXPECT_EQ(test::broken_joints(quick.joints), test::broken_joints(all.joints));
+  EXPECT_NEAR(quick.step_error->strength, all.step_error->strength, 1e-9);
+  EXPECT_NEAR(quick.step_error->failure_strain, all.step_error->failure_strain, 1e-9);
+  for (const auto value : {&Simulation::strength, &Simulation::failure_strain,
+                           &Simulation::first_break_strain, &Simulation::modulus})
+    EXPECT_NEAR(quick.*value / all.*value, 1.0, 1e-9);
+  EXPECT_NEAR(quick.strength_without_ringing() / all.strength_without_ringing(), 1.0, 1e-9);
+  for (std::size_t j = 0; j < quick.joints.size(); ++j)
+    if (quick.joints[j].broken) {
+      EXPECT_NEAR(quick.joints[j].broken_at_strain / all.joints[j].broken_at_strain, 1.0, 1e-9);
+    }
 }
 
 // A run that leaves out the end of its avalanche has broken what the whole one had by then.

@@ -158,11 +158,20 @@ TEST(StepChosen, IsNotLeaptOverWhereTheMotionIsNotUniform) {
   EXPECT_EQ(run_in_steps(scene, {.step = 1e-8, .leap = true}, {}).leapt_strain, 0.0);
 }
 
-TEST(StepChosen, LeavesNothingOutWhenAskedNotTo) {
-  HAVERS_SLOW;
+// What is no whole step goes at once.
+TEST(StepChosen, TakesEveryStepWhereNothingIsLeftOut) {
   Scene scene = without_step(0.0);
   scene.solver.leave_out = false;
-  EXPECT_EQ(run_in_chosen_steps(scene, {}).leapt_strain, 0.0);
+  const double step = first_step(scene), of_one = scene.loading.strain_rate * step;
+  const Simulation run = run_in_steps(scene, {.step = step, .leap = true}, {});
+  EXPECT_EQ(run.leapt_strain, 0.0);
+  EXPECT_EQ(run.curve.size(), static_cast<std::size_t>(run.steps) + 1);
+  for (std::size_t i = 1; i < run.curve.size(); ++i)
+    EXPECT_LT(run.curve[i].strain - run.curve[i - 1].strain, 2.0 * of_one) << i;
+  EXPECT_GT(run.steps, run.first_break_strain / of_one);
+  const double first = first_break_by_uniform_stress(scene);
+  EXPECT_NEAR(run.first_break_strain / first, 1.0, 1e-8);
+  EXPECT_NEAR(run.uniform_strain + of_one, first, 3.0 * of_one) << "after two steps, to one before";
 }
 
 TEST(StepChosen, SaysWhatItsLastHalvingChanged) {
