@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "calib/experiment/join_logger.hpp"
 #include "calib/experiment/measured_test.hpp"
 #include "calib/fit/scenes.hpp"
 #include "calib/study/parameter.hpp"
@@ -42,6 +43,7 @@ struct Made {
   calib::Specimen specimen;
   sim::Scene scene;
   sim::Simulation simulation;
+  std::optional<double> gauge_clock;  ///< At the test's first row, of a gauge of its own. [s]
   std::vector<std::string> problems;  ///< That the test has for a fit.
 };
 
@@ -67,11 +69,11 @@ void refuse_what_is_not_made(const std::string& where, const io::SpecimenFiles& 
     if (named) problems.push_back({where, "has " + key + ", which is not made", "leave it out"});
   };
   // The tests that are made are exports of one machine with one specimen each; images have no mask.
-  refuse(specimen.gauge.has_value(), "a gauge");
   refuse(specimen.mask.has_value(), "a mask");
   refuse(!specimen.columns.specimen.empty() || specimen.columns.specimen_number,
          "specimen_in_file");
-  refuse(!specimen.columns.columns.empty() || !specimen.columns.units.empty(), "columns");
+  for (const io::ReadOptions& columns : {specimen.columns, specimen.gauge_columns})
+    refuse(!columns.columns.empty() || !columns.units.empty(), "columns");
 }
 
 // All files must lie in the study's folder or below it, and none may be named twice. Otherwise the
@@ -88,6 +90,7 @@ std::vector<io::Problem> problems_of(const fs::path& study, const io::StudyFile&
   for (const io::SpecimenFiles& specimen : file.specimens) {
     std::vector<fs::path> files = specimen.sections;
     files.push_back(specimen.test);
+    if (specimen.gauge) files.push_back(*specimen.gauge);
     for (const fs::path& path : files) {
       if (*place(study, path).begin() == "..")
         problems.push_back({path.string(), "lies outside the study's folder",
@@ -163,13 +166,24 @@ Made make_specimen(const fs::path& study, const OutputFolder& output, const io::
       model.modulus_factor * calib::modulus_variation(seed, file.synthesize.modulus_cv);
   model.scene.joints.seed = seed;
 
-  Made made{.specimen = specimen, .scene = model.scene, .simulation = {}, .problems = {}};
+  Made made{.specimen = specimen, .scene = model.scene};
   made.simulation = sim::simulate(made.scene, {}, interrupted);
   if (!calib::is_test(made.simulation)) return made;  // nothing to record
   calib::RawTest record = calib::record_test(made.simulation, bar, laboratory, seed);
   record.specimen_id = specimen.id;
+  calib::RawTest read = record;  // as `fit` reads it
+  if (const auto& gauge = file.specimens[s].gauge) {
+    calib::RawTest logger = calib::record_logger(made.simulation, bar, laboratory, seed);
+    logger.specimen_id = specimen.id;
+    made.gauge_clock = calib::logger_at_first_row(made.simulation, bar, laboratory);
+    record.strain.clear();
+    io::write_bluehill(output.stage(place(study, *gauge)), logger);
+    calib::JoinedTest joined = calib::join_logger(record, logger, file.reduction);
+    made.problems = std::move(joined.problems);
+    read = std::move(joined.test);
+  }
   // Why `fit` could not use the test.
-  made.problems = calib::reduce_test(record, file.reduction).problems;
+  if (made.problems.empty()) made.problems = calib::reduce_test(read, file.reduction).problems;
   io::write_bluehill(output.stage(place(study, file.specimens[s].test)), record);
   return made;
 }
@@ -207,6 +221,7 @@ nlohmann::json truth_of(const io::StudyFile& file, const std::vector<Made>& made
       specimen["porosity"] = porosity.porosity;
       specimen["window_sd"] = porosity.window_sd;
     }
+    if (one.gauge_clock) specimen["gauge_clock_at_first_row_s"] = *one.gauge_clock;
     specimens.push_back(specimen);
   }
   return {{"study", file.study.name},

@@ -13,7 +13,7 @@ namespace havers::calib {
 namespace {
 
 // What a random number is for; with the seed and the row it names the number.
-enum class Draw : std::uint64_t { noise = 1, seed = 2, modulus = 3, gain = 4 };
+enum class Draw : std::uint64_t { noise = 1, seed = 2, modulus = 3, gain = 4, logger = 5 };
 
 // A function of its arguments alone, whatever was drawn before.
 r123::Philox2x64::ctr_type draw(std::uint64_t seed, std::uint64_t row, Draw purpose) {
@@ -44,6 +44,13 @@ double strain_of_gauge(double specimen, double toe) {
   return gauge;
 }
 
+// e₀ of (Y2).
+double start_of_record(const sim::Simulation& simulation, const Bar& bar,
+                       const Laboratory& laboratory) {
+  return strain_of_gauge(laboratory.preload / (bar.area() * simulation.modulus),
+                         laboratory.toe_strain);
+}
+
 }  // namespace
 
 double strain_rate(const Bar& bar, const Laboratory& laboratory) {
@@ -65,8 +72,7 @@ RawTest record_test(const sim::Simulation& simulation, const Bar& bar, const Lab
 
   // (Y2) The record starts, and strain and extension are zeroed, when the force reaches the
   // preload.
-  const double start = strain_of_gauge(laboratory.preload / (bar.area() * simulation.modulus),
-                                       laboratory.toe_strain);
+  const double start = start_of_record(simulation, bar, laboratory);
   // One draw for a test: a calibration errs alike in all rows.
   const auto gain = gauss_pair(seed, 0, Draw::gain);
   const double force_gain = 1.0 + laboratory.gain_error * gain.x;
@@ -88,6 +94,33 @@ RawTest record_test(const sim::Simulation& simulation, const Bar& bar, const Lab
     if (!stress) ++after_break;
   }
   return test;
+}
+
+double logger_at_first_row(const sim::Simulation& simulation, const Bar& bar,
+                           const Laboratory& laboratory) {
+  return laboratory.logger_rows_before * laboratory.sampling +
+         start_of_record(simulation, bar, laboratory) / strain_rate(bar, laboratory);
+}
+
+RawTest record_logger(const sim::Simulation& simulation, const Bar& bar,
+                      const Laboratory& laboratory, std::uint64_t seed) {
+  assert(!simulation.curve.empty() && simulation.modulus > 0.0);
+  assert(bar.area() > 0.0 && strain_rate(bar, laboratory) > 0.0 && laboratory.sampling > 0.0);
+  RawTest logger;
+  const double gain = 1.0 + laboratory.gain_error * gauss_pair(seed, 0, Draw::gain).y;
+  for (int row = 0, after_break = 0; after_break < laboratory.rows_after_break; ++row) {
+    // (Y4) Slack until the loading begins, and after the break again.
+    const double loaded = (row - laboratory.logger_rows_before) * laboratory.sampling;
+    const double gauge = std::max(strain_rate(bar, laboratory) * loaded, 0.0);
+    const bool parted =
+        !sim::stress_at(simulation.curve, strain_of_specimen(gauge, laboratory.toe_strain));
+    logger.time.push_back(row * laboratory.sampling);
+    logger.strain.push_back((parted ? 0.0 : gain * gauge) +
+                            laboratory.strain_noise *
+                                gauss_pair(seed, static_cast<std::uint64_t>(row), Draw::logger).x);
+    if (parted) ++after_break;
+  }
+  return logger;
 }
 
 std::uint64_t specimen_seed(std::uint64_t study_seed, std::uint64_t specimen) {

@@ -29,6 +29,8 @@ struct Laboratory {
   double strain_noise = 2e-6;  ///< Standard deviation. [-]
   double gain_error = 0.0;     ///< Of each channel's calibration, standard deviation. [-]
   int rows_after_break = 5;    ///< The machine stops so many rows after the parting.
+  /// A second logger starts before the loading, so that its rows lie between the machine's. [rows]
+  double logger_rows_before = 50.3;
 };
 
 /// ε̇ of a specimen: crosshead rate over gauge length. [1/s]
@@ -43,6 +45,15 @@ bool is_test(const sim::Simulation& simulation);
 /// Precondition: the simulation `is_test`; all rates and sizes are positive.
 RawTest record_test(const sim::Simulation& simulation, const Bar& bar, const Laboratory& laboratory,
                     std::uint64_t seed);
+
+/// What the clock of a second logger shows at the first row of `record_test`. [s]
+double logger_at_first_row(const sim::Simulation& simulation, const Bar& bar,
+                           const Laboratory& laboratory);
+
+/// Time and strain as a second logger records the gauge of the same test on a clock of its own
+/// (Y4): with the gain of `record_test`, and noise of its own. Preconditions as there.
+RawTest record_logger(const sim::Simulation& simulation, const Bar& bar,
+                      const Laboratory& laboratory, std::uint64_t seed);
 
 /// A seed for each specimen of a synthetic study; none of a fit's replicates has it.
 std::uint64_t specimen_seed(std::uint64_t study_seed, std::uint64_t specimen);

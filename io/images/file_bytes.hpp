@@ -34,6 +34,7 @@ class FileBytes {
   /// Of 1 to 8 bytes.
   std::uint64_t number(Offset at, std::size_t size) {
     std::string bytes = text(at, size);
+    if (bytes.size() < size) return 0;
     if (!big_endian_) std::reverse(bytes.begin(), bytes.end());
     std::uint64_t value = 0;
     for (const char byte : bytes) value = value << 8U | static_cast<unsigned char>(byte);

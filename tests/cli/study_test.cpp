@@ -70,14 +70,43 @@ TEST(Synthesize, RefusesWhatItDoesNotMake) {
   const fs::path folder = test::folder_with_study();
   test::write_text(folder / "study.toml",
                    test::small_study() +
-                       "gauge = \"g.csv\"\nmask = \"m.png\"\n"
+                       "mask = \"m.png\"\n"
                        "specimen_in_file = 2\ncolumns.force_unit = \"kN\"\n");
   const auto answer = run_havers(folder, "synthesize study.toml -o made");
   EXPECT_EQ(answer.exit_code, 2);
-  for (const char* key : {"a gauge", "a mask", "specimen_in_file", "columns"})
+  for (const char* key : {"a mask", "specimen_in_file", "columns"})
     EXPECT_THAT(answer.err,
                 HasSubstr("study.toml: specimen B90: has " + std::string(key) + ", which is"));
   EXPECT_FALSE(fs::exists(folder / "made"));
+}
+
+// `import` finds the clocks and the modulus that the truth has.
+TEST(Synthesize, MakesTheGaugesOfASecondLogger) {
+  const fs::path folder = test::folder_with_study();
+  const std::string study = replaced_once(test::small_study(), "test = \"B90.csv\"",
+                                          "test = \"B90.csv\"\ngauge = \"gauges/B90.csv\"");
+  test::write_text(folder / "study.toml", study);
+  const auto made = run_havers(folder, "synthesize study.toml -o made");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(made.err, "");
+  EXPECT_EQ(run_havers(folder, "check made/study.toml").exit_code, 0);
+  EXPECT_THAT(test::contents(folder / "made/B90.csv"), testing::Not(HasSubstr("strain")));
+  const auto truth = nlohmann::json::parse(test::contents(folder / "made/truth.json"));
+  EXPECT_FALSE(truth["specimens"][0].contains("gauge_clock_at_first_row_s"));
+  const auto& specimen = truth["specimens"][1];
+  const auto read = nlohmann::json::parse(
+      run_havers(folder, "import made/B90.csv --gauge made/gauges/B90.csv --json").out);
+  EXPECT_EQ(read["specimen_id"], "B90");
+  const auto& clocks = read["clocks"];
+  EXPECT_NEAR(
+      clocks["machine_time_at_reference_s"].get<double>(),
+      clocks["reference_s"].get<double>() - specimen["gauge_clock_at_first_row_s"].get<double>(),
+      4.0 * clocks["machine_time_standard_error_s"].get<double>());
+  EXPECT_LT(clocks["machine_time_standard_error_s"].get<double>(), 0.02) << "a row's time";
+  EXPECT_NEAR(read["modulus_Pa"].get<double>(), specimen["modulus_Pa"].get<double>(),
+              4.0 * read["modulus_standard_error_Pa"].get<double>());
+  EXPECT_NEAR(read["failure_strain"].get<double>() / specimen["failure_strain"].get<double>(), 1.0,
+              0.05);
 }
 
 TEST(Synthesize, WritesNoBreakThatTheModelDidNotHave) {

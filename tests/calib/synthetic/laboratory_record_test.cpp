@@ -69,6 +69,58 @@ TEST(LaboratoryRecord, OfALinearCurveIsTheLineUpToTheBreak) {
   for (std::size_t row = loaded; row < test.rows(); ++row) EXPECT_EQ(test.force[row], 0.0);
 }
 
+// Slack, the loading from its beginning, slack: on a clock that shows a stated time when the
+// machine's shows 0.
+TEST(LaboratoryRecord, OfASecondLoggerIsOnItsOwnClock) {
+  const Bar bar;
+  Laboratory laboratory = silent();
+  laboratory.preload = 12.0;
+  laboratory.toe_strain = 1e-4;
+  const RawTest machine = record_test(brittle(), bar, laboratory, 1);
+  const RawTest logger = record_logger(brittle(), bar, laboratory, 1);
+  const double rate = strain_rate(bar, laboratory);
+  const double first_row = logger_at_first_row(brittle(), bar, laboratory);
+  const double slack = laboratory.logger_rows_before * laboratory.sampling;  // until then [s]
+  const double end = slack + (broken_at + laboratory.toe_strain) / rate;
+  ASSERT_GT(first_row, slack);
+  EXPECT_TRUE(logger.force.empty() && logger.extension.empty());
+  ASSERT_EQ(logger.time.size(), static_cast<std::size_t>(end / laboratory.sampling) + 1 +
+                                    static_cast<std::size_t>(laboratory.rows_after_break));
+  for (std::size_t row = 0; row < logger.time.size(); ++row) {
+    const double time = logger.time[row];
+    EXPECT_NEAR(time, laboratory.sampling * static_cast<double>(row), 1e-12);
+    const bool strained = time > slack && time < end;
+    EXPECT_NEAR(logger.strain[row], strained ? rate * (time - slack) : 0.0, 1e-12) << row;
+    // What the machine's own channel would hold then, which is zeroed at its first row.
+    const double on_machine = time - first_row;
+    if (on_machine < 0.0 || on_machine > machine.time.back() || !strained) continue;
+    const auto before = static_cast<std::size_t>(on_machine / laboratory.sampling);
+    if (machine.force[before + 1] == 0.0) continue;
+    const double part = on_machine / laboratory.sampling - static_cast<double>(before);
+    const double zeroed = (1.0 - part) * machine.strain[before] + part * machine.strain[before + 1];
+    EXPECT_NEAR(logger.strain[row] - zeroed, rate * (first_row - slack), 1e-12) << row;
+  }
+}
+
+TEST(LaboratoryRecord, OfASecondLoggerHasTheGaugesGainAndNoiseOfItsOwn) {
+  Laboratory laboratory = silent();
+  laboratory.gain_error = 1e-2;
+  RawTest logger = record_logger(brittle(), {}, laboratory, 7);
+  const RawTest unerring = record_logger(brittle(), {}, silent(), 7);
+  const double gain = record_test(brittle(), {}, laboratory, 7).strain[20] /
+                      record_test(brittle(), {}, silent(), 7).strain[20];
+  EXPECT_NEAR(logger.strain[80] / unerring.strain[80], gain, 1e-12);
+  laboratory = silent();
+  laboratory.strain_noise = 2e-6;
+  logger = record_logger(brittle(), {}, laboratory, 7);
+  const RawTest machine = record_test(brittle(), {}, laboratory, 7);
+  std::vector<double> noise;
+  for (std::size_t row = 0; row < logger.time.size(); ++row)
+    noise.push_back(logger.strain[row] - unerring.strain[row]);
+  EXPECT_NEAR(standard_deviation(noise), 2e-6, 4e-7);
+  EXPECT_GT(std::abs(noise[0] - machine.strain[0]), 1e-9);
+}
+
 // One gain for a whole test, another for the next.
 TEST(LaboratoryRecord, HasChannelsThatAreCalibratedAsWellAsAsked) {
   Laboratory laboratory = silent();

@@ -140,14 +140,16 @@ TEST_F(PixelSizeTag, OfAPrinterOrScreenIsNone) {
   EXPECT_NEAR(size_of(tiff(Order::little, 4800.0, 2, "")), 25400.0 / 4800.0, 1e-9);
 }
 
-// Before the entry of its resolution, and behind all that tells it.
+// The resolution itself lies behind the directory.
 TEST_F(PixelSizeTag, OfAFileCutShortIsNoneOrTheSame) {
-  const std::string whole = tiff(Order::little, 2500.0, 3, "");
-  const std::size_t entry = 22, end = 58;
-  for (std::size_t length = 0; length <= entry; length += 5)
-    EXPECT_TRUE(std::isnan(size_of(whole.substr(0, length)))) << length;
-  for (std::size_t length = end; length <= whole.size(); ++length)
-    EXPECT_NEAR(size_of(whole.substr(0, length)), 4.0, 1e-9) << length;
+  constexpr std::size_t end = 58;
+  for (const Order order : {Order::big, Order::little}) {
+    const std::string whole = tiff(order, 2500.0, 3, "behind");
+    for (std::size_t length = 0; length < end; ++length)
+      EXPECT_TRUE(std::isnan(size_of(whole.substr(0, length)))) << length;
+    for (std::size_t length = end; length <= whole.size(); ++length)
+      EXPECT_NEAR(size_of(whole.substr(0, length)), 4.0, 1e-9) << length;
+  }
 }
 
 TEST_F(PixelSizeTag, OfADicomSliceComesWithItsPixels) {
