@@ -169,22 +169,21 @@ Made make_specimen(const fs::path& study, const OutputFolder& output, const io::
   Made made{.specimen = specimen, .scene = model.scene};
   made.simulation = sim::simulate(made.scene, {}, interrupted);
   if (!calib::is_test(made.simulation)) return made;  // nothing to record
-  calib::RawTest record = calib::record_test(made.simulation, bar, laboratory, seed);
-  record.specimen_id = specimen.id;
-  calib::RawTest read = record;  // as `fit` reads it
+  calib::RawTest machine = calib::record_test(made.simulation, bar, laboratory, seed);
+  machine.specimen_id = specimen.id;
+  calib::JoinedTest read{.test = machine};  // as `fit` does
   if (const auto& gauge = file.specimens[s].gauge) {
     calib::RawTest logger = calib::record_logger(made.simulation, bar, laboratory, seed);
     logger.specimen_id = specimen.id;
     made.gauge_clock = calib::logger_at_first_row(made.simulation, bar, laboratory);
-    record.strain.clear();
+    machine.strain.clear();
     io::write_bluehill(output.stage(place(study, *gauge)), logger);
-    calib::JoinedTest joined = calib::join_logger(record, logger, file.reduction);
-    made.problems = std::move(joined.problems);
-    read = std::move(joined.test);
+    read = calib::join_logger(machine, logger, file.reduction);
   }
+  io::write_bluehill(output.stage(place(study, file.specimens[s].test)), machine);
   // Why `fit` could not use the test.
-  if (made.problems.empty()) made.problems = calib::reduce_test(read, file.reduction).problems;
-  io::write_bluehill(output.stage(place(study, file.specimens[s].test)), record);
+  made.problems = read.problems.empty() ? calib::reduce_test(read.test, file.reduction).problems
+                                        : std::move(read.problems);
   return made;
 }
 
