@@ -83,9 +83,8 @@ int bench_scene(const BenchArguments& arguments, const CommonOptions& common) {
   if (arguments.scene.empty())
     throw io::InputError("bench", "no scene is given", "havers bench SCENE.toml -o DIR");
   const Stopwatch watch;
-  io::SceneFile file = io::read_scene(arguments.scene, common.set);
+  const io::SceneFile file = load_scene(arguments.scene, common);
   Digests inputs = digests_of(file.inputs);
-  if (common.seed) file.scene.joints.seed = *common.seed;
   OutputFolder output(arguments.folder, common.force);
 
   const sim::WorkPrecision study = watched(file.scene, arguments, common);

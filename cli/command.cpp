@@ -85,6 +85,16 @@ void note(const CommonOptions& common, const std::string& sentence) {
   if (!common.quiet) fmt::print(stderr, "{}\n", sentence);
 }
 
+io::SceneFile load_scene(const std::filesystem::path& file, const CommonOptions& common,
+                         io::Snapshots snapshots) {
+  io::SceneFile scene = io::read_scene(file, common.set, snapshots);
+  if (common.seed) scene.scene.joints.seed = *common.seed;
+  for (const std::string& warning : scene.warnings) note(common, "note: " + warning);
+  if (!scene.scene.joints.thresholds.empty())
+    note_idle_seed(common, "thresholds_file gives those of every joint");
+  return scene;
+}
+
 std::string cell(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";
 }

@@ -83,6 +83,11 @@ void refuse_settings(const CommonOptions& common, const std::string& what);
 /// A note for the user on stderr; silent with -q.
 void note(const CommonOptions& common, const std::string& sentence);
 
+/// A scene with --set and --seed; notes which keys and options change nothing. @throws
+/// io::InputError as io::read_scene.
+io::SceneFile load_scene(const std::filesystem::path& file, const CommonOptions& common,
+                         io::Snapshots snapshots = io::Snapshots::ignored);
+
 /// A number of a table on stdout; a dash for what is not known.
 std::string cell(double value, int decimals);
 

@@ -160,14 +160,9 @@ void print_summary(const sim::Scene& scene, const sim::Simulation& run, double w
 
 int run_simulate(const SimulateArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
-  io::SceneFile file = io::read_scene(arguments.scene, common.set, io::Snapshots::written);
+  const io::SceneFile file = load_scene(arguments.scene, common, io::Snapshots::written);
   // Now, as files may be changed during the run.
   Digests inputs = digests_of(file.inputs);
-  if (common.seed) file.scene.joints.seed = *common.seed;
-  if (common.seed && !file.scene.joints.thresholds.empty())
-    file.warnings.emplace_back(
-        "--seed changes nothing: thresholds_file gives those of every joint");
-  for (const std::string& warning : file.warnings) note(common, "note: " + warning);
   if (const std::string doubt = sim::doubt_about_steps(file.scene); !doubt.empty())
     note(common, "note: " + doubt);
   catch_interrupts();

@@ -72,8 +72,11 @@ void refuse_what_is_not_made(const std::string& where, const io::SpecimenFiles& 
   refuse(specimen.mask.has_value(), "a mask");
   refuse(!specimen.columns.specimen.empty() || specimen.columns.specimen_number,
          "specimen_in_file");
-  for (const io::ReadOptions& columns : {specimen.columns, specimen.gauge_columns})
-    refuse(!columns.columns.empty() || !columns.units.empty(), "columns");
+  const auto has_hints = [](const io::ReadOptions& options) {
+    return !options.columns.empty() || !options.units.empty();
+  };
+  refuse(has_hints(specimen.columns), "columns");
+  refuse(has_hints(specimen.gauge_columns), "gauge_columns");
 }
 
 // All files must lie in the study's folder or below it, and none may be named twice. Otherwise the

@@ -101,7 +101,7 @@ enum class ContactMethod { automatic, active_set, gauss_seidel };
 struct SolverOptions {
   Regime regime = Regime::automatic;
   std::optional<double> step;   ///< h; omitted: chosen, and said. [s]
-  bool leap = false;            ///< With a given step: as chosen ones do (`may_leap`).
+  bool leap = false;            ///< With a given step: as chosen ones do (`knows_first_break`).
   double step_accuracy = 1e-3;  ///< Of failure strain and strength by the chosen step. [-]
   ContactMethod contact = ContactMethod::automatic;
   double tolerance = 1e-8;     ///< Largest relative residual (M11). [-]

@@ -114,9 +114,9 @@ struct Simulation {
   /// What the last two halvings of a chosen step changed at most; 0 in the quasi-static limit, none
   /// where the step was given.
   std::optional<StepError> step_error = StepError{};
-  double uniform_strain = 0.0;  ///< In time: what was stretched in uniform motion known to end on
-                                ///< the first break. [-]
-  double leapt_strain = 0.0;    ///< The same where it was stretched without steps. [-]
+  long uniform_steps = 0;       ///< In time: whole ones of uniform motion, from where that was seen
+                                ///< to one before the first break or the strain limit.
+  double leapt_strain = 0.0;    ///< What was stretched there without these steps. [-]
   double step_accuracy = 0.0;   ///< Of both by a chosen step, as asked for. [-]
   int steps = 0;                ///< Time steps, or events of the quasi-static sequence.
   long iterations = 0;          ///< Of the contact solver, all steps together.

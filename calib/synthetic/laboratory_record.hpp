@@ -29,7 +29,8 @@ struct Laboratory {
   double strain_noise = 2e-6;  ///< Standard deviation. [-]
   double gain_error = 0.0;     ///< Of each channel's calibration, standard deviation. [-]
   int rows_after_break = 5;    ///< The machine stops so many rows after the parting.
-  /// A second logger starts before the loading, so that its rows lie between the machine's. [rows]
+  /// So long before the loading a second logger starts; its rows then mostly lie between the
+  /// machine's. [rows]
   double logger_rows_before = 50.3;
 };
 

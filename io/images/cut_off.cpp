@@ -19,7 +19,7 @@ namespace havers::images {
 namespace {
 
 // Each page has a directory: how many tags, the tags, and the place of the next one, which counts
-// even where the file ends before it.
+// even where the file ends before it, or within its place.
 std::size_t pages_of_tiff(const std::filesystem::path& file) {
   FileBytes bytes(file);
   const std::string order = bytes.text(0, 2);
@@ -31,8 +31,11 @@ std::size_t pages_of_tiff(const std::filesystem::path& file) {
   const std::size_t place = large ? 8 : 4, count = large ? 8 : 2, tag = large ? 20 : 12;
   // Offset 0 ends the list. So does a directory met before: in a damaged file they may form a loop.
   std::set<Offset> passed{0};
-  for (Offset at = bytes.number(place, place); passed.insert(at).second;)
-    at = bytes.number(at + count + tag * bytes.number(at, count), place);
+  for (Offset at = bytes.number(place, place); passed.insert(at).second;) {
+    const Offset next = at + count + tag * bytes.number(at, count);
+    if (bytes.text(next, place).size() < place) return passed.size();
+    at = bytes.number(next, place);
+  }
   return passed.size() - 1;
 }
 

@@ -12,7 +12,7 @@ namespace havers::images {
 /// A place in a file, counted from its start. [byte]
 using Offset = std::uint64_t;
 
-/// Beyond the file's end a number is zero and a text is empty, so that a reader that follows the
+/// Of what the file's end cuts off a number is zero and a text is what is left, so that a reader that follows the
 /// offsets of a damaged file need not check them. Not for use by two threads at once.
 class FileBytes {
  public:

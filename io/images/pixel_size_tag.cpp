@@ -75,8 +75,8 @@ double unit_of(const std::string& description) {
 double tiff_pixel(FileBytes& bytes) {
   bytes.set_big_endian(bytes.text(0, 2) == "MM");
   const Offset directory = bytes.number(4, 4), entries = bytes.number(directory, 2);
-  // Without its end a directory may lack the unit of a resolution that it has.
-  if (bytes.text(directory + 2 + 12 * entries, 4).size() < 4) return 0.0;
+  // Where the last entry is cut off, a resolution may lack its unit.
+  if (bytes.text(directory + 1 + 12 * entries, 1).empty()) return 0.0;
   double across = 0.0, down = 0.0, unit = inch, described = 0.0;  // pixels a unit
   for (Offset i = 0; i < entries; ++i) {
     const Offset entry = directory + 2 + 12 * i, place = bytes.number(entry + 8, 4);

@@ -194,11 +194,12 @@ double DynamicRun::leap() {
   if (std::ranges::any_of(joints_, &JointOutcome::broken) ||
       acceleration_force_ > uniform * motion_.Kq.norm())
     return 0.0;
-  const double whole = beyond * time_to_first_break() - h_;
-  if (!(whole > h_)) return 0.0;
+  const double to_go = beyond * time_to_first_break() - h_;
+  if (!(to_go > h_)) return 0.0;
   // Where nothing is left out each whole step is taken, and only the rest goes at once, so that a
   // step ends on the break all the same.
-  const double time = scene_.solver.leave_out ? whole : std::fmod(whole, h_);
+  const double time =
+      scene_.solver.leave_out ? to_go : to_go - h_ * static_cast<double>(whole_steps(to_go));
   // Viscous stress is constant on the way, and so is its power.
   energy_.viscous += scene_.material.viscosity * time * motion_.v.dot(motion_.Kv);
   motion_.q += time * motion_.v;
@@ -208,7 +209,7 @@ double DynamicRun::leap() {
   // The account starts anew from here: no step tells the work that the leap took.
   energy_.start(motion_, bodies_.mass());
   leapt_ += time;
-  return scene_.loading.strain_rate * whole;
+  return to_go;
 }
 
 CurvePoint DynamicRun::point() const {

@@ -23,9 +23,12 @@ class DynamicRun {
   /// One step on; false when the joints' problem was not solved, or its solver was stopped.
   bool advance();
   /// After two or more steps of uniform motion, whose reactions change linearly: on to one step
-  /// before the first break or, where nothing is left out, to a whole number of steps before it.
-  /// Returns the strain that is left up to that last step, 0 where the motion is another. [-]
+  /// before the first break or, where nothing is left out, to a whole number of steps before that.
+  /// Returns the time from here to that step, 0 where the motion is another. [s]
   double leap();
+
+  /// How many steps a time holds as a whole.
+  [[nodiscard]] long whole_steps(double time) const { return static_cast<long>(time / h_); }
 
   /// The row of the last step; before the first, the start. Stresses are the machine's forces over
   /// the specimen's height.

@@ -27,10 +27,12 @@ double most_steps(const Simulation& run) {
   return std::max(of_any, of_all_joints / static_cast<double>(run.joints.size() + 1));
 }
 
-// Without those that a run which leaves nothing out takes and another leaps over, so that both have
-// the same length.
-double steps_that_count(const Simulation& run, double strain_rate) {
-  return run.steps - std::floor((run.uniform_strain - run.leapt_strain) / (strain_rate * run.step));
+// Whether a run of half the step would be too long. Steps that a run which leaves nothing out takes
+// and another leaps over do not count, so that both are halved as often, as far as they can be.
+bool has_no_half(const Simulation& run) {
+  const long leapt_over = run.leapt_strain > 0.0 ? 0 : run.uniform_steps;
+  return 2.0 * static_cast<double>(run.steps - leapt_over) > most_steps(run) ||
+         2.0 * run.steps > most_steps_of_a_run;
 }
 
 constexpr StepError never_compared{.failure_strain = std::numeric_limits<double>::quiet_NaN(),
@@ -97,12 +99,19 @@ double first_step(const Scene& scene) {
 }
 
 std::string doubt_about_steps(const Scene& scene) {
-  if (scene.solver.step || !may_leap(scene) || choose_regime(scene).regime == Regime::quasi_static)
+  if (scene.solver.step || !knows_first_break(scene) ||
+      choose_regime(scene).regime == Regime::quasi_static)
     return "";
-  const double followed = most_steps_of_a_run * first_step(scene) * scene.loading.strain_rate;
-  if (followed >=
-      std::min(scene.loading.max_strain, head_tail_strength(scene) / scene.material.young))
-    return "";
+  const double of_one = first_step(scene) * scene.loading.strain_rate;
+  const double strain =
+      std::min(scene.loading.max_strain, head_tail_strength(scene) / scene.material.young);
+  if (!scene.solver.leave_out)
+    return fmt::format(
+        "leave_out = false takes every step to the first break: in the first run some {:.2g}, in "
+        "each that halves the step twice as many, and up to ten do",
+        strain / of_one);
+  const double followed = most_steps_of_a_run * of_one;
+  if (followed >= strain) return "";
   return fmt::format(
       "a run in time ends after ten million steps, at this rate a strain of at most {:.2g} % "
       "beyond the first break: where the specimen bears longer it takes long and is not trusted "
@@ -140,7 +149,7 @@ Simulation run_in_chosen_steps(const Scene& scene, const Observer& observer,
     // Two halvings in turn: waves may let two steps agree by chance.
     agreed = change.largest() < 0.5 * scene.solver.step_accuracy ? agreed + 1 : 0;
     if (!has_ended(run) || agreed == 2) break;
-    if (!first && 2.0 * steps_that_count(run, scene.loading.strain_rate) > most_steps(run)) break;
+    if (!first && has_no_half(run)) break;
   }
   run.regime_ground = ground_of(run, scene.solver.step_accuracy, finer_failed);
   return run;

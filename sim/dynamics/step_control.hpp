@@ -18,8 +18,8 @@ bool may_leap(const Scene& scene);
 /// that along it; at most a fiftieth of the strain σ₁/E, and of the strain limit, a step. [s]
 double first_step(const Scene& scene);
 
-/// That a run in chosen steps may end before its specimen breaks, as a sentence; empty where it has
-/// steps enough to the strain σ₁/E.
+/// That a run in chosen steps may end before its specimen breaks, or takes steps that another leaps
+/// over, as a sentence; empty where it leaps and has steps enough to the strain σ₁/E.
 std::string doubt_about_steps(const Scene& scene);
 
 /// Runs a scene with first_step and ever half of it, until two halvings in turn have changed the

@@ -57,10 +57,11 @@ SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepp
       return SimulationStatus::broken;
     if (run.steps() == stepping.most) return SimulationStatus::step_limit;
     // Steps may be so short that rounding looks like acceleration in the first of them.
-    const bool may_leap = stepping.leap && simulation.uniform_strain == 0.0;
+    const bool may_leap = stepping.leap && simulation.uniform_steps == 0;
     if (may_leap && run.steps() > 1 && std::has_single_bit(static_cast<unsigned>(run.steps()))) {
-      simulation.uniform_strain = run.leap();
-      if (scene.solver.leave_out) simulation.leapt_strain = simulation.uniform_strain;
+      const double known = run.leap();
+      simulation.uniform_steps = run.whole_steps(known);
+      if (scene.solver.leave_out) simulation.leapt_strain = scene.loading.strain_rate * known;
     }
   }
   return SimulationStatus::strain_limit;
@@ -71,7 +72,7 @@ SimulationStatus follow_in_time(const Scene& scene, DynamicRun& run, const Stepp
 bool starts_with_waves(const Scene& scene, const Simulation& simulation) {
   if (scene.loading.start == Start::rest) return true;
   const bool unlike = scene.material.layer_contrast != 1.0 && scene.assembly.orientation != 0.0;
-  return simulation.uniform_strain == 0.0 && (simulation.missing_joints() > 0 || unlike);
+  return simulation.uniform_steps == 0 && (simulation.missing_joints() > 0 || unlike);
 }
 
 // After the last break what is left only swings; before a period has passed its mean is that of
