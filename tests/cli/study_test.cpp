@@ -42,6 +42,9 @@ TEST(Synthesize, RefusesFilesOutsideTheStudysFolder) {
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_THAT(answer.err, HasSubstr("outside"));
   EXPECT_FALSE(fs::exists(folder / "made"));
+  test::write_text(folder / "study.toml", test::small_study() + "gauge = \"../gauge.csv\"\n");
+  EXPECT_THAT(run_havers(folder, "synthesize study.toml -o made").err,
+              HasSubstr("gauge.csv: lies outside the study's folder"));
 }
 
 TEST(Synthesize, RefusesFilesInThePlaceOfItsOwn) {
@@ -52,6 +55,9 @@ TEST(Synthesize, RefusesFilesInThePlaceOfItsOwn) {
     EXPECT_EQ(answer.exit_code, 2);
     EXPECT_THAT(answer.err, HasSubstr(name + ": would be made twice"));
   }
+  test::write_text(folder / "study.toml", test::small_study() + "gauge = \"B0.csv\"\n");
+  EXPECT_THAT(run_havers(folder, "synthesize study.toml -o made").err,
+              HasSubstr("B0.csv: would be made twice"));
 }
 
 TEST(Synthesize, RefusesPorosityThatASectionCannotHold) {
@@ -71,10 +77,11 @@ TEST(Synthesize, RefusesWhatItDoesNotMake) {
   test::write_text(folder / "study.toml",
                    test::small_study() +
                        "mask = \"m.png\"\n"
-                       "specimen_in_file = 2\ncolumns.force_unit = \"kN\"\n");
+                       "specimen_in_file = 2\ncolumns.force_unit = \"kN\"\n"
+                       "gauge = \"g.csv\"\ngauge_columns.strain_unit = \"%\"\n");
   const auto answer = run_havers(folder, "synthesize study.toml -o made");
   EXPECT_EQ(answer.exit_code, 2);
-  for (const char* key : {"a mask", "specimen_in_file", "columns"})
+  for (const char* key : {"gauge_columns", "a mask", "specimen_in_file", "columns"})
     EXPECT_THAT(answer.err,
                 HasSubstr("study.toml: specimen B90: has " + std::string(key) + ", which is"));
   EXPECT_FALSE(fs::exists(folder / "made"));

@@ -55,6 +55,11 @@ TEST(Usage, ASeedThatChangesNothingIsNoted) {
     EXPECT_TRUE(answer.err.ends_with("\n" + without)) << arguments << answer.err;
     EXPECT_EQ(run_havers(folder, with_seed + " -q").err, without) << arguments;
   }
+  const auto sound = test::folder_with_scene();
+  const auto answer = run_havers(sound, "check scene.toml --seed 3");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_EQ(answer.out, run_havers(sound, "check scene.toml").out);
+  EXPECT_EQ(answer.err, "note: --seed changes nothing: havers check runs nothing\n");
 }
 
 TEST(Usage, KnownDensitiesAreZeroOrMore) {

@@ -112,13 +112,22 @@ TEST(LaboratoryRecord, OfASecondLoggerHasTheGaugesGainAndNoiseOfItsOwn) {
   EXPECT_NEAR(logger.strain[80] / unerring.strain[80], gain, 1e-12);
   laboratory = silent();
   laboratory.strain_noise = 2e-6;
+  laboratory.force_noise = 0.5;
   logger = record_logger(brittle(), {}, laboratory, 7);
   const RawTest machine = record_test(brittle(), {}, laboratory, 7);
+  const RawTest quiet = record_test(brittle(), {}, silent(), 7);
   std::vector<double> noise;
-  for (std::size_t row = 0; row < logger.time.size(); ++row)
+  double with_strain = 0.0, with_force = 0.0;  // sums of products, of standard normals
+  for (std::size_t row = 0; row < logger.time.size(); ++row) {
     noise.push_back(logger.strain[row] - unerring.strain[row]);
+    if (row >= machine.rows()) continue;
+    with_strain += noise.back() / 2e-6 * (machine.strain[row] - quiet.strain[row]) / 2e-6;
+    with_force += noise.back() / 2e-6 * (machine.force[row] - quiet.force[row]) / 0.5;
+  }
   EXPECT_NEAR(standard_deviation(noise), 2e-6, 4e-7);
-  EXPECT_GT(std::abs(noise[0] - machine.strain[0]), 1e-9);
+  const auto rows = static_cast<double>(machine.rows());
+  EXPECT_LT(std::abs(with_strain), 4.0 * std::sqrt(rows));
+  EXPECT_LT(std::abs(with_force), 4.0 * std::sqrt(rows));
 }
 
 // One gain for a whole test, another for the next.
