@@ -111,13 +111,16 @@ double largest_mean_stress(const std::vector<CurvePoint>& curve, double span) {
 
 namespace {
 
-// By least squares over a stretch of this strain: neither a constant viscous stress nor the start
-// is part of it. So many points that none of the steps of a stair hides between them.
-double slope_up_to(double end, const std::vector<CurvePoint>& curve) {
+// By least squares over a stretch of this strain: neither a constant viscous stress nor the start,
+// a first long step, is part of it. So many points that none of the steps of a stair hides between
+// them.
+double slope_up_to(double end, double start, const std::vector<CurvePoint>& curve) {
   constexpr std::size_t points = 401;
+  constexpr double from = 0.1, latest_start = 0.4, to = from + modulus_stretch;
+  const double begin = std::clamp(start / end, from, latest_start);
   std::array<double, points> strains{}, stresses{};
   for (std::size_t i = 0; i < points; ++i) {
-    strains.at(i) = end * (0.1 + modulus_stretch / (points - 1) * static_cast<double>(i));
+    strains.at(i) = end * (begin + (to - begin) / (points - 1) * static_cast<double>(i));
     stresses.at(i) = stress_at(curve, strains.at(i)).value_or(0.0);
   }
   double offset = 0.0, slope = 0.0, c00 = 0.0, c01 = 0.0, c11 = 0.0, squares = 0.0;
@@ -146,7 +149,10 @@ void summarise(Simulation& simulation) {
     if (joint.broke() && !(simulation.first_break_strain <= joint.broken_at_strain))
       simulation.first_break_strain = joint.broken_at_strain;
   const double end = strain_of_modulus(simulation);
-  simulation.modulus = end > 0.0 ? slope_up_to(end, curve) : 0.0;
+  // In time the stress of viscosity is there from the first step on.
+  const double start =
+      simulation.regime == Regime::dynamic && curve.size() > 1 ? curve[1].strain : 0.0;
+  simulation.modulus = end > 0.0 ? slope_up_to(end, start, curve) : 0.0;
 }
 
 }  // namespace havers::sim

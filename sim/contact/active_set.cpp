@@ -158,10 +158,14 @@ JointStepResult ActiveSetSolver::solve(const JointStep& step) {
   const bool few_bear = bearing(step) < worth_searching;
   JointStepResult result;
   long iterations = 0;
+  // An answer that keeps the law badly stands only where no other way has a better one.
   const auto unless_solved = [&](const auto& solve) {
-    if (result.converged || stop_is_asked(step.stop_asked)) return;
-    result = solve();
-    iterations += result.iterations;
+    constexpr double well = 1e-9;  // of the residual (M11)
+    if ((result.converged && result.residual <= well) || stop_is_asked(step.stop_asked)) return;
+    JointStepResult other = solve();
+    iterations += other.iterations;
+    if (!result.converged || (other.converged && !(result.residual <= other.residual)))
+      result = std::move(other);
   };
   const auto loosening = [&](std::size_t joints) {
     return solve_loose(step, Effort::little, joints);

@@ -27,10 +27,10 @@ CurvePoint BreakingRun::point() const {
           .dissipated = dissipated_};
 }
 
-// Not where pieces touch whose position is not determined.
+// Not where pieces touch whose position is not determined; where an event was left without contact.
 void BreakingRun::take_note_of_penetration() {
   for (std::size_t i = 0; i < loose_.size(); ++i)
-    if (!contact_.is_apart(i))
+    if (!is_adrift(loose_.joints()[i]))
       worst_penetration_ = std::max(worst_penetration_, -strain_ * y_(2 * static_cast<Index>(i)));
 }
 

@@ -158,8 +158,12 @@ bool is_severed(const Scene& scene, const StopAsked& stop_asked) {
   if (!some_are_missing(scene.joints)) return false;
   const std::shared_ptr<const IntactStructure> intact = intact_structure(scene);
   if (!intact->structure().ok()) return false;
-  BreakingRun run(scene, intact, Care::little, stop_asked);
-  return run.take_missing() && !run.bears();
+  // What little effort does not settle may hang on next to nothing, or on nothing.
+  for (const Care care : {Care::little, Care::digits, Care::all_effort}) {
+    BreakingRun run(scene, intact, care, stop_asked);
+    if (run.take_missing()) return !run.bears();
+  }
+  return false;
 }
 
 Simulation simulate_quasi_static(const Scene& scene, const Observer& observer,

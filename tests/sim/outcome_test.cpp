@@ -70,6 +70,11 @@ TEST(Summarise, TakesTheModulusFromTheSlope) {
       run_with({row(0.0, 0.0, 0.0), row(1e-5, 10.13e6, 0.0), row(0.004, 62e6, 0.0)});
   summarise(simulation);
   EXPECT_NEAR(simulation.modulus, 13e9, 1.0);
+  // Nor where that step is a good part of the stretch.
+  simulation = run_with({row(0.0, 0.0, 0.0), row(1e-3, 23e6, 0.0), row(0.004, 62e6, 0.0)});
+  simulation.regime = Regime::dynamic;
+  summarise(simulation);
+  EXPECT_NEAR(simulation.modulus, 13e9, 1.0);
 }
 
 TEST(Worse, ForgetsNoNumberThatIsNone) {

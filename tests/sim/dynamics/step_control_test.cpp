@@ -8,6 +8,7 @@
 
 #include "sim/bench/watched_run.hpp"
 #include "sim/dynamics/time_stepping.hpp"
+#include "sim/joint/thresholds.hpp"
 #include "sim/outcome.hpp"
 #include "sim/simulate.hpp"
 #include "tests/support/scenes.hpp"
@@ -286,8 +287,23 @@ TEST(FirstStep, IsAQuarterOfTheTimeThatAWaveTakesAcrossAFibre) {
   EXPECT_NEAR(first_step(scene), 0.25 * 10e-6 / wave, 1e-20);
   scene.loading.start = Start::rest;
   EXPECT_NEAR(first_step(scene), 0.5 * 100e-6 / wave, 1e-20);
-  scene.loading.strain_rate = 1e6;
-  EXPECT_NEAR(first_step(scene), 0.02 * (50e6 / 13e9) / 1e6, 1e-20);
+}
+
+// Halved so often that it is a fiftieth of the strain to failure at most. Thresholds that are read
+// back are their draw's, of another median, and have the same.
+TEST(FirstStep, IsHalvedToAFiftiethOfTheTimeToFailure) {
+  Scene scene = without_step(0.0);
+  scene.loading.start = Start::rest;
+  const double whole = first_step(scene);
+  scene.loading.strain_rate = 1e5;
+  const double most = 0.02 * (50e6 / 13e9) / 1e5, step = first_step(scene);
+  EXPECT_LE(step, most);
+  EXPECT_GT(2.0 * step, most);
+  const double halvings = std::log2(whole / step);
+  EXPECT_EQ(halvings, std::round(halvings));
+  scene.joints.thresholds =
+      draw_thresholds(scene, build_assembly(scene.assembly, scene.loading.lateral));
+  EXPECT_EQ(first_step(scene), step);
 }
 
 }  // namespace

@@ -88,5 +88,26 @@ TEST(BreakingDigits, LeaveNoLargerOverlapThanIsSeen) {
   EXPECT_GT(largest, 0.0);
 }
 
+// An event whose contact is not found is left without: what overlaps then is said.
+TEST(BreakingDigits, CountOverlapsOfEventsWithoutContact) {
+  Scene scene = test::small_scene(0.0, 9, 6);
+  scene.material.poisson = -0.9;
+  scene.joints.flank =
+      flank_from_ratio(scene.assembly, scene.joints.head_tail, 0.12548133189325758);
+  scene.joints.scatter = 0.703042392579633;
+  scene.joints.missing = 0.1;
+  scene.joints.friction = 2.0;
+  scene.joints.seed = 97;
+  scene.loading.lateral = Lateral::free;
+  scene.loading.max_strain = 0.1;
+  scene.loading.end_fraction = 0.02;
+  const Simulation run = simulate(scene);
+  double overlap = 0.0;
+  for (const JointOutcome& joint : run.joints) overlap = std::max(overlap, -joint.gap);
+  ASSERT_GT(run.events_without_contact, 0);
+  ASSERT_GT(overlap, scene.assembly.fibre_height);
+  EXPECT_GE(run.worst_penetration, overlap);
+}
+
 }  // namespace
 }  // namespace havers::sim

@@ -22,6 +22,26 @@ TEST(SeveredSpecimen, BreaksNothingMore) {
   EXPECT_EQ(simulation.strength, 0.0);
 }
 
+// With little effort the contact of what is left does not settle.
+TEST(SeveredSpecimen, IsFoundBeforeARunInTime) {
+  Scene scene = test::dynamic_scene(-2.002441438734928, 2.178649237472767e-08);
+  scene.assembly.layers = 3;
+  scene.assembly.fibres = 10;
+  scene.joints.flank = flank_from_ratio(scene.assembly, scene.joints.head_tail, 0.9854691119191695);
+  scene.joints.missing = 0.35;
+  scene.joints.friction = 0.6;
+  scene.joints.seed = 126;
+  scene.loading.lateral = Lateral::free;
+  scene.loading.max_strain = 0.02;
+  scene.loading.strain_rate = 2945.25;
+  for (const bool leave_out : {true, false}) {
+    scene.solver.leave_out = leave_out;
+    const Simulation simulation = simulate(scene);
+    EXPECT_EQ(simulation.status, SimulationStatus::severed) << leave_out;
+    EXPECT_EQ(simulation.strength, 0.0) << leave_out;
+  }
+}
+
 // Columns of fibres that nothing holds lie anywhere, but not far away.
 TEST(SeveredSpecimen, LiesWhereItWasWhereAllBreakTogether) {
   HAVERS_SLOW;
