@@ -169,5 +169,20 @@ TEST(HeaderSizes, DivideAnExtensometersElongationByItsOwnLength) {
                 "extensometer of another length the strain is wrong (gauge_length_mm says it)"});
 }
 
+TEST(HeaderSizes, HaveTheirUnitBeforeAColon) {
+  const std::string table = test::replaced(two_rows, ",", ";");
+  for (const std::string& header :
+       {std::string("Breite [cm]:;0,402\nMesslänge [cm] : ;2,5\n"),
+        std::string("Breite/cm:;0,402\nMesslänge in cm:;2,5\n"),
+        std::string("Width (cm): 0.402\nGauge length [cm]: 2.5\n"),
+        std::string("Width (cm) : 4.02 mm\nGauge length (mm): 2.5 cm\n")}) {
+    SCOPED_TRACE(header);
+    const calib::RawTest test = sized(header + table);
+    EXPECT_NEAR(test.width.value_or(0.0), 4.02e-3, 1e-15);
+    EXPECT_NEAR(test.gauge_length.value_or(0.0), 25e-3, 1e-15);
+    EXPECT_TRUE(test.warnings.empty());
+  }
+}
+
 }  // namespace
 }  // namespace havers::io
