@@ -182,9 +182,21 @@ void compare_area(calib::RawTest& test) {
       1e6 * *test.area, 1e6 * used));
 }
 
+// One of the two alone makes no area, and changes nothing where the file states one.
+void name_idle_size(bool width_given, calib::RawTest& test) {
+  if (!test.area || test.width.has_value() == test.thickness.has_value()) return;
+  test.warnings.push_back(fmt::format(
+      "the {} of {:.6g} mm that is given changes nothing: the file's area, {:.6g} mm², counts "
+      "where "
+      "the {} is unknown (add {}_mm)",
+      width_given ? "width" : "thickness", 1e3 * (width_given ? *test.width : *test.thickness),
+      1e6 * *test.area, width_given ? "thickness" : "width", width_given ? "thickness" : "width"));
+}
+
 }  // namespace
 
 void read_facts(std::span<const PreviewRow> header, calib::RawTest& test) {
+  const bool width_given = test.width.has_value(), thickness_given = test.thickness.has_value();
   std::vector<HeaderSize> sizes;
   for (const PreviewRow& row : header)
     for (const HeaderLine& line : header_lines(row)) take_fact(line, row.line, sizes, test);
@@ -195,6 +207,7 @@ void read_facts(std::span<const PreviewRow> header, calib::RawTest& test) {
         if (test.specimen_id.empty() && fact_of_key(line.key) == name)
           test.specimen_id = line.value;
   compare_area(test);
+  if (width_given != thickness_given) name_idle_size(width_given, test);
 }
 
 }  // namespace havers::io

@@ -184,5 +184,21 @@ TEST(HeaderSizes, HaveTheirUnitBeforeAColon) {
   }
 }
 
+TEST(HeaderSizes, ThatTheUserGivesAloneChangeNothingBesideAnArea) {
+  const std::string area = "Area,8.5,mm²\n" + two_rows;
+  EXPECT_EQ(sized(area, {.width = 4e-3}).warnings,
+            std::vector<std::string>{"the width of 4 mm that is given changes nothing: the file's "
+                                     "area, 8.5 mm², counts where the thickness is unknown (add "
+                                     "thickness_mm)"});
+  EXPECT_EQ(sized(area, {.thickness = 2e-3}).warnings,
+            std::vector<std::string>{"the thickness of 2 mm that is given changes nothing: the "
+                                     "file's area, 8.5 mm², counts where the width is unknown (add "
+                                     "width_mm)"});
+  EXPECT_TRUE(
+      sized("Thickness,2.1,mm\nArea,8.4,mm²\n" + two_rows, {.width = 4e-3}).warnings.empty());
+  EXPECT_TRUE(sized("Width,4,mm\n" + area).warnings.empty());
+  EXPECT_TRUE(sized(two_rows, {.width = 4e-3}).warnings.empty());
+}
+
 }  // namespace
 }  // namespace havers::io
