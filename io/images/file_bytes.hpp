@@ -12,8 +12,9 @@ namespace havers::images {
 /// A place in a file, counted from its start. [byte]
 using Offset = std::uint64_t;
 
-/// Of what the file's end cuts off a number is zero and a text is what is left, so that a reader that follows the
-/// offsets of a damaged file need not check them. Not for use by two threads at once.
+/// Of what the file's end cuts off a number is zero and a text is what is left, so that a reader
+/// that follows the offsets of a damaged file need not check them. Not for use by two threads at
+/// once.
 class FileBytes {
  public:
   explicit FileBytes(const std::filesystem::path& file) : in_(file, std::ios::binary) {}
