@@ -87,6 +87,11 @@ Imported import_joined(io::ImportSettings settings, const ImportArguments& argum
   const io::TestFile logger = io::read_test(*arguments.gauge, settings.gauge_columns);
   calib::JoinedTest joined = calib::join_logger(file.test, logger.test, settings.reduction);
   file.test = std::move(joined.test);
+  const std::string &own = file.test.specimen_id, &other = logger.test.specimen_id;
+  if (!own.empty() && !other.empty() && own != other)
+    file.test.warnings.push_back(
+        fmt::format("{} is of specimen {} by its own words, and {} of {}: are they of one test?",
+                    logger.file, other, file.file, own));
   Imported imported{std::move(file), {}, {{}, std::move(joined.problems)}};
   if (!joined.clocks.machine.time.empty()) imported.clocks = std::move(joined.clocks);
   if (imported.reduction.problems.empty()) {

@@ -9,34 +9,20 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <set>
 #include <string>
 
 #include "io/images/file_bytes.hpp"
+#include "io/images/tiff_pages.hpp"
 #include "io/input_error.hpp"
 
 namespace havers::images {
 namespace {
 
-// Each page has a directory: how many tags, the tags, and the place of the next one, which counts
-// even where the file ends before it, or within its place.
+// A page counts even where the file ends before its directory, or within the place of that.
 std::size_t pages_of_tiff(const std::filesystem::path& file) {
   FileBytes bytes(file);
-  const std::string order = bytes.text(0, 2);
-  bytes.set_big_endian(order == "MM");
-  const Offset version = bytes.number(2, 2);
-  if ((order != "MM" && order != "II") || (version != 42 && version != 43)) return 0;
-  const bool large = version == 43;  // BigTIFF
-  // Bytes of an offset, of the number of tags, and of one tag.
-  const std::size_t place = large ? 8 : 4, count = large ? 8 : 2, tag = large ? 20 : 12;
-  // Offset 0 ends the list. So does a directory met before: in a damaged file they may form a loop.
-  std::set<Offset> passed{0};
-  for (Offset at = bytes.number(place, place); passed.insert(at).second;) {
-    const Offset next = at + count + tag * bytes.number(at, count);
-    if (bytes.text(next, place).size() < place) return passed.size();
-    at = bytes.number(next, place);
-  }
-  return passed.size() - 1;
+  const TiffPages found = tiff_pages(bytes);
+  return found.pages.size() + (found.cut_off ? 1 : 0);
 }
 
 // The last scan ends with the marker of the image's end; a thumbnail has one of its own, before.

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "calib/count.hpp"
 #include "io/images/density.hpp"
 #include "io/images/doubts.hpp"
 #include "io/images/grey_image.hpp"
@@ -17,6 +19,7 @@
 #include "io/images/pixel_size_tag.hpp"
 #include "io/images/pores.hpp"
 #include "io/images/section_quantities.hpp"
+#include "io/images/tiff_pages.hpp"
 #include "io/input_error.hpp"
 
 namespace havers::images {
@@ -126,6 +129,22 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
   return measured;
 }
 
+// The numbers of the pages that show sections: the reduced copies in a pyramid of resolutions show
+// none that is not there in full.
+std::vector<std::size_t> sections_among(const std::vector<cv::Mat>& pages,
+                                        const std::filesystem::path& image, Warnings& warnings) {
+  FileBytes bytes(image);
+  std::vector<std::size_t> full = full_pages(tiff_pages(bytes));
+  if (full.empty()) {  // no TIFF
+    full.resize(pages.size());
+    std::iota(full.begin(), full.end(), std::size_t{0});
+  }
+  if (full.size() < pages.size())
+    warnings.push_back(fmt::format("{} left out: reduced copies of others, by the file's own words",
+                                   calib::count(pages.size() - full.size(), "page")));
+  return full;
+}
+
 }  // namespace
 
 std::vector<io::SectionMeasurement> measure_sections(const std::filesystem::path& image,
@@ -136,10 +155,11 @@ std::vector<io::SectionMeasurement> measure_sections(const std::filesystem::path
   options.pixel_size = pixel_size_of(image, given, warnings);
   warn_of_scale(options, warnings);
   std::vector<cv::Mat> pages = read_pages(image);
+  const std::vector<std::size_t> sections = sections_among(pages, image, warnings);
   std::vector<io::SectionMeasurement> measured;
-  for (std::size_t i = 0; i < pages.size(); ++i) {
+  for (const std::size_t i : sections) {
     const std::string name =
-        pages.size() == 1 ? image.string() : fmt::format("{} page {}", image.string(), i + 1);
+        sections.size() == 1 ? image.string() : fmt::format("{} page {}", image.string(), i + 1);
     measured.push_back(measure_page(std::move(pages[i]), name, options));
     auto& all = measured.back().porosity.warnings;
     all.insert(all.begin(), warnings.begin(), warnings.end());

@@ -8,8 +8,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "io/images/file_bytes.hpp"
+#include "io/images/tiff_pages.hpp"
 #include "io/input_error.hpp"
 
 namespace havers::images {
@@ -71,10 +73,9 @@ double unit_of(const std::string& description) {
   return 0.0;
 }
 
-// The first directory of a TIFF: entries of tag, type, count, value or its place.
-double tiff_pixel(FileBytes& bytes) {
-  bytes.set_big_endian(bytes.text(0, 2) == "MM");
-  const Offset directory = bytes.number(4, 4), entries = bytes.number(directory, 2);
+// A directory of a TIFF: entries of tag, type, count, value or its place.
+double tiff_pixel(FileBytes& bytes, Offset directory) {
+  const Offset entries = bytes.number(directory, 2);
   // Where the last entry is cut off, a resolution may lack its unit.
   if (bytes.text(directory + 1 + 12 * entries, 1).empty()) return 0.0;
   double across = 0.0, down = 0.0, unit = inch, described = 0.0;  // pixels a unit
@@ -147,19 +148,38 @@ double dicom_pixel(FileBytes& bytes) {
   return at_the_detector;
 }
 
-}  // namespace
-
-std::optional<double> tagged_pixel_size(const std::filesystem::path& file) {
+// Of each page of a TIFF that is no reduced copy (of a BigTIFF none), of any other file's image; a
+// size that is none is 0. [m]
+std::vector<double> stated_sizes(const std::filesystem::path& file) {
   FileBytes bytes(file);
   // As far as the end of "DICM", the mark that lies farthest from the start.
   const std::string head = bytes.text(0, 132);
-  double size = 0.0;
-  if (head.starts_with("\x89PNG")) size = png_pixel(bytes);
-  if (head.starts_with("II*") || head.starts_with(std::string_view("MM\0*", 4)))
-    size = tiff_pixel(bytes);
-  if (head.ends_with("DICM")) size = dicom_pixel(bytes);
-  if (!(size > 0.0) || !std::isfinite(size) || is_for_paper(size)) return std::nullopt;
-  return size;
+  std::vector<double> sizes;
+  if (head.starts_with("\x89PNG")) {
+    sizes = {png_pixel(bytes)};
+  } else if (head.ends_with("DICM")) {
+    sizes = {dicom_pixel(bytes)};
+  } else if (const TiffPages tiff = tiff_pages(bytes); !tiff.large) {
+    for (const std::size_t i : full_pages(tiff))
+      sizes.push_back(tiff_pixel(bytes, tiff.pages[i].directory));
+  }
+  for (double& size : sizes)
+    if (!(size > 0.0) || !std::isfinite(size) || is_for_paper(size)) size = 0.0;
+  return sizes;
+}
+
+// The first size that is another one; a page that states none has that of the others.
+std::optional<double> unlike(double size, const std::vector<double>& stated) {
+  const auto found = std::ranges::find_if(
+      stated, [&](double other) { return other > 0.0 && std::abs(size / other - 1.0) > 0.01; });
+  return found == stated.end() ? std::nullopt : std::optional(*found);
+}
+
+}  // namespace
+
+std::optional<double> tagged_pixel_size(const std::filesystem::path& file) {
+  const std::vector<double> stated = stated_sizes(file);
+  return stated.empty() || stated.front() == 0.0 ? std::nullopt : std::optional(stated.front());
 }
 
 std::optional<double> pixel_size_of(const std::filesystem::path& image,
@@ -172,14 +192,22 @@ std::optional<double> pixel_size_of(const std::filesystem::path& image,
         fmt::format("a pixel size of {:g} µm is outside 0.1 to 200 µm", *given * 1e6),
         "pixel_size_um is the side of one pixel in µm; if it is meant, add --any-pixel-size (in a "
         "study any_pixel_size = true in [sections])");
-  const std::optional<double> own = tagged_pixel_size(image);
+  const std::vector<double> stated = stated_sizes(image);
   // If both are known and differ, one is wrong, and only the user can tell which.
-  if (given && own && std::abs(*given / *own - 1.0) > 0.01)
+  if (const auto other = given ? unlike(*given, stated) : std::nullopt)
     warnings.push_back(
-        fmt::format("the file states pixels of {:.4g} µm; {:.4g} µm are used, as given", *own * 1e6,
-                    *given * 1e6));
+        fmt::format("the file states pixels of {:.4g} µm; {:.4g} µm are used, as given",
+                    *other * 1e6, *given * 1e6));
+  const std::optional<double> own = tagged_pixel_size(image);
   if (given || !own) return given;
   const bool usable = options.any_pixel_size || plausible(*own);
+  if (const auto other = usable ? unlike(*own, stated) : std::nullopt)
+    throw io::InputError(
+        image.string(),
+        fmt::format("its pages state different pixels, of {:.4g} and {:.4g} µm", *own * 1e6,
+                    *other * 1e6),
+        "save them as files of their own, or give one size for all with --pixel-size-um (in a "
+        "study pixel_size_um)");
   warnings.push_back(fmt::format("the file states pixels of {:.4g} µm: {}", *own * 1e6,
                                  usable ? "used" : "not used, as it is outside 0.1 to 200 µm"));
   return usable ? own : std::nullopt;

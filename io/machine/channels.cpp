@@ -86,9 +86,7 @@ double factor(const Column& column, const std::string& where, const ReadOptions&
   const std::string_view assumed = info_of(column.quantity).assumed_unit;
   const std::optional<Unit> unit = find_unit(column.unit.empty() ? assumed : column.unit);
   if (!unit) throw InputError(where, unknown_unit(column), unit_hint_of(column.quantity, options));
-  if (column.unit.empty())
-    test.warnings.push_back(
-        fmt::format("column \"{}\" has no unit, taken as {}", column.name, assumed));
+  if (column.unit.empty()) test.warnings.push_back(without_unit(column, assumed));
   if (column.quantity == Quantity::strain && unit->dimension == Dimension::length) {
     const std::optional<double> length = gauge_length_of(test, options);
     if (!length) throw InputError(where, without_gauge_length(column), "say gauge_length_mm");
@@ -233,6 +231,10 @@ void need_gauge(const TestFile& file, const std::string& where, const ReadOption
 }
 
 }  // namespace
+
+std::string without_unit(const Column& column, std::string_view assumed) {
+  return fmt::format("column \"{}\" has no unit, taken as {}", column.name, assumed);
+}
 
 std::vector<Channel> find_channels(TestFile& file, const Table& table, const ReadOptions& options) {
   const std::string where = at_line(file.file, table.first_line);

@@ -1,6 +1,8 @@
 // Which columns of a table are the channels of a test.
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/machine/layout.hpp"
@@ -16,6 +18,9 @@ struct Channel {
   double to_si = 1.0;         ///< Factor to s, N, m, 1, Pa or V.
   bool second_gauge = false;  ///< Of two alike, as on two faces of a bar.
 };
+
+/// The warning of a column that names no unit.
+std::string without_unit(const Column& column, std::string_view assumed);
 
 /// Finds the channels by the user's hint, by the name, by the unit. `test` gives the gauge length
 /// (a gauge may be recorded in mm) and takes the warnings. `columns` gets every column's quantity.

@@ -24,23 +24,21 @@ struct HeaderLine {
   std::string key, value, unit;
 };
 
-// "4.00 mm", or a value alone.
-HeaderLine value_and_unit(std::string_view key, std::string_view value) {
+// "Width [mm]:" and "4.00", or "Width" and "4.00 mm": a unit behind the value counts first.
+HeaderLine key_and_value(std::string_view written, std::string_view value) {
+  while (written.ends_with(':') || written.ends_with(' ')) written.remove_suffix(1);
+  auto [key, unit] = split_unit(written);
   const std::size_t blank = value.rfind(' ');
   if (blank == std::string_view::npos || !find_unit(value.substr(blank + 1)))
-    return {std::string(key), std::string(value), {}};
-  return {std::string(key), std::string(value.substr(0, blank)),
+    return {std::move(key), std::string(value), std::move(unit)};
+  return {std::move(key), std::string(value.substr(0, blank)),
           std::string(value.substr(blank + 1))};
 }
 
-// A unit in a cell of its own counts first, then one behind the value, then one in the key.
+// A unit in a cell of its own counts before all others.
 HeaderLine header_line(const PreviewRow& row) {
-  const auto [key, unit] = split_unit(row.cells[0]);
-  HeaderLine line = value_and_unit(key, row.cells[1]);
-  if (row.cells.size() > 2 && !row.cells[2].empty())
-    line.unit = without_brackets(row.cells[2]);
-  else if (line.unit.empty())
-    line.unit = unit;
+  HeaderLine line = key_and_value(row.cells[0], row.cells[1]);
+  if (row.cells.size() > 2 && !row.cells[2].empty()) line.unit = without_brackets(row.cells[2]);
   return line;
 }
 
@@ -50,7 +48,7 @@ HeaderLine header_line(std::string_view text) {
   if (colon == std::string_view::npos)
     // A heading without a name has an empty value, which is passed over.
     return {"specimen number", std::string(name_in_heading(text)), {}};
-  return value_and_unit(text.substr(0, colon), without_blanks(text.substr(colon + 1)));
+  return key_and_value(text.substr(0, colon), without_blanks(text.substr(colon + 1)));
 }
 
 // A row is a line, or, where it is one cell, as many as the cell has.
@@ -184,9 +182,21 @@ void compare_area(calib::RawTest& test) {
       1e6 * *test.area, 1e6 * used));
 }
 
+// One of the two alone makes no area, and changes nothing where the file states one.
+void name_idle_size(bool width_given, calib::RawTest& test) {
+  if (!test.area || test.width.has_value() == test.thickness.has_value()) return;
+  test.warnings.push_back(fmt::format(
+      "the {} of {:.6g} mm that is given changes nothing: the file's area, {:.6g} mm², counts "
+      "where "
+      "the {} is unknown (add {}_mm)",
+      width_given ? "width" : "thickness", 1e3 * (width_given ? *test.width : *test.thickness),
+      1e6 * *test.area, width_given ? "thickness" : "width", width_given ? "thickness" : "width"));
+}
+
 }  // namespace
 
 void read_facts(std::span<const PreviewRow> header, calib::RawTest& test) {
+  const bool width_given = test.width.has_value(), thickness_given = test.thickness.has_value();
   std::vector<HeaderSize> sizes;
   for (const PreviewRow& row : header)
     for (const HeaderLine& line : header_lines(row)) take_fact(line, row.line, sizes, test);
@@ -197,6 +207,7 @@ void read_facts(std::span<const PreviewRow> header, calib::RawTest& test) {
         if (test.specimen_id.empty() && fact_of_key(line.key) == name)
           test.specimen_id = line.value;
   compare_area(test);
+  if (width_given != thickness_given) name_idle_size(width_given, test);
 }
 
 }  // namespace havers::io

@@ -31,6 +31,7 @@ void check_time(const Row& row, SpecimenColumns& specimen, std::vector<Problem>&
     const double before = values[values.size() - 2];
     double& now = values.back();
     const bool clock = row.cells[specimen.channels[i].column].find(':') != std::string_view::npos;
+    specimen.clock = specimen.clock || clock;
     if (clock && before > now) now += day * std::round((before - now) / day);
     if (now < before)
       problems.push_back({at_line(specimen.file.file, row.line),

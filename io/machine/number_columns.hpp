@@ -18,6 +18,7 @@ struct SpecimenColumns {
   std::vector<Channel> channels;
   std::vector<std::vector<double>> values;  ///< As `channels`, in SI units.
   bool ended = false;                       ///< Its cells were empty in a row.
+  bool clock = false;                       ///< Its time was written as that of a clock.
   bool told = false;                        ///< Its gauge has had a reading.
   std::optional<Problem> lost{};            ///< The first cell since then where it has none.
 };

@@ -68,6 +68,23 @@ void take_given_sizes(const ReadOptions& options, calib::RawTest& test) {
   test.gauge_length = options.gauge_length;
 }
 
+// A spreadsheet's date and time as a number, in days: as of a clock's time the date is left out. In
+// seconds the record would begin hours after zero and be over within one; the limits are the years
+// 1954 and, of those who count from the year 0, 2737.
+void take_serial_dates(TestFile& file, const Column& column, const ReadOptions& options) {
+  constexpr double earliest = 2e4, latest = 1e6, day = 86400.0;
+  std::vector<double>& time = file.test.time;
+  if (!column.unit.empty() || time.front() < earliest || time.front() > latest ||
+      time.back() - time.front() >= 1.0)
+    return;
+  const double date = std::floor(time.front());
+  for (double& value : time) value = day * (value - date);
+  std::ranges::replace(
+      file.test.warnings, without_unit(column, info_of(Quantity::time).assumed_unit),
+      without_unit(column, fmt::format("days, as a spreadsheet counts dates ({} takes seconds)",
+                                       column_setting(options, "time_unit", "\"s\""))));
+}
+
 // What was made of a second gauge, and how one is taken alone.
 void join_second_gauge(TestFile& file, std::span<const Channel> channels,
                        const std::vector<double>& values, const ReadOptions& options) {
@@ -246,6 +263,8 @@ std::vector<TestFile> SpecimenTables::take() {
     for (std::size_t i = 0; i < specimen.channels.size(); ++i)
       if (!specimen.channels[i].second_gauge)
         file.test.*info_of(specimen.channels[i].quantity).channel = std::move(specimen.values[i]);
+    if (!specimen.clock && !file.test.time.empty())  // time comes first
+      take_serial_dates(file, file.columns[specimen.channels.front().in_file], options_);
     if (pair) join_second_gauge(file, specimen.channels, specimen.values.back(), options_);
     if (const std::string problem = calib::mend_lost_gauge(file.test); !problem.empty())
       throw InputError(file.file, problem, "give all rows a strain, or leave them out");

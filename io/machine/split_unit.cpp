@@ -55,8 +55,40 @@ bool can_have(std::string_view name, std::string_view text) {
          (quantity == Quantity::other && is_of_strain_alone(*unit));
 }
 
+// At the end of a name a unit in volts stands for a signal whose factor is not known yet.
+bool is_signal(std::string_view text) {
+  const std::optional<Unit> unit = find_unit(text);
+  return unit && unit->dimension == Dimension::voltage;
+}
+
 NameAndUnit named_unit(std::string_view name, std::string_view unit) {
   return {std::string(without_blanks(name)), std::string(without_blanks(unit))};
+}
+
+// "Force (lbf) A", "Strain [%] (gauge)": brackets wherever they stand, with a unit that the
+// quantity named by the rest can have.
+std::optional<NameAndUnit> unit_inside(std::string_view text) {
+  constexpr std::string_view opening = "([";
+  for (std::size_t open = text.find_first_of(opening); open != std::string_view::npos;
+       open = text.find_first_of(opening, open + 1)) {
+    const std::size_t close = text.find(text[open] == '(' ? ')' : ']', open);
+    if (close == std::string_view::npos) continue;
+    std::string name(without_blanks(text.substr(0, open)));
+    name.append(" ").append(without_blanks(text.substr(close + 1)));
+    NameAndUnit split = named_unit(name, text.substr(open + 1, close - open - 1));
+    if (can_have(split.name, split.unit)) return split;
+  }
+  return std::nullopt;
+}
+
+// The last brackets, where they hold what is a unit or looks like one; "(mm)" alone is a name.
+std::optional<NameAndUnit> unit_at_end(std::string_view text) {
+  if (text.back() != ')' && text.back() != ']') return std::nullopt;
+  const std::size_t open = text.rfind(text.back() == ')' ? '(' : '[');
+  if (open == std::string_view::npos || open == 0) return std::nullopt;
+  const std::string_view unit = without_brackets(text.substr(open));
+  if (!unit.empty() && !find_unit(unit) && !looks_like_a_unit(unit)) return std::nullopt;
+  return named_unit(text.substr(0, open), unit);
 }
 
 }  // namespace
@@ -65,14 +97,11 @@ NameAndUnit split_unit(std::string_view text) {
   text = without_blanks(text);
   NameAndUnit whole{std::string(text), {}};
   if (text.empty()) return whole;
-  if (text.back() == ')' || text.back() == ']') {
-    const std::size_t open = text.rfind(text.back() == ')' ? '(' : '[');
-    // "(mm)" alone is a name.
-    if (open == std::string_view::npos || open == 0) return whole;
-    const std::string_view unit = without_brackets(text.substr(open));
-    if (!unit.empty() && !find_unit(unit) && !looks_like_a_unit(unit)) return whole;
-    return named_unit(text.substr(0, open), unit);
-  }
+  const std::optional<NameAndUnit> at_end = unit_at_end(text);
+  if (at_end && (can_have(at_end->name, at_end->unit) || is_signal(at_end->unit))) return *at_end;
+  if (const std::optional<NameAndUnit> inside = unit_inside(text)) return *inside;
+  if (at_end) return *at_end;
+  if (text.back() == ')' || text.back() == ']') return whole;
   // Without brackets a text is a unit only where the named quantity can have it: not in "Load_in".
   for (const std::string_view mark : {"/", " in ", "_", ", ", " "}) {
     // Of "Stress/N/mm2" the first stroke, of "max_force_kN" the last underline.

@@ -251,5 +251,29 @@ TEST(Import, TakesOneOfSeveralSpecimensByNameOrNumber) {
               HasSubstr("specimens A and B have the same test, two.csv: it counts twice"));
 }
 
+// A logger's file is as easily exchanged as a test's.
+TEST(Check, DoubtsALoggersFileThatIsOfAnotherSpecimen) {
+  const fs::path folder = folder_with_tests();
+  fs::copy_file(folder / "made/B0.csv", folder / "made/logger.csv");
+  std::string study = test::small_study();
+  for (const std::string id : {"B0", "B90"})
+    study = replaced_once(study, "test = \"" + id + ".csv\"",
+                          "test = \"" + id + ".csv\"\ngauge = \"logger.csv\"");
+  test::write_text(folder / "made/study.toml", study);
+  const auto checked = run_havers(folder, "check made/study.toml");
+  EXPECT_THAT(checked.out, HasSubstr("specimens B0 and B90 have the same gauge, "));
+  EXPECT_THAT(checked.out, HasSubstr("logger.csv: is it of both tests?"));
+  EXPECT_THAT(checked.out, HasSubstr("logger.csv is of specimen B0 by its own words, and specimen "
+                                     "B90 has it: are two exchanged?"));
+  EXPECT_THAT(checked.out, testing::Not(HasSubstr("and specimen B0 has it")));
+  const auto warnings = [&](const std::string& test) {
+    return run_havers(folder, "import made/" + test + ".csv --gauge made/logger.csv --json").out;
+  };
+  EXPECT_THAT(warnings("B90"),
+              HasSubstr("logger.csv is of specimen B0 by its own words, and made/B90.csv of B90: "
+                        "are they of one test?"));
+  EXPECT_THAT(warnings("B0"), testing::Not(HasSubstr("are they of one test?")));
+}
+
 }  // namespace
 }  // namespace havers

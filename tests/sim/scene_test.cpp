@@ -98,7 +98,9 @@ TEST(Scene, ChoosesNoStepLongerThanTheTest) {
   scene.loading.max_strain = 1e-7;
   EXPECT_TRUE(scene.problems().empty());
   scene.solver.regime = Regime::dynamic;
-  EXPECT_NEAR(simulate(scene).curve.back().strain, 1e-7, 1e-12);
+  const double end = simulate(scene).curve.back().strain;
+  EXPECT_GE(end, 1e-7 * (1.0 - 1e-9));
+  EXPECT_LT(end, 1.02e-7) << "in the step that reaches it";
 }
 
 // Nothing is leapt over from rest, and the curve of all those steps would fill the memory.

@@ -29,17 +29,16 @@ std::string said_of_the_first(double share, const std::filesystem::path& file) {
   return "";
 }
 
-// A TIFF as ImageJ writes it, its directory before its pixels; or a large one of 64-bit places.
-std::filesystem::path directory_first(const cv::Mat& image, bool large) {
-  const auto n = [](std::uint64_t value, std::size_t size) {
-    std::string bytes;
-    for (std::size_t i = 0; i < size; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xFFU);
-    return bytes;
-  };
-  const std::size_t width = large ? 8 : 4, begin = large ? 16 : 8, count = large ? 8 : 2, tags = 9;
-  const std::size_t pixels = begin + count + tags * (4 + 2 * width) + width;
-  std::string bytes = large ? "II" + n(43, 2) + n(8, 2) + n(0, 2) : "II" + n(42, 2);
-  bytes += n(begin, width) + n(tags, count);
+std::string little_endian(std::uint64_t value, std::size_t size) {
+  std::string bytes;
+  for (std::size_t i = 0; i < size; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xFFU);
+  return bytes;
+}
+
+// A page's directory as far as the place of the next one; `large` has places of 64 bits.
+std::string directory_of(const cv::Mat& image, std::size_t pixels, bool large) {
+  const std::size_t width = large ? 8 : 4;
+  std::string bytes = little_endian(9, large ? 8 : 2);
   for (const auto& [tag, value] : std::map<int, std::size_t>{{256, image.cols},
                                                              {257, image.rows},
                                                              {258, 8},
@@ -49,12 +48,26 @@ std::filesystem::path directory_first(const cv::Mat& image, bool large) {
                                                              {277, 1},
                                                              {278, image.rows},
                                                              {279, image.total()}})
-    bytes += n(static_cast<std::uint64_t>(tag), 2) + n(large ? 16 : 4, 2) + n(1, width) +
-             n(value, width);
-  bytes += n(0, width) + std::string(image.ptr<char>(), image.total());
-  const auto file = test::write(image, "directory_first.tif");
+    bytes += little_endian(static_cast<std::uint64_t>(tag), 2) + little_endian(large ? 16 : 4, 2) +
+             little_endian(1, width) + little_endian(value, width);
+  return bytes;
+}
+
+std::filesystem::path made_of(const std::string& bytes, const cv::Mat& image) {
+  const auto file = test::write(image, "made.tif");
   std::ofstream(file, std::ios::binary) << bytes;
   return file;
+}
+
+// A TIFF as ImageJ writes it, its directory before its pixels; or a large one of 64-bit places.
+std::filesystem::path directory_first(const cv::Mat& image, bool large) {
+  const std::size_t width = large ? 8 : 4, begin = large ? 16 : 8;
+  const std::size_t pixels = begin + directory_of(image, 0, large).size() + width;
+  return made_of((large ? "II" + little_endian(43, 2) + little_endian(8, 2) + little_endian(0, 2)
+                        : "II" + little_endian(42, 2)) +
+                     little_endian(begin, width) + directory_of(image, pixels, large) +
+                     little_endian(0, width) + std::string(image.ptr<char>(), image.total()),
+                 image);
 }
 
 class CutOff : public testing::TestWithParam<const char*> {};
@@ -110,6 +123,27 @@ TEST(CutOffTiff, WhosePixelsAreBehindItsDirectoryIsRefused) {
     for (const double share : {0.01, 0.3, 0.6, 0.9, 0.999})
       EXPECT_NE(said_of_the_first(share, file), "") << share << large;
   }
+}
+
+// The first page is whole: what tells of the second is the place of its directory.
+TEST(CutOffTiff, WithinThePlaceOfTheNextDirectoryIsRefused) {
+  const auto drawn = test::draw({.width = 300, .height = 260, .noise = 0.05, .blur = 0.7});
+  const cv::Mat& image = drawn.image;
+  const std::string pixels(image.ptr<char>(), image.total());
+  const std::size_t directory = 8 + pixels.size();
+  const std::string first = directory_of(image, 8, false);
+  const std::size_t next = directory + first.size(), second = next + 4;
+  const auto file = made_of("II" + little_endian(42, 2) + little_endian(directory, 4) + pixels +
+                                first + little_endian(second + pixels.size(), 4) + pixels +
+                                directory_of(image, second, false) + little_endian(0, 4),
+                            image);
+  EXPECT_EQ(measure_sections(file, {}).size(), 2U);
+  const auto size = static_cast<double>(std::filesystem::file_size(file));
+  for (const double kept : {0.5, 1.5, 2.5, 3.5})  // bytes of four, and the rounding
+    EXPECT_NE(said_of_the_first((static_cast<double>(next) + kept) / size, file)
+                  .find("only 1 of at least 2 pages can be read"),
+              std::string::npos)
+        << kept;
 }
 
 }  // namespace

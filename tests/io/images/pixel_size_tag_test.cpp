@@ -152,6 +152,20 @@ TEST_F(PixelSizeTag, OfAFileCutShortIsNoneOrTheSame) {
   }
 }
 
+// The resolution lies before the directory: where the entry of its unit is cut off, it would be
+// taken as one an inch.
+TEST_F(PixelSizeTag, OfATiffWithoutTheUnitThatItHadIsNone) {
+  for (const Order order : {Order::big, Order::little}) {
+    const auto n = [order](std::uint32_t value, int size) { return number(value, size, order); };
+    const std::string whole = (order == Order::big ? std::string("MM\0*", 4) : "II*" + n(0, 1)) +
+                              n(16, 4) + n(2500, 4) + n(1, 4) + n(2, 2) + n(282, 2) + n(5, 2) +
+                              n(1, 4) + n(8, 4) + n(296, 2) + n(3, 2) + n(1, 4) + n(3, 2) + n(0, 2);
+    for (std::size_t length = 0; length < whole.size(); ++length)
+      EXPECT_TRUE(std::isnan(size_of(whole.substr(0, length)))) << length;
+    EXPECT_NEAR(size_of(whole), 4.0, 1e-9);
+  }
+}
+
 TEST_F(PixelSizeTag, OfADicomSliceComesWithItsPixels) {
   const auto drawn = test::draw({.width = 300, .height = 260, .porosity = 0.1, .blur = 0.7});
   const auto file = file_of("slice.dcm", dicom("0.0082\\0.0082", drawn.image));

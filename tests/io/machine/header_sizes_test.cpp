@@ -169,5 +169,36 @@ TEST(HeaderSizes, DivideAnExtensometersElongationByItsOwnLength) {
                 "extensometer of another length the strain is wrong (gauge_length_mm says it)"});
 }
 
+TEST(HeaderSizes, HaveTheirUnitBeforeAColon) {
+  const std::string table = test::replaced(two_rows, ",", ";");
+  for (const std::string& header :
+       {std::string("Breite [cm]:;0,402\nMesslänge [cm] : ;2,5\n"),
+        std::string("Breite/cm:;0,402\nMesslänge in cm:;2,5\n"),
+        std::string("Width (cm): 0.402\nGauge length [cm]: 2.5\n"),
+        std::string("Width (cm) : 4.02 mm\nGauge length (mm): 2.5 cm\n")}) {
+    SCOPED_TRACE(header);
+    const calib::RawTest test = sized(header + table);
+    EXPECT_NEAR(test.width.value_or(0.0), 4.02e-3, 1e-15);
+    EXPECT_NEAR(test.gauge_length.value_or(0.0), 25e-3, 1e-15);
+    EXPECT_TRUE(test.warnings.empty());
+  }
+}
+
+TEST(HeaderSizes, ThatTheUserGivesAloneChangeNothingBesideAnArea) {
+  const std::string area = "Area,8.5,mm²\n" + two_rows;
+  EXPECT_EQ(sized(area, {.width = 4e-3}).warnings,
+            std::vector<std::string>{"the width of 4 mm that is given changes nothing: the file's "
+                                     "area, 8.5 mm², counts where the thickness is unknown (add "
+                                     "thickness_mm)"});
+  EXPECT_EQ(sized(area, {.thickness = 2e-3}).warnings,
+            std::vector<std::string>{"the thickness of 2 mm that is given changes nothing: the "
+                                     "file's area, 8.5 mm², counts where the width is unknown (add "
+                                     "width_mm)"});
+  EXPECT_TRUE(
+      sized("Thickness,2.1,mm\nArea,8.4,mm²\n" + two_rows, {.width = 4e-3}).warnings.empty());
+  EXPECT_TRUE(sized("Width,4,mm\n" + area).warnings.empty());
+  EXPECT_TRUE(sized(two_rows, {.width = 4e-3}).warnings.empty());
+}
+
 }  // namespace
 }  // namespace havers::io

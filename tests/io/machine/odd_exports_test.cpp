@@ -80,5 +80,29 @@ TEST(OddExports, HaveTheElongationOfAnExtensometer) {
   }
 }
 
+// A date and time as a number, as spreadsheets keep it; what could be one and is none.
+TEST(OddExports, CountTimeInDaysOfASpreadsheet) {
+  const auto timed = [](const std::string& name, const std::vector<std::string>& times,
+                        const ReadOptions& options = {}) {
+    std::string content = name + ",Load (N),Strain (%)\n";
+    for (const std::string& time : times) content += time + ",1,0.1\n";
+    return tests_of(content, options)[0].test;
+  };
+  const std::vector<std::string> dates{"45123.5", "45123.50001157407", "45124.25"};
+  const calib::RawTest days = timed("Time", dates, {.alone = true});
+  EXPECT_NEAR(days.time.at(0), 43200.0, 1e-5);
+  EXPECT_NEAR(days.time.at(1), 43201.0, 1e-5);
+  EXPECT_NEAR(days.time.at(2), 108000.0, 1e-5);
+  EXPECT_EQ(days.warnings,
+            std::vector<std::string>{"column \"Time\" has no unit, taken as days, as a spreadsheet "
+                                     "counts dates (--set columns.time_unit=\"s\" takes seconds)"});
+  EXPECT_EQ(timed("Time (s)", dates).time.at(0), 45123.5);
+  EXPECT_EQ(timed("Time", dates, {.units = {{Quantity::time, "s"}}}).time.at(0), 45123.5);
+  EXPECT_EQ(timed("Time", {"45123.5", "45125.5"}).time.at(0), 45123.5);
+  EXPECT_EQ(timed("Time", {"3600", "3600.5"}).time.at(0), 3600.0);
+  EXPECT_EQ(timed("Time", {"1764408000", "1764408000.5"}).time.at(0), 1764408000.0);
+  EXPECT_EQ(timed("Time", {"12:00:00.1", "12:00:00.2"}).time.at(0), 43200.1);
+}
+
 }  // namespace
 }  // namespace havers::io

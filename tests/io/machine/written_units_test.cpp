@@ -162,5 +162,26 @@ TEST(WrittenUnits, AreNotSeenWhereThereIsNone) {
             "column \"Load (channel 2)\" has no unit, taken as N");
 }
 
+TEST(WrittenUnits, InBracketsWithinANameAreRead) {
+  for (const auto& [name, newton] : {std::pair{"Force (lbf) A", 4.4482216152605},
+                                     {"Force (kN) (filtered)", 1e3},
+                                     {"Load [kN] 1", 1e3},
+                                     {"[kN] Kraft", 1e3},
+                                     {"Load (kN) (1)", 1e3}}) {
+    SCOPED_TRACE(name);
+    const calib::RawTest test = test_of(std::string("Time (s);") + name);
+    EXPECT_DOUBLE_EQ(test.force.at(1), 2.0 * newton);
+    EXPECT_TRUE(test.warnings.empty());
+    const ReadOptions named{{{Quantity::force, {name, ""}}}};
+    EXPECT_DOUBLE_EQ(test_of(std::string("Time (s);") + name, named).force.at(1), 2.0 * newton);
+  }
+  EXPECT_DOUBLE_EQ(test_of("Strain [%] (gauge);Load (N)").strain.at(1), 0.01);
+  EXPECT_DOUBLE_EQ(test_of("Time (min) elapsed;Load (N)").time.at(1), 60.0);
+  EXPECT_EQ(split_unit("Force (kN) (filtered)").name, "Force (filtered)");
+  // A signal with the range of its load cell; what a strain cannot have.
+  EXPECT_EQ(split_unit("Load (kN) [V]").unit, "V");
+  EXPECT_EQ(split_unit("Strain (s) (gauge)").unit, "");
+}
+
 }  // namespace
 }  // namespace havers::io
