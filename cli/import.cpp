@@ -247,8 +247,10 @@ int run_import(const ImportArguments& arguments, const CommonOptions& common) {
   give_sizes(settings.gauge_columns, arguments);
   if (arguments.gauge && arguments.files.size() != 1)
     throw io::InputError("--gauge", "is the second file of one test", "import the others alone");
+  std::vector<std::filesystem::path> inputs = arguments.files;
+  if (arguments.gauge) inputs.push_back(*arguments.gauge);
   std::optional<OutputFolder> output;  // refused before anything is read
-  if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force);
+  if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force, inputs);
   ImportFindings found = import_all(arguments, settings);
   const nlohmann::json json = json_of_files("files", found.entries, arguments.files.size());
   // Without any test no folder is made.

@@ -42,11 +42,12 @@ bool was_stopped(const fs::path& folder) {
   return fs::exists(folder / store_name) && !fs::exists(folder / "result.json");
 }
 
-KeptRun::KeptRun(const char* command, const std::vector<fs::path>& inputs, const fs::path& folder,
+KeptRun::KeptRun(const char* command, const std::vector<fs::path>& files,
+                 const std::vector<fs::path>& inputs, const fs::path& folder,
                  const CommonOptions& common)
-    : name_(name_of_run(command, inputs)),
+    : name_(name_of_run(command, files)),
       resumes_(goes_on(folder, name_, common.force)),
-      output_(folder, common.force || resumes_) {
+      output_(folder, common.force || resumes_, inputs) {
   if (resumes_) note(common, "going on with the simulations kept in " + folder.string());
   // In the target itself, not staged: from now on every simulation survives a kill.
   store_ = io::open_store(output_.keep(store_name));

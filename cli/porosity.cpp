@@ -194,8 +194,10 @@ void write_page(const OutputFolder& output, const PorosityFindings& found,
 int run_porosity(const PorosityArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   refuse_settings(common, "havers porosity reads no study");
+  std::vector<std::filesystem::path> inputs = arguments.images;
+  if (!arguments.mask.empty()) inputs.push_back(arguments.mask);
   std::optional<OutputFolder> output;  // refused before anything is measured
-  if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force);
+  if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force, inputs);
   PorosityFindings found = measure_all(arguments);
   nlohmann::json json = json_of_files("sections", found.entries, arguments.images.size());
   // If nothing was measured no folder is made.

@@ -269,7 +269,7 @@ int run_synthesize(const SynthesizeArguments& arguments, const CommonOptions& co
   if (problems.empty()) problems = scene_problems(as_tested(file), arguments.study);
   if (!problems.empty()) throw io::InputError(std::move(problems));
   catch_interrupts();
-  OutputFolder output(arguments.folder, common.force);
+  OutputFolder output(arguments.folder, common.force, file.inputs);
 
   for (const fs::path& input : file.inputs)  // as they are now
     fs::copy_file(input, output.stage(input == arguments.study ? "study.toml"
