@@ -260,9 +260,8 @@ int run_import(const ImportArguments& arguments, const CommonOptions& common) {
   answer(common, output ? &*output : nullptr, json, page_or("import.json"), [&] {
     for (const Imported& test : found.tests) print_test(test);
   });
-  // Thrown last, so that what could be read is shown before; `main` prints the problems.
-  if (!found.problems.empty()) throw io::InputError(std::move(found.problems));
-  return done;
+  // Last, so that what could be read is shown before; the JSON has the problems already.
+  return found.problems.empty() ? done : refuse(io::InputError(std::move(found.problems)));
 }
 
 }  // namespace
@@ -287,7 +286,7 @@ Command import_command(CLI::App& app, CommonOptions& common) {
       ->check(above_zero());
   parser->add_option("--gauge-length-mm", arguments->gauge_length_mm, "instead of the file's")
       ->check(above_zero());
-  return {parser, [arguments, &common] { return run_import(*arguments, common); }, true};
+  return {parser, [arguments, &common] { return run_import(*arguments, common); }};
 }
 
 }  // namespace havers::cli

@@ -210,9 +210,8 @@ int run_porosity(const PorosityArguments& arguments, const CommonOptions& common
   answer(common, output ? &*output : nullptr, json, page_or("porosity.json"), [&] {
     if (!found.sections.empty()) print_table(found.sections);
   });
-  // Thrown last, so that what could be measured is shown before; `main` prints the problems.
-  if (!found.problems.empty()) throw io::InputError(std::move(found.problems));
-  return done;
+  // Last, so that what could be measured is shown before; the JSON has the problems already.
+  return found.problems.empty() ? done : refuse(io::InputError(std::move(found.problems)));
 }
 
 // An option whose values are the words of input files.
@@ -273,7 +272,7 @@ Command porosity_command(CLI::App& app, CommonOptions& common) {
   parser->add_option("--fibre-height-um", arguments->fibre_height_um, "of that window")
       ->check(above_zero())
       ->capture_default_str();
-  return {parser, [arguments, &common] { return run_porosity(*arguments, common); }, true};
+  return {parser, [arguments, &common] { return run_porosity(*arguments, common); }};
 }
 
 }  // namespace havers::cli

@@ -246,7 +246,7 @@ bool all_are_tests(const std::vector<Made>& made) {
   bool all = true;
   for (const Made& one : made) {
     if (calib::is_test(one.simulation)) continue;
-    fmt::print(stderr, "specimen {}: {}\n", one.specimen.id, why_no_test(one));
+    say(fmt::format("specimen {}: {}", one.specimen.id, why_no_test(one)));
     all = false;
   }
   return all;
