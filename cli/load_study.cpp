@@ -184,8 +184,8 @@ void doubt_tests(const std::vector<io::SpecimenFiles>& specimens,
   for (std::size_t i = 0; i < specimens.size(); ++i) {
     const io::SpecimenFiles& files = specimens[i];
     if (outcomes[i].record.raw.rows() == 0) continue;  // not read
-    const auto [earlier, fresh] =
-        tests.try_emplace({files.test, outcomes[i].number_in_file}, files.id);
+    const auto [earlier, fresh] = tests.try_emplace(
+        {std::filesystem::weakly_canonical(files.test), outcomes[i].number_in_file}, files.id);
     if (!fresh)
       loaded.notes.push_back(
           fmt::format("specimens {} and {} have the same test, {}: it counts twice",
