@@ -206,7 +206,7 @@ bool TableReader::key(std::string_view name, std::vector<std::filesystem::path>&
 }
 
 bool TableReader::require_file(std::string_view name, const std::filesystem::path& file) {
-  std::error_code error;  // of a name that is too long
+  std::error_code error;  // of a name that is too long, or a folder that is closed
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   const bool there = std::filesystem::is_regular_file(status);
   const bool named = file.has_filename();     // beside() has added nothing else to the folder
@@ -214,6 +214,11 @@ bool TableReader::require_file(std::string_view name, const std::filesystem::pat
   if (!named) complain(name, "is empty, must name a file");
   if (!named || there) return there;
   const bool set = is_override(innermost(*table_, name));  // by the command line
+  if (!std::filesystem::status_known(status)) {
+    complain(name,
+             fmt::format("names {}, which cannot be read: {}", file.string(), error.message()));
+    return false;
+  }
   if (std::filesystem::is_directory(status)) {
     complain(name, fmt::format("names {}, which is a folder", file.string()), "name a file in it");
     return false;

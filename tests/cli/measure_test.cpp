@@ -240,6 +240,17 @@ TEST(Study, FindsItsFilesBehindALinkAsTheKernelDoes) {
   EXPECT_THAT(answer.out, HasSubstr("B0 and B90 have the same test"));
 }
 
+// As of one in a folder that is closed; it hides no other problem.
+TEST(Study, SaysWhyAFileCannotBeRead) {
+  const fs::path folder = test::folder_with_study();
+  test::write_text(folder / "study.toml",
+                   test::replaced_once(test::small_study(), "B0.csv", std::string(300, 'x')));
+  const auto answer = run_havers(folder, "check study.toml");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("x, which cannot be read: "));
+  EXPECT_THAT(answer.err, HasSubstr("names B90.csv, which is not there"));
+}
+
 TEST(Import, AsksForSizesOnlyWhereSomeAreLacking) {
   const fs::path folder = own_folder();
   test::write_text(folder / "short.csv", "Time (s),Load (N),Strain (%)\n0,0,0\n1,2,0.1\n2,5,0.2\n");
