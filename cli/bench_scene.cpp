@@ -85,7 +85,7 @@ int bench_scene(const BenchArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   const io::SceneFile file = load_scene(arguments.scene, common);
   Digests inputs = digests_of(file.inputs);
-  OutputFolder output(arguments.folder, common.force);
+  OutputFolder output(arguments.folder, common.force, file.inputs);
 
   const sim::WorkPrecision study = watched(file.scene, arguments, common);
   const calib::Provenance provenance = provenance_of(common, std::move(inputs), watch);

@@ -80,9 +80,18 @@ void refuse_settings(const CommonOptions& common, const std::string& what) {
                          "leave it out, -h shows the options that there are");
 }
 
+void say(const std::string& line) {
+  std::fputs((line + "\n").c_str(), stderr);
+}
+
+ExitCode refuse(const io::InputError& error) {
+  for (const io::Problem& problem : error.problems()) say("havers: " + io::to_string(problem));
+  return bad_input;
+}
+
 // On stderr, as stdout is for the result.
 void note(const CommonOptions& common, const std::string& sentence) {
-  if (!common.quiet) fmt::print(stderr, "{}\n", sentence);
+  if (!common.quiet) say(sentence);
 }
 
 io::SceneFile load_scene(const std::filesystem::path& file, const CommonOptions& common,
@@ -132,7 +141,7 @@ nlohmann::json json_of(const std::vector<io::Problem>& problems) {
 
 ExitCode without_result(const CommonOptions& common, const std::string& status,
                         const std::string& why) {
-  fmt::print(stderr, "{}\n", why);
+  say(why);
   if (common.json)
     fmt::print("{}", io::json_text({{"status", status}, {"status_text", why}, {"trusted", false}}));
   return answer_is_no;

@@ -43,7 +43,6 @@ struct CommonOptions {
 struct Command {
   CLI::App* parser = nullptr;
   std::function<int()> run;
-  bool shows_problems = false;  ///< Its own JSON says what is wrong with an input.
 };
 
 /// What is wrong with an input, for --json.
@@ -79,6 +78,12 @@ void note_idle_seed(const CommonOptions& common, const std::string& what);
 
 /// The same, and @throws io::InputError where --set is given to a command that has nothing to set.
 void refuse_settings(const CommonOptions& common, const std::string& what);
+
+/// A line on stderr. Where that cannot be written it is lost, which ends no run.
+void say(const std::string& line);
+
+/// What is wrong with an input, a line each on stderr, none of them twice. Returns the exit code.
+ExitCode refuse(const io::InputError& error);
 
 /// A note for the user on stderr; silent with -q.
 void note(const CommonOptions& common, const std::string& sentence);

@@ -72,7 +72,7 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
   // Now, as files may be changed during the fit.
   Digests inputs = digests_of(loaded.inputs);
   catch_interrupts();
-  KeptRun run("fit", {arguments.study}, arguments.folder, common);
+  KeptRun run("fit", {arguments.study}, loaded.inputs, arguments.folder, common);
   calib::CalibrationResult result = watched_fit(loaded.study, run.store(), common);
   // Only those of the study: notes on files are already in its tests and sections.
   result.notes = loaded.notes;

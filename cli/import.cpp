@@ -252,8 +252,10 @@ int run_import(const ImportArguments& arguments, const CommonOptions& common) {
   give_sizes(settings.gauge_columns, arguments);
   if (arguments.gauge && arguments.files.size() != 1)
     throw io::InputError("--gauge", "is the second file of one test", "import the others alone");
+  std::vector<std::filesystem::path> inputs = arguments.files;
+  if (arguments.gauge) inputs.push_back(*arguments.gauge);
   std::optional<OutputFolder> output;  // refused before anything is read
-  if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force);
+  if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force, inputs);
   ImportFindings found = import_all(arguments, settings);
   const nlohmann::json json = json_of_files("files", found.entries, arguments.files.size());
   // Without any test no folder is made.
@@ -263,9 +265,8 @@ int run_import(const ImportArguments& arguments, const CommonOptions& common) {
   answer(common, output ? &*output : nullptr, json, page_or("import.json"), [&] {
     for (const Imported& test : found.tests) print_test(test);
   });
-  // Thrown last, so that what could be read is shown before; `main` prints the problems.
-  if (!found.problems.empty()) throw io::InputError(std::move(found.problems));
-  return done;
+  // Last, so that what could be read is shown before; the JSON has the problems already.
+  return found.problems.empty() ? done : refuse(io::InputError(std::move(found.problems)));
 }
 
 }  // namespace
@@ -290,7 +291,7 @@ Command import_command(CLI::App& app, CommonOptions& common) {
       ->check(above_zero());
   parser->add_option("--gauge-length-mm", arguments->gauge_length_mm, "instead of the file's")
       ->check(above_zero());
-  return {parser, [arguments, &common] { return run_import(*arguments, common); }, true};
+  return {parser, [arguments, &common] { return run_import(*arguments, common); }};
 }
 
 }  // namespace havers::cli

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <system_error>
+
 #include "io/input_error.hpp"
 #include "io/read_text.hpp"
 #include "io/results/result_files.hpp"
@@ -20,7 +22,11 @@ constexpr const char* run_name = ".run";  // whose simulations are kept
 std::string name_of_run(const char* command, const std::vector<fs::path>& inputs) {
   std::vector<std::string> files;
   files.reserve(inputs.size());
-  for (const fs::path& input : inputs) files.push_back(fs::weakly_canonical(input).string());
+  for (const fs::path& input : inputs) {
+    std::error_code error;  // of a pipe, which leads to no file
+    const fs::path file = fs::weakly_canonical(input, error);
+    files.push_back((error ? fs::absolute(input) : file).string());
+  }
   return fmt::format("{} of {}", command, fmt::join(files, ", "));
 }
 
@@ -42,11 +48,12 @@ bool was_stopped(const fs::path& folder) {
   return fs::exists(folder / store_name) && !fs::exists(folder / "result.json");
 }
 
-KeptRun::KeptRun(const char* command, const std::vector<fs::path>& inputs, const fs::path& folder,
+KeptRun::KeptRun(const char* command, const std::vector<fs::path>& files,
+                 const std::vector<fs::path>& inputs, const fs::path& folder,
                  const CommonOptions& common)
-    : name_(name_of_run(command, inputs)),
+    : name_(name_of_run(command, files)),
       resumes_(goes_on(folder, name_, common.force)),
-      output_(folder, common.force || resumes_) {
+      output_(folder, common.force || resumes_, inputs) {
   if (resumes_) note(common, "going on with the simulations kept in " + folder.string());
   // In the target itself, not staged: from now on every simulation survives a kill.
   store_ = io::open_store(output_.keep(store_name));

@@ -19,11 +19,13 @@ bool was_stopped(const std::filesystem::path& folder);
 /// any run; simulations are kept in the target itself, where they survive a kill.
 class KeptRun {
  public:
-  /// Goes on with what a stopped run of the same command and inputs has left in the folder.
+  /// Goes on with what a stopped run of the same command and `files` has left in the folder;
+  /// `inputs` are these and all that they name.
   /// @throws InputError as OutputFolder does, and when another run was stopped there, without
   /// --force.
-  KeptRun(const char* command, const std::vector<std::filesystem::path>& inputs,
-          const std::filesystem::path& folder, const CommonOptions& common);
+  KeptRun(const char* command, const std::vector<std::filesystem::path>& files,
+          const std::vector<std::filesystem::path>& inputs, const std::filesystem::path& folder,
+          const CommonOptions& common);
 
   /// For the results.
   OutputFolder& output() { return output_; }

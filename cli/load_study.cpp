@@ -51,11 +51,17 @@ io::ReadOptions with_sizes(io::ReadOptions options, const io::SpecimenFiles& fil
   return options;
 }
 
+// Not even where a folder above may not be searched.
+bool is_file(const std::filesystem::path& file) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(file, error);
+}
+
 // A file that is not there was complained of with the study.
 std::optional<io::TestFile> read_file(const std::filesystem::path& file,
                                       const io::ReadOptions& options, const char* key,
                                       Outcome& outcome) {
-  if (!std::filesystem::is_regular_file(file)) return std::nullopt;
+  if (!is_file(file)) return std::nullopt;
   try {
     return io::read_test(file, options);
   } catch (const io::InputError& error) {
@@ -99,7 +105,7 @@ void reduce(const io::SpecimenFiles& files, const calib::ReductionOptions& optio
 
 void measure(const std::filesystem::path& section, const io::SectionOptions& options,
              Outcome& outcome) {
-  if (!std::filesystem::is_regular_file(section)) return;  // as with tests
+  if (!is_file(section)) return;  // as with tests
   try {
     for (io::SectionMeasurement& measured : io::measure_sections(section, options)) {
       for (const std::string& warning : measured.porosity.warnings)
@@ -130,8 +136,7 @@ void take_measured_porosity(Outcome& outcome) {
 // Whether the study's own mistakes leave its sections what they are measured with.
 bool can_be_measured(const io::SpecimenFiles& files, const io::StudyFile& study) {
   const sim::AssemblyOptions& fibres = study.study.model.assembly;
-  return (!files.pixel_size || *files.pixel_size > 0.0) &&
-         (!files.mask || std::filesystem::is_regular_file(*files.mask)) &&
+  return (!files.pixel_size || *files.pixel_size > 0.0) && (!files.mask || is_file(*files.mask)) &&
          study.sections.rim >= 0.0 && study.sections.crack_slenderness >= 0.0 &&
          fibres.fibre_length > 0.0 && fibres.fibre_height > 0.0;
 }
@@ -187,8 +192,8 @@ void doubt_tests(const std::vector<io::SpecimenFiles>& specimens,
   for (std::size_t i = 0; i < specimens.size(); ++i) {
     const io::SpecimenFiles& files = specimens[i];
     if (outcomes[i].record.raw.rows() == 0) continue;  // not read
-    const auto [earlier, fresh] =
-        tests.try_emplace({files.test, outcomes[i].number_in_file}, files.id);
+    const auto [earlier, fresh] = tests.try_emplace(
+        {std::filesystem::weakly_canonical(files.test), outcomes[i].number_in_file}, files.id);
     if (!fresh)
       loaded.notes.push_back(
           fmt::format("specimens {} and {} have the same test, {}: it counts twice",

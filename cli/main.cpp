@@ -1,7 +1,9 @@
 // havers: the one program. Parses, calls, prints.
+#include <fcntl.h>
 #include <fmt/core.h>
 #include <gsl/gsl_errno.h>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -74,10 +76,11 @@ std::string unknown_word(const CLI::App& app) {
                      hint.empty() ? "" : ", " + hint);
 }
 
+// Whether it can be printed is asked at the end.
 void print_refusal(const std::vector<io::Problem>& problems) {
-  fmt::print(
-      "{}",
-      io::json_text({{"status", "refused"}, {"trusted", false}, {"problems", json_of(problems)}}));
+  const std::string text =
+      io::json_text({{"status", "refused"}, {"trusted", false}, {"problems", json_of(problems)}});
+  std::fputs(text.c_str(), stdout);
 }
 
 // CLI11 answers -h and --version through exceptions too; those are successes.
@@ -89,34 +92,35 @@ int answer(const CLI::App& app, const CLI::ParseError& error, bool json) {
   if (json) print_refusal({{"command line", what, hint}});
   // Without any command the user is shown which there are.
   if (unknown.empty() && app.get_subcommands().empty())
-    fmt::print(stderr, "{}", app.help());
+    std::fputs(app.help().c_str(), stderr);
   else
-    fmt::print(stderr, "havers: {} ({})\n", what, hint);
+    say(fmt::format("havers: {} ({})", what, hint));
   return bad_input;
 }
 
 // Every exception becomes a message on stderr and an exit code. Problems of an input are one line
-// each; with --json they are also printed as JSON, unless the command's own JSON has them.
+// each; with --json they are also printed as JSON.
 int run(const Command& command, const CommonOptions& common) {
   // The limit holds as long as this object lives: while the command runs.
   std::optional<tbb::global_control> limit;
   if (common.threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism,
                   static_cast<std::size_t>(common.threads));
+  std::vector<io::Problem> problems;
   try {
     return command.run();
   } catch (const io::InputError& error) {
-    for (const io::Problem& problem : error.problems())
-      fmt::print(stderr, "havers: {}\n", io::to_string(problem));
-    if (common.json && !command.shows_problems) print_refusal(error.problems());
+    problems = error.problems();
   } catch (const std::filesystem::filesystem_error& error) {
-    fmt::print(stderr, "havers: {}: {}\n", error.path1().string(), error.code().message());
+    problems.push_back({error.path1().string(), error.code().message(), ""});
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "havers: the memory of this machine does not suffice\n");
-  } catch (const std::exception& error) {  // a full disk: no answer either way
-    if (std::ferror(stdout) == 0) fmt::print(stderr, "havers: {}\n", error.what());
+    problems.push_back({"memory", "that of this machine does not suffice", ""});
+  } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return bad_input;  // a full disk: no answer either way
+    problems.push_back({command.parser->get_name(), error.what(), ""});
   }
-  return bad_input;
+  if (common.json) print_refusal(problems);
+  return refuse(io::InputError(std::move(problems)));
 }
 
 // The words of the help, for all commands; to be called before they are added.
@@ -169,6 +173,8 @@ int when_printed(int exit_code) {
 }  // namespace havers::cli
 
 int main(int argc, char** argv) {
+  if (fcntl(STDERR_FILENO, F_GETFD) < 0)  // closed: the next file opened would be stderr
+    dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
   havers::sim::keep_freed_memory();
   std::signal(SIGCHLD, SIG_DFL);  // a parent that ignores it would hide how gnuplot ended
   std::signal(SIGXFSZ, SIG_IGN);  // a file too large is then said, as a full disk is

@@ -23,25 +23,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The names that runs of havers have put into a folder, a line each: these may be replaced.
+// The files that runs of havers have put into a folder, by their paths in it, a line each: these
+// may be replaced.
 constexpr const char* own_names = ".havers";
 constexpr const char* last_name = "result.json";
 constexpr const char* staging_name = ".partial";  // in a target that is there
-
-std::set<std::string> names_of_runs(const fs::path& folder) {
-  std::set<std::string> names;
-  std::ifstream file(folder / own_names);
-  for (std::string name; std::getline(file, name);)
-    // Files of these names may be removed later: none may lie outside the folder.
-    if (!name.empty() && fs::path(name).filename() == name && name != "." && name != "..")
-      names.insert(name);
-  return names;
-}
 
 // As the kernel takes it: `..` behind a link is above what that leads to.
 fs::path resolved(const fs::path& path) {
   const fs::path full = fs::weakly_canonical(fs::absolute(path));
   return full.has_filename() ? full : full.parent_path();
+}
+
+// Files of these names may be removed later: none may lie outside the folder, nor behind a link.
+bool lies_in(const fs::path& folder, const fs::path& name) {
+  std::error_code error;
+  const fs::path file = folder / name, above = file.parent_path();
+  return name.is_relative() && name.has_filename() && name.filename() != "." &&
+         name.filename() != ".." && fs::weakly_canonical(above, error) == above;
+}
+
+std::set<std::string> names_of_runs(const fs::path& folder) {
+  const fs::path there = resolved(folder);
+  std::set<std::string> names;
+  std::ifstream file(there / own_names);
+  for (std::string name; std::getline(file, name);)
+    if (lies_in(there, name)) names.insert(name);
+  return names;
 }
 
 // A name with a line break would be read as two, and be another file's.
@@ -51,10 +59,31 @@ void write_names(const fs::path& folder, std::set<std::string> names) {
   io::write_file(folder / own_names, fmt::format("{}\n", fmt::join(names, "\n")));
 }
 
-// A link that leads nowhere is there too.
-bool is_in_the_way(const fs::path& folder, const std::string& name,
-                   const std::set<std::string>& own) {
-  return fs::exists(fs::symlink_status(folder / name)) && !own.contains(name);
+// A link that leads nowhere is there too, and a file where a folder above must be.
+bool is_in_the_way(const fs::path& folder, const fs::path& name, const std::set<std::string>& own) {
+  for (fs::path above = name.parent_path(); !above.empty(); above = above.parent_path())
+    if (fs::exists(fs::symlink_status(folder / above)) && !fs::is_directory(folder / above) &&
+        !own.contains(above.string()))
+      return true;
+  return fs::exists(fs::symlink_status(folder / name)) && !own.contains(name.string());
+}
+
+// Every file in a folder and the folders in it.
+std::set<std::string> files_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (!entry.is_directory()) names.insert(entry.path().lexically_relative(folder).string());
+  return names;
+}
+
+// Files, and the folders that they leave empty.
+void remove_files(const fs::path& folder, const std::set<std::string>& names) {
+  for (const fs::path name : names) {
+    fs::remove(folder / name);
+    std::error_code not_empty;
+    fs::path above = name.parent_path();
+    while (!above.empty() && fs::remove(folder / above, not_empty)) above = above.parent_path();
+  }
 }
 
 [[noreturn]] void refuse_to_replace(const fs::path& file, const std::string& hint) {
@@ -102,7 +131,25 @@ int lock(const fs::path& staging) {
                        "wait for it, or give another folder after -o");
 }
 
-void refuse_to_overwrite(const fs::path& folder, bool force) {
+// What would be removed and may not be: a folder, as its files are not known, and what is read now.
+void refuse_to_remove(const fs::path& folder, const std::set<std::string>& own,
+                      const std::vector<fs::path>& inputs) {
+  std::error_code error;
+  std::set<fs::path> needed;
+  for (const fs::path& input : inputs) needed.insert(fs::weakly_canonical(input, error));
+  for (const std::string& name : own) {
+    if (fs::is_directory(folder / name, error) && !fs::is_empty(folder / name, error))
+      throw io::InputError((folder / name).string(),
+                           "is a folder that may hold files of your own, and stays",
+                           "move it away, or give another folder after -o");
+    if (needed.contains(fs::weakly_canonical(folder / name, error)))
+      throw io::InputError((folder / name).string(),
+                           "is read by this run, which would remove it with the earlier run",
+                           "give another folder after -o");
+  }
+}
+
+void refuse_to_overwrite(const fs::path& folder, bool force, const std::vector<fs::path>& inputs) {
   if (!fs::exists(fs::symlink_status(folder))) return;
   if (!fs::exists(folder))
     throw io::InputError(folder.string(), "is a link that leads nowhere",
@@ -119,6 +166,7 @@ void refuse_to_overwrite(const fs::path& folder, bool force) {
   // Also with --force: better refused here than after the run, when its result is to be moved.
   if (is_in_the_way(folder, last_name, own))
     refuse_to_replace(folder / last_name, "give another folder after -o");
+  refuse_to_remove(folder, own, inputs);
 }
 
 }  // namespace
@@ -135,12 +183,12 @@ std::string name_of_its_own(std::string name, std::set<std::string>& used) {
   return own;
 }
 
-OutputFolder::OutputFolder(const fs::path& folder, bool force)
+OutputFolder::OutputFolder(const fs::path& folder, bool force, const std::vector<fs::path>& inputs)
     : folder_(resolved(folder)),
       staging_(fs::exists(folder_) ? folder_ / staging_name : staging_beside(folder_)),
       made_(missing_above(staging_)) {
   // Before anything is made or removed.
-  refuse_to_overwrite(folder_, force);
+  refuse_to_overwrite(folder_, force, inputs);
   std::error_code error;
   for (const fs::path& left : {staging_beside(folder_), staging_}) {  // by a run that was killed
     close(lock(left));  // lock() throws if that run is still going on.
@@ -174,28 +222,26 @@ fs::path OutputFolder::keep(const fs::path& name) const {
 
 void OutputFolder::publish(Earlier earlier) {
   fs::create_directories(folder_);
-  std::set<std::string> staged, own = names_of_runs(folder_);
-  for (const auto& entry : fs::directory_iterator(staging_))
-    staged.insert(entry.path().filename().string());
+  std::set<std::string> staged = files_in(staging_), old = names_of_runs(folder_);
   // Before anything is moved, all places must be free.
   for (const std::string& name : staged)
-    if (is_in_the_way(folder_, name, own))
+    if (is_in_the_way(folder_, name, old))
       refuse_to_replace(folder_ / name, "this run's results are in " +
                                             set_apart(staging_, folder_, staged).string());
-  const std::set<std::string> old = own;
-  own.insert(staged.begin(), staged.end());
+  std::set<std::string> own = staged;
+  own.insert(old.begin(), old.end());
   // Names are written before files are moved: if the run is killed in between, a later run may
   // replace the files that are already there.
   write_names(folder_, own);
   // The result goes first and comes last: where it stands, its run is complete, whenever a kill
   // came.
   if (earlier == Earlier::goes) {
-    if (old.contains(last_name)) fs::remove_all(folder_ / last_name);
-    for (const std::string& name : old) fs::remove_all(folder_ / name);
+    if (old.erase(last_name) > 0) fs::remove(folder_ / last_name);
+    remove_files(folder_, old);
+    write_names(folder_, staged);  // What is gone may be the user's name tomorrow.
   }
-  // A folder cannot be renamed onto one that is not empty.
-  const auto move = [&](const std::string& name) {
-    fs::remove_all(folder_ / name);
+  const auto move = [&](const fs::path& name) {
+    fs::create_directories((folder_ / name).parent_path());
     fs::rename(staging_ / name, folder_ / name);
   };
   const bool has_result = staged.erase(last_name) > 0;

@@ -20,9 +20,10 @@ std::string name_of_its_own(std::string name, std::set<std::string>& used);
 /// again, so that no run leaves half of its files.
 class OutputFolder {
  public:
-  /// @throws InputError when `folder` holds something and `force` is false, cannot be made, or
-  /// another run is writing there.
-  OutputFolder(const std::filesystem::path& folder, bool force);
+  /// @throws InputError when `folder` holds something and `force` is false, cannot be made, another
+  /// run is writing there, or one of `inputs`, which this run reads, would be removed by `publish`.
+  OutputFolder(const std::filesystem::path& folder, bool force,
+               const std::vector<std::filesystem::path>& inputs = {});
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -41,7 +42,7 @@ class OutputFolder {
   /// A file's place in the target itself, for what must survive a kill.
   [[nodiscard]] std::filesystem::path keep(const std::filesystem::path& name) const;
 
-  /// What earlier runs put into the target.
+  /// The files that earlier runs put into the target.
   enum class Earlier { goes, stays };
   /// Moves all staged files to the target.
   /// @throws InputError when a file of that name is there that no run has written: all are in a

@@ -194,8 +194,10 @@ void write_page(const OutputFolder& output, const PorosityFindings& found,
 int run_porosity(const PorosityArguments& arguments, const CommonOptions& common) {
   const Stopwatch watch;
   refuse_settings(common, "havers porosity reads no study");
+  std::vector<std::filesystem::path> inputs = arguments.images;
+  if (!arguments.mask.empty()) inputs.push_back(arguments.mask);
   std::optional<OutputFolder> output;  // refused before anything is measured
-  if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force);
+  if (!arguments.folder.empty()) output.emplace(arguments.folder, common.force, inputs);
   PorosityFindings found = measure_all(arguments);
   nlohmann::json json = json_of_files("sections", found.entries, arguments.images.size());
   // If nothing was measured no folder is made.
@@ -208,9 +210,8 @@ int run_porosity(const PorosityArguments& arguments, const CommonOptions& common
   answer(common, output ? &*output : nullptr, json, page_or("porosity.json"), [&] {
     if (!found.sections.empty()) print_table(found.sections);
   });
-  // Thrown last, so that what could be measured is shown before; `main` prints the problems.
-  if (!found.problems.empty()) throw io::InputError(std::move(found.problems));
-  return done;
+  // Last, so that what could be measured is shown before; the JSON has the problems already.
+  return found.problems.empty() ? done : refuse(io::InputError(std::move(found.problems)));
 }
 
 // An option whose values are the words of input files.
@@ -271,7 +272,7 @@ Command porosity_command(CLI::App& app, CommonOptions& common) {
   parser->add_option("--fibre-height-um", arguments->fibre_height_um, "of that window")
       ->check(above_zero())
       ->capture_default_str();
-  return {parser, [arguments, &common] { return run_porosity(*arguments, common); }, true};
+  return {parser, [arguments, &common] { return run_porosity(*arguments, common); }};
 }
 
 }  // namespace havers::cli

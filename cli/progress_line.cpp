@@ -38,7 +38,7 @@ bool ProgressLine::due() {
 
 void ProgressLine::show(const std::string& text) {
   // No longer than a narrow terminal: a wrapped line could not be wiped.
-  fmt::print(stderr, "{}{:.79}", wipe, text);
+  std::fputs(fmt::format("{}{:.79}", wipe, text).c_str(), stderr);
   std::fflush(stderr);
   shown_ = true;
 }

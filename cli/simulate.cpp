@@ -168,7 +168,7 @@ int run_simulate(const SimulateArguments& arguments, const CommonOptions& common
   catch_interrupts();
   io::SnapshotRecorder snapshots(file.snapshots);
   // Before the run, so that a folder that cannot be written is refused at once.
-  OutputFolder output(arguments.folder, common.force);
+  OutputFolder output(arguments.folder, common.force, file.inputs);
   if (!reports::available())
     note(common, "no report.html and fracture.svg: this build makes no pages (havers --version)");
 

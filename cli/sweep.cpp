@@ -187,7 +187,7 @@ int run_sweeps(const SweepArguments& arguments, const CommonOptions& common) {
   // Now, as files may be changed during the runs.
   Digests inputs = digests_of(inputs_of(all));
   catch_interrupts();
-  KeptRun run("sweep", arguments.files, arguments.folder, common);
+  KeptRun run("sweep", arguments.files, inputs_of(all), arguments.folder, common);
   if (!run_all(all, run.store(), common)) {
     // Runs of sweeps with patterns are not stored, as a store does not hold patterns of joints.
     const bool patterns =

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -83,25 +84,22 @@ void refuse_what_is_not_made(const std::string& where, const io::SpecimenFiles& 
 // copy would write outside its own folder or overwrite its own files.
 std::vector<io::Problem> problems_of(const fs::path& study, const io::StudyFile& file) {
   std::vector<io::Problem> problems;
+  for (const fs::path& name : file.names)  // The copy has it too: it would find the original.
+    if (name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end())
+      problems.push_back(
+          {study.string(), fmt::format("names {}, which may lie outside its folder", name.string()),
+           "name files in that folder, relative to it, to have them made or copied"});
   std::set<fs::path> to_be_made{"study.toml", "truth.json"};
-  for (const fs::path& input : file.inputs) {  // these are copied
+  for (const fs::path& input : file.inputs)  // these are copied
     to_be_made.insert(place(study, input));
-    if (*place(study, input).begin() == "..")
-      problems.push_back({input.string(), "lies outside the study's folder",
-                          "put it beside the study to have it copied"});
-  }
   for (const io::SpecimenFiles& specimen : file.specimens) {
     std::vector<fs::path> files = specimen.sections;
     files.push_back(specimen.test);
     if (specimen.gauge) files.push_back(*specimen.gauge);
-    for (const fs::path& path : files) {
-      if (*place(study, path).begin() == "..")
-        problems.push_back({path.string(), "lies outside the study's folder",
-                            "name files beside the study to have them made"});
+    for (const fs::path& path : files)
       if (!to_be_made.insert(place(study, path)).second)
         problems.push_back({path.string(), "would be made twice",
                             "give each specimen files of its own to have them made"});
-    }
     const std::string where = study.string() + ": specimen " + specimen.id;
     refuse_what_is_not_made(where, specimen, problems);
     if (!specimen.sections.empty() && !specimen.porosity)
@@ -246,7 +244,7 @@ bool all_are_tests(const std::vector<Made>& made) {
   bool all = true;
   for (const Made& one : made) {
     if (calib::is_test(one.simulation)) continue;
-    fmt::print(stderr, "specimen {}: {}\n", one.specimen.id, why_no_test(one));
+    say(fmt::format("specimen {}: {}", one.specimen.id, why_no_test(one)));
     all = false;
   }
   return all;
@@ -269,7 +267,7 @@ int run_synthesize(const SynthesizeArguments& arguments, const CommonOptions& co
   if (problems.empty()) problems = scene_problems(as_tested(file), arguments.study);
   if (!problems.empty()) throw io::InputError(std::move(problems));
   catch_interrupts();
-  OutputFolder output(arguments.folder, common.force);
+  OutputFolder output(arguments.folder, common.force, file.inputs);
 
   for (const fs::path& input : file.inputs)  // as they are now
     fs::copy_file(input, output.stage(input == arguments.study ? "study.toml"

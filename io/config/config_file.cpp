@@ -31,6 +31,14 @@ std::string ConfigFile::where(const toml::node& node, const std::string& key) co
   return fmt::format("{}:{}: {}", file_.string(), source.begin.line, key);
 }
 
+// A `..` stays, as behind a link it is above what that leads to.
+std::filesystem::path ConfigFile::beside(const std::string& name) {
+  if (!name.empty()) names_.emplace_back(name);
+  std::filesystem::path path = file_.parent_path() / name;
+  if (std::find(path.begin(), path.end(), "..") == path.end()) path = path.lexically_normal();
+  return name.empty() || path.has_filename() ? path : path.parent_path();  // "." is a folder's name
+}
+
 // Names the one other table that knows the key, else what is near in the key's own table. The top
 // has no name to give, and of two tables neither is surely meant.
 std::string ConfigFile::hint_of_key(std::string_view key,

@@ -257,6 +257,7 @@ StudyFile read_tables(ConfigFile& config, const std::filesystem::path& file, Fil
   read_sections(top.table("sections"), read.sections);
   read.warnings = study_doubts(top, read);
   read.inputs = config.inputs();
+  read.names = config.names();
   return read;
 }
 

@@ -50,6 +50,7 @@ struct StudyFile {
   calib::ReductionOptions reduction;
   SectionOptions sections;  ///< [sections]; pixel size, mask and window are the specimen's.
   std::vector<std::filesystem::path> inputs;  ///< The study, and what it names that is there.
+  std::vector<std::filesystem::path> names;   ///< Of files, as the study writes them.
   bool rate_is_given = false;                 ///< model.loading.strain_rate_per_s.
   std::vector<std::string> warnings;          ///< A sentence for each key that changes nothing.
 };

@@ -40,12 +40,6 @@ const toml::node& innermost(const toml::table& table, std::string_view key) {
   return *node;
 }
 
-// The path that a name in the file means: relative to the file's folder, unless it is absolute.
-std::filesystem::path beside(const std::filesystem::path& file, const std::string& name) {
-  const std::filesystem::path path = (file.parent_path() / name).lexically_normal();
-  return name.empty() || path.has_filename() ? path : path.parent_path();  // "." is a folder's name
-}
-
 }  // namespace
 
 std::string dotted(const std::string& path, std::string_view name) {
@@ -199,7 +193,7 @@ bool TableReader::key(std::string_view name, std::vector<std::string>& value) {
 bool TableReader::key(std::string_view name, std::filesystem::path& value) {
   std::string text;
   if (!key(name, text)) return false;
-  value = beside(file_->file_, text);
+  value = file_->beside(text);
   return true;
 }
 
@@ -207,12 +201,12 @@ bool TableReader::key(std::string_view name, std::vector<std::filesystem::path>&
   std::vector<std::string> texts;
   if (!key(name, texts)) return false;
   value.clear();
-  for (const std::string& text : texts) value.push_back(beside(file_->file_, text));
+  for (const std::string& text : texts) value.push_back(file_->beside(text));
   return true;
 }
 
 bool TableReader::require_file(std::string_view name, const std::filesystem::path& file) {
-  std::error_code error;  // of a name that is too long
+  std::error_code error;  // of a name that is too long, or a folder that is closed
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   const bool there = std::filesystem::is_regular_file(status);
   const bool named = file.has_filename();     // beside() has added nothing else to the folder
@@ -220,6 +214,11 @@ bool TableReader::require_file(std::string_view name, const std::filesystem::pat
   if (!named) complain(name, "is empty, must name a file");
   if (!named || there) return there;
   const bool set = is_override(innermost(*table_, name));  // by the command line
+  if (!std::filesystem::status_known(status)) {
+    complain(name,
+             fmt::format("names {}, which cannot be read: {}", file.string(), error.message()));
+    return false;
+  }
   if (std::filesystem::is_directory(status)) {
     complain(name, fmt::format("names {}, which is a folder", file.string()), "name a file in it");
     return false;

@@ -139,19 +139,23 @@ class ConfigFile {
 
   /// The file, and those that it names and that are there.
   [[nodiscard]] const std::vector<std::filesystem::path>& inputs() const { return inputs_; }
+  /// The names of files as they are written, whether those are there or not.
+  [[nodiscard]] const std::vector<std::filesystem::path>& names() const { return names_; }
 
  private:
   /// A reader notes here what is asked and which files are named.
   friend class TableReader;
   /// Where a key stands: "file:line: key", or "--set key" where the command line gave it.
   [[nodiscard]] std::string where(const toml::node& node, const std::string& key) const;
+  /// The path that a name means: relative to the file's folder, unless it is absolute.
+  std::filesystem::path beside(const std::string& name);
   /// What to do about an unknown key of a table whose keys are `known`.
   [[nodiscard]] std::string hint_of_key(std::string_view key,
                                         const std::set<std::string, std::less<>>& known) const;
 
   std::filesystem::path file_;        ///< Empty: overrides alone.
   std::unique_ptr<toml::table> top_;  ///< A pointer, to keep toml++ out of this header.
-  std::vector<std::filesystem::path> inputs_{file_};
+  std::vector<std::filesystem::path> inputs_{file_}, names_;
   std::map<std::string, std::set<std::string, std::less<>>> asked_;  ///< Keys by the table's path.
   std::vector<Problem> problems_;
 };

@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <cstring>
 
 #include "io/input_error.hpp"
 #include "io/machine/encoding.hpp"
@@ -20,6 +21,8 @@ constexpr std::uintmax_t largest_file = 1'000'000'000;  // [byte]
 void check_openable(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::status_known(status))
+    throw InputError(file.string(), "cannot be read: " + error.message());
   if (!std::filesystem::exists(status)) throw InputError(file.string(), "there is no such file");
   if (std::filesystem::is_directory(status))
     throw InputError(file.string(), "is a folder, not a test file", "name one of the files in it");
@@ -35,7 +38,7 @@ void check_openable(const std::filesystem::path& file) {
 TextSource::TextSource(const std::filesystem::path& file) : name_(file.string()) {
   check_openable(file);
   stream_.open(file, std::ios::binary);
-  if (!stream_) throw InputError(name_, "cannot be opened for reading");
+  if (!stream_) throw InputError(name_, std::string("cannot be read: ") + std::strerror(errno));
   read_block();
   if (block_.empty()) throw InputError(name_, "the file is empty");
   std::error_code no_size;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <regex>
 
 #include "reports/figures/figures.hpp"
 #include "reports/text/format.hpp"
@@ -61,10 +62,17 @@ std::string shortened(const std::string& name) {
   return plain(start) + (start.size() < name.size() ? "…" : "");
 }
 
+// gnuplot takes the label of a tic for a format.
+std::string as_format(const std::string& text) {
+  static const std::regex percent("%");
+  return std::regex_replace(text, percent, "%%");
+}
+
 std::string fit_names(const std::vector<FitReport>& fits) {
   std::string tics;
   for (std::size_t i = 0; i < fits.size(); ++i)
-    tics += fmt::format("{}'{}' {}", i > 0 ? ", " : "", shortened(fits[i].study.name), i + 1);
+    tics += fmt::format("{}'{}' {}", i > 0 ? ", " : "", as_format(shortened(fits[i].study.name)),
+                        i + 1);
   // The range is turned round, so that the first fit is on top.
   return fmt::format("set ytics noenhanced ({})\nset yrange [{}.5:0.5]\n", tics, fits.size());
 }

@@ -88,7 +88,7 @@ std::string setting(double value, std::string_view unit, int digits) {
 }
 
 std::string typeset(const std::string& sentence) {
-  static const std::regex power(R"((-?\b\d+(?:\.\d+)?)e([+-]\d+)\b)"),
+  static const std::regex power(R"((-?\b\d+(?:\.\d+)?)e([+-]\d{1,3})\b)"),
       exponent(R"(\^(-?\d+(?:\.\d+)?))"), minus(R"((^|[\s(\[=])-(?=\d))"), degree(R"((\d) deg\b)");
   static const std::regex unit(R"((\d) (?=(%|1/s|[kMG]?Pa|(µ|[mnp])?[ms]|k?N|k?J|kg)(?!\w)))"),
       error(R"(± (?=\d))");

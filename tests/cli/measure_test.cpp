@@ -227,6 +227,30 @@ TEST(Study, SaysOfWhichSpecimenAFaultyFileIs) {
               HasSubstr("; it is the section of specimen B90)\n"));
 }
 
+// Above what a link leads to; the same test by another name is the same.
+TEST(Study, FindsItsFilesBehindALinkAsTheKernelDoes) {
+  const fs::path folder = test::folder_with_tests();
+  fs::create_directories(folder / "made/deep");
+  fs::create_directory_symlink("made/deep", folder / "link");
+  const std::string study = test::replaced_once(test::small_study(), "\"B0.csv\"", "\"../B0.csv\"");
+  test::write_text(folder / "made/deep/study.toml",
+                   test::replaced_once(study, "\"B90.csv\"", "\"../../made/B0.csv\""));
+  const auto answer = run_havers(folder, "check link/study.toml");
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("B0 and B90 have the same test"));
+}
+
+// As of one in a folder that is closed; it hides no other problem.
+TEST(Study, SaysWhyAFileCannotBeRead) {
+  const fs::path folder = test::folder_with_study();
+  test::write_text(folder / "study.toml",
+                   test::replaced_once(test::small_study(), "B0.csv", std::string(300, 'x')));
+  const auto answer = run_havers(folder, "check study.toml");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("x, which cannot be read: "));
+  EXPECT_THAT(answer.err, HasSubstr("names B90.csv, which is not there"));
+}
+
 TEST(Import, AsksForSizesOnlyWhereSomeAreLacking) {
   const fs::path folder = own_folder();
   test::write_text(folder / "short.csv", "Time (s),Load (N),Strain (%)\n0,0,0\n1,2,0.1\n2,5,0.2\n");

@@ -87,6 +87,64 @@ TEST(OutputFolder, IsRefusedBeforeAnythingIsDone) {
   EXPECT_FALSE(fs::exists(folder / "far"));
 }
 
+// Neither what lies beside them in their folder, nor what has taken a name that they once had.
+TEST(OutputFolder, LosesTheFilesOfItsRunsAlone) {
+  const fs::path folder = test::folder_with_scene();
+  test::write_text(folder / "study.toml",
+                   test::replaced_once(test::small_study(), "B0.csv", "tests/B0.csv"));
+  ASSERT_EQ(run_havers(folder, "synthesize study.toml -o out").exit_code, 0);
+  test::write_text(folder / "out/tests/mine.csv", "mine");
+  ASSERT_EQ(run_havers(folder, "simulate scene.toml -o out --force").exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / "out/study.toml"));
+  EXPECT_FALSE(fs::exists(folder / "out/tests/B0.csv"));
+  EXPECT_EQ(test::contents(folder / "out/tests/mine.csv"), "mine");
+
+  test::write_text(folder / "out/tests/B0.csv", "mine");
+  ASSERT_EQ(run_havers(folder, "simulate scene.toml -o out --force").exit_code, 0);
+  EXPECT_EQ(test::contents(folder / "out/tests/B0.csv"), "mine");
+}
+
+// Nor through a link in their folder's place, or by a name that leads out of it.
+TEST(OutputFolder, LosesNothingElsewhere) {
+  const fs::path folder = test::folder_with_scene();
+  ASSERT_EQ(run_havers(folder, "simulate scene.toml -o out").exit_code, 0);
+  fs::create_directories(folder / "own");
+  test::write_text(folder / "own/B0.csv", "mine");
+  fs::create_directory_symlink("../own", folder / "out/tests");
+  test::write_text(folder / "out/.havers", test::contents(folder / "out/.havers") +
+                                               "tests/B0.csv\n../own/B0.csv\n" +
+                                               (folder / "own/B0.csv").string() + "\n");
+  EXPECT_EQ(run_havers(folder, "simulate scene.toml -o out --force").exit_code, 0);
+  EXPECT_EQ(test::contents(folder / "own/B0.csv"), "mine");
+}
+
+// As earlier builds have listed folders: whose the files in one are is not known.
+TEST(OutputFolder, KeepsAFolderThatIsListed) {
+  const fs::path folder = test::folder_with_scene();
+  ASSERT_EQ(run_havers(folder, "simulate scene.toml -o out").exit_code, 0);
+  fs::create_directories(folder / "out/curves");
+  test::write_text(folder / "out/curves/mine.csv", "mine");
+  test::write_text(folder / "out/.havers", test::contents(folder / "out/.havers") + "curves\n");
+  const auto refused = run_havers(folder, "simulate scene.toml -o out --force");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("curves: is a folder that may hold files of your own"));
+  EXPECT_EQ(test::contents(folder / "out/curves/mine.csv"), "mine");
+  EXPECT_TRUE(fs::exists(folder / "out/result.json"));
+}
+
+// The tests that were made, and the study itself.
+TEST(OutputFolder, IsRefusedWhereAnInputWouldGo) {
+  const fs::path folder = test::folder_with_tests();
+  const std::size_t before = entries(folder / "made");
+  fs::create_symlink("made/B0.csv", folder / "link.csv");
+  for (const char* command : {"fit made/study.toml", "import link.csv"}) {
+    const auto refused = run_havers(folder, command + std::string(" -o made --force"));
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("B0.csv: is read by this run")) << command;
+    EXPECT_EQ(entries(folder / "made"), before);
+  }
+}
+
 // Not even by --force: neither a scene and curves of the user's own, nor his result.
 TEST(OutputFolder, KeepsWhatNoRunHasWritten) {
   const fs::path folder = test::folder_with_scene();

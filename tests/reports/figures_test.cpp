@@ -265,6 +265,13 @@ TEST(Figure, LetsNoNameReachTheCommandsOfGnuplot) {
     EXPECT_FALSE(contains(draw(figure), "Figure not drawn"));
 }
 
+TEST(Figure, ShowsThePercentSignsOfAName) {
+  auto sample = test::fit_sample();
+  sample.study.name = "bone, 5 % of E";
+  EXPECT_TRUE(contains(draw(intervals_figure({{sample.study, sample.result, {}, {}}}, "b")),
+                       "bone, 5 % of E"));
+}
+
 TEST(Figure, SaysSoWhenThereIsNothingToDraw) {
   EXPECT_TRUE(contains(draw(specimen_figure({}, "s")), "Nothing to draw"));
   EXPECT_TRUE(contains(draw(strength_figure({}, "s")), "Nothing to draw"));

@@ -55,6 +55,7 @@ TEST(Typeset, WritesTheNumbersOfASentenceAsAPageDoes) {
   EXPECT_EQ(typeset("alike (p = 3e-06), or -2.5e+07."),
             "alike (p = 3\u00a0×\u00a010⁻⁶), or −2.5\u00a0×\u00a010⁷.");
   EXPECT_EQ(typeset("p < 1e-6"), "p < 10⁻⁶");
+  EXPECT_EQ(typeset("specimen 2e-20240501093000"), "specimen 2e-20240501093000");
   EXPECT_EQ(typeset("AICc is -21.7 (-3 before)"), "AICc is −21.7 (−3 before)");
 }
 

@@ -32,6 +32,12 @@ TEST(InputFaults, NamesAMissingFile) {
   EXPECT_EQ(refusal("nowhere/none.csv"), "none.csv: there is no such file");
 }
 
+TEST(InputFaults, SaysWhyAFileCannotBeRead) {
+  const test::TemporaryFile file("x");
+  const std::string name(300, 'x');
+  EXPECT_TRUE(refusal(file.path().parent_path() / name).starts_with(name + ": cannot be read: "));
+}
+
 TEST(InputFaults, NamesAFolder) {
   const test::TemporaryFile file("x");
   EXPECT_NE(refusal(file.path().parent_path()).find("is a folder, not a test file"),
