@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <system_error>
-
 #include "io/input_error.hpp"
 #include "io/read_text.hpp"
 #include "io/results/result_files.hpp"
@@ -22,11 +20,7 @@ constexpr const char* run_name = ".run";  // whose simulations are kept
 std::string name_of_run(const char* command, const std::vector<fs::path>& inputs) {
   std::vector<std::string> files;
   files.reserve(inputs.size());
-  for (const fs::path& input : inputs) {
-    std::error_code error;  // of a pipe, which leads to no file
-    const fs::path file = fs::weakly_canonical(input, error);
-    files.push_back((error ? fs::absolute(input) : file).string());
-  }
+  for (const fs::path& input : inputs) files.push_back(fs::weakly_canonical(input).string());
   return fmt::format("{} of {}", command, fmt::join(files, ", "));
 }
 

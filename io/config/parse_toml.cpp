@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <map>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "io/input_error.hpp"
@@ -40,19 +38,8 @@ const char* hint_for(std::string_view complaint) {
   return "";
 }
 
-// Every point of a sweep reads the file anew. What comes through a pipe can be read once alone, and
-// its text is kept.
-std::string text_of(const std::filesystem::path& file) {
-  static std::map<std::filesystem::path, std::string> piped;
-  if (const auto kept = piped.find(file); kept != piped.end()) return kept->second;
-  std::string text = read_text(file, "a TOML file is expected there");
-  std::error_code error;
-  if (std::filesystem::is_fifo(file, error)) piped[file] = text;
-  return text;
-}
-
 toml::table parse_file(const std::filesystem::path& file) {
-  const std::string text = text_of(file);
+  const std::string text = read_text(file, "a TOML file is expected there");
   try {
     toml::table table = toml::parse(text, file.string());
     if (table.empty())

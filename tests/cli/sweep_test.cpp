@@ -55,17 +55,6 @@ TEST(Sweep, LeavesTablesLawsResultAndStore) {
   EXPECT_THAT(answer.out, HasSubstr("F1"));
 }
 
-// Which can be read once alone, and is asked for its kind and by every point.
-TEST(Sweep, ComesThroughAPipeToo) {
-  const fs::path folder = folder_with_sweep();
-  for (const std::string command : {"check /dev/stdin", "sweep /dev/stdin -o out"})
-    EXPECT_EQ(run_havers(folder,
-                         "-h >help; cat small.toml | '" HAVERS_PROGRAM "' " + command + " >said #")
-                  .exit_code,
-              0)
-        << command;
-}
-
 TEST(Sweep, ReadsWholeNumbersOfAnyBase) {
   const fs::path folder = folder_with_sweep(
       test::replaced_once(small, "[assembly]", "\"assembly.fibres\" = [0x3, 0b101]\n[assembly]"));
