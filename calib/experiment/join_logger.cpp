@@ -91,16 +91,24 @@ constexpr Calibration load_cell{"load cell factor",
                                 "N",
                                 1.0};
 
+// Of an extensometer whose length the logger's file or the user tells, io has made a strain.
 void take_elongation(std::vector<double> elongation, JoinedTest& joined) {
-  if (!joined.test.gauge_length) {
+  RawTest& test = joined.test;
+  const std::optional<double>& length =
+      test.extensometer_length ? test.extensometer_length : test.gauge_length;
+  if (!length) {
     joined.problems.emplace_back(
         "the logger's gauge is an elongation, and the gauge length is unknown: "
         "give gauge_length_mm");
     return;
   }
-  for (double& value : elongation) value /= *joined.test.gauge_length;
-  joined.test.strain = std::move(elongation);
-  joined.test.crosshead_strain = false;
+  for (double& value : elongation) value /= *length;
+  test.strain = std::move(elongation);
+  test.crosshead_strain = false;
+  test.warnings.push_back(fmt::format(
+      "the logger's gauge is an elongation, divided by the gauge length of the machine's file, "
+      "{:g} mm: of an extensometer of another length the strain is wrong (gauge_length_mm says it)",
+      *length * 1e3));
 }
 
 // A logger's strain counts first, then an elongation, and volts only where there is neither. Volts

@@ -18,6 +18,7 @@ using test::logger_record;
 using test::machine_record;
 using test::strain_at;
 using test::young;
+using testing::Contains;
 using testing::HasSubstr;
 
 RawTest with_elongation(RawTest logger, double gauge_length) {
@@ -100,6 +101,11 @@ TEST(JoinLogger, DividesAnElongationByTheGaugeLength) {
   const JoinedTest joined = join_logger(machine, logger, {});
   ASSERT_TRUE(joined.problems.empty()) << joined.problems[0];
   EXPECT_NEAR(std::ranges::max(joined.test.strain), 4.5e-3, 2e-5);
+  EXPECT_THAT(joined.test.warnings,
+              Contains(HasSubstr("gauge length of the machine's file, 25 mm")));
+  machine.gauge_length = 50e-3;  // the extensometer is shorter, says the file
+  machine.extensometer_length = 25e-3;
+  EXPECT_NEAR(std::ranges::max(join_logger(machine, logger, {}).test.strain), 4.5e-3, 2e-5);
 }
 
 // One row stretches the range, by parts of which the clocks are matched.
