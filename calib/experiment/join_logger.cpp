@@ -112,7 +112,8 @@ void take_elongation(std::vector<double> elongation, JoinedTest& joined) {
 }
 
 // A logger's strain counts first, then an elongation, and volts only where there is neither. Volts
-// are fitted to the test's own strain, which they then replace.
+// are fitted to the test's own strain, which they then replace; of a crosshead's they keep the
+// machine in it (X2).
 void take_channels(const RawTest& logger, JoinedTest& joined) {
   RawTest& test = joined.test;
   if (test.force.empty() && !test.load_volts.empty())
@@ -120,12 +121,13 @@ void take_channels(const RawTest& logger, JoinedTest& joined) {
                             load_cell, joined);
   if (!logger.strain.empty()) {
     test.strain = at_machine_rows(logger.time, logger.strain, joined);
-    test.crosshead_strain = false;
+    test.crosshead_strain = logger.crosshead_strain;
   } else if (!logger.extension.empty()) {
     take_elongation(at_machine_rows(logger.time, logger.extension, joined), joined);
   } else if (!logger.volts.empty()) {
     test.strain =
         calibrated(at_machine_rows(logger.time, logger.volts, joined), test.strain, gauge, joined);
+    test.fitted_strain = true;
   }
 }
 

@@ -108,6 +108,30 @@ TEST(JoinLogger, DividesAnElongationByTheGaugeLength) {
   EXPECT_NEAR(std::ranges::max(join_logger(machine, logger, {}).test.strain), 4.5e-3, 2e-5);
 }
 
+// By its column's name, or as volts were fitted to one: the machine stays in it.
+TEST(JoinLogger, KnowsTheStrainOfACrosshead) {
+  RawTest machine = machine_record(2), logger = logger_record({}, 2);
+  logger.crosshead_strain = true;
+  EXPECT_TRUE(reduce_test(join_logger(machine, logger, {}).test).test.machine_in_strain);
+  logger.crosshead_strain = false;
+  logger.volts = std::exchange(logger.strain, {});
+  machine.gauge_length = 25e-3;
+  machine.crosshead_strain = true;
+  for (const double time : machine.time) {
+    machine.strain.push_back(1.5 * strain_at(time));
+    machine.extension.push_back(1.6 * strain_at(time) * *machine.gauge_length);
+  }
+  const Reduction fitted = reduce_test(join_logger(machine, logger, {}).test);
+  EXPECT_TRUE(fitted.test.machine_in_strain);
+  EXPECT_THAT(fitted.test.warnings,
+              Contains(HasSubstr("the gauge was fitted to the strain of the crosshead, which")));
+  EXPECT_NEAR(fitted.test.modulus, young / 1.5, 0.02 * young);
+  // It slips as a gauge does.
+  for (std::size_t i = 600; i < logger.volts.size(); ++i) logger.volts[i] += 5e-4;
+  const Reduction slipped = reduce_test(join_logger(machine, logger, {}).test);
+  EXPECT_THAT(slipped.test.corrections, Contains(testing::Field(&Correction::what, "gauge slip")));
+}
+
 // One row stretches the range, by parts of which the clocks are matched.
 TEST(JoinLogger, MatchesWhatIsLeftWithoutSpikes) {
   RawTest machine = machine_record(6), logger = logger_record({}, 6);
