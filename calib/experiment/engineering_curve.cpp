@@ -40,21 +40,6 @@ void take_stress(const RawTest& raw, EngineeringCurve& curve) {
   }
 }
 
-// (X2) Whether the strain is the crosshead's extension over the gauge length, as its name says. A
-// name may err: where extension and gauge length are known, the numbers decide.
-bool is_of_crosshead(const RawTest& raw) {
-  if (!raw.crosshead_strain || raw.extension.empty() || !raw.gauge_length)
-    return raw.crosshead_strain;
-  constexpr double tolerance = 0.02;
-  double largest = 0.0, difference = 0.0;
-  for (std::size_t i = 0; i < raw.strain.size(); ++i) {
-    const double moved = (raw.extension[i] - raw.extension[0]) / *raw.gauge_length;
-    largest = std::max(largest, std::abs(moved));
-    difference = std::max(difference, std::abs(raw.strain[i] - raw.strain[0] - moved));
-  }
-  return difference <= tolerance * largest;
-}
-
 // (X2) The crosshead's extension over the gauge length, or the column that the machine made of it,
 // less what the machine gives way. Precondition: one of them is there.
 void take_crosshead(const RawTest& raw, double machine_compliance, EngineeringCurve& curve) {
@@ -73,15 +58,17 @@ void take_crosshead(const RawTest& raw, double machine_compliance, EngineeringCu
          fmt::format("{:.4g} mm per kN of force taken off the crosshead's extension",
                      machine_compliance * 1e6)});
   else
-    curve.warnings.emplace_back(
-        "no strain of a gauge was read: strain is the crosshead's extension over the gauge length, "
-        "which contains the compliance of the machine; the modulus is too low by it");
+    curve.warnings.push_back(fmt::format(
+        "{}, which contains the compliance of the machine; the modulus is too low by it",
+        raw.fitted_strain ? "the gauge was fitted to the strain of the crosshead"
+                          : "no strain of a gauge was read: strain is the crosshead's "
+                            "extension over the gauge length"));
 }
 
 // A gauge's strain is taken as it is; one that comes from the crosshead is corrected or warned of.
 void take_strain(const RawTest& raw, double machine_compliance, EngineeringCurve& curve) {
   const bool recorded = !raw.strain.empty();
-  if (recorded && !is_of_crosshead(raw))
+  if (recorded && !raw.crosshead_strain)
     curve.strain = raw.strain;
   else if (!recorded && raw.extension.empty())
     curve.problems.emplace_back("neither strain nor crosshead extension was read");

@@ -47,9 +47,14 @@ struct Record {
   [[nodiscard]] double expected(std::size_t from, std::size_t to) const {
     return std::max(0.0, stress[to] - stress[from]) * compliance(std::min(from, to));
   }
+  // A logger's strain at the row of the largest stress may lie between its rows before and after
+  // the break, and have any part of that fall.
+  [[nodiscard]] double least_fall(std::size_t row) const {
+    return row + 1 == peak ? resolution : smallest_jump;
+  }
   // (X13) The strain jumps back from this row to the next, the load does not.
   [[nodiscard]] bool jumps_back(std::size_t row) const {
-    return strain[row] - strain[row + 1] - expected(row + 1, row) > smallest_jump &&
+    return strain[row] - strain[row + 1] - expected(row + 1, row) > least_fall(row) &&
            stress[row + 1] > stress[row] - std::max(falling * stress[peak], 5.0 * noise);
   }
   // (X13) It jumps ahead, alone among its steps, and the load does not give way.
@@ -62,7 +67,7 @@ struct Record {
            stress[row + 1] > stress[row] - 5.0 * noise;
   }
   [[nodiscard]] bool jumps(std::size_t row) const {
-    const bool moves = std::abs(strain[row + 1] - strain[row]) > smallest_jump;
+    const bool moves = std::abs(strain[row + 1] - strain[row]) > least_fall(row);
     return moves && (jumps_back(row) || jumps_ahead(row));
   }
 };

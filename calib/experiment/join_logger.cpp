@@ -91,20 +91,29 @@ constexpr Calibration load_cell{"load cell factor",
                                 "N",
                                 1.0};
 
+// Of an extensometer whose length the logger's file or the user tells, io has made a strain.
 void take_elongation(std::vector<double> elongation, JoinedTest& joined) {
-  if (!joined.test.gauge_length) {
+  RawTest& test = joined.test;
+  const std::optional<double>& length =
+      test.extensometer_length ? test.extensometer_length : test.gauge_length;
+  if (!length) {
     joined.problems.emplace_back(
         "the logger's gauge is an elongation, and the gauge length is unknown: "
         "give gauge_length_mm");
     return;
   }
-  for (double& value : elongation) value /= *joined.test.gauge_length;
-  joined.test.strain = std::move(elongation);
-  joined.test.crosshead_strain = false;
+  for (double& value : elongation) value /= *length;
+  test.strain = std::move(elongation);
+  test.crosshead_strain = false;
+  test.warnings.push_back(fmt::format(
+      "the logger's gauge is an elongation, divided by the gauge length of the machine's file, "
+      "{:g} mm: of an extensometer of another length the strain is wrong (gauge_length_mm says it)",
+      *length * 1e3));
 }
 
 // A logger's strain counts first, then an elongation, and volts only where there is neither. Volts
-// are fitted to the test's own strain, which they then replace.
+// are fitted to the test's own strain, which they then replace; of a crosshead's they keep the
+// machine in it (X2).
 void take_channels(const RawTest& logger, JoinedTest& joined) {
   RawTest& test = joined.test;
   if (test.force.empty() && !test.load_volts.empty())
@@ -112,12 +121,13 @@ void take_channels(const RawTest& logger, JoinedTest& joined) {
                             load_cell, joined);
   if (!logger.strain.empty()) {
     test.strain = at_machine_rows(logger.time, logger.strain, joined);
-    test.crosshead_strain = false;
+    test.crosshead_strain = logger.crosshead_strain;
   } else if (!logger.extension.empty()) {
     take_elongation(at_machine_rows(logger.time, logger.extension, joined), joined);
   } else if (!logger.volts.empty()) {
     test.strain =
         calibrated(at_machine_rows(logger.time, logger.volts, joined), test.strain, gauge, joined);
+    test.fitted_strain = true;
   }
 }
 

@@ -118,8 +118,9 @@ int swings_along(const Curve& curve, RowRange rows) {
 // The window in stress, and whether what is left of it is straight.
 struct Window {
   double low = 0.0, high = 0.0;  // [Pa]
-  Bend bend;
+  Bend bend;                     // Where few rows are left: of the last window that had enough.
   bool straight = false;
+  bool told = true;  // False: narrowed until too few rows were left to tell a bend.
 };
 
 // (X5) A toe is softer than what follows: the lower end moves up. Yielding is much softer than what
@@ -131,9 +132,11 @@ Window straight_window(const Curve& curve, double strength, const ReductionOptio
   const Bend whole = bend_of(curve, window.low, window.high);
   const bool yields = whole.known && whole.upper.slope < yielded * whole.lower.slope;
   while (window.high - window.low >= fewest_remaining * full) {
-    window.bend = bend_of(curve, window.low, window.high);
-    window.straight = window.bend.is_straight(options.straightness);
-    const bool toe = window.bend.stiffens();
+    const Bend bend = bend_of(curve, window.low, window.high);
+    if (bend.known) window.bend = bend;
+    window.told = bend.known || !whole.known;
+    window.straight = bend.is_straight(options.straightness);
+    const bool toe = bend.stiffens();
     if (window.straight || (!toe && !yields)) break;
     (toe ? window.low : window.high) += (toe ? 1.0 : -1.0) * narrowing_step * full;
   }
@@ -163,12 +166,15 @@ bool differs(const Window& window, double strength, const ReductionOptions& opti
 Correction correction_of(const Window& window, double strength, const ReductionOptions& options) {
   const double low = window.low / strength, high = window.high / strength;
   const bool longer = low <= options.window_low + 1e-9 && high > options.window_high;
-  return {"modulus window", fmt::format("{} from {:.2g}-{:.2g} to {:.2g}-{:.2g} of the strength{}",
-                                        longer                       ? "extended"
-                                        : high > options.window_high ? "moved"
-                                                                     : "narrowed",
-                                        options.window_low, options.window_high, low, high,
-                                        longer ? "" : ", where the curve is straight")};
+  return {"modulus window",
+          fmt::format("{} from {:.2g}-{:.2g} to {:.2g}-{:.2g} of the strength{}",
+                      longer                       ? "extended"
+                      : high > options.window_high ? "moved"
+                                                   : "narrowed",
+                      options.window_low, options.window_high, low, high,
+                      longer        ? ""
+                      : window.told ? ", where the curve is straight"
+                                    : ", where too few rows are left to tell a bend")};
 }
 
 // (X6) The line of ISO 527-1, where it can be one: the curve spans its window, and the line meets

@@ -29,6 +29,7 @@ struct RawTest {
   std::optional<double> gauge_length;         ///< [m]
   std::optional<double> extensometer_length;  ///< Where it is not that of the gauge length. [m]
   bool crosshead_strain = false;        ///< The strain is the crosshead's by its column's name.
+  bool fitted_strain = false;           ///< It is a gauge's, fitted in volts to what it was (X19).
   bool load_turned = false;             ///< The load was read negative, and turned (X22).
   std::vector<Correction> corrections;  ///< What was done before the reduction.
   std::vector<std::string> warnings;    ///< What the reader noticed, a sentence each.

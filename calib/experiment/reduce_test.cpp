@@ -168,7 +168,7 @@ Reduction unreduced(const MeasuredTest& test, std::vector<std::string> problems)
 
 // Only a gauge slips: a crosshead does not.
 std::string mend_gauge(const RawTest& raw, const ReductionOptions& options, MeasuredTest& test) {
-  if (!options.mend_slips || test.of_crosshead) return {};
+  if (!options.mend_slips || (test.of_crosshead && !raw.fitted_strain)) return {};
   const SlipRepair repair = mend_slips(test.strain, test.stress, raw.extension);
   append(test.corrections, repair.corrections);
   append(test.warnings, repair.warnings);

@@ -80,14 +80,15 @@ std::string without_gauge_length(const Column& column) {
                      column.name);
 }
 
-// Factor to SI; the warnings say what was assumed. An elongation's factor makes a strain of it.
-double factor(const Column& column, const std::string& where, const ReadOptions& options,
-              calib::RawTest& test) {
+// Factor to SI of what is to hold `quantity`; the warnings say what was assumed. An elongation's
+// factor makes a strain of it.
+double factor(const Column& column, Quantity quantity, const std::string& where,
+              const ReadOptions& options, calib::RawTest& test) {
   const std::string_view assumed = info_of(column.quantity).assumed_unit;
   const std::optional<Unit> unit = find_unit(column.unit.empty() ? assumed : column.unit);
   if (!unit) throw InputError(where, unknown_unit(column), unit_hint_of(column.quantity, options));
   if (column.unit.empty()) test.warnings.push_back(without_unit(column, assumed));
-  if (column.quantity == Quantity::strain && unit->dimension == Dimension::length) {
+  if (quantity == Quantity::strain && unit->dimension == Dimension::length) {
     const std::optional<double> length = gauge_length_of(test, options);
     if (!length) throw InputError(where, without_gauge_length(column), "say gauge_length_mm");
     if (!test.extensometer_length && !options.gauge_length)
@@ -107,9 +108,9 @@ double factor(const Column& column, const std::string& where, const ReadOptions&
 }
 
 // Tension is positive here, whatever the column counts. Time has no sign, whatever its name.
-double signed_factor(const Column& column, const std::string& where, const ReadOptions& options,
-                     calib::RawTest& test) {
-  const double to_si = factor(column, where, options, test);
+double signed_factor(const Column& column, Quantity quantity, const std::string& where,
+                     const ReadOptions& options, calib::RawTest& test) {
+  const double to_si = factor(column, quantity, where, options, test);
   if (column.quantity == Quantity::time || !counts_compression(column.name)) return to_si;
   test.warnings.push_back(fmt::format(
       "column \"{}\" counts compression, by its name: its sign is turned", column.name));
@@ -230,6 +231,16 @@ void need_gauge(const TestFile& file, const std::string& where, const ReadOption
       "the columns are " + list_of(file.columns) + "; name them " + column_place(options));
 }
 
+// A logger's extension is that of its gauge: a strain where the user or the file tells the gauge's
+// length. Without one the machine's file may tell it.
+void take_gauges_extension(const TestFile& file, const ReadOptions& options, Chosen& chosen) {
+  if (chosen.contains(Quantity::strain) || !gauge_length_of(file.test, options)) return;
+  if (auto extension = chosen.extract(Quantity::extension)) {
+    extension.key() = Quantity::strain;
+    chosen.insert(std::move(extension));
+  }
+}
+
 }  // namespace
 
 std::string without_unit(const Column& column, std::string_view assumed) {
@@ -248,10 +259,12 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   Chosen chosen = take_hints(file, where, options);
   choose(file, candidates, options, chosen);
   note_columns(file, where, options, chosen);
-  if (options.logger)
+  if (options.logger) {
     need_gauge(file, where, options, chosen);
-  else
+    take_gauges_extension(file, options, chosen);
+  } else {
     need_load(file, table, options, chosen);
+  }
   // (X2) The machine's compliance is in a strain of the crosshead, unless the user names it as the
   // strain.
   if (const auto strain = chosen.find(Quantity::strain); strain != chosen.end()) {
@@ -263,10 +276,11 @@ std::vector<Channel> find_channels(TestFile& file, const Table& table, const Rea
   std::vector<Channel> channels;
   for (const auto& [quantity, column] : chosen)
     channels.push_back({quantity, table.first_column + column, column,
-                        signed_factor(file.columns[column], where, options, file.test)});
+                        signed_factor(file.columns[column], quantity, where, options, file.test)});
   if (const auto i = second_gauge(file, candidates, options, chosen))
-    channels.push_back({Quantity::strain, table.first_column + *i, *i,
-                        signed_factor(file.columns[*i], where, options, file.test), true});
+    channels.push_back(
+        {Quantity::strain, table.first_column + *i, *i,
+         signed_factor(file.columns[*i], Quantity::strain, where, options, file.test), true});
   return channels;
 }
 

@@ -141,6 +141,24 @@ TEST(Corrections, KnowsABreakThatTheGaugeSawFirst) {
   EXPECT_TRUE(test.warnings.empty());
 }
 
+// A second logger's strain is interpolated between its rows: at the strength it has part of the
+// fall, of as few as three of the steps that a record of 50 rows has.
+TEST(Corrections, KnowsPartOfTheBreakThatALoggerSawFirst) {
+  TensileTruth truth = fine;
+  truth.strain_rate = fine.failure_strain() / (50 * fine.sampling);
+  for (const double part : {0.05, 0.07, 0.1}) {
+    RawTest raw = record(truth);
+    raw.extension.clear();
+    const std::size_t peak = raw.rows() - 6;
+    raw.strain[peak] *= 1.0 - part;
+    for (std::size_t i = peak + 1; i < raw.rows(); ++i) raw.strain[i] = 0.0;
+    const MeasuredTest test = reduced(raw);
+    expect_the_truth(test, truth, 1e-3);
+    EXPECT_NE(detail_of(test, "gauge at the break"), "") << part;
+    EXPECT_TRUE(test.warnings.empty()) << part;
+  }
+}
+
 TEST(Corrections, TakesNoNoiseForASlip) {
   HAVERS_SLOW;
   for (unsigned seed = 1; seed <= 50; ++seed) {

@@ -18,6 +18,7 @@ using test::logger_record;
 using test::machine_record;
 using test::strain_at;
 using test::young;
+using testing::Contains;
 using testing::HasSubstr;
 
 RawTest with_elongation(RawTest logger, double gauge_length) {
@@ -100,6 +101,35 @@ TEST(JoinLogger, DividesAnElongationByTheGaugeLength) {
   const JoinedTest joined = join_logger(machine, logger, {});
   ASSERT_TRUE(joined.problems.empty()) << joined.problems[0];
   EXPECT_NEAR(std::ranges::max(joined.test.strain), 4.5e-3, 2e-5);
+  EXPECT_THAT(joined.test.warnings,
+              Contains(HasSubstr("gauge length of the machine's file, 25 mm")));
+  machine.gauge_length = 50e-3;  // the extensometer is shorter, says the file
+  machine.extensometer_length = 25e-3;
+  EXPECT_NEAR(std::ranges::max(join_logger(machine, logger, {}).test.strain), 4.5e-3, 2e-5);
+}
+
+// By its column's name, or as volts were fitted to one: the machine stays in it.
+TEST(JoinLogger, KnowsTheStrainOfACrosshead) {
+  RawTest machine = machine_record(2), logger = logger_record({}, 2);
+  logger.crosshead_strain = true;
+  EXPECT_TRUE(reduce_test(join_logger(machine, logger, {}).test).test.machine_in_strain);
+  logger.crosshead_strain = false;
+  logger.volts = std::exchange(logger.strain, {});
+  machine.gauge_length = 25e-3;
+  machine.crosshead_strain = true;
+  for (const double time : machine.time) {
+    machine.strain.push_back(1.5 * strain_at(time));
+    machine.extension.push_back(1.6 * strain_at(time) * *machine.gauge_length);
+  }
+  const Reduction fitted = reduce_test(join_logger(machine, logger, {}).test);
+  EXPECT_TRUE(fitted.test.machine_in_strain);
+  EXPECT_THAT(fitted.test.warnings,
+              Contains(HasSubstr("the gauge was fitted to the strain of the crosshead, which")));
+  EXPECT_NEAR(fitted.test.modulus, young / 1.5, 0.02 * young);
+  // It slips as a gauge does.
+  for (std::size_t i = 600; i < logger.volts.size(); ++i) logger.volts[i] += 5e-4;
+  const Reduction slipped = reduce_test(join_logger(machine, logger, {}).test);
+  EXPECT_THAT(slipped.test.corrections, Contains(testing::Field(&Correction::what, "gauge slip")));
 }
 
 // One row stretches the range, by parts of which the clocks are matched.

@@ -118,29 +118,6 @@ TEST(Modulus, LeavesAToeThatReachesThroughTheWindowOfAWeakSpecimen) {
   EXPECT_NEAR(failure_strain, truth.failure_strain(), 0.015 * truth.failure_strain());
 }
 
-// What follows the window is steeper, as after a gentle toe, but of too few rows for the halves
-// that would show whether it is straight: it was no toe that was seen.
-TEST(Modulus, LeavesTheWindowWhereWhatFollowsIsOfFewRows) {
-  const TensileTruth truth{.strength = 100e6};
-  for (const std::size_t rows : {17U, 60U}) {
-    RawTest raw = record(truth);
-    raw.stress.clear();
-    for (auto* channel : {&raw.time, &raw.force, &raw.extension, &raw.strain})
-      channel->resize(rows);
-    for (std::size_t i = 0; i < rows; ++i) {
-      const double part = static_cast<double>(i) / static_cast<double>(rows - 1);
-      raw.time[i] = static_cast<double>(i);
-      raw.force[i] = part * truth.strength * truth.area();
-      raw.strain[i] = raw.extension[i] =
-          truth.failure_strain() * (std::min(part, 0.4) + std::max(part - 0.4, 0.0) / 1.08);
-    }
-    EXPECT_EQ(detail_of(reduced(raw, {.remove_toe = false}), "modulus window"),
-              rows > 20
-                  ? "moved from 0.1-0.4 to 0.4-0.9 of the strength, where the curve is straight"
-                  : "");
-  }
-}
-
 // A specimen of a fast test, and what a load cell that rings adds: damped sines, each with its
 // periods up to the break, its part of the strength and its phase.
 struct Ringing {

@@ -1,6 +1,10 @@
 // Columns that a unit or a word gives away as a strain gauge's.
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "tests/io/machine/read_content.hpp"
 
 namespace havers::io {
@@ -60,6 +64,27 @@ TEST(GaugeColumns, AcrossTheLoadAreNotTaken) {
 TEST(GaugeColumns, OfALoggerAreToldLikewise) {
   for (const std::string name : {"DMS 1 (µm/m)", "CH1 (µε)"})
     EXPECT_DOUBLE_EQ(table_of("Time (s),a,b," + name, {.logger = true}).test.strain.at(1), 2e-4);
+}
+
+// A logger records no crosshead: its extension is the gauge's, over the gauge's own length.
+TEST(GaugeColumns, OfALoggerAreAnElongationOverTheirOwnLength) {
+  const std::string numbers = "Time (s),Extension (mm)\n0,0.01\n1,0.02\n";
+  const std::string own = "Gauge length,25,mm\nExtensometer gauge length,10,mm\n";
+  const auto logged = [&](const std::string& head, std::optional<double> given) {
+    return test::read_content(head + numbers, {.logger = true, .gauge_length = given}).test;
+  };
+  EXPECT_EQ(logged(own, {}).strain, (std::vector{1e-3, 2e-3}));
+  EXPECT_TRUE(logged(own, {}).warnings.empty());
+  EXPECT_FALSE(logged(own, {}).crosshead_strain);
+  const calib::RawTest given = logged(own, 20e-3), bare = logged("Gauge length,10,mm\n", {});
+  EXPECT_EQ(given.strain, (std::vector{5e-4, 1e-3}));
+  EXPECT_NE(given.warnings.at(0).find("its extensometer has 10 mm"), std::string::npos);
+  EXPECT_EQ(bare.strain, (std::vector{1e-3, 2e-3}));
+  EXPECT_NE(bare.warnings.at(0).find("of an extensometer of another length"), std::string::npos);
+  EXPECT_EQ(logged("", {}).extension, (std::vector{1e-5, 2e-5}));
+  EXPECT_EQ(test::read_content(own + "Time (s),Load (N),Extension (mm)\n0,1,0.01\n1,2,0.02\n")
+                .test.extension,
+            (std::vector{1e-5, 2e-5}));
 }
 
 TEST(GaugeColumns, ThatMayBeOneAreSaidNotToBeRead) {
