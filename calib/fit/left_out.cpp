@@ -12,13 +12,18 @@ namespace {
 // Rise of the cost by which specimens contradict a value: chi² of 95 %, halved.
 constexpr double contradicts = 1.92;
 
-}  // namespace
-
-void put_back(Trail& trail, const std::vector<LeftUnknown>& left) {
+// The trail's best point, but for what is left out, which is where the study has it.
+Evaluation as_in_study(Trail& trail, const std::vector<LeftUnknown>& left) {
   Point point = trail.best().point;
   for (const LeftUnknown& one : left)
     point[one.unknown] = trail.problem().unknown(one.unknown).start;
-  if (const Evaluation own = trail.evaluate(point); !own.failed)
+  return trail.evaluate(point);
+}
+
+}  // namespace
+
+void put_back(Trail& trail, const std::vector<LeftUnknown>& left) {
+  if (const Evaluation own = as_in_study(trail, left); !own.failed)
     trail.restart(trail.weights(), own);
 }
 
@@ -26,10 +31,8 @@ void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
   // The study's values are tried, with the other unknowns refitted; if the specimens contradict
   // them, all stays as it was found.
   const Evaluation found = trail.best();
-  Point point = found.point;
-  for (const auto& one : left) point[one.unknown] = trail.problem().unknown(one.unknown).start;
   answer.active = without(answer.active, left);
-  trail.restart(trail.weights(), trail.evaluate(point));
+  trail.restart(trail.weights(), as_in_study(trail, left));
   search_ceres(trail, trail.best(), answer.active);
   // A trail that was stopped may have no simulation of where the study has them.
   if (trail.best().failed || trail.best().cost > found.cost + contradicts) {
