@@ -9,6 +9,7 @@
 #include <map>
 
 #include "calib/count.hpp"
+#include "calib/fit/left_out.hpp"
 #include "calib/fit/model_checks.hpp"
 #include "calib/fit/plain_law.hpp"
 #include "calib/fit/specimen_effect.hpp"
@@ -234,7 +235,7 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
       specimens.empty()
           ? PlainLaw{.criterion = INFINITY}
           : best_plain_law(specimens,
-                           parameters_spent(problem, answer.best, answer.slopes.jacobian)[strength],
+                           parameters_spent(problem, answer.best, chosen_slopes(answer))[strength],
                            problem.study.laws);
   if (!std::isfinite(law.criterion) || !std::isfinite(law.model_criterion))
     return not_checked(

@@ -68,23 +68,37 @@ Active asked_and_left(const FitProblem& problem, const Answer& answer) {
   return unknowns;
 }
 
-Eigen::MatrixXd with_left_out(Trail& trail, const Answer& answer, const Differences& fitted) {
+AskedSlopes with_left_out(Trail& trail, const Answer& answer, const Differences& fitted) {
   const Evaluation best = trail.best();
   const Active left = asked_and_left(trail.problem(), answer);
   const auto others = differentiate(trail, best, left, slope_step);
   // A point at which an unknown left out has moved is no answer, however low its cost.
   trail.restart(trail.weights(), best);
-  if (others.failed) return fitted.jacobian;
+  AskedSlopes all{fitted.jacobian, answer.active};
+  if (others.failed) return all;
   std::vector<Eigen::Index> moving;
   for (Eigen::Index k = 0; k < others.jacobian.cols(); ++k) {
-    const double range = trail.problem().unknown(left[static_cast<std::size_t>(k)]).range();
+    const Eigen::Index unknown = left[static_cast<std::size_t>(k)];
     // One standard deviation of the residuals over all its bounds (F9).
-    if (others.jacobian.col(k).norm() * range >= 1.0) moving.push_back(k);
+    if (others.jacobian.col(k).norm() * trail.problem().unknown(unknown).range() < 1.0) continue;
+    moving.push_back(k);
+    all.unknowns.push_back(unknown);
   }
   const Eigen::MatrixXd beside = others.jacobian(Eigen::all, moving);
-  Eigen::MatrixXd all(fitted.jacobian.rows(), fitted.jacobian.cols() + beside.cols());
-  all << fitted.jacobian, beside;
+  all.jacobian.conservativeResize(Eigen::NoChange, fitted.jacobian.cols() + beside.cols());
+  all.jacobian.rightCols(beside.cols()) = beside;
   return all;
+}
+
+Eigen::MatrixXd chosen_slopes(const Answer& answer) {
+  std::vector<Eigen::Index> chosen;
+  for (std::size_t k = 0; k < answer.asked.unknowns.size(); ++k) {
+    const auto left =
+        std::ranges::find(answer.left, answer.asked.unknowns[k], &LeftUnknown::unknown);
+    if (left == answer.left.end() || left->kept_where_found)
+      chosen.push_back(static_cast<Eigen::Index>(k));
+  }
+  return answer.asked.jacobian(Eigen::all, chosen);
 }
 
 }  // namespace havers::calib

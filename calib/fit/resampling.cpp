@@ -52,7 +52,7 @@ std::vector<Normal> normals_of(const FitProblem& problem, const Answer& answer,
 Landmarks widening(const FitProblem& problem, const Answer& answer) {
   const Landmarks told = residuals_told(problem, answer.best);
   const Landmarks freedom =
-      (told - parameters_spent(problem, answer.best, answer.asked_slopes)).max(1.0);
+      (told - parameters_spent(problem, answer.best, answer.asked.jacobian)).max(1.0);
   return (told / freedom).max(1.0).sqrt();
 }
 

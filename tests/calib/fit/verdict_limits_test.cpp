@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -158,6 +159,19 @@ TEST(Verdict, FailsWhereAnIntervalCoversNearlyAllOfItsBounds) {
   EXPECT_EQ(check_at(0.91).outcome, Outcome::fail);
   EXPECT_THAT(check_at(0.91).text,
               EndsWith("hardly less than without any test: its value is not known."));
+}
+
+// (F12) What lies at a bound follows nothing, fitted or not.
+TEST(Verdict, LetsWhatIsLeftOutAtABoundFollowNothing) {
+  EndedSearch search;
+  Answer& answer = search.answer;
+  answer.best.residuals = Eigen::Vector3d(1.0, 2.0, 3.0);
+  answer.active = {0};
+  answer.asked = {Eigen::MatrixXd::Identity(3, 2), {0, 1}};
+  const Eigen::VectorXd factor = Eigen::VectorXd::Ones(3);
+  EXPECT_NEAR(unfollowed(search.problem, answer, factor).residuals.norm(), 3.0, 1e-12);
+  answer.best.point[1] = search.problem.unknown(1).upper;
+  EXPECT_NEAR(unfollowed(search.problem, answer, factor).residuals.norm(), std::sqrt(13.0), 1e-12);
 }
 
 }  // namespace
