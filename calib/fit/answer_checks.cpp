@@ -136,6 +136,8 @@ Check check_influence(const CalibrationResult& result) {
   std::vector<std::string> alone, strong;
   for (const auto& specimen : result.specimens)
     for (const auto& [parameter, shift] : specimen.influence) {
+      // What is of this specimen alone (calibrate.level) is of no other.
+      if (parameter.ends_with(fmt::format("[{}]", specimen.id))) continue;
       if (!std::isfinite(shift)) {  // the others do not determine it (F16)
         alone.push_back(specimen.id);
         break;
