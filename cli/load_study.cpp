@@ -180,16 +180,18 @@ void take_specimen(const io::SpecimenFiles& files, Outcome outcome, LoadedStudy&
 // Whatever the study calls a test in its file.
 void doubt_tests(const std::vector<io::SpecimenFiles>& specimens,
                  const std::vector<Outcome>& outcomes, LoadedStudy& loaded) {
-  std::map<std::pair<std::filesystem::path, std::size_t>, std::string> tests;
+  std::map<std::pair<std::filesystem::path, std::size_t>, const io::SpecimenFiles*> tests;
   for (std::size_t i = 0; i < specimens.size(); ++i) {
     const io::SpecimenFiles& files = specimens[i];
     if (outcomes[i].record.raw.rows() == 0) continue;  // not read
     const auto [earlier, fresh] =
-        tests.try_emplace({files.test, outcomes[i].number_in_file}, files.id);
+        tests.try_emplace({files.test, outcomes[i].number_in_file}, &files);
     if (!fresh)
-      loaded.notes.push_back(
-          fmt::format("specimens {} and {} have the same test, {}: it counts twice",
-                      earlier->second, files.id, files.test.string()));
+      loaded.notes.push_back(fmt::format("specimens {} and {} have the same test, {}: {}",
+                                         earlier->second->id, files.id, files.test.string(),
+                                         earlier->second->use == files.use
+                                             ? "it counts twice"
+                                             : "the fit sees what is to test it"));
   }
 }
 

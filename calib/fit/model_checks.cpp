@@ -140,6 +140,10 @@ Unfollowed unfollowed(const FitProblem& problem, const Answer& answer,
   return {residuals - followed(jacobian, residuals), leverage(jacobian)};
 }
 
+bool same_record(const MeasuredTest& one, const MeasuredTest& other) {
+  return !one.strain.empty() && one.strain == other.strain && one.max_force == other.max_force;
+}
+
 bool is_fitted(const FitProblem& problem, const Answer& answer, std::string_view parameter) {
   return std::ranges::any_of(
       answer.active, [&](Eigen::Index k) { return problem.unknown(k).info->name == parameter; });

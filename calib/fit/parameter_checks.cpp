@@ -177,25 +177,28 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer,
   return {"identifiable", doubted ? doubt : Outcome::pass, text + wide};
 }
 
-// Of no two specimens does noise give the same numbers.
 Check check_records(const FitProblem& problem) {
   constexpr const char* name = "every test once";
-  std::vector<std::string> alike;
+  std::vector<std::string> twice, seen;
   const std::vector<Specimen>& all = problem.study.specimens;
-  for (auto one = all.begin(); one != all.end(); ++one) {
-    const MeasuredTest& test = one->test;
-    const auto earlier = std::ranges::find_if(all.begin(), one, [&](const Specimen& other) {
-      return !test.strain.empty() && test.strain == other.test.strain &&
-             test.max_force == other.test.max_force;
-    });
-    if (earlier != one) alike.push_back(fmt::format("{} and {}", earlier->id, one->id));
-  }
-  if (alike.empty()) return {name, Outcome::pass, "No two specimens have the same record."};
+  for (auto one = all.begin(); one != all.end(); ++one)
+    for (auto other = all.begin(); other != one; ++other)
+      if (same_record(one->test, other->test))
+        (one->use == other->use ? twice : seen)
+            .push_back(fmt::format("{} and {}", other->id, one->id));
+  if (twice.empty() && seen.empty())
+    return {name, Outcome::pass, "No two specimens have the same record."};
+  const auto alike = [](const std::vector<std::string>& pairs, const char* so) {
+    return pairs.empty() ? ""
+                         : fmt::format("The records of {} are the same, number for number: {} ",
+                                       fmt::join(pairs, ", "), so);
+  };
   return {name, Outcome::warn,
-          fmt::format("The records of {} are the same, number for number: the test counts twice, "
-                      "and intervals are too narrow. Give each specimen its own file, or leave one "
-                      "out.",
-                      fmt::join(alike, ", "))};
+          alike(twice, "the test counts twice, and intervals are too narrow.") +
+              alike(seen,
+                    "a fit that has seen a test is not tested by it, and \"held-out specimens\" "
+                    "leaves it out.") +
+              "Give each specimen its own file, or leave one out."};
 }
 
 // (F25) A strength of the answer below what a test bore is contradicted by it.

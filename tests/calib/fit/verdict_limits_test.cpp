@@ -161,6 +161,29 @@ TEST(Verdict, FailsWhereAnIntervalCoversNearlyAllOfItsBounds) {
               EndsWith("hardly less than without any test: its value is not known."));
 }
 
+// Its test counts in the fit; beside one that the fit has not seen it counts for nothing.
+TEST(Verdict, LeavesOutAHeldOutTestThatTheFitHasSeen) {
+  Study study = test::synthetic_study({0.0});
+  study.specimens[1].test = study.specimens[0].test;
+  const FitProblem problem = make_problem(study);
+  EXPECT_THAT(check_records(problem).text,
+              testing::HasSubstr("and intervals are too narrow. Give"));
+  study.specimens[1].use = Use::validate;
+  EXPECT_EQ(check_records(problem).outcome, Outcome::warn);
+  EXPECT_EQ(check_records(problem).text,
+            "The records of S1 and S2 are the same, number for number: a fit that has seen a test "
+            "is not tested by it, and \"held-out specimens\" leaves it out. Give each specimen its "
+            "own file, or leave one out.");
+  CalibrationResult result;
+  for (const Specimen& specimen : study.specimens)
+    result.specimens.push_back({.id = specimen.id, .use = specimen.use, .measured = specimen.test});
+  EXPECT_FALSE(check_validation(result, {}).done);
+  EXPECT_EQ(check_validation(result, {}).text,
+            "Not checked: the fit has seen every test that was kept for validation.");
+  result.specimens[1].measured.max_force += 1.0;
+  EXPECT_THAT(check_validation(result, {}).text, testing::HasSubstr("1 held-out specimen lies"));
+}
+
 // (F12) What lies at a bound follows nothing, fitted or not.
 TEST(Verdict, LetsWhatIsLeftOutAtABoundFollowNothing) {
   EndedSearch search;
