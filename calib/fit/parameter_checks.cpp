@@ -27,11 +27,24 @@ std::string where_left(const Unknown& unknown, double position) {
   return fmt::format("{:.4g}{}", value_in_unit(unknown, position), ground);
 }
 
+// Half a sentence on the landmark that would tell an unknown and is no term of the study; nothing
+// where there is none.
+std::string missing_term(const FitProblem& problem, const LeftUnknown& one) {
+  const std::string_view parameter = problem.unknown(one.unknown).info->name;
+  const bool elastic = parameter == "young_GPa" || parameter == "modulus_exponent";
+  const auto term = name_of(elastic ? modulus : strength);
+  const auto& terms = problem.study.calibrate.terms;
+  return std::ranges::find(terms, term) != terms.end() ? "" : fmt::format("\"{}\"", term);
+}
+
 // Another angle tells no scatter where angles differ already: with each, d goes as σ₁. Nor does it
-// tell what breaks a specimen, where none broke.
+// tell what breaks a specimen, where none broke, nor what no term shows.
 std::string what_may_tell(const FitProblem& problem, const std::vector<LeftUnknown>& left) {
   const auto broke = [&](std::size_t s) { return !problem.targets[s].censored; };
   if (std::ranges::none_of(problem.fitted, broke)) return "tests up to the break may tell it.";
+  for (const LeftUnknown& one : left)
+    if (const std::string term = missing_term(problem, one); !term.empty())
+      return fmt::format("{} among calibrate.options.terms may tell it.", term);
   std::set<double> orientations;
   for (const std::size_t s : problem.fitted)
     orientations.insert(problem.study.specimens[s].orientation);
@@ -172,7 +185,9 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer,
   }
   text += "What is left out has no interval; " + what_may_tell(problem, answer.left);
   if (asked && !none_fitted)
-    text += " The intervals of the others hold wherever the specimens allow it to be.";
+    text += fmt::format(
+        " The intervals of the others hold wherever the specimens allow {} to be.",
+        answer.left.size() == 1 ? "it" : "each of what is left out, by itself with the rest held,");
   const bool doubted = asked || none_fitted || conditional || !wide.empty();
   return {"identifiable", doubted ? doubt : Outcome::pass, text + wide};
 }
