@@ -8,7 +8,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "calib/experiment/join_logger.hpp"
@@ -29,8 +28,7 @@ struct Outcome {
   std::vector<io::Problem> problems;
   std::vector<std::string> rejections;  // why the test cannot be used, though it can be read
   TestRecord record;
-  std::size_t number_in_file = 1;  // of the specimen in its test's file
-  std::string logger_id;           // of the specimen, as the logger's file names it
+  OwnWords own;
 };
 
 // What a file complains of, with its place in the study.
@@ -80,8 +78,8 @@ void read_specimen(const io::SpecimenFiles& files, const calib::ReductionOptions
   if (files.gauge)
     logger = read_file(*files.gauge, with_sizes(files.gauge_columns, files), "gauge", outcome);
   if (!test || files.gauge.has_value() != logger.has_value()) return;
-  outcome.number_in_file = test->number;
-  if (logger) outcome.logger_id = logger->test.specimen_id;
+  outcome.own = {.number = test->number, .test_id = test->test.specimen_id};
+  if (logger) outcome.own.logger_id = logger->test.specimen_id;
   outcome.record.raw = std::move(test->test);
   if (!logger) return;
   calib::JoinedTest joined = calib::join_logger(outcome.record.raw, logger->test, reduction);
@@ -184,47 +182,6 @@ void take_specimen(const io::SpecimenFiles& files, Outcome outcome, LoadedStudy&
   loaded.study.specimens.push_back(std::move(outcome.specimen));
 }
 
-// Whatever the study calls a test in its file; a logger's file holds one.
-void doubt_tests(const std::vector<io::SpecimenFiles>& specimens,
-                 const std::vector<Outcome>& outcomes, LoadedStudy& loaded) {
-  std::map<std::pair<std::filesystem::path, std::size_t>, std::string> tests;
-  std::map<std::filesystem::path, std::string> loggers;
-  for (std::size_t i = 0; i < specimens.size(); ++i) {
-    const io::SpecimenFiles& files = specimens[i];
-    if (outcomes[i].record.raw.rows() == 0) continue;  // not read
-    const auto [earlier, fresh] = tests.try_emplace(
-        {std::filesystem::weakly_canonical(files.test), outcomes[i].number_in_file}, files.id);
-    if (!fresh)
-      loaded.notes.push_back(
-          fmt::format("specimens {} and {} have the same test, {}: it counts twice",
-                      earlier->second, files.id, files.test.string()));
-    if (!files.gauge) continue;
-    const auto [owner, alone] = loggers.try_emplace(*files.gauge, files.id);
-    if (!alone)
-      loaded.notes.push_back(
-          fmt::format("specimens {} and {} have the same gauge, {}: is it of both tests?",
-                      owner->second, files.id, files.gauge->string()));
-  }
-}
-
-// A file that names another specimen of the study than the one that it is given to.
-void doubt_names(const std::vector<io::SpecimenFiles>& specimens,
-                 const std::vector<Outcome>& outcomes, LoadedStudy& loaded) {
-  const auto doubt = [&](const std::filesystem::path& file, const std::string& named,
-                         const std::string& id) {
-    if (named != id &&
-        std::ranges::find(specimens, named, &io::SpecimenFiles::id) != specimens.end())
-      loaded.notes.push_back(fmt::format(
-          "{} is of specimen {} by its own words, and specimen {} has it: are two exchanged?",
-          file.string(), named, id));
-  };
-  for (std::size_t i = 0; i < specimens.size(); ++i) {
-    const io::SpecimenFiles& files = specimens[i];
-    doubt(files.test, outcomes[i].record.raw.specimen_id, files.id);
-    if (files.gauge) doubt(*files.gauge, outcomes[i].logger_id, files.id);
-  }
-}
-
 // What is known whether the study is sound or not.
 std::vector<std::string> notes_of(const LoadedStudy& loaded, const std::vector<Outcome>& outcomes) {
   std::vector<std::string> notes = loaded.notes;
@@ -287,8 +244,9 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   loaded.inputs = std::move(read.inputs);
   loaded.notes = std::move(read.warnings);
   doubt_specimens(read.specimens, loaded);
-  doubt_tests(read.specimens, outcomes, loaded);
-  doubt_names(read.specimens, outcomes, loaded);
+  std::vector<OwnWords> own;
+  for (Outcome& outcome : outcomes) own.push_back(std::move(outcome.own));
+  doubt_tests(read.specimens, own, loaded);
   // Before anything is thrown: `check` also shows the notes of a study that is refused.
   if (known != nullptr) *known = notes_of(loaded, outcomes);
   if (!problems.empty()) throw io::InputError(std::move(problems));

@@ -39,6 +39,54 @@ void doubt_specimens(const std::vector<io::SpecimenFiles>& specimens, LoadedStud
 
 namespace {
 
+// Whatever the study calls a test in its file; a logger's file holds one.
+void doubt_shared_tests(const std::vector<io::SpecimenFiles>& specimens,
+                        const std::vector<OwnWords>& own, LoadedStudy& loaded) {
+  std::map<std::pair<std::filesystem::path, std::size_t>, const io::SpecimenFiles*> tests;
+  std::map<std::filesystem::path, std::string> gauges;
+  for (std::size_t i = 0; i < specimens.size(); ++i) {
+    const io::SpecimenFiles& files = specimens[i];
+    if (own[i].number == 0) continue;
+    const auto [earlier, fresh] =
+        tests.try_emplace({std::filesystem::weakly_canonical(files.test), own[i].number}, &files);
+    if (!fresh)
+      loaded.notes.push_back(fmt::format("specimens {} and {} have the same test, {}: {}",
+                                         earlier->second->id, files.id, files.test.string(),
+                                         earlier->second->use == files.use
+                                             ? "it counts twice"
+                                             : "the fit sees what is to test it"));
+    if (!files.gauge) continue;
+    const auto [owner, alone] =
+        gauges.try_emplace(std::filesystem::weakly_canonical(*files.gauge), files.id);
+    if (!alone)
+      loaded.notes.push_back(
+          fmt::format("specimens {} and {} have the same gauge, {}: is it of both tests?",
+                      owner->second, files.id, files.gauge->string()));
+  }
+}
+
+}  // namespace
+
+void doubt_tests(const std::vector<io::SpecimenFiles>& specimens, const std::vector<OwnWords>& own,
+                 LoadedStudy& loaded) {
+  doubt_shared_tests(specimens, own, loaded);
+  const auto doubt = [&](const std::filesystem::path& file, const std::string& named,
+                         const std::string& id) {
+    if (named != id &&
+        std::ranges::find(specimens, named, &io::SpecimenFiles::id) != specimens.end())
+      loaded.notes.push_back(fmt::format(
+          "{} is of specimen {} by its own words, and specimen {} has it: are two exchanged?",
+          file.string(), named, id));
+  };
+  for (std::size_t i = 0; i < specimens.size(); ++i) {
+    const io::SpecimenFiles& files = specimens[i];
+    doubt(files.test, own[i].test_id, files.id);
+    if (files.gauge) doubt(*files.gauge, own[i].logger_id, files.id);
+  }
+}
+
+namespace {
+
 // Checks compare specimens of one orientation, which is one angle.
 void doubt_angles(LoadedStudy& loaded) {
   constexpr double hardly = 3.0 * calib::degree;

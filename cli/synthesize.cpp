@@ -73,11 +73,9 @@ void refuse_what_is_not_made(const std::string& where, const io::SpecimenFiles& 
   refuse(specimen.mask.has_value(), "a mask");
   refuse(!specimen.columns.specimen.empty() || specimen.columns.specimen_number,
          "specimen_in_file");
-  const auto has_hints = [](const io::ReadOptions& options) {
-    return !options.columns.empty() || !options.units.empty();
-  };
-  refuse(has_hints(specimen.columns), "columns");
-  refuse(has_hints(specimen.gauge_columns), "gauge_columns");
+  for (const auto& [hints, key] : {std::pair(&specimen.columns, "columns"),
+                                   std::pair(&specimen.gauge_columns, "gauge_columns")})
+    refuse(!hints->columns.empty() || !hints->units.empty(), key);
 }
 
 // All files must lie in the study's folder or below it, and none may be named twice. Otherwise the

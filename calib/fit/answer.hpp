@@ -10,22 +10,28 @@
 
 namespace havers::calib {
 
+/// Slopes of the residuals along what is fitted and, beside it, along what was asked for and left
+/// out (F9).
+struct AskedSlopes {
+  Eigen::MatrixXd jacobian;
+  Active unknowns;  ///< Of each column.
+};
+
 /// The best point, with everything known about it.
 struct Answer {
   CalibrationStatus status = CalibrationStatus::all_failed;
   /// The trail's best by `weights`; failed where no point has an answer.
   Evaluation best;
   Weights weights;
-  Active active;                  ///< Unknowns that were fitted.
-  std::vector<LeftUnknown> left;  ///< Unknowns that were not.
-  std::vector<Evaluation> ends;   ///< Where the refined starts came to, best first.
-  std::vector<StageLog> stages;   ///< In the order of the search.
-  std::vector<double> starts;     ///< Costs of all starts, lowest first.
-  int replicates = 0;             ///< Of each specimen at the answer.
-  bool agrees = true;             ///< The weights, with what the searches came to by them.
-  Differences slopes;             ///< At the best point; failed where it could not be had.
-  /// The same Jacobian and, beside it, that of what was asked for and left out (F9).
-  Eigen::MatrixXd asked_slopes;
+  Active active;                      ///< Unknowns that were fitted.
+  std::vector<LeftUnknown> left;      ///< Unknowns that were not.
+  std::vector<Evaluation> ends;       ///< Where the refined starts came to, best first.
+  std::vector<StageLog> stages;       ///< In the order of the search.
+  std::vector<double> starts;         ///< Costs of all starts, lowest first.
+  int replicates = 0;                 ///< Of each specimen at the answer.
+  bool agrees = true;                 ///< The weights, with what the searches came to by them.
+  Differences slopes;                 ///< At the best point; failed where it could not be had.
+  AskedSlopes asked;                  ///< The same Jacobian, and what was left out beside it.
   Uncertainty uncertainty;            ///< Empty when `slopes` failed.
   std::vector<Evaluation> elsewhere;  ///< Along the unknowns asked for that were left out (F22).
   std::vector<Profile> profiles;  ///< In the order of `active` (F15); empty where not asked for.

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "calib/count.hpp"
+#include "calib/fit/left_out.hpp"
 #include "calib/fit/model_checks.hpp"
 #include "calib/fit/plain_law.hpp"
 #include "calib/fit/specimen_effect.hpp"
@@ -135,6 +136,8 @@ Check check_influence(const CalibrationResult& result) {
   std::vector<std::string> alone, strong;
   for (const auto& specimen : result.specimens)
     for (const auto& [parameter, shift] : specimen.influence) {
+      // What is of this specimen alone (calibrate.level) is of no other.
+      if (parameter.ends_with(fmt::format("[{}]", specimen.id))) continue;
       if (!std::isfinite(shift)) {  // the others do not determine it (F16)
         alone.push_back(specimen.id);
         break;
@@ -234,7 +237,7 @@ Check check_plain_law(const FitProblem& problem, const Answer& answer) {
       specimens.empty()
           ? PlainLaw{.criterion = INFINITY}
           : best_plain_law(specimens,
-                           parameters_spent(problem, answer.best, answer.slopes.jacobian)[strength],
+                           parameters_spent(problem, answer.best, chosen_slopes(answer))[strength],
                            problem.study.laws);
   if (!std::isfinite(law.criterion) || !std::isfinite(law.model_criterion))
     return not_checked(

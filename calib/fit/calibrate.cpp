@@ -136,7 +136,7 @@ bool alternate_search_and_weights(Trail& trail, Answer& answer) {
       continue;
     }
     const auto before = effect;
-    const auto all = with_left_out(trail, answer, slopes);
+    const auto all = with_left_out(trail, answer, slopes).jacobian;
     effect = specimen_effect(trail.problem(), trail.weights(), trail.best(), all);
     const auto error =
         uncertainty_of(trail.problem(), trail.weights(), trail.best(), answer.active, all);
@@ -164,9 +164,9 @@ void assess_answer(Trail& trail, Answer& answer) {
   } while (!answer.slopes.failed && trail.best().cost < answer.best.cost);
   answer.best = trail.best();
   if (answer.slopes.failed) return;
-  answer.asked_slopes = with_left_out(trail, answer, answer.slopes);
+  answer.asked = with_left_out(trail, answer, answer.slopes);
   answer.uncertainty = uncertainty_of(trail.problem(), answer.weights, answer.best, answer.active,
-                                      answer.asked_slopes);
+                                      answer.asked.jacobian);
   for (const Eigen::Index unknown : asked_and_left(trail.problem(), answer)) {
     trail.enter("unknowns left out");
     std::ranges::move(walk_along(trail, unknown, answer.active, answer.slopes.jacobian),

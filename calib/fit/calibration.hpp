@@ -92,7 +92,9 @@ struct ReplicateResult {
 /// How a parameter would move without a specimen.
 struct Influence {
   std::string parameter;
-  double shift = 0.0;  ///< In standard errors; NaN where the others do not determine it. [-]
+  /// In standard errors; NaN where the others do not determine it, as what is this specimen's own.
+  /// [-]
+  double shift = 0.0;
 };
 
 /// One specimen at the answer, fitted or kept for validation.

@@ -12,13 +12,18 @@ namespace {
 // Rise of the cost by which specimens contradict a value: chi² of 95 %, halved.
 constexpr double contradicts = 1.92;
 
-}  // namespace
-
-void put_back(Trail& trail, const std::vector<LeftUnknown>& left) {
+// The trail's best point, but for what is left out, which is where the study has it.
+Evaluation as_in_study(Trail& trail, const std::vector<LeftUnknown>& left) {
   Point point = trail.best().point;
   for (const LeftUnknown& one : left)
     point[one.unknown] = trail.problem().unknown(one.unknown).start;
-  if (const Evaluation own = trail.evaluate(point); !own.failed)
+  return trail.evaluate(point);
+}
+
+}  // namespace
+
+void put_back(Trail& trail, const std::vector<LeftUnknown>& left) {
+  if (const Evaluation own = as_in_study(trail, left); !own.failed)
     trail.restart(trail.weights(), own);
 }
 
@@ -26,10 +31,8 @@ void leave_out(Trail& trail, std::vector<LeftUnknown> left, Answer& answer) {
   // The study's values are tried, with the other unknowns refitted; if the specimens contradict
   // them, all stays as it was found.
   const Evaluation found = trail.best();
-  Point point = found.point;
-  for (const auto& one : left) point[one.unknown] = trail.problem().unknown(one.unknown).start;
   answer.active = without(answer.active, left);
-  trail.restart(trail.weights(), trail.evaluate(point));
+  trail.restart(trail.weights(), as_in_study(trail, left));
   search_ceres(trail, trail.best(), answer.active);
   // A trail that was stopped may have no simulation of where the study has them.
   if (trail.best().failed || trail.best().cost > found.cost + contradicts) {
@@ -65,23 +68,37 @@ Active asked_and_left(const FitProblem& problem, const Answer& answer) {
   return unknowns;
 }
 
-Eigen::MatrixXd with_left_out(Trail& trail, const Answer& answer, const Differences& fitted) {
+AskedSlopes with_left_out(Trail& trail, const Answer& answer, const Differences& fitted) {
   const Evaluation best = trail.best();
   const Active left = asked_and_left(trail.problem(), answer);
   const auto others = differentiate(trail, best, left, slope_step);
   // A point at which an unknown left out has moved is no answer, however low its cost.
   trail.restart(trail.weights(), best);
-  if (others.failed) return fitted.jacobian;
+  AskedSlopes all{fitted.jacobian, answer.active};
+  if (others.failed) return all;
   std::vector<Eigen::Index> moving;
   for (Eigen::Index k = 0; k < others.jacobian.cols(); ++k) {
-    const double range = trail.problem().unknown(left[static_cast<std::size_t>(k)]).range();
+    const Eigen::Index unknown = left[static_cast<std::size_t>(k)];
     // One standard deviation of the residuals over all its bounds (F9).
-    if (others.jacobian.col(k).norm() * range >= 1.0) moving.push_back(k);
+    if (others.jacobian.col(k).norm() * trail.problem().unknown(unknown).range() < 1.0) continue;
+    moving.push_back(k);
+    all.unknowns.push_back(unknown);
   }
   const Eigen::MatrixXd beside = others.jacobian(Eigen::all, moving);
-  Eigen::MatrixXd all(fitted.jacobian.rows(), fitted.jacobian.cols() + beside.cols());
-  all << fitted.jacobian, beside;
+  all.jacobian.conservativeResize(Eigen::NoChange, fitted.jacobian.cols() + beside.cols());
+  all.jacobian.rightCols(beside.cols()) = beside;
   return all;
+}
+
+Eigen::MatrixXd chosen_slopes(const Answer& answer) {
+  std::vector<Eigen::Index> chosen;
+  for (std::size_t k = 0; k < answer.asked.unknowns.size(); ++k) {
+    const auto left =
+        std::ranges::find(answer.left, answer.asked.unknowns[k], &LeftUnknown::unknown);
+    if (left == answer.left.end() || left->kept_where_found)
+      chosen.push_back(static_cast<Eigen::Index>(k));
+  }
+  return answer.asked.jacobian(Eigen::all, chosen);
 }
 
 }  // namespace havers::calib

@@ -29,6 +29,10 @@ Active asked_and_left(const FitProblem& problem, const Answer& answer);
 /// Slopes of what is fitted and, beside them, of what was asked for and left out: its value is a
 /// choice too, and takes freedom from the residuals (F9), unless it cannot move them by one
 /// standard deviation over all its bounds.
-Eigen::MatrixXd with_left_out(Trail& trail, const Answer& answer, const Differences& fitted);
+AskedSlopes with_left_out(Trail& trail, const Answer& answer, const Differences& fitted);
+
+/// Of the answer's, slopes along what the specimens chose the values of: what is fitted, and what
+/// was kept where the fit found it (F19).
+Eigen::MatrixXd chosen_slopes(const Answer& answer);
 
 }  // namespace havers::calib

@@ -134,10 +134,14 @@ Unfollowed unfollowed(const FitProblem& problem, const Answer& answer,
   Eigen::MatrixXd jacobian(factor.size(), 0);
   // Without slopes nothing is followed, and nothing spent.
   if (!answer.slopes.failed)
-    jacobian = factor.asDiagonal() *
-               free_columns(problem, answer.best.point, answer.active, answer.asked_slopes);
+    jacobian = factor.asDiagonal() * free_columns(problem, answer.best.point, answer.asked.unknowns,
+                                                  answer.asked.jacobian);
   const Eigen::VectorXd residuals = factor.cwiseProduct(answer.best.residuals);
   return {residuals - followed(jacobian, residuals), leverage(jacobian)};
+}
+
+bool same_record(const MeasuredTest& one, const MeasuredTest& other) {
+  return !one.strain.empty() && one.strain == other.strain && one.max_force == other.max_force;
 }
 
 bool is_fitted(const FitProblem& problem, const Answer& answer, std::string_view parameter) {

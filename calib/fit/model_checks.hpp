@@ -22,6 +22,10 @@ std::string chance_text(std::optional<double> p);
 /// " in logarithms", or nothing: behind a ratio of widths, which is one in the scale of the search.
 std::string in_its_scale(const ParameterInfo& info);
 
+/// Whether two tests have the same record, number for number: of no two specimens does noise give
+/// that.
+bool same_record(const MeasuredTest& one, const MeasuredTest& other);
+
 /// Whether a parameter of that name is, for any of the specimens.
 bool is_fitted(const FitProblem& problem, const Answer& answer, std::string_view parameter);
 

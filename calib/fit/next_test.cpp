@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "calib/fit/specimen_effect.hpp"
 #include "calib/fit/specimen_slopes.hpp"
 
 namespace havers::calib {
@@ -53,7 +54,20 @@ MatrixXd simulated_rows(SimulationBatch& batch, const FitProblem& problem, const
 // A specimen that does not exist has no value of a parameter that differs between specimens.
 bool all_shared(const FitProblem& problem) {
   return std::ranges::all_of(problem.unknowns,
-                             [](const Unknown& u) { return u.label == u.info->name; });
+                             [](const Unknown& u) { return u.level == Level::shared; });
+}
+
+// A further specimen has values of its own of what differs between specimens: its rows tell those
+// of no other, and of what they share only what its own do not follow.
+MatrixXd rows_of_another(const FitProblem& problem, const Answer& answer, std::size_t like) {
+  MatrixXd rows = rows_of(answer, like);
+  std::vector<Index> own;
+  for (Index k = 0; k < rows.cols(); ++k)
+    if (problem.unknown(answer.active[static_cast<std::size_t>(k)]).level == Level::specimen)
+      own.push_back(k);
+  const MatrixXd columns = rows(Eigen::all, own);
+  for (Index k = 0; k < rows.cols(); ++k) rows.col(k) -= followed(columns, rows.col(k));
+  return rows;
 }
 
 // Slopes of one more specimen at an orientation; empty where they cannot be had.
@@ -61,7 +75,7 @@ MatrixXd further_rows(SimulationBatch& batch, const FitProblem& problem, const A
                       double orientation) {
   const std::size_t near = nearest(problem, orientation);
   // A specimen that the study has there need not be simulated.
-  if (distance(problem, near, orientation) < degree) return rows_of(answer, near);
+  if (distance(problem, near, orientation) < degree) return rows_of_another(problem, answer, near);
   if (!all_shared(problem)) return {};
   Specimen turned = problem.study.specimens[problem.fitted[near]];
   turned.orientation = orientation;

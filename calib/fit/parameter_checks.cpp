@@ -27,11 +27,24 @@ std::string where_left(const Unknown& unknown, double position) {
   return fmt::format("{:.4g}{}", value_in_unit(unknown, position), ground);
 }
 
+// Half a sentence on the landmark that would tell an unknown and is no term of the study; nothing
+// where there is none.
+std::string missing_term(const FitProblem& problem, const LeftUnknown& one) {
+  const std::string_view parameter = problem.unknown(one.unknown).info->name;
+  const bool elastic = parameter == "young_GPa" || parameter == "modulus_exponent";
+  const auto term = name_of(elastic ? modulus : strength);
+  const auto& terms = problem.study.calibrate.terms;
+  return std::ranges::find(terms, term) != terms.end() ? "" : fmt::format("\"{}\"", term);
+}
+
 // Another angle tells no scatter where angles differ already: with each, d goes as σ₁. Nor does it
-// tell what breaks a specimen, where none broke.
+// tell what breaks a specimen, where none broke, nor what no term shows.
 std::string what_may_tell(const FitProblem& problem, const std::vector<LeftUnknown>& left) {
   const auto broke = [&](std::size_t s) { return !problem.targets[s].censored; };
   if (std::ranges::none_of(problem.fitted, broke)) return "tests up to the break may tell it.";
+  for (const LeftUnknown& one : left)
+    if (const std::string term = missing_term(problem, one); !term.empty())
+      return fmt::format("{} among calibrate.options.terms may tell it.", term);
   std::set<double> orientations;
   for (const std::size_t s : problem.fitted)
     orientations.insert(problem.study.specimens[s].orientation);
@@ -172,30 +185,35 @@ Check check_identifiable(const FitProblem& problem, const Answer& answer,
   }
   text += "What is left out has no interval; " + what_may_tell(problem, answer.left);
   if (asked && !none_fitted)
-    text += " The intervals of the others hold wherever the specimens allow it to be.";
+    text += fmt::format(
+        " The intervals of the others hold wherever the specimens allow {} to be.",
+        answer.left.size() == 1 ? "it" : "each of what is left out, by itself with the rest held,");
   const bool doubted = asked || none_fitted || conditional || !wide.empty();
   return {"identifiable", doubted ? doubt : Outcome::pass, text + wide};
 }
 
-// Of no two specimens does noise give the same numbers.
 Check check_records(const FitProblem& problem) {
   constexpr const char* name = "every test once";
-  std::vector<std::string> alike;
+  std::vector<std::string> twice, seen;
   const std::vector<Specimen>& all = problem.study.specimens;
-  for (auto one = all.begin(); one != all.end(); ++one) {
-    const MeasuredTest& test = one->test;
-    const auto earlier = std::ranges::find_if(all.begin(), one, [&](const Specimen& other) {
-      return !test.strain.empty() && test.strain == other.test.strain &&
-             test.max_force == other.test.max_force;
-    });
-    if (earlier != one) alike.push_back(fmt::format("{} and {}", earlier->id, one->id));
-  }
-  if (alike.empty()) return {name, Outcome::pass, "No two specimens have the same record."};
+  for (auto one = all.begin(); one != all.end(); ++one)
+    for (auto other = all.begin(); other != one; ++other)
+      if (same_record(one->test, other->test))
+        (one->use == other->use ? twice : seen)
+            .push_back(fmt::format("{} and {}", other->id, one->id));
+  if (twice.empty() && seen.empty())
+    return {name, Outcome::pass, "No two specimens have the same record."};
+  const auto alike = [](const std::vector<std::string>& pairs, const char* so) {
+    return pairs.empty() ? ""
+                         : fmt::format("The records of {} are the same, number for number: {} ",
+                                       fmt::join(pairs, ", "), so);
+  };
   return {name, Outcome::warn,
-          fmt::format("The records of {} are the same, number for number: the test counts twice, "
-                      "and intervals are too narrow. Give each specimen its own file, or leave one "
-                      "out.",
-                      fmt::join(alike, ", "))};
+          alike(twice, "the test counts twice, and intervals are too narrow.") +
+              alike(seen,
+                    "a fit that has seen a test is not tested by it, and \"held-out specimens\" "
+                    "leaves it out.") +
+              "Give each specimen its own file, or leave one out."};
 }
 
 // (F25) A strength of the answer below what a test bore is contradicted by it.

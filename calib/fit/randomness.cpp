@@ -54,12 +54,14 @@ VectorXd fresh_half_width(const FitProblem& problem, const Answer& answer,
   Landmarks effect = answer.weights.specimen;
   for (int round = 1;; ++round) {
     const Weights weights = weigh(problem, fresh, answer.weights.scatter, effect);
-    const Eigen::MatrixXd slopes = weighed(problem, answer.weights, weights, answer.asked_slopes);
+    const Eigen::MatrixXd slopes = weighed(problem, answer.weights, weights, answer.asked.jacobian);
     Evaluation moved = fresh;
     score(problem, weights, moved);
-    // The residuals that the parameters would follow are gone once these have moved.
+    // The residuals that the parameters would follow are gone once these have moved; what is left
+    // out stays.
+    const auto fitted = slopes.leftCols(static_cast<Index>(answer.active.size()));
     const VectorXd by =
-        followed(free_columns(problem, moved.point, answer.active, slopes), moved.residuals);
+        followed(free_columns(problem, moved.point, answer.active, fitted), moved.residuals);
     for (std::size_t f = 0; f < problem.fitted.size(); ++f)
       moved.predictions[f].mean -=
           by.segment<landmark_count>(first_row(f)).array() * weights.sd[problem.fitted[f]];

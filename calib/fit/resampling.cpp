@@ -52,7 +52,7 @@ std::vector<Normal> normals_of(const FitProblem& problem, const Answer& answer,
 Landmarks widening(const FitProblem& problem, const Answer& answer) {
   const Landmarks told = residuals_told(problem, answer.best);
   const Landmarks freedom =
-      (told - parameters_spent(problem, answer.best, answer.asked_slopes)).max(1.0);
+      (told - parameters_spent(problem, answer.best, answer.asked.jacobian)).max(1.0);
   return (told / freedom).max(1.0).sqrt();
 }
 
@@ -116,6 +116,18 @@ void bootstrap(const std::vector<Normal>& normals, std::uint64_t seed, Resamplin
   }
 }
 
+// Active unknowns but those that a specimen has to itself (calibrate.level).
+std::vector<Index> unknowns_of_others(const FitProblem& problem, const Answer& answer,
+                                      std::size_t specimen) {
+  std::vector<Index> others;
+  for (std::size_t k = 0; k < answer.active.size(); ++k) {
+    const Unknown& unknown = problem.unknown(answer.active[k]);
+    if (unknown.level != Level::specimen || unknown.specimens.front() != specimen)
+      others.push_back(static_cast<Index>(k));
+  }
+  return others;
+}
+
 }  // namespace
 
 Resampling resample(const FitProblem& problem, const Answer& answer) {
@@ -124,11 +136,15 @@ Resampling resample(const FitProblem& problem, const Answer& answer) {
 
   Resampling result;
   const VectorXd here = step_of(all);
-  result.left_out.resize(static_cast<Index>(normals.size()), all.vector.size());
+  result.left_out.setConstant(static_cast<Index>(normals.size()), all.vector.size(),
+                              std::numeric_limits<double>::quiet_NaN());
   for (std::size_t f = 0; f < normals.size(); ++f) {
     Normal rest = all;
     rest.add(normals[f], -1.0);
-    result.left_out.row(static_cast<Index>(f)) = (step_of(rest) - here).transpose();
+    const auto k = unknowns_of_others(problem, answer, problem.fitted[f]);
+    if (k.empty()) continue;
+    const VectorXd step = step_of({rest.matrix(k, k), rest.vector(k)});
+    result.left_out(static_cast<Index>(f), k) = (step - here(k)).transpose();
   }
   bootstrap(normals_of(problem, answer, widening(problem, answer)), problem.study.calibrate.seed,
             result);

@@ -9,7 +9,8 @@ namespace havers::calib {
 
 /// How the active unknowns would move, in the scale of their search.
 struct Resampling {
-  Eigen::MatrixXd left_out;  ///< Row f: without fitted specimen f. NaN: not determined then.
+  /// Row f: without fitted specimen f. NaN: not determined then, or of that specimen alone.
+  Eigen::MatrixXd left_out;
   /// 95 % bootstrap interval of the shift (F16); empty if missing. Of six specimens, too few to
   /// draw from, it holds the truth in 78 to 91 % of studies.
   Eigen::VectorXd lower, upper;

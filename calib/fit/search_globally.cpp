@@ -52,8 +52,9 @@ MultiStart search_globally(Trail& trail, const Active& active) {
     auto found = search_nlopt_globally(trail, starts.front(),
                                        all_free ? Split{.costly = split.free, .free = {}} : split);
     result.logs.push_back(found.log);
-    // It began at the best start, and is no worse.
-    starts.insert(starts.begin(), std::move(found.best));
+    // It began at the best start, is no worse, and takes its place: beside it that start would be
+    // refined twice.
+    starts.front() = std::move(found.best);
   }
   for (const auto& start : starts) result.starts.push_back(start.cost);
   starts.resize(std::min(starts.size(), refined_starts));

@@ -62,7 +62,7 @@ std::vector<TermResult> terms_of(const Prediction& prediction, const Target& tar
                            .sqrt();
   const Landmarks residuals = residuals_of(prediction, target, sd);
   for (Eigen::Index q = 0; q < landmark_count; ++q) {
-    if (!target.present[q]) continue;
+    if (!target.present[q] || !std::isfinite(sd[q])) continue;
     TermResult term{.term = std::string(name_of(static_cast<Landmark>(q)))};
     term.measured = target.value[q];
     term.simulated = prediction.mean[q];
@@ -82,16 +82,13 @@ std::vector<TermResult> terms_of(const Prediction& prediction, const Target& tar
 // Modulus, strength, failure strain; the last follows from the landmarks, ε = σ / (E · linearity).
 // NaN where a landmark that it takes is no term.
 std::array<double, 3> standardised(const std::vector<TermResult>& terms) {
-  std::array<double, 3> distance{no_number, no_number, no_number}, sd{1.0, 1.0, 1.0};
-  for (const TermResult& term : terms)
-    for (const Landmark q : {modulus, strength, linearity})
-      if (term.term == name_of(q)) {
-        distance.at(static_cast<std::size_t>(q)) = term.residual * term.sd;
-        sd.at(static_cast<std::size_t>(q)) = term.sd;
-      }
-  const double strain = distance[strength] - distance[modulus] - distance[linearity];
-  return {distance[modulus] / sd[modulus], distance[strength] / sd[strength],
-          strain / std::hypot(sd[modulus], sd[strength], sd[linearity])};
+  const auto of = [&](Landmark q) {
+    const auto found = std::ranges::find(terms, name_of(q), &TermResult::term);
+    return found == terms.end() ? TermResult{.sd = 1.0, .residual = no_number} : *found;
+  };
+  const TermResult e = of(modulus), s = of(strength), straight = of(linearity);
+  const double strain = s.residual * s.sd - e.residual * e.sd - straight.residual * straight.sd;
+  return {e.residual, s.residual, strain / std::hypot(e.sd, s.sd, straight.sd)};
 }
 
 /// A specimen's replicates at the answer.
@@ -146,6 +143,36 @@ SpecimenResult result_of(const FitProblem& problem, std::size_t s, const Simulat
   return result;
 }
 
+// (F24) A specimen in none of the groups of a parameter (calibrate.level) has their mean, and is
+// off by what they differ; by how much is not told by one of them: infinite.
+Landmarks variance_of_groups(const FitProblem& problem, const Answer& answer, std::size_t s,
+                             const Eigen::MatrixXd& slopes) {
+  constexpr double rounding = 1e-6;  // of a slope
+  Landmarks variance = Landmarks::Zero();
+  for (const ParameterInfo& info : all_parameters()) {
+    std::vector<double> values;
+    Landmarks slope = Landmarks::Zero();
+    bool in_group = false;
+    for (std::size_t k = 0; k < problem.unknowns.size(); ++k) {
+      const Unknown& unknown = problem.unknowns[k];
+      if (unknown.info != &info) continue;
+      in_group = in_group || std::ranges::count(unknown.specimens, s) > 0;
+      const auto index = static_cast<Eigen::Index>(k);
+      values.push_back(answer.best.point[index]);
+      const auto active = std::ranges::find(answer.active, index);
+      if (active != answer.active.end())
+        slope += slopes.col(active - answer.active.begin()).array();
+    }
+    if (in_group || values.empty()) continue;
+    const Statistics groups = statistics_of(values);
+    const double spread = groups.n > 1
+                              ? std::pow(groups.sd, 2) + std::pow(groups.standard_error(), 2)
+                              : std::numeric_limits<double>::infinity();
+    variance += (slope.abs() > rounding).select(slope.square() * spread, 0.0);
+  }
+  return variance;
+}
+
 // (F24) What the errors of the fit make of the prediction of a specimen that it did not see.
 Landmarks error_of_parameters(const FitProblem& problem, SimulationBatch& batch,
                               const Answer& answer, std::size_t s) {
@@ -154,7 +181,8 @@ Landmarks error_of_parameters(const FitProblem& problem, SimulationBatch& batch,
     return Landmarks::Zero();
   const Eigen::MatrixXd slopes = specimen_slopes(batch, problem, answer, specimen, s);
   if (slopes.size() == 0) return Landmarks::Zero();
-  return (slopes * answer.uncertainty.follow).rowwise().norm();
+  const Landmarks of_fit = (slopes * answer.uncertainty.follow).rowwise().norm();
+  return (of_fit.square() + variance_of_groups(problem, answer, s, slopes)).sqrt();
 }
 
 // (F6) As the weights have it, of a specimen that the fit did not see at the answer.

@@ -84,13 +84,12 @@ bool at_bound(const Unknown& unknown, double position) {
   return position < unknown.lower + margin || position > unknown.upper - margin;
 }
 
-Eigen::MatrixXd free_columns(const FitProblem& problem, const Point& point, const Active& active,
+Eigen::MatrixXd free_columns(const FitProblem& problem, const Point& point, const Active& unknowns,
                              const Eigen::MatrixXd& jacobian) {
   std::vector<Eigen::Index> movable;
   for (Eigen::Index k = 0; k < jacobian.cols(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    if (i >= active.size() || !at_bound(problem.unknown(active[i]), point[active[i]]))
-      movable.push_back(k);
+    const Eigen::Index unknown = unknowns[static_cast<std::size_t>(k)];
+    if (!at_bound(problem.unknown(unknown), point[unknown])) movable.push_back(k);
   }
   return jacobian(Eigen::all, movable);
 }

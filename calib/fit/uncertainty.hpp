@@ -26,9 +26,9 @@ Uncertainty uncertainty_of(const FitProblem& problem, const Weights& weights, co
 /// Whether a position lies at a bound of its unknown.
 bool at_bound(const Unknown& unknown, double position);
 
-/// The columns of unknowns that can follow the residuals: of the active ones, which come first,
-/// those that are not at a bound, and all of what was left out.
-Eigen::MatrixXd free_columns(const FitProblem& problem, const Point& point, const Active& active,
+/// The columns of unknowns that can follow the residuals: those that are not at a bound.
+/// @param unknowns  of each column
+Eigen::MatrixXd free_columns(const FitProblem& problem, const Point& point, const Active& unknowns,
                              const Eigen::MatrixXd& jacobian);
 
 /// Slopes of residuals that were standardised by the weights `had`, as slopes of residuals

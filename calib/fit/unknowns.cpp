@@ -64,6 +64,7 @@ void add_groups(const Study& study, const ParameterInfo& info, std::vector<Unkno
     if (specimen.use == Use::fit && group(specimen) == unknowns.end()) {
       unknowns.push_back(bounded(study, info));
       unknowns.back().label += group_of(specimen, level);
+      unknowns.back().level = level;
     }
   for (std::size_t s = 0; s < study.specimens.size(); ++s)
     if (const auto found = group(study.specimens[s]); found != unknowns.end())

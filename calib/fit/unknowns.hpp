@@ -27,6 +27,7 @@ struct Unknown {
   std::pair<double, double> bounds{};    ///< The same as the study gives them. [info->unit]
   double start = 0.0;                    ///< The study's model, moved inside the bounds.
   std::vector<std::size_t> specimens{};  ///< Those it acts on.
+  Level level = Level::shared;           ///< What these have in common.
 
   [[nodiscard]] double range() const { return upper - lower; }
 };

@@ -92,6 +92,7 @@ std::vector<SpecimenFiles> read_specimens(TableReader& top, Files files) {
     TableReader columns = table.table("columns"), gauge_columns = table.table("gauge_columns");
     keys(columns, specimen.columns);
     keys(gauge_columns, specimen.gauge_columns);
+    if (specimen.orientation) *specimen.orientation += 0.0;  // -0 is 0, and no other group
     check_id(table, specimen.id, ids);
     check_specimen(table, specimen);
     if (table.has("orientation_deg") && !specimen.orientation)

@@ -249,6 +249,9 @@ TEST(Import, TakesOneOfSeveralSpecimensByNameOrNumber) {
   test::write_text(folder / "study.toml", twice);
   EXPECT_THAT(run_havers(folder, "check study.toml").out,
               HasSubstr("specimens A and B have the same test, two.csv: it counts twice"));
+  test::write_text(folder / "study.toml", twice + "use = \"validate\"\n");
+  EXPECT_THAT(run_havers(folder, "check study.toml").out,
+              HasSubstr("the same test, two.csv: the fit sees what is to test it"));
 }
 
 // A logger's file is as easily exchanged as a test's.

@@ -190,7 +190,7 @@ TEST(Verdict, SaysWhereTheBootstrapIsWider) {
 // Eight strengths at one orientation, of which a plain law has the mean and the model all
 // deviations but `part` of each. Both have one parameter, so that their criteria differ by 2 n
 // log(part).
-Check plain_law_at(double difference) {
+Check plain_law_at(double difference, bool kept = false) {
   const Study study = test::synthetic_study({0.0, 0.0, 0.0, 0.0}, {.specimen_effect = 0.05});
   const FitProblem problem = make_problem(study);
   const double count = 8.0, part = std::exp(-difference / (2.0 * count));
@@ -206,6 +206,13 @@ Check plain_law_at(double difference) {
     answer.best.predictions.emplace_back().mean[strength] = measured - part * (measured - mean);
     answer.slopes.jacobian(first_row(f) + strength, 0) = 1.0;
   }
+  answer.active = {0};
+  answer.asked = {answer.slopes.jacobian, answer.active};
+  // Another unknown that moves one strength is left out.
+  answer.left = {{.unknown = 1, .because = "", .kept_where_found = kept}};
+  answer.asked.unknowns.push_back(1);
+  answer.asked.jacobian.conservativeResize(Eigen::NoChange, 2);
+  answer.asked.jacobian.col(1).setUnit(strength);
   return check_plain_law(problem, answer);
 }
 
@@ -220,6 +227,13 @@ TEST(Verdict, RejectsAModelThatSaysLessThanAPlainLaw) {
   EXPECT_THAT(plain_law_at(-6.1).text,
               EndsWith("(one strength per orientation): the law without fibres says it better, the "
                        "model is rejected."));
+}
+
+// AICc counts it with 12 instead of 6.4 in all.
+TEST(Verdict, CountsWhatIsKeptWhereTheFitFoundItBesideAPlainLaw) {
+  EXPECT_EQ(plain_law_at(5.5).outcome, Outcome::pass);
+  EXPECT_EQ(plain_law_at(5.5, true).outcome, Outcome::warn);
+  EXPECT_EQ(plain_law_at(5.7, true).outcome, Outcome::pass);
 }
 
 }  // namespace

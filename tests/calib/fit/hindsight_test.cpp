@@ -251,5 +251,25 @@ TEST(LeftOut, SaysWhyItRanFewerSimulationsThanItAskedFor) {
   EXPECT_EQ(why(simulator), "asked for before");
 }
 
+// The modulus that is a bar's own has no other to tell it, and nothing else needs that bar.
+TEST(Hindsight, TellsWhatAllShareWithoutASpecimenThatHasParametersOfItsOwn) {
+  auto study = test::synthetic_study({0.0, 0.0});
+  study.calibrate.parameters = {"young_GPa", "head_tail_MPa"};
+  study.calibrate.profiles = false;
+  const auto shared = test::fit(study);
+  study.calibrate.level["young_GPa"] = Level::specimen;
+  const auto result = test::fit(study);
+  for (std::size_t s = 0; s < 4; ++s) {
+    const auto& influence = result.specimens[s].influence;
+    ASSERT_EQ(influence.size(), 5U);
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_EQ(std::isnan(influence[k].shift), k == s) << s << k;
+    }
+    EXPECT_NEAR(influence[4].shift, shared.specimens[s].influence[1].shift, 0.05) << s;
+  }
+  const Check check = test::check_of(result, "no specimen decides");
+  EXPECT_EQ(check.outcome, Outcome::pass) << check.text;
+}
+
 }  // namespace
 }  // namespace havers::calib

@@ -196,5 +196,29 @@ TEST(Identifiability, AsksForABreakWhereEveryTestWasStopped) {
       << check.text;
 }
 
+TEST(Identifiability, NamesTheTermThatWouldTell) {
+  auto study = test::synthetic_study(test::three_orientations);
+  study.calibrate.parameters = {"young_GPa", "head_tail_MPa"};
+  study.calibrate.terms = {"strength"};
+  const Check modulus = test::check_of(test::fit(study), "identifiable");
+  EXPECT_TRUE(test::says(modulus, "\"modulus\" among calibrate.options.terms may tell it."))
+      << modulus.text;
+  study.calibrate.terms = {"modulus"};
+  const Check strength = test::check_of(test::fit(study), "identifiable");
+  EXPECT_TRUE(test::says(strength, "\"strength\" among calibrate.options.terms may tell it."))
+      << strength.text;
+}
+
+TEST(Identifiability, SaysThatIntervalsHoldForEachOfSeveralAlone) {
+  const auto check = [](const std::vector<std::string>& parameters) {
+    return test::check_of(fit({0.0}, parameters), "identifiable").text;
+  };
+  EXPECT_THAT(check({"young_GPa", "head_tail_MPa", "ratio"}),
+              testing::HasSubstr("hold wherever the specimens allow it to be."));
+  EXPECT_THAT(check({"young_GPa", "head_tail_MPa", "ratio", "scatter"}),
+              testing::HasSubstr("hold wherever the specimens allow each of what is left out, by "
+                                 "itself with the rest held, to be."));
+}
+
 }  // namespace
 }  // namespace havers::calib

@@ -104,5 +104,39 @@ TEST(NextTest, KnowsWhatOneMoreSectionWouldTell) {
   EXPECT_NEAR(tests.back().width.at(0), std::sqrt(now / then), 1e-9);
 }
 
+// Of the modulus of another bar a new one tells nothing; of four strengths five are the mean.
+TEST(NextTest, TellsNothingOfWhatIsAnotherSpecimensOwn) {
+  auto study = test::synthetic_study({0.0, 0.0});
+  study.calibrate.parameters = {"young_GPa", "head_tail_MPa"};
+  study.calibrate.level["young_GPa"] = Level::specimen;
+  const auto result = test::fit(study);
+  ASSERT_EQ(result.next_tests.size(), 1U);
+  const std::vector<double>& width = result.next_tests[0].width;
+  ASSERT_EQ(width.size(), 5U);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(width[k], 1.0, 1e-9) << result.fitted[k];
+  EXPECT_NEAR(width[4], std::sqrt(4.0 / 5.0), 1e-3);
+}
+
+// Nor of the ratio, where the threshold that acts with it is each specimen's own.
+TEST(NextTest, TellsNothingThatItsOwnParametersFollow) {
+  auto study = test::synthetic_study({0.0, 45.0});
+  study.calibrate.parameters = {"head_tail_MPa", "ratio"};
+  study.calibrate.level["head_tail_MPa"] = Level::specimen;
+  const FitProblem problem = make_problem(study);
+  SimulationBatch batch(test::ClosedForm{}.simulator(), nullptr, 1);
+  Answer answer{.active = {0, 1, 2, 3, 4}, .replicates = 1};
+  answer.weights.scatter.assign(4, Landmarks(Landmarks::Zero()));
+  answer.slopes.jacobian = Eigen::MatrixXd::Zero(4 * landmark_count, 5);
+  for (const std::size_t f : {0U, 1U, 2U, 3U}) {
+    answer.slopes.jacobian(first_row(f) + strength, static_cast<Eigen::Index>(f)) = 50.0;
+    answer.slopes.jacobian(first_row(f) + energy, 4) = 10.0;
+    answer.slopes.jacobian(first_row(f) + strength, 4) = f < 2 ? 0.0 : -30.0;
+  }
+  const auto tests = next_tests(batch, problem, answer);
+  ASSERT_EQ(tests.size(), 2U);
+  for (const NextTest& test : tests)
+    EXPECT_NEAR(test.width.at(4), std::sqrt(4.0 / 5.0), 1e-9) << test.what;
+}
+
 }  // namespace
 }  // namespace havers::calib

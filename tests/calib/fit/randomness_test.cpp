@@ -104,5 +104,19 @@ TEST(Randomness, NeedsNoReplicatesForABoundThatNothingContradicts) {
   EXPECT_EQ(test::fit(study, {.noise = 0.02}).randomness.replicates_needed, 4);
 }
 
+// Moduli depend on no seed. The exponent of porosity would follow how they differ, and is not told.
+TEST(Randomness, LetsWhatIsLeftOutStay) {
+  auto study = test::synthetic_study({0.0, 0.0}, {.specimen_effect = 0.03});
+  study.calibrate.parameters = {"young_GPa", "modulus_exponent"};
+  study.calibrate.terms = {"modulus"};
+  study.porosity.to_modulus = ToModulus::power;
+  for (Specimen& specimen : study.specimens)
+    specimen.porosity = 0.05 - 0.05 * std::log(specimen.test.modulus / 14e9);
+  const auto result = test::fit(study);
+  ASSERT_FALSE(test::parameter_of(result, "modulus_exponent").identifiable);
+  EXPECT_NEAR(result.randomness.fresh_shift, 0.0, 1e-9);
+  EXPECT_NEAR(result.randomness.fresh_width, 1.0, 0.05);
+}
+
 }  // namespace
 }  // namespace havers::calib

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "tests/support/slow.hpp"
 #include "tests/support/studies.hpp"
@@ -47,6 +49,38 @@ TEST(SpecimenSlopes, AreThoseOfTheLaw) {
   EXPECT_NEAR(slopes(modulus, 1), 0.0, 1e-9);
   EXPECT_NEAR(slopes(strength, 0), 0.0, 1e-9);
   EXPECT_NEAR(slopes(strength, 1), 1.0, 1e-9);
+}
+
+double error_by_parameters(const SpecimenResult& specimen, const std::string& name) {
+  const auto found = std::ranges::find(specimen.terms, name, &TermResult::term);
+  return found == specimen.terms.end() ? std::nan("") : found->parameters;
+}
+
+// Its modulus is one of those that bars have, beside the mean of five.
+TEST(SpecimenSlopes, OfAHeldOutSpecimenWithoutAGroupHaveWhatGroupsDifferBy) {
+  auto study = test::synthetic_study({0.0, 0.0, 0.0}, {.specimen_effect = 0.05});
+  study.calibrate.parameters = {"young_GPa", "head_tail_MPa"};
+  study.calibrate.level["young_GPa"] = Level::specimen;
+  study.specimens[5].use = Use::validate;
+  const auto result = test::fit(study);
+  std::vector<double> moduli;
+  for (std::size_t k = 0; k < 5; ++k) moduli.push_back(std::log(result.parameters[k].value));
+  const double expected = test::deviation_of(moduli) * std::sqrt(1.0 + 1.0 / 5.0);
+  EXPECT_NEAR(error_by_parameters(result.specimens[5], "modulus"), expected, 0.01 * expected);
+  EXPECT_EQ(test::check_of(result, "held-out specimens").outcome, Outcome::pass);
+}
+
+// One group does not tell what groups differ by: of the modulus nothing is compared.
+TEST(SpecimenSlopes, CompareNothingOfWhatOneGroupDoesNotTell) {
+  auto study = test::synthetic_study({0.0, 90.0});
+  study.calibrate.parameters = {"young_GPa", "head_tail_MPa"};
+  study.calibrate.level["young_GPa"] = Level::orientation;
+  study.specimens[2].use = study.specimens[3].use = Use::validate;
+  const auto result = test::fit(study);
+  EXPECT_TRUE(std::isnan(error_by_parameters(result.specimens[2], "modulus")));
+  EXPECT_TRUE(std::isfinite(error_by_parameters(result.specimens[2], "strength")));
+  EXPECT_TRUE(std::isnan(result.specimens[2].residual[0]));
+  EXPECT_TRUE(std::isfinite(result.specimens[2].residual[1]));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -158,6 +159,42 @@ TEST(Verdict, FailsWhereAnIntervalCoversNearlyAllOfItsBounds) {
   EXPECT_EQ(check_at(0.91).outcome, Outcome::fail);
   EXPECT_THAT(check_at(0.91).text,
               EndsWith("hardly less than without any test: its value is not known."));
+}
+
+// Its test counts in the fit; beside one that the fit has not seen it counts for nothing.
+TEST(Verdict, LeavesOutAHeldOutTestThatTheFitHasSeen) {
+  Study study = test::synthetic_study({0.0});
+  study.specimens[1].test = study.specimens[0].test;
+  const FitProblem problem = make_problem(study);
+  EXPECT_THAT(check_records(problem).text,
+              testing::HasSubstr("and intervals are too narrow. Give"));
+  study.specimens[1].use = Use::validate;
+  EXPECT_EQ(check_records(problem).outcome, Outcome::warn);
+  EXPECT_EQ(check_records(problem).text,
+            "The records of S1 and S2 are the same, number for number: a fit that has seen a test "
+            "is not tested by it, and \"held-out specimens\" leaves it out. Give each specimen its "
+            "own file, or leave one out.");
+  CalibrationResult result;
+  for (const Specimen& specimen : study.specimens)
+    result.specimens.push_back({.id = specimen.id, .use = specimen.use, .measured = specimen.test});
+  EXPECT_FALSE(check_validation(result, {}).done);
+  EXPECT_EQ(check_validation(result, {}).text,
+            "Not checked: the fit has seen every test that was kept for validation.");
+  result.specimens[1].measured.max_force += 1.0;
+  EXPECT_THAT(check_validation(result, {}).text, testing::HasSubstr("1 held-out specimen lies"));
+}
+
+// (F12) What lies at a bound follows nothing, fitted or not.
+TEST(Verdict, LetsWhatIsLeftOutAtABoundFollowNothing) {
+  EndedSearch search;
+  Answer& answer = search.answer;
+  answer.best.residuals = Eigen::Vector3d(1.0, 2.0, 3.0);
+  answer.active = {0};
+  answer.asked = {Eigen::MatrixXd::Identity(3, 2), {0, 1}};
+  const Eigen::VectorXd factor = Eigen::VectorXd::Ones(3);
+  EXPECT_NEAR(unfollowed(search.problem, answer, factor).residuals.norm(), 3.0, 1e-12);
+  answer.best.point[1] = search.problem.unknown(1).upper;
+  EXPECT_NEAR(unfollowed(search.problem, answer, factor).residuals.norm(), std::sqrt(13.0), 1e-12);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "tests/io/complaints.hpp"
 
 namespace havers::io {
@@ -54,6 +56,13 @@ largest_noise = 0.1
   EXPECT_DOUBLE_EQ(file.reduction.machine_compliance, 20e-9);
   EXPECT_DOUBLE_EQ(file.reduction.largest_noise, 0.1);
   EXPECT_EQ(complaints(one_specimen + "[reduction]\nbreak_part = 1.5\n").size(), 1U);
+}
+
+// With its sign it would be another group of calibrate.level = "orientation".
+TEST_F(ReadStudy, TakesMinusZeroDegreesAsZero) {
+  const StudyFile file = read(one_specimen + "orientation_deg = -0.0\n");
+  EXPECT_FALSE(std::signbit(file.specimens.at(0).orientation.value()));
+  EXPECT_FALSE(std::signbit(file.study.specimens.at(0).orientation));
 }
 
 TEST_F(ReadStudy, TakesAutoAsTheChoiceOfParameters) {
