@@ -244,8 +244,8 @@ LoadedStudy load_study(const std::filesystem::path& file, const io::Overrides& o
   loaded.inputs = std::move(read.inputs);
   loaded.notes = std::move(read.warnings);
   doubt_specimens(read.specimens, loaded);
-  std::vector<OwnWords> own;
-  for (Outcome& outcome : outcomes) own.push_back(std::move(outcome.own));
+  std::vector<OwnWords> own(outcomes.size());
+  std::ranges::transform(outcomes, own.begin(), &Outcome::own);
   doubt_tests(read.specimens, own, loaded);
   // Before anything is thrown: `check` also shows the notes of a study that is refused.
   if (known != nullptr) *known = notes_of(loaded, outcomes);
