@@ -8,6 +8,7 @@
 
 #include "calib/count.hpp"
 #include "calib/experiment/channel_noise.hpp"
+#include "calib/experiment/range_end.hpp"
 #include "calib/experiment/robust_line.hpp"
 
 namespace havers::calib {
@@ -17,6 +18,7 @@ constexpr std::size_t fewest_before = 20;  // rows that tell how the specimen wa
 constexpr std::size_t part_before = 5;     // or a fifth of all before
 constexpr double falling = 0.02;           // of the strength: load that a row may lose by noise
 constexpr double following = 0.2;          // of the strain to be expected that a sound gauge shows
+constexpr double visible = 0.01;           // of the range: less is no jump
 
 // A record, with the limits that its jumps are judged by. The strain is mended in place, so that a
 // row is judged by the mended rows before it.
@@ -26,6 +28,7 @@ struct Record {
   std::size_t peak;
   double resolution;     // Below it, a difference is noise. [-]
   double smallest_jump;  // [-]
+  double least_step;     // The same, but for the range that the strain has. [-]
   double noise;          // [Pa]
 
   [[nodiscard]] static std::size_t some_before(std::size_t row) {
@@ -77,22 +80,30 @@ Record record_of(std::vector<double>& strain, std::span<const double> stress) {
   const auto peak = static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin());
   const auto loading = std::span<const double>(strain).first(peak + 1);
   const auto [low, high] = std::ranges::minmax(loading);
-  const double resolution = 0.01 * (high - low), end = high - resolution;
+  const double resolution = visible * (high - low), end = high - resolution;
   const auto arrived = std::ranges::find_if(loading, [end](double e) { return e >= end; });
   const auto rising = loading.first(static_cast<std::size_t>(arrived - loading.begin()) + 1);
   std::vector<double> steps;
   for (std::size_t i = 1; i < rising.size(); i += 1 + rising.size() / enough_for_median)
     if (rising[i] != rising[i - 1]) steps.push_back(std::abs(rising[i] - rising[i - 1]));
-  const double least = std::max(10.0 * noise_of(rising), resolution);
-  return {strain,          stress, peak, least, std::max(least, 3.0 * median(std::move(steps))),
-          noise_of(stress)};
+  const double noise = 10.0 * noise_of(rising), step = 3.0 * median(std::move(steps));
+  const double least = std::max(noise, resolution);
+  return {.strain = strain,
+          .stress = stress,
+          .peak = peak,
+          .resolution = least,
+          .smallest_jump = std::max(least, step),
+          .least_step = std::max(noise, step),
+          .noise = noise_of(stress)};
 }
 
-// Whether the strain does not go on after the jump as the load does.
+// Whether the strain does not go on after the jump as the load does. What is to be expected is
+// judged by the range before: a torn gauge shows ten thousand percent.
 bool fell_off(const Record& record, std::size_t before, std::size_t after) {
   const double load = record.stress[record.peak] - record.stress[after];
   const double expected = load * record.compliance(before);
-  if (expected < record.smallest_jump) return false;
+  const auto [low, high] = std::ranges::minmax(std::span(record.strain).first(before + 1));
+  if (expected < std::max(record.least_step, visible * (high - low))) return false;
   return record.strain[record.peak] - record.strain[after] < following * expected;
 }
 
@@ -149,15 +160,19 @@ void take_back(Record& record, std::size_t before, std::size_t after, SlipRepair
 // (X14) The last row before the strain comes no further, though the stress does; the peak's where
 // there is none.
 std::size_t standstill(const Record& record) {
-  constexpr double least_rise = 0.05;  // of the strength: yielded, a specimen takes less for noise
+  // Of the strength: yielded, a specimen takes less for noise, unless not a digit changes.
+  constexpr double least_rise = 0.05, least_rise_exact = 0.005;
+  const RangeEnd end = end_of_range(std::span(record.strain).first(record.peak + 1));
+  const bool exact = end.rows > 0;
   const double reached = record.strain[record.peak] - record.resolution;
   const auto row = std::ranges::find_if(record.strain, [&](double e) { return e >= reached; });
-  const auto first = static_cast<std::size_t>(row - record.strain.begin());
+  const auto first = exact ? end.first : static_cast<std::size_t>(row - record.strain.begin());
   const double strength = record.stress[record.peak];
-  const bool rises = strength - record.stress[first] > least_rise * strength + 5.0 * record.noise;
+  const double least = (exact ? least_rise_exact : least_rise) * strength + 5.0 * record.noise;
+  const bool rises = strength - record.stress[first] > least;
   const double growth = record.strain[record.peak] - record.strain[first];
   const double expected = record.expected(first, record.peak);
-  const bool follows = growth >= following * expected || expected < record.resolution;
+  const bool follows = growth >= following * expected || (!exact && expected < record.resolution);
   return rises && !follows && first > 0 ? first - 1 : record.peak;
 }
 

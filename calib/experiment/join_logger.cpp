@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
+#include "calib/experiment/channel_noise.hpp"
 #include "calib/experiment/clean_channels.hpp"
 #include "calib/experiment/engineering_curve.hpp"
 #include "calib/experiment/robust_line.hpp"
@@ -45,6 +47,23 @@ void keep_common_rows(RawTest& test, const ClockFit& clocks, const std::vector<d
   }
 }
 
+double largest_load(const RawTest& test) {
+  return test.load().empty() ? 0.0 : std::ranges::max(test.load());
+}
+
+// Where the logger ends on the way up, the strength is not that of the specimen, and clocks that
+// are matched wrongly look the same.
+void doubt_common_rows(double largest, RawTest& test) {
+  constexpr double least = 0.02;  // of the largest load
+  const double part = largest_load(test) / largest;
+  if (!(largest > 0.0) || part > 1.0 - least) return;
+  test.warnings.push_back(
+      fmt::format("by the two clocks the logger saw the load up to {:.0f} % of the largest in the "
+                  "machine's record only, and rows beyond are left out: the strength is too low by "
+                  "that, or the clocks are matched wrongly",
+                  100.0 * part));
+}
+
 // (X19) Volts in the unit of a channel that was recorded beside them; nothing where they do not
 // follow it.
 std::vector<double> calibrated(const std::vector<double>& volts, const std::vector<double>& known,
@@ -70,14 +89,37 @@ std::vector<double> calibrated(const std::vector<double>& volts, const std::vect
   return values;
 }
 
+// Whether a row is the first after a jump ahead, alone among the steps beside it (X13).
+std::vector<bool> ends_of_jumps(const std::vector<double>& channel) {
+  constexpr double alone = 3.0, least_part = 0.01;
+  const auto [low, high] = std::ranges::minmax(channel);
+  const double least = std::max(10.0 * noise_of(channel), least_part * (high - low));
+  std::vector<bool> ends(channel.size(), false);
+  for (std::size_t i = 2; i + 1 < channel.size(); ++i) {
+    const double before = channel[i - 1] - channel[i - 2], after = channel[i + 1] - channel[i];
+    const double beside = std::max(std::abs(before), std::abs(after));
+    ends[i] = channel[i] - channel[i - 1] > std::max(least, alone * beside);
+  }
+  return ends;
+}
+
 // The logger's channel at the rows of the machine, linear between its own; empty where it was not
-// recorded.
+// recorded. Up to the row after a jump ahead it goes on as before: between two rows a gauge slips
+// or sees the specimen part at once, and rows of the machine on the way up would hide the jump.
 std::vector<double> at_machine_rows(const std::vector<double>& time,
                                     const std::vector<double>& channel, const JoinedTest& joined) {
   std::vector<double> values;
   if (channel.empty()) return values;
-  for (const double machine_time : joined.test.time)
-    values.push_back(value_at({time, channel}, joined.clocks.logger_time(machine_time)));
+  const std::vector<bool> ends = ends_of_jumps(channel);
+  for (const double machine_time : joined.test.time) {
+    const double at = joined.clocks.logger_time(machine_time);
+    const auto i = static_cast<std::size_t>(std::ranges::upper_bound(time, at) - time.begin());
+    const bool jumps = i < ends.size() && ends[i] && time[i - 1] > time[i - 2];
+    const double rate =
+        jumps ? (channel[i - 1] - channel[i - 2]) / (time[i - 1] - time[i - 2]) : 0.0;
+    values.push_back(jumps ? channel[i - 1] + rate * (at - time[i - 1])
+                           : value_at({time, channel}, at));
+  }
   return values;
 }
 
@@ -192,7 +234,9 @@ JoinedTest join_logger(const RawTest& machine, const RawTest& recorded,
     joined.problems.push_back(joined.clocks.problem);
     return joined;
   }
+  const double largest = largest_load(test);
   keep_common_rows(test, joined.clocks, logger.time);
+  doubt_common_rows(largest, test);
   take_channels(logger, joined);
   list_clocks(joined.clocks, test);
   return joined;

@@ -10,6 +10,7 @@
 
 #include "calib/count.hpp"
 #include "calib/experiment/channel_noise.hpp"
+#include "calib/experiment/range_end.hpp"
 
 namespace havers::calib {
 namespace {
@@ -161,32 +162,16 @@ RecordEnd unloaded_at(const Fall& fall, std::size_t peak) {
   return end;
 }
 
-// Rows from the first to the last of the largest stress, where that is the end of the load cell's
-// range: nearly all of them show it to the last digit, as many before were rising to it, and the
-// specimen was stretched on as it had been. None otherwise.
+// Rows in which the load cell is at the end of its range, while the specimen is stretched on as it
+// had been. 0 where there are none.
 std::size_t rows_at_range_end(std::span<const double> stress, std::span<const double> strain) {
-  constexpr std::size_t fewest = 10;
-  constexpr double nearly_all = 0.8, steps = 20.0, least_rise = 0.01, least_stretch = 0.5;
-  const std::size_t first = largest_row(stress);
-  const double largest = stress[first];
-  std::size_t last = first, alike = 0;
-  for (std::size_t row = first; row < stress.size(); ++row) {
-    if (stress[row] != largest) continue;
-    ++alike;
-    last = row;
-  }
-  const std::size_t rows = last - first + 1;
-  if (rows < fewest || rows > first ||
-      static_cast<double>(alike) < nearly_all * static_cast<double>(rows))
-    return 0;
-  double step = largest;  // the smallest that the record shows
-  for (std::size_t row = 1; row <= first; ++row)
-    if (const double change = std::abs(stress[row] - stress[row - 1]); change > 0.0)
-      step = std::min(step, change);
-  const double rise = largest - stress[first - rows];
-  const double stretch = strain[last] - strain[first];
-  const bool rising = rise > std::max(steps * step, least_rise * largest);
-  return rising && stretch > least_stretch * (strain[first] - strain[first - rows]) ? rows : 0;
+  constexpr double least_stretch = 0.5;  // of what a row was stretched by before
+  const RangeEnd end = end_of_range(stress);
+  if (end.rows == 0) return 0;
+  const double stretch = strain[end.first + end.rows - 1] - strain[end.first];
+  const double before = strain[end.first] - strain[end.first - end.before];
+  const double longer = static_cast<double>(end.rows) / static_cast<double>(end.before);
+  return stretch > least_stretch * longer * before ? end.rows : 0;
 }
 
 RecordEnd beyond_range(const Fall& fall, std::size_t rows) {

@@ -65,12 +65,25 @@ void find_end(const RawTest& raw, const ReductionOptions& options, MeasuredTest&
   truncate(test, end.rows);
 }
 
+// Nothing presses a specimen by as much before it is stretched, but a load cell may not be at zero.
+std::string load_below_zero(const MeasuredTest& test) {
+  constexpr double least = 0.025;  // of the strength, as of a load after the break (X20)
+  // One row may be a glitch.
+  const std::size_t rows = std::min<std::size_t>(3, test.stress.size());
+  const double first = std::ranges::max(std::span(test.stress).first(rows));
+  if (first > -least * test.strength) return {};
+  return fmt::format(
+      "the load begins at {:.3g} MPa, {:.1f} % of the strength below zero: if the load cell was "
+      "not zeroed without the specimen, the strength is too low by that",
+      first * MPa, -percent * first / test.strength);
+}
+
 // Precondition: only the end has been cut, so that rows of `raw` are those of the test.
 void find_strength(const RawTest& raw, MeasuredTest& test) {
   test.strength = test.stress[row_of_strength(test)];
   if (!raw.force.empty())
     test.max_force = std::ranges::max(std::span(raw.force).first(test.stress.size()));
-  for (std::string doubt : {jump_of_stress(test), drop_of_stress(test)})
+  for (std::string doubt : {jump_of_stress(test), drop_of_stress(test), load_below_zero(test)})
     if (!doubt.empty()) test.warnings.push_back(std::move(doubt));
 }
 

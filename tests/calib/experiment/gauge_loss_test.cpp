@@ -46,6 +46,40 @@ TEST(GaugeLoss, GoesOnWithTheCrossheadWhereTheGaugeIsSaturated) {
   EXPECT_NE(detail_of(torn, "gauge fell off"), "");
 }
 
+// What a torn gauge shows, or an amplifier without one, is thousands of times its range.
+TEST(GaugeLoss, GoesOnWithTheCrossheadWhereTheGaugeShowsAnotherNumberFromThenOn) {
+  for (const double shown : {0.05, 0.5, 99.99}) {
+    RawTest raw = saturated(0.6, shown);
+    const MeasuredTest test = reduced(raw);
+    expect_the_truth(test, gauged, 0.001);
+    EXPECT_NE(detail_of(test, "gauge fell off"), "") << shown;
+    raw.extension.clear();
+    EXPECT_NE(reduce_test(raw).problems.at(0).find("the gauge fell off"), std::string::npos);
+  }
+}
+
+// A bar that takes but a fiftieth more load on the last quarter of its strain.
+RawTest yielding(unsigned seed) {
+  RawTest raw =
+      record({.force_noise = 0.1, .strain_noise = 2e-6, .strain_rate = 2e-5, .seed = seed});
+  for (std::size_t i = 0; i < raw.rows(); ++i) {
+    const double stress = gauged.young * raw.extension[i] / gauged.gauge_length;
+    raw.force[i] -= 0.92 * std::max(0.0, stress - 0.75 * gauged.strength) * gauged.area();
+  }
+  return raw;
+}
+
+TEST(GaugeLoss, KnowsTheEndOfARangeWhileTheSpecimenYields) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    RawTest raw = yielding(seed);
+    EXPECT_EQ(detail_of(reduced(raw), "gauge stood still"), "") << seed;
+    for (double& strain : raw.strain) strain = std::min(strain, 0.8 * gauged.failure_strain());
+    const MeasuredTest test = reduced(raw);
+    EXPECT_NE(detail_of(test, "gauge stood still"), "") << seed;
+    EXPECT_NEAR(test.failure_strain, gauged.failure_strain(), 0.02 * gauged.failure_strain());
+  }
+}
+
 // Readings from one part of the failure strain to another, and nothing beside them.
 RawTest with_readings(double from, double to) {
   RawTest raw = record(gauged);

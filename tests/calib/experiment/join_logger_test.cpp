@@ -20,6 +20,7 @@ using test::strain_at;
 using test::young;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 RawTest with_elongation(RawTest logger, double gauge_length) {
   logger.extension = std::exchange(logger.strain, {});
@@ -41,6 +42,31 @@ TEST(JoinLogger, GivesTheTestTheLoggersStrain) {
   expect_the_specimen(joined);
   EXPECT_EQ(joined.test.strain.size(), joined.test.force.size());
   EXPECT_EQ(joined.test.corrections.at(0).what, "two clocks");
+}
+
+// A slow logger sees the gauge go off as the specimen parts, rows of the machine before the break.
+TEST(JoinLogger, SpreadsNoJumpOfTheGaugeOverRowsBeforeTheBreak) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    RawTest slow;
+    const RawTest logger = logger_record({}, seed);
+    for (std::size_t i = seed; i < logger.time.size(); i += 7) {
+      const double machine_time = -5.0 + 0.073 * static_cast<double>(i);
+      slow.time.push_back(logger.time[i]);
+      slow.strain.push_back(machine_time > 60.0 ? 5.5e-3 : logger.strain[i]);
+    }
+    const JoinedTest joined = join_logger(machine_record(seed, 0.02), slow, {});
+    expect_the_specimen(joined);
+  }
+}
+
+// A logger that stopped on the way up, or clocks that are matched wrongly, hide the strength.
+TEST(JoinLogger, SaysWhereTheLoggerSawLessThanTheLargestLoad) {
+  const auto doubt = HasSubstr("% of the largest in the machine's record");
+  const RawTest machine = machine_record(2);
+  EXPECT_THAT(join_logger(machine, logger_record({}, 2), {}).test.warnings, Not(Contains(doubt)));
+  const JoinedTest joined = join_logger(machine, logger_record({}, 2, -5.0, 50.0), {});
+  ASSERT_TRUE(joined.problems.empty()) << joined.problems[0];
+  EXPECT_THAT(joined.test.warnings, Contains(doubt));
 }
 
 // The machine's own strain may be the crosshead's, the logger's is not.

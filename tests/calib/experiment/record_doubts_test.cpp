@@ -67,5 +67,22 @@ TEST(RecordDoubts, NamesALoadThatStaysInTheFewRowsAfterTheBreak) {
               Contains(HasSubstr("after the break the load stays at 3.6 MPa")));
 }
 
+// A record that ends with the break has no rows after it that would tell.
+TEST(RecordDoubts, NamesALoadThatBeginsBelowZero) {
+  const auto named = Contains(HasSubstr("the load begins at "));
+  for (const double offset : {0.0, -0.02, -0.04, -0.25}) {
+    test::TensileTruth truth = sound_bar;
+    truth.rows_after_break = 1;
+    RawTest raw = record(truth);
+    raw.stress.clear();
+    for (double& force : raw.force) force += offset * truth.strength * truth.area();
+    const MeasuredTest test = test::reduced(raw);
+    if (offset < -0.03)
+      EXPECT_THAT(test.warnings, named) << offset;
+    else
+      EXPECT_THAT(test.warnings, Not(named)) << offset;
+  }
+}
+
 }  // namespace
 }  // namespace havers::calib
