@@ -114,7 +114,8 @@ Comparison difference(const Evidence& evidence, Pair pair, std::size_t column, d
           .value = std::expm1(log_ratio),
           .low = std::expm1(log_ratio - half),
           .high = std::expm1(log_ratio + half),
-          .step = pair.step};
+          .step = pair.step,
+          .points = {pair.first, pair.second}};
 }
 
 std::vector<Comparison> differences(const Evidence& evidence, const PointGroup& group) {
@@ -136,6 +137,7 @@ std::vector<Comparison> point_by_point(const Evidence& evidence, const PointGrou
   for (const std::size_t point : group.points) {
     Comparison& one = all.emplace_back(compare(point, at(evidence, point), share));
     one.compared = keys_of(evidence.plan, evidence.points[point], evidence.plan.keys.size());
+    one.points = {point};
   }
   return all;
 }

@@ -11,7 +11,8 @@ struct Comparison {
   std::vector<ComparedKey> compared{};
   /// The interval is NaN where a point has fewer than two runs.
   double value = 0.0, low = 0.0, high = 0.0;
-  bool step = false;  ///< Between neighbours, beside a claim about the ends.
+  bool step = false;                  ///< Between neighbours, beside a claim about the ends.
+  std::vector<std::size_t> points{};  ///< That it compares, or the one that it is of.
 };
 
 /// What a claim is judged by. The caller owns all of it and must keep it alive.

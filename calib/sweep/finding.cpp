@@ -161,6 +161,17 @@ std::string without_value(const Evidence& evidence, const PointGroup& group) {
   return text;
 }
 
+// In a list a point may have none that differs from it in the key alone.
+PointGroup compared_of(const std::vector<Comparison>& comparisons, PointGroup group) {
+  if (comparisons.empty()) return group;
+  std::erase_if(group.points, [&](std::size_t point) {
+    return std::ranges::none_of(comparisons, [point](const Comparison& c) {
+      return std::ranges::find(c.points, point) != c.points.end();
+    });
+  });
+  return group;
+}
+
 Finding judge_group(const Evidence& evidence, const PointGroup& group) {
   const FindingRequest& request = evidence.request;
   Finding finding;
@@ -174,22 +185,26 @@ Finding judge_group(const Evidence& evidence, const PointGroup& group) {
   // Not known until something is compared.
   finding.value = finding.low = finding.high = std::numeric_limits<double>::quiet_NaN();
   finding.inertia_low = finding.inertia_high = finding.value;
+  // A bound is no value: a single run that did not break leaves nothing to compare.
+  const long unbroken = unbroken_of(evidence.runs, group.points, request.response);
+  const std::vector<Comparison> comparisons =
+      unbroken > 0 ? std::vector<Comparison>{} : comparisons_of(evidence, group);
+  finding.comparisons = static_cast<int>(comparisons.size());
+  const PointGroup compared = compared_of(comparisons, group);
   // fmin and fmax take the number where the other is none.
-  for (const std::size_t point : group.points) {
+  for (const std::size_t point : compared.points) {
     finding.runs += static_cast<long>(values_of(evidence.runs, point, request.response).size());
     const double inertia = evidence.points[point].inertia_number;
     finding.inertia_low = std::fmin(finding.inertia_low, inertia);
     finding.inertia_high = std::fmax(finding.inertia_high, inertia);
   }
   finding.ground += without_value(evidence, group);
-  // A bound is no value: a single run that did not break leaves nothing to compare.
-  const long unbroken = unbroken_of(evidence.runs, group.points, request.response);
   if (unbroken > 0)
     finding.ground +=
         fmt::format("; {} did not break: raise loading.max_strain", count(unbroken, "run"));
-  const std::vector<Comparison> comparisons =
-      unbroken > 0 ? std::vector<Comparison>{} : comparisons_of(evidence, group);
-  finding.comparisons = static_cast<int>(comparisons.size());
+  if (const std::size_t alone = group.points.size() - compared.points.size(); alone > 0)
+    finding.ground += fmt::format("; not compared: {} that no other is like but for the key",
+                                  count(alone, "point"));
   if (!comparisons.empty()) {
     const Bracket range = range_of(request);
     const Comparison worst = worst_of(comparisons, range);

@@ -101,8 +101,10 @@ void fit(const SweepPlan& plan, const std::vector<SweepPoint>& points,
   const auto freedom = static_cast<double>(rows.y.size() - k);
   const Statistics all = statistics_of(rows.y);
   law.residual_sd = std::sqrt(squares / freedom);
-  law.explained = 1.0 - squares / (static_cast<double>(all.n - 1) * all.sd * all.sd);
   law.confidence_factor = gsl_cdf_tdist_Qinv(0.025, freedom);
+  // Runs that are equal but for rounding leave nothing to explain, and no law to test.
+  if (!(all.sd > 1e-9 * std::abs(all.mean))) return;
+  law.explained = 1.0 - squares / (static_cast<double>(all.n - 1) * all.sd * all.sd);
   test_lack_of_fit(plan, points, runs, law);
 }
 

@@ -28,9 +28,12 @@ class PatternedModel {
     return {.run = [this](const sim::Scene& scene) { return run(scene); },
             .quasi_static = fibre_model().quasi_static};
   }
-  [[nodiscard]] const Pattern* find(const std::string& key) const {
+  // None of a run that broke where the response does not: that is cut at its strain limit (F3), and
+  // what broke beyond is no part of it.
+  [[nodiscard]] const Pattern* find(const std::string& key, bool broke) const {
     const auto found = patterns_.find(key);
-    return found == patterns_.end() ? nullptr : &found->second;
+    return found == patterns_.end() || found->second.broke != broke ? nullptr
+                                                                    : &found->second.pattern;
   }
 
  private:
@@ -42,13 +45,18 @@ class PatternedModel {
     const Pattern pattern =
         pattern_of(sim::build_assembly(scene.assembly, scene.loading.lateral), simulation.joints);
     const std::scoped_lock lock(mutex_);
-    patterns_[key_of(scene)] = pattern;
+    patterns_[key_of(scene)] = {pattern, response->broke};
     return response;
   }
 
+  struct Kept {
+    Pattern pattern;
+    bool broke = false;
+  };
+
   sim::StopAsked stop_asked_;
   std::mutex mutex_;
-  std::map<std::string, Pattern> patterns_;
+  std::map<std::string, Kept> patterns_;
 };
 
 // Runs levels of points, as long as the observer wants to.
@@ -101,7 +109,8 @@ class Runner {
     run.failed = response.failed;
     run.broke = response.broke;
     run.why = response.why;
-    run.measures = measures_of(response, scene, sweep_.patterns ? model_.find(key) : nullptr);
+    run.measures =
+        measures_of(response, scene, sweep_.patterns ? model_.find(key, run.broke) : nullptr);
     if (run.failed || run.point < next_curve_) return;
     next_curve_ = run.point + 1;
     run.strain = response.strain;

@@ -12,6 +12,7 @@
 #include "reports/sweep/sweep_findings.hpp"
 #include "reports/sweep/sweep_words.hpp"
 #include "reports/text/format.hpp"
+#include "sim/simulate.hpp"
 
 namespace havers::reports {
 namespace {
@@ -130,15 +131,25 @@ std::string ended(const std::string& text) {
   return text.empty() ? "" : typeset(text) + (text.ends_with('.') ? " " : ". ");
 }
 
+// Whether a run ends early in its avalanche, as in the limit. In time all of it is followed.
+bool leaves_avalanches_out(const calib::SweepPoint& point) {
+  return point.scene.solver.leave_out &&
+         sim::choose_regime(point.scene).regime == sim::Regime::quasi_static;
+}
+
 // Every figure with its caption, and a sentence on what its bars or curves are.
 mstch::array figures_of(const SweepReport& report) {
+  const std::string end =
+      std::ranges::any_of(report.sweep.points, leaves_avalanches_out)
+          ? " In the limit it ends where what follows of its avalanche is left out."
+          : "";
   mstch::array figures;
   for (const calib::SweepFigure& wanted : report.sweep.figures) {
     const std::string shown =
         wanted.x.empty()
             ? "Each curve is one run: the first seed that has not failed, at the first value of "
-              "every key that the figure does not tell apart. It ends where what follows of its "
-              "avalanche is left out."
+              "every key that the figure does not tell apart." +
+                  end
             : "Bars and bands: 95\u00a0% intervals of the means; that of a single run has none.";
     const std::string id = fmt::format("{}-{}", report.id, figures.size());
     const mstch::array panels = list_of(

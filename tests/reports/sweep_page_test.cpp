@@ -257,6 +257,16 @@ TEST(SweepFigures, SayWhatBarsAndBandsAre) {
   EXPECT_THAT(known.page(), Not(HasSubstr("Bars and bands")));
 }
 
+TEST(SweepFigures, SayThatACurveEndsEarlyWhereItDoes) {
+  for (const auto regime : {sim::Regime::dynamic, sim::Regime::quasi_static}) {
+    Case known;
+    known.sweep.figures.emplace_back();
+    for (auto& point : known.sweep.points) point.scene.solver.regime = regime;
+    const bool early = known.page().find("In the limit it ends where") != std::string::npos;
+    EXPECT_EQ(early, regime == sim::Regime::quasi_static);
+  }
+}
+
 TEST(SweepFigures, WriteTheirSeriesAsTheTextDoes) {
   Case known;
   for (calib::SweepPoint& point : known.result.points) point.values[1] = "1e-07";

@@ -45,6 +45,16 @@ TEST(Comparison, OfAListIsBetweenAllPointsWhereKeysGoTogether) {
   EXPECT_EQ(to_string(finding.compared), "d = 0.5 against 0.1");
 }
 
+TEST(Comparison, OfAListSaysWhichPointsItLeavesAlone) {
+  const Finding some = falling_in_a_list({"90", "90", "0"}, {"0.1", "0.5", "0.1"});
+  EXPECT_EQ(some.comparisons, 1);
+  EXPECT_EQ(some.runs, 40);
+  EXPECT_NE(some.ground.find("; not compared: 1 point that no other"), std::string::npos);
+  const Finding all = falling_in_a_list({"90", "90"}, {"0.1", "0.5"});
+  EXPECT_EQ(all.runs, 40);
+  EXPECT_EQ(all.ground.find("not compared"), std::string::npos);
+}
+
 TEST(Comparison, IsNotBetweenEqualValues) {
   const KnownSweep known({{"x", {"1", "2", "1", "1.0"}}}, 20,
                          [](const SweepPoint& p, int k) { return p.numbers[0] + deviation(k); });

@@ -81,6 +81,18 @@ TEST(Law, LackOfFitIsSeenInAParabolaAndNotInALine) {
   EXPECT_LT(fitted(1.0).lack_of_fit_p, 1e-3);
 }
 
+// As the modulus is in the limit: R² of rounding was below 0, and its F called the law wrong.
+TEST(Law, ExplainsNothingOfRunsThatAreEqualButForRounding) {
+  const KnownSweep known(two_keys, 2, [](const SweepPoint& p, int k) {
+    return 13e9 * (1.0 + 1e-15 * std::round(4.0 * p.numbers[0] * p.numbers[1] + k));
+  });
+  const Law law = only_law({Measure::modulus, {"d", "r"}, ""}, known);
+  EXPECT_EQ(law.status, LawStatus::fitted);
+  EXPECT_NEAR(law.coefficients.back(), 13e9, 1.0);
+  EXPECT_TRUE(std::isnan(law.explained));
+  EXPECT_TRUE(std::isnan(law.lack_of_fit));
+}
+
 TEST(Law, IsFittedForEveryValueOfPer) {
   const KnownSweep known(two_keys, 2,
                          [](const SweepPoint& p, int) { return p.numbers[0] * p.numbers[1]; });

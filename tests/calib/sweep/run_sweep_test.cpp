@@ -99,6 +99,19 @@ TEST(RunSweep, SeesThePatternsOfBrokenJointsWhenAsked) {
     EXPECT_GT(run[Measure::head_tail_broken] + run[Measure::flank_broken], 0.0);
 }
 
+// In the limit a run goes on to its break, and is cut at the strain limit afterwards.
+TEST(RunSweep, SeesNoJointsThatBreakBeyondTheStrainLimit) {
+  Sweep sweep = small_sweep();
+  sweep.patterns = true;
+  sweep.points.back().scene.loading.max_strain = 0.001;
+  const SweepResult result = run_sweep(sweep, nullptr, 1, {});
+  for (const SweepRun& run : result.runs) {
+    EXPECT_EQ(run.unbroken(), run.point == 1);
+    EXPECT_EQ(std::isnan(run[Measure::head_tail_broken]), run.unbroken());
+    EXPECT_EQ(std::isnan(run[Measure::crack_span]), run.unbroken());
+  }
+}
+
 // One whose forces are not determined ends before it has joints.
 TEST(RunSweep, SeesNoPatternOfARunWithoutJoints) {
   Sweep sweep = small_sweep();
