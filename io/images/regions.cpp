@@ -163,6 +163,10 @@ void fill_notches(const std::vector<Contour>& outlines, bool machined, cv::Mat& 
   const double most = 0.1 * cv::countNonZero(bone);
   for (const Blob& notch : blobs_of(notches))
     if (notch.area <= most && is_a_cut_pore(notch, hull, machined)) fill(bone, notch.border, 255);
+  // What the opening took off them may be enclosed now, and is no marrow, which is larger.
+  for (const Blob& part : blobs_of(bone))
+    for (const Contour& hole : part.holes)
+      if (enclosed_area(hole) <= most) fill(bone, hole, 255);
 }
 
 // The brighter one of two regions; none where bone fills the image. A level that is no region is

@@ -63,6 +63,24 @@ TEST(SectionQuantities, FindsThePoresOfEachZone) {
   }
 }
 
+// Pores cut by the image's edge left holes of a few pixels beside them, which passed for marrow.
+TEST(SectionQuantities, KnowNoMarrowBesidePoresThatTheImageCuts) {
+  cv::Mat image(120, 120, CV_8U, cv::Scalar(40));
+  image(cv::Rect(0, 0, 72, 120)).setTo(200);
+  const std::vector<cv::Point> cut{{12, 1}, {25, -1}, {50, 1}}, whole{{30, 60}, {20, 90}, {55, 40}};
+  for (const cv::Point& at : cut) cv::circle(image, at, 7, 40, cv::FILLED);
+  const auto edge = measure({.image = image}, "edge.png");
+  for (const cv::Point& at : cut) cv::circle(image, at, 7, 200, cv::FILLED);
+  for (const cv::Point& at : whole) cv::circle(image, at, 7, 40, cv::FILLED);
+  const auto inside = measure({.image = image}, "inside.png");
+  EXPECT_NEAR(edge.marrow_area, 0.0, 1e-18);
+  EXPECT_NEAR(edge.bone_area, 72.0 * 120.0 * pixel * pixel, 1e-15);
+  ASSERT_EQ(edge.zones.size(), inside.zones.size());
+  for (std::size_t i = 0; i < edge.zones.size(); ++i)
+    EXPECT_NEAR(edge.zones[i].bone_area / inside.zones[i].bone_area, 1.0, 1e-9)
+        << edge.zones[i].name;
+}
+
 // Five pores and three, all as they were drawn: what is said of them is known to the pixel.
 TEST(SectionQuantities, TellTheSizesOfPores) {
   auto drawn = test::draw({.porosity = 0.0});
