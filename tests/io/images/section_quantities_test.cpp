@@ -81,6 +81,20 @@ TEST(SectionQuantities, KnowNoMarrowBesidePoresThatTheImageCuts) {
         << edge.zones[i].name;
 }
 
+// Nor all of the dents, about which the image's edge is a surface: a tenth of the bone was lost.
+TEST(SectionQuantities, LeaveLittleRimOutAboutPoresThatTheImageCuts) {
+  cv::Mat image(300, 300, CV_8U, cv::Scalar(40));
+  image(cv::Rect(0, 0, 180, 300)).setTo(200);
+  for (int i = 0; i < 5; ++i) {
+    cv::circle(image, {20 + 25 * i, -6 + 2 * i}, 11, 40, cv::FILLED);
+    cv::circle(image, {20 + 25 * i, 305 - 2 * i}, 9, 40, cv::FILLED);
+  }
+  const auto rimmed =
+      measure({.image = image}, "rim.png", {.pixel_size = pixel, .rim = 20.0 * pixel});
+  EXPECT_NEAR(rimmed.bone_area / (160.0 * 300.0 * pixel * pixel), 1.0,
+              0.06);  // acute corners of dents stay
+}
+
 // Five pores and three, all as they were drawn: what is said of them is known to the pixel.
 TEST(SectionQuantities, TellTheSizesOfPores) {
   auto drawn = test::draw({.porosity = 0.0});
