@@ -203,11 +203,10 @@ cv::Mat to_grey(const cv::Mat& image, const std::string& name) {
   }
 }
 
-cv::Mat read_mask(const std::filesystem::path& file, cv::Size size,
-                  std::vector<std::string>& warnings) {
-  cv::Mat mask = read_pages(file).front();
+cv::Mat to_mask(cv::Mat mask, const std::string& name, cv::Size size,
+                std::vector<std::string>& warnings) {
   if (mask.size() != size)
-    throw io::InputError(file.string(),
+    throw io::InputError(name,
                          fmt::format("the mask is {} × {} pixels, its image {} × {}", mask.cols,
                                      mask.rows, size.width, size.height),
                          "draw the mask on the image itself");
@@ -220,15 +219,14 @@ cv::Mat read_mask(const std::filesystem::path& file, cv::Size size,
   if (mask.channels() == 3) cv::cvtColor(mask, mask, cv::COLOR_BGR2GRAY);
   double highest = 0.0;
   cv::minMaxLoc(mask, nullptr, &highest);
-  if (highest == 0.0)
-    throw io::InputError(file.string(), "the mask marks nothing", "paint the bone white");
+  if (highest == 0.0) throw io::InputError(name, "the mask marks nothing", "paint the bone white");
   // A blurred edge is grey; a photograph given instead of its mask is grey nearly everywhere.
   const double grey = cv::countNonZero((mask > 0.1 * highest) & (mask < 0.9 * highest));
   if (const double part = grey / size.area(); part > 0.05)  // more than the blur of its edges
     warnings.push_back(fmt::format(
         "{:.0f} % of the mask {} are neither black nor white: what is brighter than half of its "
         "brightest is taken for bone",
-        100.0 * part, file.string()));
+        100.0 * part, name));
   // Relative to its own brightest pixel, so that masks of 0 and 1 serve too.
   return mask > 0.5 * highest;
 }

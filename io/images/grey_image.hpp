@@ -24,11 +24,11 @@ bool is_grey(const cv::Mat& image);
 /// How far apart a pixel's channels are, in 255ths of what is full; empty for a grey image.
 cv::Mat colourfulness(const cv::Mat& image);
 
-/// Reads a mask of the given size: 255 where the file is brighter than half its own range.
-/// Much grey in it is a warning.
-/// @throws io::InputError when it cannot be read, is of another size, or marks nothing.
-cv::Mat read_mask(const std::filesystem::path& file, cv::Size size,
-                  std::vector<std::string>& warnings);
+/// A page as a mask of the given size: 255 where it is brighter than half its own range.
+/// Much grey in it is a warning. `name` is for complaints.
+/// @throws io::InputError when it is of another size, or marks nothing.
+cv::Mat to_mask(cv::Mat mask, const std::string& name, cv::Size size,
+                std::vector<std::string>& warnings);
 
 /// Size of a copy whose longer side is at most `side` pixels.
 cv::Size fitted(cv::Size size, int side);

@@ -65,9 +65,11 @@ std::string method_of(io::Threshold threshold) {
 }
 
 // The user's mask comes first, then that bone fills the image; without either, bone is looked for.
-Regions regions_of(const cv::Mat& whole, const io::SectionOptions& options, Warnings& warnings) {
+Regions regions_of(const cv::Mat& whole, const cv::Mat& mask, const io::SectionOptions& options,
+                   Warnings& warnings) {
   if (options.mask)
-    return divide(whole, read_mask(*options.mask, whole.size(), warnings), options.pores);
+    return divide(whole, to_mask(mask, options.mask->string(), whole.size(), warnings),
+                  options.pores);
   if (options.fills_image)
     return divide(whole, cv::Mat(whole.size(), CV_8U, cv::Scalar(255)), options.pores);
   return divide(whole, options.pores);
@@ -93,7 +95,7 @@ void refuse_levels_of_colour(const cv::Mat& image, const std::string& name,
                          "give rectangles for density");
 }
 
-io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
+io::SectionMeasurement measure_page(cv::Mat image, const cv::Mat& mask, const std::string& name,
                                     const io::SectionOptions& options) {
   const cv::Mat whole = to_grey(image, name);
   refuse_levels_of_colour(image, name, options.density);
@@ -101,7 +103,7 @@ io::SectionMeasurement measure_page(cv::Mat image, const std::string& name,
   // Frees the memory of a colour image, as the next steps need their own.
   image.release();
   Warnings doubts;
-  Regions regions = regions_of(whole, options, doubts);
+  Regions regions = regions_of(whole, mask, options, doubts);
   // A view, not a copy.
   const cv::Mat grey = whole(regions.box);
   Depth depth{.levels = bone_levels(grey, regions)};
@@ -145,6 +147,24 @@ std::vector<std::size_t> sections_among(const std::vector<cv::Mat>& pages,
   return full;
 }
 
+// The mask of each section: one page serves them all, more are one for each.
+std::vector<cv::Mat> masks_of(const io::SectionOptions& options, std::size_t sections) {
+  if (!options.mask) return std::vector<cv::Mat>(sections);
+  const std::vector<cv::Mat> pages = read_pages(*options.mask);
+  Warnings ignored;  // A reduced copy among masks takes nothing away.
+  std::vector<cv::Mat> masks;
+  for (const std::size_t i : sections_among(pages, *options.mask, ignored))
+    masks.push_back(pages[i]);
+  if (masks.size() == 1) masks.resize(sections, masks.front());
+  if (masks.size() != sections)
+    throw io::InputError(
+        options.mask->string(),
+        fmt::format("the mask has {}, its image {}", calib::count(masks.size(), "page"),
+                    calib::count(sections, "page")),
+        "give one page for all, or one for each");
+  return masks;
+}
+
 }  // namespace
 
 std::vector<io::SectionMeasurement> measure_sections(const std::filesystem::path& image,
@@ -156,11 +176,12 @@ std::vector<io::SectionMeasurement> measure_sections(const std::filesystem::path
   warn_of_scale(options, warnings);
   std::vector<cv::Mat> pages = read_pages(image);
   const std::vector<std::size_t> sections = sections_among(pages, image, warnings);
+  const std::vector<cv::Mat> masks = masks_of(options, sections.size());
   std::vector<io::SectionMeasurement> measured;
   for (const std::size_t i : sections) {
     const std::string name =
         sections.size() == 1 ? image.string() : fmt::format("{} page {}", image.string(), i + 1);
-    measured.push_back(measure_page(std::move(pages[i]), name, options));
+    measured.push_back(measure_page(std::move(pages[i]), masks[measured.size()], name, options));
     auto& all = measured.back().porosity.warnings;
     all.insert(all.begin(), warnings.begin(), warnings.end());
   }

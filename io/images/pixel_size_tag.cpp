@@ -55,13 +55,15 @@ double png_pixel(FileBytes& bytes) {
   return 0.0;
 }
 
-// ImageJ writes pixels a unit as the resolution and the unit into the description.
+// ImageJ writes pixels a unit as the resolution and the unit into the description, on a line of its
+// own: one of depth (zunit) or of values (vunit) is none of pixels.
 double unit_of(const std::string& description) {
-  constexpr std::string_view key = "unit=";
-  const auto start = description.find(key);
+  constexpr std::string_view key = "\nunit=";
+  const std::string lines = '\n' + description;
+  const auto start = lines.find(key);
   if (start == std::string::npos) return 0.0;
   // Six characters, as long as the longest name below.
-  const std::string unit = description.substr(start + key.size(), 6);
+  const std::string unit = lines.substr(start + key.size(), 6);
   for (const auto& [name, metres] : {std::pair{"micron", 1e-6},
                                      {"um", 1e-6},
                                      {"\\u00B5", 1e-6},  // µ as ImageJ escapes it.

@@ -156,13 +156,18 @@ bool is_a_cut_pore(const Blob& notch, const cv::Mat& hull, bool machined) {
 
 void fill_notches(const std::vector<Contour>& outlines, bool machined, cv::Mat& bone) {
   const cv::Mat hull = hulls_of(outlines, bone.size());
-  cv::Mat notches = hull.clone();
+  cv::Mat notches = hull.clone(), pores = cv::Mat::zeros(bone.size(), CV_8U);
   cv::drawContours(notches, outlines, -1, 0, cv::FILLED);
   cv::morphologyEx(notches, notches, cv::MORPH_OPEN, cv::Mat::ones(5, 5, CV_8U));
   if (cv::countNonZero(notches) == 0) return;
   const double most = 0.1 * cv::countNonZero(bone);
   for (const Blob& notch : blobs_of(notches))
-    if (notch.area <= most && is_a_cut_pore(notch, hull, machined)) fill(bone, notch.border, 255);
+    if (notch.area <= most && is_a_cut_pore(notch, hull, machined)) fill(pores, notch.border, 255);
+  // What the opening took off them is theirs, and where it is enclosed no marrow, which is larger.
+  bone |= dilated(pores, 3) & hull;
+  for (const Blob& part : blobs_of(bone))
+    for (const Contour& hole : part.holes)
+      if (enclosed_area(hole) <= most) fill(bone, hole, 255);
 }
 
 // The brighter one of two regions; none where bone fills the image. A level that is no region is

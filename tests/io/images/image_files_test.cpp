@@ -108,6 +108,26 @@ TEST(ImageFile, OfSeveralPagesIsASectionAPage) {
   EXPECT_TRUE(measured[1].porosity.file.ends_with("pages.tif page 2"));
 }
 
+TEST(Mask, OfAsManyPagesAsTheImageIsOneForEach) {
+  const auto drawn = test::draw({.blur = 1.0});
+  const cv::Mat left = cv::Mat::zeros(drawn.image.size(), CV_8U), right = left.clone();
+  left(cv::Rect(100, 150, 200, 300)).setTo(255);
+  right(cv::Rect(350, 150, 200, 150)).setTo(255);
+  const auto file = test::write(drawn.image, "pages.tif"), masks = test::write(left, "masks.tif");
+  cv::imwritemulti(file.string(), std::vector<cv::Mat>{drawn.image, drawn.image});
+  cv::imwritemulti(masks.string(), std::vector<cv::Mat>{left, right});
+  const auto area_of = [&](const std::filesystem::path& mask) {
+    const auto all = measure_sections(file, {.pixel_size = 1e-6, .mask = mask});
+    return std::pair(1e12 * all[0].porosity.bone_area, 1e12 * all[1].porosity.bone_area);
+  };
+  const auto [first, second] = area_of(masks);
+  EXPECT_NEAR(first, 60000.0, 1e-3);
+  EXPECT_NEAR(second, 30000.0, 1e-3);
+  EXPECT_NEAR(area_of(test::write(left, "one.png")).second, 60000.0, 1e-3);  // one for all
+  cv::imwritemulti(masks.string(), std::vector<cv::Mat>{left, right, left});
+  expect_contains(complaint(file, {.mask = masks}), "the mask has 3 pages, its image 2 pages");
+}
+
 TEST(ImageFile, WithAnImplausiblePixelSizeIsMeasuredIfThatIsMeant) {
   const auto file = test::write(test::draw({.blur = 1.0}).image, "coarse.png");
   const SectionOptions options{.pixel_size = 300e-6, .any_pixel_size = true};

@@ -130,6 +130,12 @@ TEST_F(PixelSizeTag, OfImageJIsInTheUnitOfItsDescription) {
         size, 1e-9)
         << name;
   EXPECT_TRUE(std::isnan(size_of(tiff(Order::little, 0.5, 1, "ImageJ=1.53\nunit=pixel\n"))));
+  // Depth, values and a microscope's own words have other units.
+  for (const char* other : {"zunit=mm\nunit=micron\n", "unit=micron\nvunit=nm\n"})
+    EXPECT_NEAR(size_of(tiff(Order::little, 0.5, 1, std::string("ImageJ=1.53\n") + other)), 2.0,
+                1e-9)
+        << other;
+  EXPECT_NEAR(size_of(tiff(Order::little, 5000.0, 3, "stage 3.2, unit=mm")), 2.0, 1e-9);
 }
 
 TEST_F(PixelSizeTag, OfAPrinterOrScreenIsNone) {

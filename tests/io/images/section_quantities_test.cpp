@@ -63,6 +63,38 @@ TEST(SectionQuantities, FindsThePoresOfEachZone) {
   }
 }
 
+// Pores cut by the image's edge left holes of a few pixels beside them, which passed for marrow.
+TEST(SectionQuantities, KnowNoMarrowBesidePoresThatTheImageCuts) {
+  cv::Mat image(120, 120, CV_8U, cv::Scalar(40));
+  image(cv::Rect(0, 0, 72, 120)).setTo(200);
+  const std::vector<cv::Point> cut{{12, 1}, {25, -1}, {50, 1}}, whole{{30, 60}, {20, 90}, {55, 40}};
+  for (const cv::Point& at : cut) cv::circle(image, at, 7, 40, cv::FILLED);
+  const auto edge = measure({.image = image}, "edge.png");
+  for (const cv::Point& at : cut) cv::circle(image, at, 7, 200, cv::FILLED);
+  for (const cv::Point& at : whole) cv::circle(image, at, 7, 40, cv::FILLED);
+  const auto inside = measure({.image = image}, "inside.png");
+  EXPECT_NEAR(edge.marrow_area, 0.0, 1e-18);
+  EXPECT_NEAR(edge.bone_area, 72.0 * 120.0 * pixel * pixel, 1e-15);
+  ASSERT_EQ(edge.zones.size(), inside.zones.size());
+  for (std::size_t i = 0; i < edge.zones.size(); ++i)
+    EXPECT_NEAR(edge.zones[i].bone_area / inside.zones[i].bone_area, 1.0, 1e-9)
+        << edge.zones[i].name;
+}
+
+// Nor all of the dents, about which the image's edge is a surface: a tenth of the bone was lost.
+TEST(SectionQuantities, LeaveLittleRimOutAboutPoresThatTheImageCuts) {
+  cv::Mat image(300, 300, CV_8U, cv::Scalar(40));
+  image(cv::Rect(0, 0, 180, 300)).setTo(200);
+  for (int i = 0; i < 5; ++i) {
+    cv::circle(image, {20 + 25 * i, -6 + 2 * i}, 11, 40, cv::FILLED);
+    cv::circle(image, {20 + 25 * i, 305 - 2 * i}, 9, 40, cv::FILLED);
+  }
+  const auto rimmed =
+      measure({.image = image}, "rim.png", {.pixel_size = pixel, .rim = 20.0 * pixel});
+  EXPECT_NEAR(rimmed.bone_area / (160.0 * 300.0 * pixel * pixel), 1.0,
+              0.06);  // acute corners of dents stay
+}
+
 // Five pores and three, all as they were drawn: what is said of them is known to the pixel.
 TEST(SectionQuantities, TellTheSizesOfPores) {
   auto drawn = test::draw({.porosity = 0.0});
