@@ -185,12 +185,13 @@ void compare_area(calib::RawTest& test) {
 // One of the two alone makes no area, and changes nothing where the file states one.
 void name_idle_size(bool width_given, calib::RawTest& test) {
   if (!test.area || test.width.has_value() == test.thickness.has_value()) return;
-  test.warnings.push_back(fmt::format(
-      "the {} of {:.6g} mm that is given changes nothing: the file's area, {:.6g} mm², counts "
-      "where "
-      "the {} is unknown (add {}_mm)",
-      width_given ? "width" : "thickness", 1e3 * (width_given ? *test.width : *test.thickness),
-      1e6 * *test.area, width_given ? "thickness" : "width", width_given ? "thickness" : "width"));
+  const std::string given = width_given ? "width" : "thickness";
+  const std::string unknown = width_given ? "thickness" : "width";
+  test.warnings.push_back(
+      fmt::format("the {} of {:.6g} mm that is given changes nothing: the file's area, {:.6g} mm², "
+                  "counts where the {} is unknown (add {}_mm)",
+                  given, 1e3 * (width_given ? *test.width : *test.thickness), 1e6 * *test.area,
+                  unknown, unknown));
 }
 
 }  // namespace
