@@ -114,7 +114,7 @@ int run(const Command& command, const CommonOptions& common) {
   } catch (const std::filesystem::filesystem_error& error) {
     problems.push_back({error.path1().string(), error.code().message(), ""});
   } catch (const std::bad_alloc&) {
-    problems.push_back({"memory", "that of this machine does not suffice", ""});
+    problems.push_back({"this machine", "its memory does not suffice", ""});
   } catch (const std::exception& error) {
     if (std::ferror(stdout) != 0) return bad_input;  // a full disk: no answer either way
     problems.push_back({command.parser->get_name(), error.what(), ""});

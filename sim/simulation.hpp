@@ -98,7 +98,8 @@ struct Simulation {
   /// half that period: waves that ring; 0 where it is not, and where that is NaN. [-]
   double ringing = 0.0;
   double failure_strain = 0.0;  ///< Strain of the strength. [-]
-  /// Slope from 0.1 to 0.5 of the first break's strain, or of the last row's without one. [Pa]
+  /// Slope from 0.1 (in time from the end of the first step, up to 0.4) to 0.5 of the first break's
+  /// strain, or of the last row's without one. [Pa]
   double modulus = 0.0;
   /// How often waves of the start cross the specimen in that stretch: from rest, on a stair of
   /// stress, or in uniform motion where joints are missing or oblique layers differ; NaN without
